@@ -23,8 +23,8 @@ inline std::shared_ptr<const road::World> N222OfVersion1() {
   return world.value();
 }
 
-// Where N222's road lies, by the formulas of version 1, which share none with the network that drives, draws and answers
-// (N222.LiesWhereItDidInVersion1): an oracle.
+// Where N222's road lies, by the formulas of version 1, which share none with the network that drives, draws and
+// answers (N222.LiesWhereItDidInVersion1): an oracle.
 inline const road::Road& N222Road() { return N222OfVersion1()->roads()[0]; }
 
 }  // namespace rodeira

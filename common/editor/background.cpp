@@ -55,22 +55,27 @@ base::Result<Dataset> Open(const std::string& name) {
   GDALAllRegister();
   constexpr const char* kDrivers[] = {"PNG", "JPEG", "BMP", "GTiff", nullptr};
   Dataset set(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers));
-  if (set == nullptr || set->GetRasterCount() == 0) return base::WrongInput(std::string("this is no picture; ") + kExpected);
+  if (set == nullptr || set->GetRasterCount() == 0)
+    return base::WrongInput(std::string("this is no picture; ") + kExpected);
   const int width = set->GetRasterXSize(), height = set->GetRasterYSize();
   if (width < 1 || height < 1 || width > kLargestPicture_px || height > kLargestPicture_px)
-    return base::WrongInput(fmt::format("the picture has {} by {} pixels; at most {} each way were expected", width, height, kLargestPicture_px));
+    return base::WrongInput(fmt::format("the picture has {} by {} pixels; at most {} each way were expected", width,
+                                        height, kLargestPicture_px));
   return set;
 }
 
 // Rows of one band as bytes, every third one of the pixels written.
 bool ReadRows(GDALRasterBand& band, int first, int rows, int width, std::uint8_t* rgb, std::size_t row_bytes) {
   if (band.GetRasterDataType() == GDT_Byte)
-    return band.RasterIO(GF_Read, 0, first, width, rows, rgb, width, rows, GDT_Byte, 3, static_cast<GSpacing>(row_bytes)) == CE_None;
+    return band.RasterIO(GF_Read, 0, first, width, rows, rgb, width, rows, GDT_Byte, 3,
+                         static_cast<GSpacing>(row_bytes)) == CE_None;
   std::vector<std::uint16_t> wide(static_cast<std::size_t>(width) * static_cast<std::size_t>(rows));
-  if (band.RasterIO(GF_Read, 0, first, width, rows, wide.data(), width, rows, GDT_UInt16, 0, 0) != CE_None) return false;
+  if (band.RasterIO(GF_Read, 0, first, width, rows, wide.data(), width, rows, GDT_UInt16, 0, 0) != CE_None)
+    return false;
   for (int y = 0; y < rows; ++y) {
     for (int x = 0; x < width; ++x)
-      rgb[static_cast<std::size_t>(y) * row_bytes + 3 * static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(wide[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] >> 8);
+      rgb[static_cast<std::size_t>(y) * row_bytes + 3 * static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(
+          wide[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)] >> 8);
   }
   return true;
 }
@@ -80,14 +85,16 @@ void PaintByTable(const GDALColorTable& table, std::uint8_t* rgb, std::size_t pi
   for (std::size_t i = 0; i < pixels; ++i) {
     GDALColorEntry colour{};
     table.GetColorEntryAsRGB(rgb[3 * i], &colour);
-    rgb[3 * i] = static_cast<std::uint8_t>(colour.c1), rgb[3 * i + 1] = static_cast<std::uint8_t>(colour.c2), rgb[3 * i + 2] = static_cast<std::uint8_t>(colour.c3);
+    rgb[3 * i] = static_cast<std::uint8_t>(colour.c1), rgb[3 * i + 1] = static_cast<std::uint8_t>(colour.c2),
+            rgb[3 * i + 2] = static_cast<std::uint8_t>(colour.c3);
   }
 }
 
 // All three bands at once where they are bytes.
 bool ReadColours(GDALDataset& set, int first, int rows, int width, std::uint8_t* rgb, std::size_t row_bytes) {
   int bands[] = {1, 2, 3};
-  return set.RasterIO(GF_Read, 0, first, width, rows, rgb, width, rows, GDT_Byte, 3, bands, 3, static_cast<GSpacing>(row_bytes), 1, nullptr) == CE_None;
+  return set.RasterIO(GF_Read, 0, first, width, rows, rgb, width, rows, GDT_Byte, 3, bands, 3,
+                      static_cast<GSpacing>(row_bytes), 1, nullptr) == CE_None;
 }
 
 // Row by row from the top; `ready(rows)` is told how many there are, and may say false.
@@ -102,9 +109,12 @@ base::Status ReadAll(GDALDataset& set, Pixels& pixels, const std::function<bool(
     bool good = true;
     if (coloured && bytes) good = ReadColours(set, first, rows, pixels.width_px, into, row_bytes);
     for (int channel = 0; good && channel < 3 && !(coloured && bytes); ++channel)
-      good = ReadRows(*set.GetRasterBand(coloured ? channel + 1 : 1), first, rows, pixels.width_px, into + channel, row_bytes);
-    if (!good) return base::WrongInput(fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
-    if (table != nullptr && !coloured) PaintByTable(*table, into, static_cast<std::size_t>(rows) * static_cast<std::size_t>(pixels.width_px));
+      good = ReadRows(*set.GetRasterBand(coloured ? channel + 1 : 1), first, rows, pixels.width_px, into + channel,
+                      row_bytes);
+    if (!good)
+      return base::WrongInput(fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
+    if (table != nullptr && !coloured)
+      PaintByTable(*table, into, static_cast<std::size_t>(rows) * static_cast<std::size_t>(pixels.width_px));
     if (!ready(first + rows)) return base::Failed("the picture was not read to its end: somebody stopped that");
   }
   return {};
@@ -113,14 +123,19 @@ base::Status ReadAll(GDALDataset& set, Pixels& pixels, const std::function<bool(
 // A picture that its file gives at an eighth of its size without being read whole; nothing where there is none.
 std::optional<Pyramid> ReadSmall(GDALDataset& set) {
   constexpr std::size_t kLevel = 3;
-  const int width = Pyramid::SizeAt(set.GetRasterXSize(), kLevel), height = Pyramid::SizeAt(set.GetRasterYSize(), kLevel);
+  const int width = Pyramid::SizeAt(set.GetRasterXSize(), kLevel),
+            height = Pyramid::SizeAt(set.GetRasterYSize(), kLevel);
   if (set.GetRasterCount() != 3) return std::nullopt;
-  Pixels pixels{width, height, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  Pixels pixels{width, height,
+                std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
   for (int channel = 0; channel < 3; ++channel) {
     GDALRasterBand& band = *set.GetRasterBand(channel + 1);
-    if (band.GetRasterDataType() != GDT_Byte || band.GetOverviewCount() != static_cast<int>(kLevel)) return std::nullopt;
+    if (band.GetRasterDataType() != GDT_Byte || band.GetOverviewCount() != static_cast<int>(kLevel))
+      return std::nullopt;
     GDALRasterBand* small = band.GetOverview(static_cast<int>(kLevel) - 1);
-    if (small == nullptr || small->GetXSize() != width || small->GetYSize() != height || !ReadRows(*small, 0, height, width, pixels.rgb.data() + channel, 3 * static_cast<std::size_t>(width))) return std::nullopt;
+    if (small == nullptr || small->GetXSize() != width || small->GetYSize() != height ||
+        !ReadRows(*small, 0, height, width, pixels.rgb.data() + channel, 3 * static_cast<std::size_t>(width)))
+      return std::nullopt;
   }
   return Pyramid(set.GetRasterXSize(), set.GetRasterYSize(), kLevel, std::move(pixels));
 }
@@ -133,10 +148,13 @@ base::Result<std::string> ToPng(Pixels& pixels) {
   const GSpacing row = 3 * static_cast<GSpacing>(pixels.width_px);
   bool good = set != nullptr;
   for (int channel = 0; good && channel < 3; ++channel) {
-    good = set->GetRasterBand(channel + 1)->RasterIO(GF_Write, 0, 0, pixels.width_px, pixels.height_px, pixels.rgb.data() + channel, pixels.width_px, pixels.height_px, GDT_Byte, 3, row) == CE_None;
+    good = set->GetRasterBand(channel + 1)
+               ->RasterIO(GF_Write, 0, 0, pixels.width_px, pixels.height_px, pixels.rgb.data() + channel,
+                          pixels.width_px, pixels.height_px, GDT_Byte, 3, row) == CE_None;
   }
   const MemoryFile file;
-  if (good) good = Dataset(png->CreateCopy(file.name().c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)) != nullptr;
+  if (good)
+    good = Dataset(png->CreateCopy(file.name().c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)) != nullptr;
   vsi_l_offset size = 0;
   const GByte* bytes = good ? VSIGetMemFileBuffer(file.name().c_str(), &size, FALSE) : nullptr;
   if (bytes == nullptr) return base::Failed("the picture cannot be made into a PNG");
@@ -158,12 +176,14 @@ base::Result<Pixels> DecodePicture(std::string_view bytes, const Progress& progr
   return pixels;
 }
 
-base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes, const Progress& progress, const Sooner& preview) {
+base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes, const Progress& progress,
+                                                         const Sooner& preview) {
   const Quiet quiet;
   const MemoryFile file(bytes);
   auto set = Open(file.name());
   if (!set) return set.error();
-  if (auto small = preview ? ReadSmall(*set.value()) : std::nullopt) preview(std::make_shared<const Pyramid>(std::move(*small)));
+  if (auto small = preview ? ReadSmall(*set.value()) : std::nullopt)
+    preview(std::make_shared<const Pyramid>(std::move(*small)));
   PyramidBuilder builder(set.value()->GetRasterXSize(), set.value()->GetRasterYSize());
   const int height = builder.finest().height_px;
   std::atomic<int> filled{0};

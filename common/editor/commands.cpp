@@ -8,16 +8,23 @@
 namespace rodeira::editor {
 namespace {
 
-bool Fits(const Eigen::Vector2d& p) { return p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<double>(traffic_map::kFarthest_m); }
+bool Fits(const Eigen::Vector2d& p) {
+  return p.allFinite() && p.cwiseAbs().maxCoeff() <= static_cast<double>(traffic_map::kFarthest_m);
+}
 
-base::Error TooFar() { return base::WrongInput("a point would lie farther out than 1 000 000 m, where no map reaches"); }
+base::Error TooFar() {
+  return base::WrongInput("a point would lie farther out than 1 000 000 m, where no map reaches");
+}
 
 // Nothing, or what is wrong with a lane's sides.
-base::Status CheckSides(const Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right) {
+base::Status CheckSides(const Document& document, const traffic_map::LaneSide& left,
+                        const traffic_map::LaneSide& right) {
   for (const auto& [side, name] : {std::pair(left, "left"), std::pair(right, "right")}) {
-    if (!Find(document.map.curves, side.curve)) return base::WrongInput(fmt::format("the {} curve {} does not exist", name, side.curve));
+    if (!Find(document.map.curves, side.curve))
+      return base::WrongInput(fmt::format("the {} curve {} does not exist", name, side.curve));
   }
-  if (left.curve == right.curve) return base::WrongInput(fmt::format("curve {} is on both sides; two curves were expected", left.curve));
+  if (left.curve == right.curve)
+    return base::WrongInput(fmt::format("curve {} is on both sides; two curves were expected", left.curve));
   return {};
 }
 
@@ -45,7 +52,8 @@ base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& ha
   std::map<std::size_t, traffic_map::Curve> moved;
   for (const Handle& handle : handles) {
     const auto at = Find(document.map.curves, handle.curve);
-    if (!at || handle.index < 0 || handle.index > 3) return base::WrongInput(fmt::format("curve {} does not exist", handle.curve));
+    if (!at || handle.index < 0 || handle.index > 3)
+      return base::WrongInput(fmt::format("curve {} does not exist", handle.curve));
     traffic_map::Curve& curve = moved.try_emplace(*at, document.map.curves[*at].value).first->second;
     traffic_map::ControlPoint& point = curve.points[static_cast<std::size_t>(handle.index)];
     const Eigen::Vector2d to = Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + by_W;
@@ -55,12 +63,15 @@ base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& ha
   }
   Recorder recorder(document);
   for (const auto& [index, curve] : moved) recorder.SetCurve(index, curve);
-  return std::move(recorder).Finish(handles.size() == 1 ? fmt::format("handle {} of curve {} moved", handles[0].index + 1, handles[0].curve)
-                                                        : fmt::format("{} handles moved", handles.size()));
+  return std::move(recorder).Finish(
+      handles.size() == 1 ? fmt::format("handle {} of curve {} moved", handles[0].index + 1, handles[0].curve)
+                          : fmt::format("{} handles moved", handles.size()));
 }
 
-base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right, traffic_map::LaneMode mode) {
-  if (auto status = CheckSides(document, left, right); !status) return base::WrongInput("no lane was made: " + status.error().message);
+base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right,
+                           traffic_map::LaneMode mode) {
+  if (auto status = CheckSides(document, left, right); !status)
+    return base::WrongInput("no lane was made: " + status.error().message);
   const traffic_map::Lane lane{NextNumber(document.map.lanes), left, right, mode};
   Recorder recorder(document);
   recorder.Add(lane);
@@ -70,7 +81,8 @@ base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left
 base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane) {
   const auto at = Find(document.map.lanes, lane.id);
   if (!at) return base::WrongInput(fmt::format("lane {} does not exist", lane.id));
-  if (auto status = CheckSides(document, lane.left, lane.right); !status) return base::WrongInput(fmt::format("lane {} was not changed: {}", lane.id, status.error().message));
+  if (auto status = CheckSides(document, lane.left, lane.right); !status)
+    return base::WrongInput(fmt::format("lane {} was not changed: {}", lane.id, status.error().message));
   Recorder recorder(document);
   recorder.SetLane(*at, lane);
   return std::move(recorder).Finish(fmt::format("lane {} changed", lane.id));
@@ -78,10 +90,13 @@ base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane) {
 
 base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int32_t to, bool stop) {
   for (const std::int32_t lane : {from, to}) {
-    if (!Find(document.map.lanes, lane)) return base::WrongInput(fmt::format("no connection was made: lane {} does not exist", lane));
+    if (!Find(document.map.lanes, lane))
+      return base::WrongInput(fmt::format("no connection was made: lane {} does not exist", lane));
   }
-  if (from == to) return base::WrongInput(fmt::format("no connection was made: it would lead from lane {} back into it", from));
-  if (Find(document.map.connections, from, to)) return base::WrongInput(fmt::format("no connection was made: lane {} is connected to lane {} already", from, to));
+  if (from == to)
+    return base::WrongInput(fmt::format("no connection was made: it would lead from lane {} back into it", from));
+  if (Find(document.map.connections, from, to))
+    return base::WrongInput(fmt::format("no connection was made: lane {} is connected to lane {} already", from, to));
   Recorder recorder(document);
   recorder.Add(traffic_map::Connection{from, to, stop, {}});
   return std::move(recorder).Finish(fmt::format("connection {} to {} made", from, to));
@@ -98,7 +113,8 @@ base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t t
 }
 
 base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale) {
-  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m)
+    return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   const bool none = bytes.empty();
   recorder.SetPicture(std::move(bytes));
@@ -107,17 +123,22 @@ base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale
 }
 
 base::Result<Edit> SetScale(Document& document, float scale) {
-  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m) return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+  if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m)
+    return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   recorder.SetScale(scale);
   return std::move(recorder).Finish(fmt::format("background scale {}", scale));
 }
 
-base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& here_W, const Eigen::Vector2d& there_W, double known_m) {
+base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& here_W, const Eigen::Vector2d& there_W,
+                                   double known_m) {
   const double measured_m = (here_W - there_W).norm();
-  if (!(known_m > 0.0) || !std::isfinite(known_m)) return base::WrongInput(fmt::format("the known distance is {} m; one above 0 was expected", known_m));
-  if (!(measured_m > 1e-3)) return base::WrongInput("the two points coincide; two points of the background were expected");
-  return SetScale(document, static_cast<float>(static_cast<double>(document.map.scale.value.value) * known_m / measured_m));
+  if (!(known_m > 0.0) || !std::isfinite(known_m))
+    return base::WrongInput(fmt::format("the known distance is {} m; one above 0 was expected", known_m));
+  if (!(measured_m > 1e-3))
+    return base::WrongInput("the two points coincide; two points of the background were expected");
+  return SetScale(document,
+                  static_cast<float>(static_cast<double>(document.map.scale.value.value) * known_m / measured_m));
 }
 
 }  // namespace rodeira::editor

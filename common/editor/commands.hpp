@@ -9,8 +9,8 @@
 #include "common/editor/edit.hpp"
 #include "common/editor/selection.hpp"
 
-// The actions of a person on a map. Each does all of its change and gives the edit that takes it back, or does nothing and gives
-// a sentence: wrong input.
+// The actions of a person on a map. Each does all of its change and gives the edit that takes it back, or does nothing
+// and gives a sentence: wrong input.
 namespace rodeira::editor {
 
 // Where new curves lie in the original editor (figure 18).
@@ -23,14 +23,16 @@ base::Result<Edit> NewCurve(Document& document, const Points& points_W);
 base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& handles, const Eigen::Vector2d& by_W);
 
 // The number is given by the document; both curves must be there and be two.
-base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right, traffic_map::LaneMode mode);
+base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right,
+                           traffic_map::LaneMode mode);
 // The lane of that number becomes this one.
 base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane);
 // Both lanes must be there and be two, not connected so yet.
 base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int32_t to, bool stop);
 base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t to, bool stop);
 
-// With a curve go its heights and the lanes along it, with a lane its connections, signs, flow and lights. Handles alone are not taken away.
+// With a curve go its heights and the lanes along it, with a lane its connections, signs, flow and lights. Handles
+// alone are not taken away.
 base::Result<Edit> Remove(Document& document, const Selection& selection);
 // Curves, lanes, connections and the companion's contents go; the picture stays.
 base::Result<Edit> Reset(Document& document);
@@ -45,7 +47,8 @@ base::Result<Edit> SetLights(Document& document, const std::vector<lights::Light
 base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale);
 base::Result<Edit> SetScale(Document& document, float scale);
 // The picture becomes so large that two of its points, here and there now, lie `known_m` apart.
-base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& here_W, const Eigen::Vector2d& there_W, double known_m);
+base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& here_W, const Eigen::Vector2d& there_W,
+                                   double known_m);
 
 // A point as the file holds it; refused beyond its bounds.
 base::Result<traffic_map::Curve> CurveOf(std::int32_t number, const Points& points_W);

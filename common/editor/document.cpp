@@ -4,7 +4,8 @@
 
 namespace rodeira::editor {
 
-std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from, std::int32_t to) {
+std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from,
+                                std::int32_t to) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     if (lines[i].value.from == from && lines[i].value.to == to) return i;
   }
@@ -13,7 +14,9 @@ std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map:
 
 Document EmptyDocument() { return {}; }
 
-std::string BytesOf(const Document& document) { return traffic_map::WriteMap(document.map) + traffic_map::CompanionText(document.companion); }
+std::string BytesOf(const Document& document) {
+  return traffic_map::WriteMap(document.map) + traffic_map::CompanionText(document.companion);
+}
 
 traffic_map::Cubic CubicOf(const traffic_map::Curve& curve) {
   traffic_map::Cubic cubic;

@@ -12,8 +12,8 @@
 
 namespace rodeira::editor {
 
-// A map as it is drawn: what the `.motors` file says, and what its companion `.motors.yaml` says beside it. It may be faulty:
-// numbers twice, elements that are named and not there; of equal numbers the first element counts.
+// A map as it is drawn: what the `.motors` file says, and what its companion `.motors.yaml` says beside it. It may be
+// faulty: numbers twice, elements that are named and not there; of equal numbers the first element counts.
 struct Document {
   traffic_map::MapFile map;
   traffic_map::Heights companion;
@@ -33,7 +33,8 @@ std::optional<std::size_t> Find(const std::vector<traffic_map::Line<Value>>& lin
   }
   return std::nullopt;
 }
-std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from, std::int32_t to);
+std::optional<std::size_t> Find(const std::vector<traffic_map::Line<traffic_map::Connection>>& lines, std::int32_t from,
+                                std::int32_t to);
 
 // The number after the highest one, as the original editor counts; the lowest free one where there is none after it.
 template <class Value>

@@ -6,9 +6,15 @@
 namespace rodeira::editor {
 namespace {
 
-std::vector<traffic_map::Line<traffic_map::Curve>>& LinesOf(Document& document, const traffic_map::Curve*) { return document.map.curves; }
-std::vector<traffic_map::Line<traffic_map::Lane>>& LinesOf(Document& document, const traffic_map::Lane*) { return document.map.lanes; }
-std::vector<traffic_map::Line<traffic_map::Connection>>& LinesOf(Document& document, const traffic_map::Connection*) { return document.map.connections; }
+std::vector<traffic_map::Line<traffic_map::Curve>>& LinesOf(Document& document, const traffic_map::Curve*) {
+  return document.map.curves;
+}
+std::vector<traffic_map::Line<traffic_map::Lane>>& LinesOf(Document& document, const traffic_map::Lane*) {
+  return document.map.lanes;
+}
+std::vector<traffic_map::Line<traffic_map::Connection>>& LinesOf(Document& document, const traffic_map::Connection*) {
+  return document.map.connections;
+}
 
 // A change done forward or backward.
 class Carry {
@@ -22,9 +28,12 @@ class Carry {
     const auto& to = forward_ ? change.after : change.before;
     const auto at = lines.begin() + static_cast<std::ptrdiff_t>(change.index);
     RODEIRA_ASSERT(change.index < lines.size() + (from ? 0 : 1));
-    if (!from) lines.insert(at, *to);
-    else if (!to) lines.erase(at);
-    else *at = *to;
+    if (!from)
+      lines.insert(at, *to);
+    else if (!to)
+      lines.erase(at);
+    else
+      *at = *to;
   }
   void operator()(ScaleChange& change) const { document_.map.scale = forward_ ? change.after : change.before; }
   void operator()(PictureChange& change) const { std::swap(document_.map.picture, change.other); }
@@ -38,7 +47,8 @@ class Carry {
 }  // namespace
 
 void Edit::Undo(Document& document) {
-  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change) std::visit(Carry(document, false), *change);
+  for (auto change = changes_.rbegin(); change != changes_.rend(); ++change)
+    std::visit(Carry(document, false), *change);
 }
 
 void Edit::Redo(Document& document) {
@@ -67,10 +77,13 @@ void Recorder::Remove(std::vector<traffic_map::Line<Value>>& lines, std::size_t 
 
 template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Curve>>&, const traffic_map::Curve&);
 template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Lane>>&, const traffic_map::Lane&);
-template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Connection>>&, const traffic_map::Connection&);
-template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Curve>>&, std::size_t, const traffic_map::Curve&);
+template void Recorder::Insert(std::vector<traffic_map::Line<traffic_map::Connection>>&,
+                               const traffic_map::Connection&);
+template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Curve>>&, std::size_t,
+                            const traffic_map::Curve&);
 template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Lane>>&, std::size_t, const traffic_map::Lane&);
-template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Connection>>&, std::size_t, const traffic_map::Connection&);
+template void Recorder::Set(std::vector<traffic_map::Line<traffic_map::Connection>>&, std::size_t,
+                            const traffic_map::Connection&);
 template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Curve>>&, std::size_t);
 template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Lane>>&, std::size_t);
 template void Recorder::Remove(std::vector<traffic_map::Line<traffic_map::Connection>>&, std::size_t);
@@ -94,7 +107,8 @@ traffic_map::Heights& Recorder::companion() {
 }
 
 Edit Recorder::Finish(std::string what) && {
-  if (companion_before_ && traffic_map::CompanionText(*companion_before_) != traffic_map::CompanionText(document_.companion))
+  if (companion_before_ &&
+      traffic_map::CompanionText(*companion_before_) != traffic_map::CompanionText(document_.companion))
     edit_.changes_.emplace_back(CompanionChange{std::move(*companion_before_), document_.companion});
   edit_.what_ = std::move(what);
   return std::move(edit_);

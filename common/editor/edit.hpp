@@ -27,7 +27,8 @@ struct PictureChange {
 struct CompanionChange {
   traffic_map::Heights before, after;
 };
-using Change = std::variant<LineChange<traffic_map::Curve>, LineChange<traffic_map::Lane>, LineChange<traffic_map::Connection>, ScaleChange, PictureChange, CompanionChange>;
+using Change = std::variant<LineChange<traffic_map::Curve>, LineChange<traffic_map::Lane>,
+                            LineChange<traffic_map::Connection>, ScaleChange, PictureChange, CompanionChange>;
 
 // What one action of a person did to a document: the command that undo takes back and redo does again.
 class Edit {
@@ -54,7 +55,9 @@ class Recorder {
   void Add(const traffic_map::Connection& connection) { Insert(document_.map.connections, connection); }
   void SetCurve(std::size_t index, const traffic_map::Curve& curve) { Set(document_.map.curves, index, curve); }
   void SetLane(std::size_t index, const traffic_map::Lane& lane) { Set(document_.map.lanes, index, lane); }
-  void SetConnection(std::size_t index, const traffic_map::Connection& connection) { Set(document_.map.connections, index, connection); }
+  void SetConnection(std::size_t index, const traffic_map::Connection& connection) {
+    Set(document_.map.connections, index, connection);
+  }
   void RemoveCurve(std::size_t index) { Remove(document_.map.curves, index); }
   void RemoveLane(std::size_t index) { Remove(document_.map.lanes, index); }
   void RemoveConnection(std::size_t index) { Remove(document_.map.connections, index); }

@@ -14,7 +14,8 @@ base::Result<std::string> Export(const Document& document, const std::filesystem
   if (!drive) return drive.error();
   const bool alone = path.extension() == ".xodr";
   const std::string roads = std::filesystem::path(path).replace_extension(".xodr").filename().string();
-  return fmt::format("exported {}{}: {} roads, {} junctions", alone ? "" : path.filename().string() + " and ", roads, drive.value().roads, drive.value().junctions);
+  return fmt::format("exported {}{}: {} roads, {} junctions", alone ? "" : path.filename().string() + " and ", roads,
+                     drive.value().roads, drive.value().junctions);
 }
 
 }  // namespace rodeira::editor

@@ -9,8 +9,8 @@
 
 namespace rodeira::editor {
 
-// A document and everything that was done to it, to be taken back and done again. Each state has a number: equal numbers are equal
-// documents.
+// A document and everything that was done to it, to be taken back and done again. Each state has a number: equal
+// numbers are equal documents.
 class History {
  public:
   explicit History(Document document) : document_(std::move(document)) {}
@@ -26,8 +26,8 @@ class History {
     Keep(std::move(edit).value());
     return {};
   }
-  // The last edit, which was a part of the same gesture (a handle that is dragged on), is replaced: its change is taken back first.
-  // Where the command fails it is done again.
+  // The last edit, which was a part of the same gesture (a handle that is dragged on), is replaced: its change is taken
+  // back first. Where the command fails it is done again.
   template <class Command>
   base::Status Again(const Command& command) {
     done_.back().edit.Undo(document_);

@@ -49,7 +49,10 @@ base::Result<Keeper> Keeper::Make(const fs::path& folder) {
 }
 
 Keeper::Keeper(Keeper&& other) noexcept
-    : all_(std::move(other.all_)), own_(std::move(other.own_)), lock_(std::exchange(other.lock_, -1)), picture_state_(other.picture_state_) {}
+    : all_(std::move(other.all_)),
+      own_(std::move(other.own_)),
+      lock_(std::exchange(other.lock_, -1)),
+      picture_state_(other.picture_state_) {}
 
 Keeper::~Keeper() {
   if (lock_ < 0) return;
@@ -64,11 +67,13 @@ base::Status Keeper::Keep(const Document& document, const fs::path& of, std::uin
     picture_state_ = picture_state;
   }
   traffic_map::MapFile lines;
-  lines.curves = document.map.curves, lines.lanes = document.map.lanes, lines.connections = document.map.connections, lines.scale = document.map.scale;
+  lines.curves = document.map.curves, lines.lanes = document.map.lanes, lines.connections = document.map.connections,
+  lines.scale = document.map.scale;
   std::error_code problem;
   const fs::path whole = of.empty() ? of : fs::absolute(of, problem);
   if (auto status = base::WriteWhole(own_ / kOf, whole.string()); !status) return status;
-  if (auto status = base::WriteWhole(own_ / kCompanion, traffic_map::CompanionText(document.companion)); !status) return status;
+  if (auto status = base::WriteWhole(own_ / kCompanion, traffic_map::CompanionText(document.companion)); !status)
+    return status;
   return traffic_map::SaveMap(lines, own_ / kLines);
 }
 
@@ -91,9 +96,12 @@ std::vector<Keeper::Left> Keeper::Found() const {
       continue;
     }
     const auto of = base::ReadText(entry.path() / kOf);
-    found.emplace_back(fs::last_write_time(entry.path() / kLines, problem), Left{entry.path(), of.ok() ? of.value() : ""});
+    found.emplace_back(fs::last_write_time(entry.path() / kLines, problem),
+                       Left{entry.path(), of.ok() ? of.value() : ""});
   }
-  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return std::tie(a.first, a.second.folder) < std::tie(b.first, b.second.folder); });
+  std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first, a.second.folder) < std::tie(b.first, b.second.folder);
+  });
   std::vector<Left> left;
   for (auto& [time, one] : found) left.push_back(std::move(one));
   return left;

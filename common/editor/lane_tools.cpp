@@ -39,15 +39,19 @@ bool Meet(const Ends& from, const Ends& to) {
 
 base::Result<Edit> LaneAlong(Document& document, const Points& middle_W, const LaneLook& look) {
   if (!(look.width_m >= kNarrowest_m && look.width_m <= kWidest_m))
-    return base::WrongInput(fmt::format("the lane is {} m wide; {} to {} was expected", look.width_m, kNarrowest_m, kWidest_m));
+    return base::WrongInput(
+        fmt::format("the lane is {} m wide; {} to {} was expected", look.width_m, kNarrowest_m, kWidest_m));
   const traffic_map::Cubic middle{middle_W};
-  if (middle.PolygonLength() < 0.1) return base::WrongInput("the lane has no length; a line of 0.1 m or more was expected");
+  if (middle.PolygonLength() < 0.1)
+    return base::WrongInput("the lane has no length; a line of 0.1 m or more was expected");
   const std::int32_t first = NextNumber(document.map.curves);
   if (first > INT32_MAX - 2) return base::WrongInput("there are no numbers left for two curves");
-  const auto left = CurveOf(first, Beside(middle, 0.5 * look.width_m).p_W), right = CurveOf(first + 1, Beside(middle, -0.5 * look.width_m).p_W);
+  const auto left = CurveOf(first, Beside(middle, 0.5 * look.width_m).p_W),
+             right = CurveOf(first + 1, Beside(middle, -0.5 * look.width_m).p_W);
   if (!left) return left.error();
   if (!right) return right.error();
-  const traffic_map::Lane lane{NextNumber(document.map.lanes), {first, false, look.left}, {first + 1, false, look.right}, look.mode};
+  const traffic_map::Lane lane{
+      NextNumber(document.map.lanes), {first, false, look.left}, {first + 1, false, look.right}, look.mode};
   Recorder recorder(document);
   recorder.Add(left.value());
   recorder.Add(right.value());
@@ -72,8 +76,10 @@ base::Result<Edit> LaneBeside(Document& document, std::int32_t number, bool on_l
   // Driven the same way, a lane on the left has the shared border on its right; driven against it, on its left.
   const bool inner_is_right = on_left == same_way;
   traffic_map::LaneMode mode = old.mode;
-  if (!same_way && mode != traffic_map::LaneMode::kNone) mode = mode == traffic_map::LaneMode::kStart ? traffic_map::LaneMode::kEnd : traffic_map::LaneMode::kStart;
-  const traffic_map::Lane lane{NextNumber(document.map.lanes), inner_is_right ? outer_side : inner_side, inner_is_right ? inner_side : outer_side, mode};
+  if (!same_way && mode != traffic_map::LaneMode::kNone)
+    mode = mode == traffic_map::LaneMode::kStart ? traffic_map::LaneMode::kEnd : traffic_map::LaneMode::kStart;
+  const traffic_map::Lane lane{NextNumber(document.map.lanes), inner_is_right ? outer_side : inner_side,
+                               inner_is_right ? inner_side : outer_side, mode};
   Recorder recorder(document);
   recorder.Add(outer.value());
   recorder.SetLane(*at, old);
@@ -84,12 +90,14 @@ base::Result<Edit> LaneBeside(Document& document, std::int32_t number, bool on_l
 Points CurveBetween(const Eigen::Vector2d& from_W, double from_rad, const Eigen::Vector2d& to_W, double to_rad) {
   const double turn = std::remainder(to_rad - from_rad, 2.0 * kPi), chord = (to_W - from_W).norm();
   double handle_m = chord / 3.0;
-  if (std::abs(turn) > 1e-6 && std::abs(turn) < 0.9 * kPi) handle_m = 4.0 / 3.0 * std::tan(std::abs(turn) / 4.0) * chord / (2.0 * std::sin(std::abs(turn) / 2.0));
+  if (std::abs(turn) > 1e-6 && std::abs(turn) < 0.9 * kPi)
+    handle_m = 4.0 / 3.0 * std::tan(std::abs(turn) / 4.0) * chord / (2.0 * std::sin(std::abs(turn) / 2.0));
   const Eigen::Vector2d head(std::cos(from_rad), std::sin(from_rad)), tail(std::cos(to_rad), std::sin(to_rad));
   return {from_W, from_W + handle_m * head, to_W - handle_m * tail, to_W};
 }
 
-std::optional<LaneEnd> LaneEndNear(const Document& document, bool beginning, const Eigen::Vector2d& p_W, double radius_m) {
+std::optional<LaneEnd> LaneEndNear(const Document& document, bool beginning, const Eigen::Vector2d& p_W,
+                                   double radius_m) {
   std::optional<LaneEnd> found;
   double nearest = radius_m;
   for (const Ends& ends : EndsOf(document)) {
@@ -103,7 +111,8 @@ std::optional<LaneEnd> LaneEndNear(const Document& document, bool beginning, con
   return found;
 }
 
-Points MiddleBetween(const Document& document, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W, double radius_m) {
+Points MiddleBetween(const Document& document, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W,
+                     double radius_m) {
   const auto from = LaneEndNear(document, false, from_W, radius_m), to = LaneEndNear(document, true, to_W, radius_m);
   const Eigen::Vector2d a = from ? from->p_W : from_W, b = to ? to->p_W : to_W;
   const double chord_rad = std::atan2(b.y() - a.y(), b.x() - a.x());
@@ -116,10 +125,12 @@ Points MiddleBetween(const Document& document, const Eigen::Vector2d& from_W, co
 std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Document& document) {
   std::vector<Ends> by_begin = EndsOf(document);
   const std::vector<Ends> all = by_begin;
-  std::sort(by_begin.begin(), by_begin.end(), [](const Ends& a, const Ends& b) { return a.begin_W.x() < b.begin_W.x(); });
+  std::sort(by_begin.begin(), by_begin.end(),
+            [](const Ends& a, const Ends& b) { return a.begin_W.x() < b.begin_W.x(); });
   std::set<std::pair<std::int32_t, std::int32_t>> missing;
   for (const Ends& from : all) {
-    auto to = std::lower_bound(by_begin.begin(), by_begin.end(), from.end_W.x() - kGap_m, [](const Ends& a, double x) { return a.begin_W.x() < x; });
+    auto to = std::lower_bound(by_begin.begin(), by_begin.end(), from.end_W.x() - kGap_m,
+                               [](const Ends& a, double x) { return a.begin_W.x() < x; });
     for (; to != by_begin.end() && to->begin_W.x() <= from.end_W.x() + kGap_m; ++to) {
       if (Meet(from, *to)) missing.insert({from.lane, to->lane});
     }
@@ -136,14 +147,16 @@ std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Docu
 
 base::Result<Edit> Connect(Document& document, const std::vector<std::pair<std::int32_t, std::int32_t>>& connections) {
   for (const auto& [from, to] : connections) {
-    if (from == to || !Find(document.map.lanes, from) || !Find(document.map.lanes, to) || Find(document.map.connections, from, to))
+    if (from == to || !Find(document.map.lanes, from) || !Find(document.map.lanes, to) ||
+        Find(document.map.connections, from, to))
       return base::WrongInput(fmt::format("lane {} cannot be connected to lane {}", from, to));
   }
   if (connections.empty()) return base::WrongInput("no two lanes meet that are not connected yet");
   Recorder recorder(document);
   for (const auto& [from, to] : connections) recorder.Add(traffic_map::Connection{from, to, false, {}});
-  return std::move(recorder).Finish(connections.size() == 1 ? fmt::format("connection {} to {} made", connections[0].first, connections[0].second)
-                                                            : fmt::format("{} connections made", connections.size()));
+  return std::move(recorder).Finish(
+      connections.size() == 1 ? fmt::format("connection {} to {} made", connections[0].first, connections[0].second)
+                              : fmt::format("{} connections made", connections.size()));
 }
 
 }  // namespace rodeira::editor

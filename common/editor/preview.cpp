@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/map_demand.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 
 namespace rodeira::editor {
 namespace {
@@ -51,7 +51,8 @@ std::vector<HeatPatch> Preview::Heat() const {
       const double d_m = (static_cast<double>(i) + 0.5) * length_m;
       const lanes::CurvePoint at = graph[track].curve.At(d_m);
       const double share = cells[i].Speed_mps() / graph.SpeedLimit_mps(track, d_m);
-      patches.push_back({at.p_W.head<2>(), at.ahead_W, length_m, graph[track].curve.WidthAt(d_m), std::min(share, 1.0)});
+      patches.push_back(
+          {at.p_W.head<2>(), at.ahead_W, length_m, graph[track].curve.WidthAt(d_m), std::min(share, 1.0)});
     }
   }
   return patches;

@@ -12,7 +12,8 @@
 namespace rodeira::editor {
 
 struct PreviewSettings {
-  std::uint32_t vehicles = 30;  // on the road and waiting to enter; where start lanes have flows at most so many at a time
+  std::uint32_t vehicles =
+      30;  // on the road and waiting to enter; where start lanes have flows at most so many at a time
   std::uint64_t seed = 1;
 };
 
@@ -24,7 +25,8 @@ struct HeatPatch {
   double share = 0.0;  // mean speed over the lane's limit, at most 1
 };
 
-// Traffic on the map as it is drawn, by the flows of its start lanes where there are any: what `rodeira traffic run` computes, in the editor.
+// Traffic on the map as it is drawn, by the flows of its start lanes where there are any: what `rodeira traffic run`
+// computes, in the editor.
 class Preview {
  public:
   static constexpr double kStep_s = 0.01;

@@ -7,9 +7,11 @@
 namespace rodeira::editor {
 namespace {
 
-// Rows of the coarse level from those of the fine one: each pixel the mean of four, at odd edges of the two or one that there are.
+// Rows of the coarse level from those of the fine one: each pixel the mean of four, at odd edges of the two or one that
+// there are.
 void Halve(const Pixels& fine, Pixels& coarse, int from, int to) {
-  const std::size_t fine_row = 3 * static_cast<std::size_t>(fine.width_px), coarse_row = 3 * static_cast<std::size_t>(coarse.width_px);
+  const std::size_t fine_row = 3 * static_cast<std::size_t>(fine.width_px),
+                    coarse_row = 3 * static_cast<std::size_t>(coarse.width_px);
   std::vector<std::uint16_t> sums(fine_row + 3);  // of two rows; the last pixel twice
   for (int y = from; y < to; ++y) {
     const std::uint8_t* upper = &fine.rgb[static_cast<std::size_t>(2 * y) * fine_row];
@@ -18,13 +20,15 @@ void Halve(const Pixels& fine, Pixels& coarse, int from, int to) {
     for (std::size_t c = 0; c < 3; ++c) sums[fine_row + c] = sums[fine_row - 3 + c];
     std::uint8_t* out = &coarse.rgb[static_cast<std::size_t>(y) * coarse_row];
     for (std::size_t x = 0; x < static_cast<std::size_t>(coarse.width_px); ++x) {
-      for (std::size_t c = 0; c < 3; ++c) out[3 * x + c] = static_cast<std::uint8_t>((sums[6 * x + c] + sums[6 * x + 3 + c] + 2) / 4);
+      for (std::size_t c = 0; c < 3; ++c)
+        out[3 * x + c] = static_cast<std::uint8_t>((sums[6 * x + c] + sums[6 * x + 3 + c] + 2) / 4);
     }
   }
 }
 
 Pixels Empty(int width_px, int height_px) {
-  return {width_px, height_px, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px))};
+  return {width_px, height_px,
+          std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px))};
 }
 
 }  // namespace
@@ -60,7 +64,8 @@ PyramidBuilder::PyramidBuilder(Pixels finest) {
 
 void PyramidBuilder::MakeRoom() {
   auto& levels = pyramid_.levels_;
-  while (std::max(levels.back().width_px, levels.back().height_px) > Pyramid::kTile_px) levels.push_back(Empty((levels.back().width_px + 1) / 2, (levels.back().height_px + 1) / 2));
+  while (std::max(levels.back().width_px, levels.back().height_px) > Pyramid::kTile_px)
+    levels.push_back(Empty((levels.back().width_px + 1) / 2, (levels.back().height_px + 1) / 2));
   done_.assign(levels.size(), 0);
 }
 

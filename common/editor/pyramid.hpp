@@ -14,7 +14,8 @@ struct Pixels {
   std::vector<std::uint8_t> rgb;
 };
 
-// A picture in levels: the first as it is, each further one half as large (means of four), the last at most one tile. A preview lacks the first ones.
+// A picture in levels: the first as it is, each further one half as large (means of four), the last at most one tile. A
+// preview lacks the first ones.
 class Pyramid {
  public:
   static constexpr int kTile_px = 512;
@@ -29,10 +30,13 @@ class Pyramid {
   const Pixels& level(std::size_t number) const { return levels_[number - first_]; }
   std::size_t first() const { return first_; }
   std::size_t levels() const { return first_ + levels_.size(); }
-  // The coarsest level whose pixels are no larger on the screen than a screen's pixel, or the finest there is; one of the picture is `pixel_px` wide there.
+  // The coarsest level whose pixels are no larger on the screen than a screen's pixel, or the finest there is; one of
+  // the picture is `pixel_px` wide there.
   std::size_t LevelFor(double pixel_px) const;
   // Pixels of a side of so many, at a level.
-  static int SizeAt(int size_px, std::size_t level) { return static_cast<int>((static_cast<std::size_t>(size_px) + (std::size_t{1} << level) - 1) >> level); }
+  static int SizeAt(int size_px, std::size_t level) {
+    return static_cast<int>((static_cast<std::size_t>(size_px) + (std::size_t{1} << level) - 1) >> level);
+  }
 
  private:
   friend class PyramidBuilder;

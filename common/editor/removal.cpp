@@ -19,7 +19,8 @@ std::vector<std::size_t> Places(const std::vector<traffic_map::Line<Value>>& lin
 }
 
 // What the companion says of lanes and curves that are gone.
-void Forget(traffic_map::Heights& companion, const std::set<std::int32_t>& curves, const std::set<std::int32_t>& lanes) {
+void Forget(traffic_map::Heights& companion, const std::set<std::int32_t>& curves,
+            const std::set<std::int32_t>& lanes) {
   std::erase_if(companion.curves, [&](const traffic_map::CurveHeights& one) { return curves.contains(one.curve); });
   std::erase_if(companion.signs, [&](const traffic_map::LaneSign& sign) { return lanes.contains(sign.lane); });
   std::erase_if(companion.flows, [&](const traffic_map::LaneFlow& flow) { return lanes.contains(flow.lane); });
@@ -39,7 +40,8 @@ std::string Told(const Selection& gone, std::size_t curves, std::size_t lanes, s
   if (curves + lanes + connections == 1) {
     if (curves == 1) return fmt::format("curve {} deleted", *gone.curves.begin());
     if (lanes == 1) return fmt::format("lane {} deleted", *gone.lanes.begin());
-    return fmt::format("connection {} to {} deleted", gone.connections.begin()->first, gone.connections.begin()->second);
+    return fmt::format("connection {} to {} deleted", gone.connections.begin()->first,
+                       gone.connections.begin()->second);
   }
   return fmt::format("deleted: {} curves, {} lanes, {} connections", curves, lanes, connections);
 }
@@ -49,14 +51,18 @@ std::string Told(const Selection& gone, std::size_t curves, std::size_t lanes, s
 base::Result<Edit> Remove(Document& document, const Selection& selection) {
   Selection gone = selection;
   for (const auto& line : document.map.lanes) {
-    if (gone.curves.contains(line.value.left.curve) || gone.curves.contains(line.value.right.curve)) gone.lanes.insert(line.value.id);
+    if (gone.curves.contains(line.value.left.curve) || gone.curves.contains(line.value.right.curve))
+      gone.lanes.insert(line.value.id);
   }
-  const auto curves = Places(document.map.curves, [&](const traffic_map::Curve& curve) { return gone.curves.contains(curve.id); });
-  const auto lanes = Places(document.map.lanes, [&](const traffic_map::Lane& lane) { return gone.lanes.contains(lane.id); });
+  const auto curves =
+      Places(document.map.curves, [&](const traffic_map::Curve& curve) { return gone.curves.contains(curve.id); });
+  const auto lanes =
+      Places(document.map.lanes, [&](const traffic_map::Lane& lane) { return gone.lanes.contains(lane.id); });
   const auto connections = Places(document.map.connections, [&](const traffic_map::Connection& c) {
     return gone.lanes.contains(c.from) || gone.lanes.contains(c.to) || gone.connections.contains({c.from, c.to});
   });
-  if (curves.empty() && lanes.empty() && connections.empty()) return base::WrongInput("nothing is chosen that could be deleted");
+  if (curves.empty() && lanes.empty() && connections.empty())
+    return base::WrongInput("nothing is chosen that could be deleted");
   Recorder recorder(document);
   for (const std::size_t i : connections) recorder.RemoveConnection(i);
   for (const std::size_t i : lanes) recorder.RemoveLane(i);

@@ -8,7 +8,9 @@ namespace {
 constexpr int kPieces = 24;  // that a curve is looked at in
 constexpr double kTogether_m = 1e-3;
 
-Eigen::Vector2d PointOf(const traffic_map::ControlPoint& point) { return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)}; }
+Eigen::Vector2d PointOf(const traffic_map::ControlPoint& point) {
+  return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
+}
 
 double DistanceToPiece(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -82,10 +84,12 @@ Selection Inside(const Document& document, const Eigen::Vector2d& corner_W, cons
     if (inside == 4) selection.curves.insert(line.value.id);
   }
   for (const auto& line : document.map.lanes) {
-    if (selection.curves.contains(line.value.left.curve) && selection.curves.contains(line.value.right.curve)) selection.lanes.insert(line.value.id);
+    if (selection.curves.contains(line.value.left.curve) && selection.curves.contains(line.value.right.curve))
+      selection.lanes.insert(line.value.id);
   }
   for (const auto& line : document.map.connections) {
-    if (selection.lanes.contains(line.value.from) && selection.lanes.contains(line.value.to)) selection.connections.insert({line.value.from, line.value.to});
+    if (selection.lanes.contains(line.value.from) && selection.lanes.contains(line.value.to))
+      selection.connections.insert({line.value.from, line.value.to});
   }
   return selection;
 }
@@ -94,13 +98,20 @@ Selection Chosen(const traffic_map::Finding& finding) {
   Selection selection;
   switch (finding.element) {
     case traffic_map::Element::kCurve:
-    case traffic_map::Element::kHeights: selection.curves.insert(finding.number); break;
+    case traffic_map::Element::kHeights:
+      selection.curves.insert(finding.number);
+      break;
     case traffic_map::Element::kLane:
     case traffic_map::Element::kSign:
-    case traffic_map::Element::kFlow: selection.lanes.insert(finding.number); break;
-    case traffic_map::Element::kConnection: selection.connections.insert({finding.number, finding.to}); break;
+    case traffic_map::Element::kFlow:
+      selection.lanes.insert(finding.number);
+      break;
+    case traffic_map::Element::kConnection:
+      selection.connections.insert({finding.number, finding.to});
+      break;
     case traffic_map::Element::kLights:
-    case traffic_map::Element::kMap: break;
+    case traffic_map::Element::kMap:
+      break;
   }
   return selection;
 }
@@ -112,7 +123,8 @@ std::optional<Eigen::Vector2d> MiddleOf(const Document& document, const Selectio
   if (handles.empty()) return std::nullopt;
   Eigen::Vector2d low(1e300, 1e300), high(-1e300, -1e300);
   for (const Handle& handle : handles) {
-    const Eigen::Vector2d p = PointOf(document.map.curves[*Find(document.map.curves, handle.curve)].value.points[static_cast<std::size_t>(handle.index)]);
+    const Eigen::Vector2d p = PointOf(document.map.curves[*Find(document.map.curves, handle.curve)]
+                                          .value.points[static_cast<std::size_t>(handle.index)]);
     low = low.cwiseMin(p), high = high.cwiseMax(p);
   }
   return Eigen::Vector2d(0.5 * (low + high));
@@ -167,7 +179,8 @@ std::vector<Handle> HandlesTogether(const Document& document, const Eigen::Vecto
   std::vector<Handle> handles;
   for (const auto& line : document.map.curves) {
     for (int i = 0; i < 4; ++i) {
-      if ((PointOf(line.value.points[static_cast<std::size_t>(i)]) - p_W).norm() <= kTogether_m) handles.push_back({line.value.id, i});
+      if ((PointOf(line.value.points[static_cast<std::size_t>(i)]) - p_W).norm() <= kTogether_m)
+        handles.push_back({line.value.id, i});
     }
   }
   return handles;

@@ -33,8 +33,8 @@ struct Selection {
 // The control points of the handles, curves and lanes chosen, each once, ascending; only those that there are.
 std::vector<Handle> HandlesOf(const Document& document, const Selection& selection);
 
-// Everything that lies wholly within a rectangle: handles, curves of which all four do, lanes of which both curves do, connections of
-// which both lanes do. Two opposite corners, in any order.
+// Everything that lies wholly within a rectangle: handles, curves of which all four do, lanes of which both curves do,
+// connections of which both lanes do. Two opposite corners, in any order.
 Selection Inside(const Document& document, const Eigen::Vector2d& corner_W, const Eigen::Vector2d& opposite_W);
 
 // The element that a finding of the check speaks of.

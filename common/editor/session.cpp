@@ -17,8 +17,10 @@ constexpr std::uint64_t kNextFile = std::uint64_t{1} << 40;  // states of one fi
 Session::Session() : history_(EmptyDocument()) {}
 
 bool Session::Told(const base::Status& status) {
-  if (status) Say(history_.Last());
-  else Say(status.error().Text(), false);
+  if (status)
+    Say(history_.Last());
+  else
+    Say(status.error().Text(), false);
   return status.ok();
 }
 
@@ -33,7 +35,8 @@ void Session::Undo() {
   const std::size_t picture = history_.document().map.picture.size();
   const auto* bytes = history_.document().map.picture.data();
   Say("undone: " + history_.Undo());
-  if (history_.document().map.picture.data() != bytes || history_.document().map.picture.size() != picture) ++picture_state_;
+  if (history_.document().map.picture.data() != bytes || history_.document().map.picture.size() != picture)
+    ++picture_state_;
 }
 
 void Session::Redo() {
@@ -41,7 +44,8 @@ void Session::Redo() {
   const std::size_t picture = history_.document().map.picture.size();
   const auto* bytes = history_.document().map.picture.data();
   Say("done again: " + history_.Redo());
-  if (history_.document().map.picture.data() != bytes || history_.document().map.picture.size() != picture) ++picture_state_;
+  if (history_.document().map.picture.data() != bytes || history_.document().map.picture.size() != picture)
+    ++picture_state_;
 }
 
 bool Session::New() {
@@ -58,8 +62,12 @@ bool Session::Open(const std::filesystem::path& file) {
   }
   Take(std::move(opened).value(), file, true);
   const auto& findings = Findings();
-  const auto errors = std::count_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) { return f.severity == traffic_map::Severity::kError; });
-  Say(errors == 0 ? "opened " + file.filename().string() : fmt::format("opened {}; the check finds {} errors", file.filename().string(), errors), errors == 0);
+  const auto errors = std::count_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) {
+    return f.severity == traffic_map::Severity::kError;
+  });
+  Say(errors == 0 ? "opened " + file.filename().string()
+                  : fmt::format("opened {}; the check finds {} errors", file.filename().string(), errors),
+      errors == 0);
   return true;
 }
 
@@ -76,7 +84,9 @@ void Session::Take(Opened opened, const std::filesystem::path& file, bool saved)
 
 bool Session::Save(const std::filesystem::path& file, bool despite_errors) {
   const auto& findings = Findings();
-  const auto wrong = std::find_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) { return f.severity == traffic_map::Severity::kError; });
+  const auto wrong = std::find_if(findings.begin(), findings.end(), [](const traffic_map::Finding& f) {
+    return f.severity == traffic_map::Severity::kError;
+  });
   if (wrong != findings.end() && !despite_errors) {
     selection = Chosen(*wrong);
     Say("not saved: " + wrong->Text(), false);

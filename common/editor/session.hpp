@@ -10,7 +10,8 @@
 
 namespace rodeira::editor {
 
-// A person's work on one map: the document with its history, what is chosen, the file, and what the last action came to.
+// A person's work on one map: the document with its history, what is chosen, the file, and what the last action came
+// to.
 class Session {
  public:
   Session();
@@ -53,7 +54,8 @@ class Session {
   // What was open before is left only where this one can be opened.
   bool Open(const std::filesystem::path& file);
   void Take(Opened opened, const std::filesystem::path& file, bool saved);
-  // The check first: errors are said, the first one's element is chosen, nothing is written. Where `despite_errors` they are no hindrance.
+  // The check first: errors are said, the first one's element is chosen, nothing is written. Where `despite_errors`
+  // they are no hindrance.
   bool Save(const std::filesystem::path& file, bool despite_errors = false);
 
   // Everything that is wrong with the map as it is now; looked for again only after it changed.

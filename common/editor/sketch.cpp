@@ -25,7 +25,8 @@ Pose Pose::Moved(double ahead_m, double left_m) const {
   return {p_W + Eigen::Vector2d(ahead_m * c - left_m * s, ahead_m * s + left_m * c), heading_rad};
 }
 
-Sketch::Sketch(const Document& document) : next_curve_(NextNumber(document.map.curves)), next_lane_(NextNumber(document.map.lanes)) {}
+Sketch::Sketch(const Document& document)
+    : next_curve_(NextNumber(document.map.curves)), next_lane_(NextNumber(document.map.lanes)) {}
 
 traffic_map::LaneSide Sketch::Side(const Points& points, traffic_map::BorderType type) {
   for (const auto& [number, known] : curves_) {
@@ -37,18 +38,21 @@ traffic_map::LaneSide Sketch::Side(const Points& points, traffic_map::BorderType
   return {curves_.back().first, false, type};
 }
 
-std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left, traffic_map::BorderType right, traffic_map::LaneMode mode) {
+std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left,
+                          traffic_map::BorderType right, traffic_map::LaneMode mode) {
   const auto border = [&](double left_m) {
     const Pose begin = from.Moved(0.0, left_m), end = to.Moved(0.0, left_m);
     return CurveBetween(begin.p_W, begin.heading_rad, end.p_W, end.heading_rad);
   };
-  const traffic_map::LaneSide left_side = Side(border(0.5 * width_m), left), right_side = Side(border(-0.5 * width_m), right);
+  const traffic_map::LaneSide left_side = Side(border(0.5 * width_m), left),
+                              right_side = Side(border(-0.5 * width_m), right);
   lanes_.push_back({next_lane_++, left_side, right_side, mode});
   return lanes_.back().id;
 }
 
 base::Result<Edit> Sketch::Finish(Document& document, std::string what) const {
-  if (next_curve_ > kMostNumber || next_lane_ > kMostNumber) return base::WrongInput("there are no numbers left for so many curves and lanes");
+  if (next_curve_ > kMostNumber || next_lane_ > kMostNumber)
+    return base::WrongInput("there are no numbers left for so many curves and lanes");
   std::vector<traffic_map::Curve> curves;
   for (const auto& [number, points] : curves_) {
     const auto curve = CurveOf(number, points);

@@ -22,7 +22,8 @@ class Sketch {
   explicit Sketch(const Document& document);
 
   // From pose to pose of its middle; its number.
-  std::int32_t Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left, traffic_map::BorderType right, traffic_map::LaneMode mode = traffic_map::LaneMode::kNone);
+  std::int32_t Lane(const Pose& from, const Pose& to, double width_m, traffic_map::BorderType left,
+                    traffic_map::BorderType right, traffic_map::LaneMode mode = traffic_map::LaneMode::kNone);
   void Connect(std::int32_t from, std::int32_t to, bool stop = false) { connections_.push_back({from, to, stop, {}}); }
   void GiveWay(std::int32_t lane) { signs_.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}); }
 

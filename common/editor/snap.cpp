@@ -5,7 +5,8 @@ namespace {
 
 constexpr double kTogether_m = 1e-3;
 
-Snapped SnapEnd(const Document& document, const std::set<std::int32_t>& dragged, const Eigen::Vector2d& p_W, double radius_m) {
+Snapped SnapEnd(const Document& document, const std::set<std::int32_t>& dragged, const Eigen::Vector2d& p_W,
+                double radius_m) {
   Snapped snapped{p_W};
   double nearest = radius_m;
   for (const auto& line : document.map.curves) {
@@ -21,7 +22,8 @@ Snapped SnapEnd(const Document& document, const std::set<std::int32_t>& dragged,
   return snapped;
 }
 
-Snapped SnapTangent(const Document& document, const Handle& handle, const std::set<std::int32_t>& dragged, const Eigen::Vector2d& p_W, double radius_m) {
+Snapped SnapTangent(const Document& document, const Handle& handle, const std::set<std::int32_t>& dragged,
+                    const Eigen::Vector2d& p_W, double radius_m) {
   Snapped snapped{p_W};
   const auto own = Find(document.map.curves, handle.curve);
   if (!own) return snapped;
@@ -45,7 +47,8 @@ Snapped SnapTangent(const Document& document, const Handle& handle, const std::s
 
 }  // namespace
 
-Snapped Snap(const Document& document, const Handle& handle, const std::set<std::int32_t>& dragged, const Eigen::Vector2d& p_W, double radius_m) {
+Snapped Snap(const Document& document, const Handle& handle, const std::set<std::int32_t>& dragged,
+             const Eigen::Vector2d& p_W, double radius_m) {
   const bool is_end = handle.index == 0 || handle.index == 3;
   return is_end ? SnapEnd(document, dragged, p_W, radius_m) : SnapTangent(document, handle, dragged, p_W, radius_m);
 }

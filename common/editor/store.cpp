@@ -43,7 +43,8 @@ base::Result<Opened> Open(const std::filesystem::path& map_file) {
   return opened;
 }
 
-base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompanion& loaded, const std::filesystem::path& map_file) {
+base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompanion& loaded,
+                                   const std::filesystem::path& map_file) {
   const std::filesystem::path beside = CompanionPath(map_file);
   const std::string tail = fmt::format(".{}.new", ::getpid());
   const std::filesystem::path new_map = map_file.string() + tail, new_beside = beside.string() + tail;

@@ -2,8 +2,8 @@
 
 #include "common/editor/commands.hpp"
 
-// Whole junctions in one gesture, in right-hand traffic: all curves, lanes, connections and signs, with start and end lanes, so that traffic drives
-// on them at once.
+// Whole junctions in one gesture, in right-hand traffic: all curves, lanes, connections and signs, with start and end
+// lanes, so that traffic drives on them at once.
 namespace rodeira::editor {
 
 struct TemplatePlace {
@@ -15,8 +15,9 @@ struct TemplatePlace {
 
 enum class Template { kCrossing, kRoundabout, kMerge };
 
-// Crossing: four arms, all turns, STOP on the second and fourth. Roundabout: four arms, a ring of 16 m radius, give-way signs where it is
-// entered. Merge: a road that runs along the heading, a second one joins it from the right at 15 degrees.
+// Crossing: four arms, all turns, STOP on the second and fourth. Roundabout: four arms, a ring of 16 m radius, give-way
+// signs where it is entered. Merge: a road that runs along the heading, a second one joins it from the right at 15
+// degrees.
 base::Result<Edit> Place(Document& document, Template what, const TemplatePlace& place);
 
 }  // namespace rodeira::editor

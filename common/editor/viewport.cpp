@@ -10,7 +10,9 @@ constexpr double kFarthest_m = 1e6;                    // as far as maps reach
 
 }  // namespace
 
-void Viewport::Go(const Eigen::Vector2d& by_W) { middle_W = (middle_W + by_W).cwiseMax(-kFarthest_m).cwiseMin(kFarthest_m); }
+void Viewport::Go(const Eigen::Vector2d& by_W) {
+  middle_W = (middle_W + by_W).cwiseMax(-kFarthest_m).cwiseMin(kFarthest_m);
+}
 
 void Viewport::Zoom(double times, const Eigen::Vector2d& px) {
   const Eigen::Vector2d held_W = ToWorld(px);

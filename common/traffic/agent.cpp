@@ -68,7 +68,8 @@ void Agent::Save(base::StateWriter& writer) const {
   std::vector<double> numbers;
   for (const Piece& piece : path) {
     tracks.push_back(piece.track);
-    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m, piece.blend_from_m, piece.aside_m});
+    numbers.insert(numbers.end(), {piece.zero_m, piece.begin_m, piece.offset_m, piece.slope, piece.blend_m,
+                                   piece.blend_from_m, piece.aside_m});
   }
   writer.Put("tracks", tracks);
   writer.Put("pieces", numbers);
@@ -151,9 +152,12 @@ PathFrame FrameOn(const Piece& piece, const lanes::CurvePoint& at, double odomet
   const bool blends = u < 1.0 && u >= 0.0 && (piece.offset_m != 0.0 || piece.slope != 0.0);
   if (!blends && piece.aside_m == 0.0) return frame;
   const double u1 = blends ? u : 1.0, u2 = u1 * u1, u3 = u2 * u1, L = piece.blend_m;
-  const double e = piece.aside_m + piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u1 + 6.0 * u2)) + piece.slope * L * (u1 - u3 * (6.0 - 8.0 * u1 + 3.0 * u2));
-  const double e1 = -piece.offset_m / L * 30.0 * u2 * (1.0 - 2.0 * u1 + u2) + piece.slope * (1.0 - u2 * (18.0 - 32.0 * u1 + 15.0 * u2));
-  const double e2 = -piece.offset_m / (L * L) * u1 * (60.0 - 180.0 * u1 + 120.0 * u2) - piece.slope / L * u1 * (36.0 - 96.0 * u1 + 60.0 * u2);
+  const double e = piece.aside_m + piece.offset_m * (1.0 - u3 * (10.0 - 15.0 * u1 + 6.0 * u2)) +
+                   piece.slope * L * (u1 - u3 * (6.0 - 8.0 * u1 + 3.0 * u2));
+  const double e1 = -piece.offset_m / L * 30.0 * u2 * (1.0 - 2.0 * u1 + u2) +
+                    piece.slope * (1.0 - u2 * (18.0 - 32.0 * u1 + 15.0 * u2));
+  const double e2 = -piece.offset_m / (L * L) * u1 * (60.0 - 180.0 * u1 + 120.0 * u2) -
+                    piece.slope / L * u1 * (36.0 - 96.0 * u1 + 60.0 * u2);
   const Eigen::Vector2d left = at.left_W();
   const double along = at.rate * (1.0 - at.curvature_1pm * e);
   frame.p_W.head<2>() += e * left;
@@ -173,8 +177,10 @@ Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& lin
   piece.begin_m = last.zero_m + graph[last.track].length_m();
   piece.zero_m = piece.begin_m - link.from_d_m;
   piece.blend_from_m = piece.begin_m;
-  if ((last.aside_m != 0.0 || piece.begin_m < last.blend_from_m + last.blend_m) && std::fabs(link.offset_m) < kSame_m && std::fabs(link.slope) < kSame) {
-    piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m, piece.blend_from_m = last.blend_from_m, piece.aside_m = last.aside_m;
+  if ((last.aside_m != 0.0 || piece.begin_m < last.blend_from_m + last.blend_m) && std::fabs(link.offset_m) < kSame_m &&
+      std::fabs(link.slope) < kSame) {
+    piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m,
+    piece.blend_from_m = last.blend_from_m, piece.aside_m = last.aside_m;
     return piece;  // the lane goes on, and so does the change to its middle
   }
   const PathFrame end = FrameAt(graph, path, piece.begin_m);
@@ -182,8 +188,9 @@ Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& lin
   piece.slope = link.slope + end.slope;
   // The quintic's largest acceleration is 5.77 offset/blend² v², its largest speed 1.875 offset/blend v.
   const double size = std::fabs(piece.offset_m);
-  const double wanted = std::max({speed_mps * std::sqrt(5.77 * size / kSideways_mps2), 1.875 * speed_mps * size / kSideways_mps,
-                                  6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
+  const double wanted =
+      std::max({speed_mps * std::sqrt(5.77 * size / kSideways_mps2), 1.875 * speed_mps * size / kSideways_mps,
+                6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
   piece.blend_m = std::clamp(wanted, kShortestBlend_m, kLongestBlend_m);
   return piece;
 }

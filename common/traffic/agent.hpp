@@ -8,11 +8,11 @@
 #include "common/core/base/assert.hpp"
 #include "common/core/base/state.hpp"
 #include "common/driving/driver/footprint.hpp"
-#include "common/world/lanes/graph.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/overtaking.hpp"
 #include "common/traffic/struck.hpp"
 #include "common/traffic/traffic_settings.hpp"
+#include "common/world/lanes/graph.hpp"
 
 namespace rodeira::traffic {
 
@@ -39,9 +39,9 @@ Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight);
 // Rise over plan distance of its length.
 double GradeOf(const Eigen::Quaterniond& q_WB);
 
-// A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it came
-// over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who overtakes drives
-// beside that middle, by aside_m, and the offset is from there.
+// A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it
+// came over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who
+// overtakes drives beside that middle, by aside_m, and the offset is from there.
 struct Piece {
   std::uint32_t track = 0;
   double zero_m = 0.0;    // odometer where the track's d is 0
@@ -75,33 +75,33 @@ struct ZoneGrant {
 struct alignas(64) Agent {
   static constexpr double kNoCap_mps = 1e3;
 
-  bool on_road = false;     // drives
-  bool is_struck = false;   // has been hit, and drives no more
-  bool seeks = false;       // drives slower to find a gap beside, for its route
-  bool told_past = false;   // told to overtake who is ahead, and has not begun yet
+  bool on_road = false;        // drives
+  bool is_struck = false;      // has been hit, and drives no more
+  bool seeks = false;          // drives slower to find a gap beside, for its route
+  bool told_past = false;      // told to overtake who is ahead, and has not begun yet
   std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
-  double o_m = 0.0;         // odometer of its middle on this trip
+  double o_m = 0.0;            // odometer of its middle on this trip
   double speed_mps = 0.0;
   double acceleration_mps2 = 0.0;
   double wish_mps2 = 0.0;   // the acceleration from which its driver goes on
   double granted_m = 0.0;   // odometer to which the conflict zones on its way are its own
   double waited_s = 0.0;    // at rest for others to go first
   double brake_mps2 = 0.0;  // commanded; 0: not
-  Path path;  // from the piece under its rear bumper to that under its front bumper
+  Path path;                // from the piece under its rear bumper to that under its front bumper
   boost::container::small_vector<ZoneGrant, 1> grants;  // those that its rear has not left yet, as it meets them
-  std::uint32_t entry = 0;  // the track where it waits to enter
+  std::uint32_t entry = 0;                              // the track where it waits to enter
   std::uint32_t trip = 0;
   std::int32_t flow = -1;     // to which it belongs; below 0: none
   std::uint32_t arrival = 0;  // its number in the flow
-  std::uint32_t links = 0;  // passed on this trip: keys of the draws at branches
-  std::uint32_t leg = 0;    // how many roads of its route it has reached, at its front
+  std::uint32_t links = 0;    // passed on this trip: keys of the draws at branches
+  std::uint32_t leg = 0;      // how many roads of its route it has reached, at its front
   double driven_m = 0.0;
-  double fuel_mg = 0.0;     // burnt on this trip
-  double fuel_mgps = 0.0;   // in the last step
-  double grade = 0.0;       // that it stands on, rise over plan distance; found with its pose
-  Driving driving;          // what its driver and its engine did in the last step
+  double fuel_mg = 0.0;    // burnt on this trip
+  double fuel_mgps = 0.0;  // in the last step
+  double grade = 0.0;      // that it stands on, rise over plan distance; found with its pose
+  Driving driving;         // what its driver and its engine did in the last step
   double cap_mps = kNoCap_mps;
-  double stopped_m = -1.0;  // odometer of the STOP line at which it has come to rest
+  double stopped_m = -1.0;      // odometer of the STOP line at which it has come to rest
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
   std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
   LaneChange change;

@@ -20,7 +20,8 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
   if (!agent.on_road) return lights;
   int side = agent.change.side != 0 && agent.o_m < agent.change.to_m ? agent.change.side : 0;
   if (agent.overtaking.active()) side = agent.overtaking.back ? -agent.overtaking.side : agent.overtaking.side;
-  const double to = agent.o_m + 0.5 * traits_[pose.id].length_m + std::max(kIndicates_m, kIndicates_s * agent.speed_mps);
+  const double to =
+      agent.o_m + 0.5 * traits_[pose.id].length_m + std::max(kIndicates_m, kIndicates_s * agent.speed_mps);
   std::uint32_t track = agent.path.front().track;
   Choice choice{agent.links, agent.leg};
   double end = 0.0;
@@ -41,7 +42,8 @@ std::uint32_t TrafficModel::LightsOf(const AgentPose& pose) const {
     }
     const int turn = map_->plans[track].turn;
     const bool ring = turn == kRing;
-    if (ring && begin > agent.o_m && (!on_ring || may_leave)) break;  // it enters the roundabout, or passes an exit, before it leaves it
+    if (ring && begin > agent.o_m && (!on_ring || may_leave))
+      break;  // it enters the roundabout, or passes an exit, before it leaves it
     on_ring = ring;
     if (end > agent.o_m && !ring) side = turn;
   }
@@ -81,11 +83,15 @@ std::vector<AgentDetail> TrafficModel::Details() {
         detail.target_W = MotorsPoint(*own, own->checkpoint + 1);
         detail.path_heading_rad = std::atan2(detail.target_W.y() - current.y(), detail.target_W.x() - current.x());
         detail.look_ahead_W = MotorsLooksAt(id);
-        detail.target_mps = own->stops || agent.brake_mps2 > 0.0 ? 0.0 : TurningSpeed_mps(MotorsTurn_rad(id, detail.look_ahead_W), std::min(kMotorsLimit_mps, Cap_mps(id)));
+        detail.target_mps =
+            own->stops || agent.brake_mps2 > 0.0
+                ? 0.0
+                : TurningSpeed_mps(MotorsTurn_rad(id, detail.look_ahead_W), std::min(kMotorsLimit_mps, Cap_mps(id)));
       }
       const PlanarCar& car = PlanarCarOfBody(traits_[id].body);
       // In the plane what goes with the motion as it is now, which the next step goes on from.
-      detail.driving = full_ ? full_->DrivingOf(id) : DriveOn(car, agent.driving, agent.speed_mps, agent.acceleration_mps2, agent.grade, 0.0);
+      detail.driving = full_ ? full_->DrivingOf(id)
+                             : DriveOn(car, agent.driving, agent.speed_mps, agent.acceleration_mps2, agent.grade, 0.0);
       detail.fuel_mgps = full_ ? agent.fuel_mgps : FuelFlow_mgps(car, detail.driving);
       detail.fuel_used_mg = agent.fuel_mg;
     } else {  // struck: its engine stands, its wheels are locked

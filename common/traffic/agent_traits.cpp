@@ -11,7 +11,15 @@ namespace rodeira::traffic {
 namespace {
 
 // Purposes of draws, keys beside seed and agent; never renumber.
-enum Draw : std::uint64_t { kSize = 1, kColour = 2, kSpeed = 3, kTimeGap = 4, kAcceleration = 5, kBraking = 6, kShade = 7 };
+enum Draw : std::uint64_t {
+  kSize = 1,
+  kColour = 2,
+  kSpeed = 3,
+  kTimeGap = 4,
+  kAcceleration = 5,
+  kBraking = 6,
+  kShade = 7
+};
 
 struct Body {
   double length_m, width_m, height_m, wheelbase_m, wheel_radius_m, mass_kg;
@@ -29,16 +37,19 @@ constexpr std::array<Body, 2> kLorries{{
 }};
 constexpr std::array<Body, 1> kBuses{{{10.5, 2.50, 3.10, 5.30, 0.48, 13000.0}}};
 
-// A kind's bodies, how it accelerates beside a car, and the speed that it is allowed outside of towns (Germany: lorries 80 km/h, buses 100 km/h).
+// A kind's bodies, how it accelerates beside a car, and the speed that it is allowed outside of towns (Germany: lorries
+// 80 km/h, buses 100 km/h).
 struct Kind {
   std::span<const Body> bodies;
   double liveliness, top_mps;
 };
 constexpr double kBeside_m = 0.4;  // what a car with full physics runs beside its line, both ways together
 constexpr double kNoTop_mps = 1e3;
-constexpr std::array<Kind, 4> kKinds{{{kCars, 1.0, kNoTop_mps}, {kVans, 1.0, kNoTop_mps}, {kLorries, 0.6, 80.0 / 3.6}, {kBuses, 0.7, 100.0 / 3.6}}};
+constexpr std::array<Kind, 4> kKinds{
+    {{kCars, 1.0, kNoTop_mps}, {kVans, 1.0, kNoTop_mps}, {kLorries, 0.6, 80.0 / 3.6}, {kBuses, 0.7, 100.0 / 3.6}}};
 
-constexpr std::array<std::uint32_t, 8> kPaints{0xE8E8E6, 0x1B1C1E, 0x8A8D8F, 0x3A4A63, 0x9C2A2A, 0xC9CBCD, 0x4B5A45, 0xB59A5A};
+constexpr std::array<std::uint32_t, 8> kPaints{0xE8E8E6, 0x1B1C1E, 0x8A8D8F, 0x3A4A63,
+                                               0x9C2A2A, 0xC9CBCD, 0x4B5A45, 0xB59A5A};
 
 void SetMeasures(const Body& body, AgentTraits& traits) {
   traits.length_m = body.length_m;
@@ -67,7 +78,9 @@ AgentTraits TraitsOfBody(std::uint32_t body) {
 }
 
 AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std::uint64_t key) {
-  const auto uniform = [&](Draw what, double low, double high) { return base::RandomUniform({settings.seed, key, what}, low, high); };
+  const auto uniform = [&](Draw what, double low, double high) {
+    return base::RandomUniform({settings.seed, key, what}, low, high);
+  };
   AgentTraits traits;
   double draw = uniform(kSize, 0.0, 1.0);  // the kind, and among its bodies each as often
   std::size_t k = 0;
@@ -88,7 +101,9 @@ AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std
   if (kind.liveliness < 1.0) traits.start_mps2 *= (1.0 - settings.variety) * kind.liveliness;
   traits.colour_rgb = kPaints[static_cast<std::size_t>(uniform(kColour, 0.0, static_cast<double>(kPaints.size())))];
   traits.speed_factor = uniform(kSpeed, settings.speed_factor_low, settings.speed_factor_high);
-  const auto varied = [&](Draw what, double middle) { return middle * uniform(what, 1.0 - settings.variety, 1.0 + settings.variety); };
+  const auto varied = [&](Draw what, double middle) {
+    return middle * uniform(what, 1.0 - settings.variety, 1.0 + settings.variety);
+  };
   traits.idm = settings.idm;
   traits.idm.time_gap_s = varied(kTimeGap, settings.idm.time_gap_s);
   traits.idm.acceleration_mps2 = kind.liveliness * varied(kAcceleration, settings.idm.acceleration_mps2);
@@ -97,7 +112,8 @@ AgentTraits TraitsOf(const TrafficSettings& settings, const VehicleMix& mix, std
 }
 
 AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) {
-  if (id < settings.vehicles || id - settings.vehicles >= settings.scripted.size()) return TraitsOf(settings, settings.mix, id);
+  if (id < settings.vehicles || id - settings.vehicles >= settings.scripted.size())
+    return TraitsOf(settings, settings.mix, id);
   VehicleMix one{{0.0, 0.0, 0.0, 0.0}};
   one.shares[static_cast<std::size_t>(settings.scripted[id - settings.vehicles])] = 1.0;
   return TraitsOf(settings, one, id);
@@ -107,8 +123,10 @@ namespace {
 
 // Whether somebody of this kind may be on the road.
 bool MayBe(const TrafficSettings& settings, std::size_t k) {
-  return settings.mix.shares[k] > 0.0 || std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||
-         std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(), [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
+  return settings.mix.shares[k] > 0.0 ||
+         std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||
+         std::any_of(settings.demand.flows.begin(), settings.demand.flows.end(),
+                     [&](const FlowSettings& flow) { return flow.mix && flow.mix->shares[k] > 0.0; });
 }
 
 }  // namespace

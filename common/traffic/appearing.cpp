@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kZoneClear_m = 1.0;
 constexpr double kNarrow_m = 2.0;
-constexpr double kHardest_mps2 = 4.0;   // neither it nor who follows it brakes harder because it is there
+constexpr double kHardest_mps2 = 4.0;    // neither it nor who follows it brakes harder because it is there
 constexpr double kBehindZones_m = 20.0;  // so far behind them those who have been let in may want to stand
-constexpr double kNear_m = 30.0;        // farther away nobody's rectangle can touch it
+constexpr double kNear_m = 30.0;         // farther away nobody's rectangle can touch it
 
 }  // namespace
 
@@ -28,8 +28,11 @@ base::Status TrafficModel::CheckPlace(std::uint32_t id, std::uint32_t track, dou
   const double half = 0.5 * traits_[id].length_m, low = d_m - half - kZoneClear_m, high = d_m + half + kZoneClear_m;
   const lanes::Track& lane = graph()[track];
   const auto refused = [&](const char* what) {
-    return base::WrongInput(fmt::format("a vehicle {:.1f} m long with its middle at {:.2f} m of lane '{}:{}' would stand {}; a place on plain lane was expected", traits_[id].length_m,
-                                        lane.curve.StationAt(d_m), graph().network().roads()[lane.lane.road].id(), lane.lane.lane, what));
+    return base::WrongInput(
+        fmt::format("a vehicle {:.1f} m long with its middle at {:.2f} m of lane '{}:{}' would stand {}; a place on "
+                    "plain lane was expected",
+                    traits_[id].length_m, lane.curve.StationAt(d_m), graph().network().roads()[lane.lane.road].id(),
+                    lane.lane.lane, what));
   };
   if (d_m - half < 0.0 || d_m + half > lane.length_m()) return refused("across the lane's end");
   if (lane.junction >= 0) return refused("within a junction");
@@ -45,10 +48,15 @@ base::Status TrafficModel::CheckPlace(std::uint32_t id, std::uint32_t track, dou
 }
 
 // Where it would: the track and d on it.
-base::Result<std::pair<std::uint32_t, double>> TrafficModel::PlaceToAppear(std::uint32_t id, const std::string& lane, double s_m) const {
+base::Result<std::pair<std::uint32_t, double>> TrafficModel::PlaceToAppear(std::uint32_t id, const std::string& lane,
+                                                                           double s_m) const {
   if (id < settings_.vehicles || id >= agents_.size()) {
-    if (settings_.scripted.empty()) return base::WrongInput(fmt::format("agent {} cannot appear: the traffic's settings have no 'scripted' vehicles, as in 'scripted: [car]'", id));
-    return base::WrongInput(fmt::format("agent {} cannot appear; one of the traffic's 'scripted' was expected, {} to {}", id, settings_.vehicles, agents_.size() - 1));
+    if (settings_.scripted.empty())
+      return base::WrongInput(fmt::format(
+          "agent {} cannot appear: the traffic's settings have no 'scripted' vehicles, as in 'scripted: [car]'", id));
+    return base::WrongInput(
+        fmt::format("agent {} cannot appear; one of the traffic's 'scripted' was expected, {} to {}", id,
+                    settings_.vehicles, agents_.size() - 1));
   }
   const auto tracks = TracksOf(graph(), lane, "");
   if (!tracks) return base::WrongInput(tracks.error().message);
@@ -56,11 +64,14 @@ base::Result<std::pair<std::uint32_t, double>> TrafficModel::PlaceToAppear(std::
   std::optional<std::uint32_t> there;
   for (const std::uint32_t track : tracks.value()) {
     const lanes::Curve& curve = graph()[track].curve;
-    const double low = std::min(curve.StationAt(0.0), curve.StationAt(curve.length_m())), high = std::max(curve.StationAt(0.0), curve.StationAt(curve.length_m()));
+    const double low = std::min(curve.StationAt(0.0), curve.StationAt(curve.length_m())),
+                 high = std::max(curve.StationAt(0.0), curve.StationAt(curve.length_m()));
     from = std::min(from, low), to = std::max(to, high);
     if (!there && s_m >= low && s_m <= high) there = track;
   }
-  if (!there) return base::WrongInput(fmt::format("the station {} m is not on the lane '{}', which lies from {:.2f} to {:.2f} m", s_m, lane, from, to));
+  if (!there)
+    return base::WrongInput(fmt::format("the station {} m is not on the lane '{}', which lies from {:.2f} to {:.2f} m",
+                                        s_m, lane, from, to));
   const double d = graph()[*there].curve.AtStation(s_m);
   if (const auto status = CheckPlace(id, *there, d); !status) return status.error();
   return std::pair(*there, d);
@@ -84,18 +95,25 @@ base::Result<bool> TrafficModel::LetAppear(std::uint32_t id, const std::string& 
 bool TrafficModel::IsClearFor(const Appearing& next) const {
   const AgentTraits& traits = traits_[next.id];
   const lanes::CurvePoint at = graph()[next.track].curve.At(next.d_m);
-  const driver::Footprint own{next.id, at.p_W.x(), at.p_W.y(), std::atan2(at.ahead_W.y(), at.ahead_W.x()), 0.0, traits.length_m + 2.0 * traits.idm.standing_gap_m, traits.width_m};
+  const driver::Footprint own{next.id,       at.p_W.x(),
+                              at.p_W.y(),    std::atan2(at.ahead_W.y(), at.ahead_W.x()),
+                              0.0,           traits.length_m + 2.0 * traits.idm.standing_gap_m,
+                              traits.width_m};
   for (std::uint32_t other = 0; other < agents_.size(); ++other) {
     if (other == next.id || !agents_[other].on_road) continue;
     const AgentPose pose = PoseOf(other);
     const driver::Footprint body = FootprintOf(pose, traits_[other]);
-    if (std::fabs(pose.p_WB_W.z() - at.p_W.z()) > network::Network::kLevel_m || std::hypot(body.x_m - own.x_m, body.y_m - own.y_m) > kNear_m) continue;
+    if (std::fabs(pose.p_WB_W.z() - at.p_W.z()) > network::Network::kLevel_m ||
+        std::hypot(body.x_m - own.x_m, body.y_m - own.y_m) > kNear_m)
+      continue;
     if (driver::Overlap(own, body)) return false;
   }
-  return std::none_of(bodies_.begin(), bodies_.end(), [&](const driver::Footprint& body) { return driver::Overlap(own, body); });
+  return std::none_of(bodies_.begin(), bodies_.end(),
+                      [&](const driver::Footprint& body) { return driver::Overlap(own, body); });
 }
 
-// Whether somebody counts on that place: he has been let into zones before it, or comes back to it from overtaking, or overtakes along it.
+// Whether somebody counts on that place: he has been let into zones before it, or comes back to it from overtaking, or
+// overtakes along it.
 bool TrafficModel::IsTakenUp(std::uint32_t id) const {
   const std::uint32_t track = agents_[id].path.front().track;
   if (!facing_[track].empty()) return true;
@@ -131,7 +149,8 @@ bool TrafficModel::TryAppear(const Appearing& next) {
   agent.path = {{next.track, 0.0, 0.0, 0.0, 0.0, 1.0}};
   if (!IsClearFor(next) || IsTakenUp(next.id)) return wait();
   FindStretches(next.id, settings_.sight_m);
-  double speed = std::min({next.speed_mps, Allowed(next.id, agents_[next.id].o_m).speed_mps, Cap_mps(next.id), AtMostForLine(next.id)});
+  double speed = std::min(
+      {next.speed_mps, Allowed(next.id, agents_[next.id].o_m).speed_mps, Cap_mps(next.id), AtMostForLine(next.id)});
   if (people_) speed = std::min(speed, AtMostForPeople(next.id));
   if (speed < 0.0) return wait();
   agent.speed_mps = speed;
@@ -147,6 +166,8 @@ bool TrafficModel::TryAppear(const Appearing& next) {
   return true;
 }
 
-void TrafficModel::AppearAll() { std::erase_if(appearing_, [this](const Appearing& next) { return TryAppear(next); }); }
+void TrafficModel::AppearAll() {
+  std::erase_if(appearing_, [this](const Appearing& next) { return TryAppear(next); });
+}
 
 }  // namespace rodeira::traffic

@@ -10,13 +10,14 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kPatience_s = 40.0;   // at rest for others; longer than this and others let one go
-constexpr double kGap_s = 1.0;         // after the own clearing before who goes first may arrive
-constexpr double kBehind_s = 0.5;      // after the own arrival who holds a zone may be out of it at the latest
-constexpr double kZips_mps = 7.0, kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
+constexpr double kPatience_s = 40.0;  // at rest for others; longer than this and others let one go
+constexpr double kGap_s = 1.0;        // after the own clearing before who goes first may arrive
+constexpr double kBehind_s = 0.5;     // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kZips_mps = 7.0,
+                 kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
 constexpr double kAtRest_mps = 0.05;
-constexpr std::size_t kAhead = 6;      // agents: so far ahead memory is fetched
-constexpr double kAtLine_m = 1.5;      // a full stop counts within this before the line
+constexpr std::size_t kAhead = 6;  // agents: so far ahead memory is fetched
+constexpr double kAtLine_m = 1.5;  // a full stop counts within this before the line
 
 // The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
 int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
@@ -46,10 +47,12 @@ bool TrafficModel::RoomBehind(std::uint32_t id, const Crossing& crossing, const 
 // Whether who holds the zone takes up the same room behind it, and does not go round there.
 bool TrafficModel::TakesRoom(const Crossing& crossing) const {
   const lanes::Zone& zone = zones()[static_cast<std::uint32_t>(crossing.zone)];
-  return zone.kind == lanes::ZoneKind::kMerge && map_->plans[zone.track[0]].turn != kRing && map_->plans[zone.track[1]].turn != kRing;
+  return zone.kind == lanes::ZoneKind::kMerge && map_->plans[zone.track[0]].turn != kRing &&
+         map_->plans[zone.track[1]].turn != kRing;
 }
 
-// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it comes; and, where that is `heeded`, who has waited longer.
+// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it
+// comes; and, where that is `heeded`, who has waited longer.
 bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
   const auto zone = static_cast<std::size_t>(crossing.zone);
   const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
@@ -61,9 +64,14 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing, bool heeded)
     if (holder.id < agents_.size()) {
       const Agent& other = agents_[holder.id];
       const double way_out = holder.out_m - other.o_m + 0.5 * traits_[holder.id].length_m;
-      const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m), traits_[holder.id].start_mps2, {other.wish_mps2, settings_.smooth.planned_mps3});
-      if (arrives < 0.0) arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
-      if (holder.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) && RoomBehind(id, crossing, holder)) continue;
+      const double clears = TravelTime(way_out, other.speed_mps, AllowedAt(holder.id, holder.out_m),
+                                       traits_[holder.id].start_mps2, {other.wish_mps2, settings_.smooth.planned_mps3});
+      if (arrives < 0.0)
+        arrives = TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2,
+                             {agent.wish_mps2, settings_.smooth.planned_mps3});
+      if (holder.sure && (clears < arrives + kBehind_s || MayFollow(id, crossing, holder)) &&
+          RoomBehind(id, crossing, holder))
+        continue;
       passages_[id].delay_s = clears - arrives;
     }
     passages_[id].waits_for = holder.id == agents_.size() ? -1 : static_cast<std::int64_t>(holder.id);
@@ -80,11 +88,12 @@ bool TrafficModel::Held(std::uint32_t id, const Crossing& crossing, bool heeded)
 // The same of any of its zones.
 bool TrafficModel::IsHeld(std::uint32_t id, bool heeded) {
   const auto& crossings = passages_[id].crossings;
-  return std::any_of(crossings.begin(), crossings.end(), [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
+  return std::any_of(crossings.begin(), crossings.end(),
+                     [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
 }
 
-// Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the other side's turn as long as
-// who was let in last is from this one.
+// Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the
+// other side's turn as long as who was let in last is from this one.
 bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
@@ -95,7 +104,8 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   if (zone.first == crossing.side && last != crossing.side) return false;
   const Agent& agent = agents_[id];
   const double way_out = crossing.out_m - agent.o_m + 0.5 * traits_[id].length_m;
-  const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+  const double clears = TravelTime(way_out, agent.speed_mps, AllowedAt(id, crossing.out_m), traits_[id].start_mps2,
+                                   {agent.wish_mps2, settings_.smooth.planned_mps3});
   for (const Comer& comer : comers) {
     if (comer.id == id) continue;
     const bool agents = comer.id < agents_.size();
@@ -110,13 +120,16 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
     }
     passages_[id].waits_for = agents ? static_cast<std::int64_t>(comer.id) : -1;
     const double to_zone = crossing.in_m - agent.o_m - 0.5 * traits_[id].length_m;
-    passages_[id].delay_s = ClearsAt(comer) - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+    passages_[id].delay_s =
+        ClearsAt(comer) - TravelTime(to_zone, agent.speed_mps, AllowedAt(id, crossing.in_m), traits_[id].start_mps2,
+                                     {agent.wish_mps2, settings_.smooth.planned_mps3});
     return true;
   }
   return false;
 }
 
-// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to one or has waited longer.
+// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to
+// one or has waited longer.
 bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   Passage& passage = passages_[id];
   if (IsHeld(id, yields)) return false;
@@ -128,7 +141,8 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
   agents_[id].grants.push_back(grant);
   for (const Crossing& crossing : passage.crossings) {
     if (crossing.zone < 0) continue;
-    book_.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side), {id, grant.sure, grant.number, crossing.out_m});
+    book_.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
+               {id, grant.sure, grant.number, crossing.out_m});
   }
   passage.any = false, passage.key = {};
   return true;
@@ -138,7 +152,10 @@ bool TrafficModel::Grant(std::uint32_t id, bool yields) {
 void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
   Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m;
-  if (!agent.grants.empty()) agent.grants.erase(std::remove_if(agent.grants.begin(), agent.grants.end(), [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; }), agent.grants.end());
+  if (!agent.grants.empty())
+    agent.grants.erase(std::remove_if(agent.grants.begin(), agent.grants.end(),
+                                      [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; }),
+                       agent.grants.end());
   ObeyLights(id);
   FindPassage(id);
   Passage& passage = passages_[id];
@@ -148,8 +165,10 @@ void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
     agent.stopped_m = passage.line_m;
     passage.must_stop = false;
   }
-  if (!passage.any || agent.speed_mps > 1.0) agent.waited_s = 0.0;
-  else if (agent.speed_mps < kAtRest_mps && !passage.red && !passage.barred) agent.waited_s += dt_s;
+  if (!passage.any || agent.speed_mps > 1.0)
+    agent.waited_s = 0.0;
+  else if (agent.speed_mps < kAtRest_mps && !passage.red && !passage.barred)
+    agent.waited_s += dt_s;
 }
 
 void TrafficModel::Arbitrate(double dt_s) {
@@ -177,14 +196,17 @@ void TrafficModel::Arbitrate(double dt_s) {
     coming_.push_back(id);
     if (!passage.due) continue;
     TellComing(id);
-    if (passage.red || passage.barred) passage.waits_for = -1;
-    else if (passage.head && !passage.must_stop) order_.push_back(id);
+    if (passage.red || passage.barred)
+      passage.waits_for = -1;
+    else if (passage.head && !passage.must_stop)
+      order_.push_back(id);
     if (passage.head) heads_.push_back(id);
   }
   AskForZones();
   for (const std::uint32_t id : coming_) ComeToZones(id);
   OthersAtZones();
-  // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by number.
+  // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by
+  // number.
   std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double patience_a = Urgent(a) ? agents_[a].waited_s : 0.0, patience_b = Urgent(b) ? agents_[b].waited_s : 0.0;
     if (patience_a != patience_b) return patience_a > patience_b;
@@ -198,13 +220,16 @@ void TrafficModel::Arbitrate(double dt_s) {
       if (passage.able) ComeLater(id);
       continue;
     }
-    // Nobody else takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if he is shorter.
+    // Nobody else takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if
+    // he is shorter.
     const bool comes_free = !passage.able && passage.lacks_m < traits_[id].length_m + settings_.idm.standing_gap_m;
     for (const Crossing& crossing : passage.crossings) {
       if (crossing.zone < 0 || !(passage.able || (comes_free && TakesRoom(crossing)))) continue;
       const auto zone = static_cast<std::size_t>(crossing.zone), theirs = static_cast<std::size_t>(1 - crossing.side);
-      if (passage.able) book_.Await(zone, theirs);
-      else book_.WantRoom(zone, theirs, {agents_[id].waited_s, id});
+      if (passage.able)
+        book_.Await(zone, theirs);
+      else
+        book_.WantRoom(zone, theirs, {agents_[id].waited_s, id});
     }
   }
   for (const std::uint32_t id : order_) {  // … and now who had to yield to such as cannot come yet
@@ -216,7 +241,8 @@ void TrafficModel::Arbitrate(double dt_s) {
     YieldInZones(id);
     const Agent& agent = agents_[id];
     beside_[id] = agent.change.side != 0 || HasBeside(id, agent.path.back().track);
-    passes_[id] = agent.overtaking.active() || agent.told_past || (settings_.overtaking.allowed && IsItsTurn(id, step_ns));
+    passes_[id] =
+        agent.overtaking.active() || agent.told_past || (settings_.overtaking.allowed && IsItsTurn(id, step_ns));
   });
 }
 

@@ -13,7 +13,8 @@ constexpr std::uint64_t kOfFlows = 1ull << 32;  // keys of vehicles of flows lie
 
 void TrafficModel::BeginFlows() {
   flows_.resize(settings_.demand.flows.size());
-  for (std::size_t f = 0; f < flows_.size(); ++f) flows_[f].next_ns = NextArrival_ns(settings_.demand.flows[f], settings_.seed, f, 0, 0);
+  for (std::size_t f = 0; f < flows_.size(); ++f)
+    flows_[f].next_ns = NextArrival_ns(settings_.demand.flows[f], settings_.seed, f, 0, 0);
 }
 
 // Who has arrived is given a vehicle that is not in use, by ascending numbers of flows and vehicles.

@@ -15,21 +15,25 @@ constexpr double kDamping = 0.3;         // share of the critical
 constexpr double kSunk_m = 0.018;        // of a tyre under its load at rest
 constexpr double kRollingRadius = 0.97;  // share of the wheel's
 constexpr double kMostSteer_rad = 0.75;
-// Changes of gear without a jerk: these engines need so long to come up to a lower gear's speed; closed sooner the clutch brakes the car for it.
+// Changes of gear without a jerk: these engines need so long to come up to a lower gear's speed; closed sooner the
+// clutch brakes the car for it.
 constexpr double kSwap_s = 0.5, kClose_s = 0.7;
 
 double Rpm(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
 
-// What cars and heavy vehicles differ in beside their measures: of_mass_kg is what the engine below belongs to, loads and brakes are shares, track_less_m of the width.
+// What cars and heavy vehicles differ in beside their measures: of_mass_kg is what the engine below belongs to, loads
+// and brakes are shares, track_less_m of the width.
 struct Make {
-  double of_mass_kg, front_load, front_brakes, cg_height, natural_Hz, anti_roll, bump_m, track_less_m, wheel_kgm2, drag_area_m2, rolling, steering_ratio;
+  double of_mass_kg, front_load, front_brakes, cg_height, natural_Hz, anti_roll, bump_m, track_less_m, wheel_kgm2,
+      drag_area_m2, rolling, steering_ratio;
 };
 constexpr Make kCar{1050.0, 0.55, 0.68, 0.37, 1.35, 0.4, 0.09, 0.25, 0.8, 0.5, 0.012, 16.0};
 constexpr Make kHeavy{11000.0, 0.42, 0.58, 0.37, 1.6, 0.7, 0.10, 0.35, 9.0, 5.5, 0.008, 20.0};
 
 dynamics::PowertrainSettings CarPowertrain(double size) {
   dynamics::PowertrainSettings p;
-  for (const auto& [rpm, torque] : {std::pair{1000.0, 87.5}, {3500.0, 115.5}, {6499.0, 62.5}}) p.engine.full_load.push_back({Rpm(rpm), size * torque});
+  for (const auto& [rpm, torque] : {std::pair{1000.0, 87.5}, {3500.0, 115.5}, {6499.0, 62.5}})
+    p.engine.full_load.push_back({Rpm(rpm), size * torque});
   p.engine.inertia_kgm2 *= size;
   p.engine.drag_Nm *= size;
   p.engine.drag_Nmspr *= size;
@@ -77,7 +81,8 @@ dynamics::SuspensionSettings SpringsUnder(double wheel_load_N, const Make& make)
 }
 
 dynamics::BodySettings BodyOf(const AgentTraits& traits, const Make& make) {
-  const double m = traits.mass_kg, l2 = traits.length_m * traits.length_m, w2 = traits.width_m * traits.width_m, h2 = traits.height_m * traits.height_m;
+  const double m = traits.mass_kg, l2 = traits.length_m * traits.length_m, w2 = traits.width_m * traits.width_m,
+               h2 = traits.height_m * traits.height_m;
   dynamics::BodySettings body;
   body.mass_kg = m;
   body.roll_inertia_kgm2 = m * (w2 + h2) / 12.0;
@@ -100,7 +105,8 @@ dynamics::BicycleSettings CarOf(const AgentTraits& traits) {
   car.body = BodyOf(traits, make);
   car.steering.ratio = make.steering_ratio;
   car.steering.limit_rad = kMostSteer_rad * make.steering_ratio;
-  car.suspension = {SpringsUnder(0.5 * make.front_load * weight_N, make), SpringsUnder(0.5 * (1.0 - make.front_load) * weight_N, make)};
+  car.suspension = {SpringsUnder(0.5 * make.front_load * weight_N, make),
+                    SpringsUnder(0.5 * (1.0 - make.front_load) * weight_N, make)};
   for (dynamics::TyreSettings& tyre : car.tyre) {
     tyre.slip_curve = dynamics::SlipCurveSettings{};
     tyre.low_speed_damping_Nspm *= size;

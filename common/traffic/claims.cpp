@@ -9,12 +9,13 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kOverLine_m = 0.3;    // a front so far beyond a line that lies where a zone begins still waits before it
+constexpr double kOverLine_m = 0.3;  // a front so far beyond a line that lies where a zone begins still waits before it
 constexpr double kLaterThan_s = 30.0;  // of no interest now
 
 }  // namespace
 
-// Zones lie in far memory where there are thousands of agents: those of who soon asks for his own are brought near meanwhile.
+// Zones lie in far memory where there are thousands of agents: those of who soon asks for his own are brought near
+// meanwhile.
 void TrafficModel::FetchZones(std::size_t id) const {
   if (id >= agents_.size() || agents_[id].granted_m < agents_[id].o_m) return;
   for (const Stretch& stretch : stretches_[id]) {
@@ -61,7 +62,8 @@ void TrafficModel::AskForZones() {
 // A head that waits to be granted its zones comes to them; where nobody asks it is not told.
 void TrafficModel::ComeToZones(std::uint32_t id) {
   const Passage& passage = passages_[id];
-  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred || (passage.due && !(passage.head && passage.able))) return;
+  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred || (passage.due && !(passage.head && passage.able)))
+    return;
   const auto is_asked = [&](const Crossing& crossing) {
     return crossing.zone >= 0 && is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] != 0;
   };
@@ -69,7 +71,9 @@ void TrafficModel::ComeToZones(std::uint32_t id) {
   if (!passage.due) TellComing(id);
   if (!passage.head || !passage.able || passage.arrives_s > kLaterThan_s) return;
   for (const Crossing& crossing : passage.crossings) {
-    if (is_asked(crossing)) book_.Come(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side), {id, crossing.in_m, crossing.out_m});
+    if (is_asked(crossing))
+      book_.Come(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
+                 {id, crossing.in_m, crossing.out_m});
   }
 }
 
@@ -82,13 +86,15 @@ double TrafficModel::ArrivesAt(const Comer& comer) const {
 // Its rear at the zone's end.
 double TrafficModel::ClearsAt(const Comer& comer) const {
   if (comer.id >= agents_.size()) return comer.clears_s;
-  return ComesWithin(comer, comer.out_m - (FrontOf(comer.id) - traits_[comer.id].length_m)) + passages_[comer.id].later_s;
+  return ComesWithin(comer, comer.out_m - (FrontOf(comer.id) - traits_[comer.id].length_m)) +
+         passages_[comer.id].later_s;
 }
 
 // When it has come so far, if it may go on as fast as it may at the zone's beginning.
 double TrafficModel::ComesWithin(const Comer& comer, double way_m) const {
   const Agent& agent = agents_[comer.id];
-  return TravelTime(way_m, agent.speed_mps, AllowedAt(comer.id, comer.in_m), traits_[comer.id].start_mps2, {agent.wish_mps2, settings_.smooth.planned_mps3});
+  return TravelTime(way_m, agent.speed_mps, AllowedAt(comer.id, comer.in_m), traits_[comer.id].start_mps2,
+                    {agent.wish_mps2, settings_.smooth.planned_mps3});
 }
 
 // Who has just been refused does not come before whoever keeps it out is gone.
@@ -106,13 +112,19 @@ void TrafficModel::OthersAtZones() {
       for (const lanes::ZoneSide& part : zones().Of(track)) {
         const lanes::Zone& zone = zones()[part.zone];
         const auto mine = static_cast<std::size_t>(part.side);
-        if (zone.kind == lanes::ZoneKind::kDiverge || std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2) continue;
+        if (zone.kind == lanes::ZoneKind::kDiverge ||
+            std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2)
+          continue;
         if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
         book_.Hold(part.zone, mine, {nobody});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
-      // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that is not green, if it can stop there.
-      struct At { std::uint32_t track; double ahead_m; };
+      // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that
+      // is not green, if it can stop there.
+      struct At {
+        std::uint32_t track;
+        double ahead_m;
+      };
       std::vector<At> open{{track, -block.span.front_m}};
       for (std::size_t i = 0; i < open.size() && i < 64; ++i) {
         const At at = open[i];
@@ -121,8 +133,12 @@ void TrafficModel::OthersAtZones() {
           const lanes::Zone& zone = zones()[part.zone];
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
-          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps || zone.in_m[mine] > stops_m) continue;
-          book_.Come(part.zone, mine, {nobody, 0.0, 0.0, way / block.span.speed_mps, (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
+          if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps ||
+              zone.in_m[mine] > stops_m)
+            continue;
+          book_.Come(part.zone, mine,
+                     {nobody, 0.0, 0.0, way / block.span.speed_mps,
+                      (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
         if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;

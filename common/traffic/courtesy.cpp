@@ -10,7 +10,8 @@ constexpr double kCourtesy_mps2 = 1.0;  // braking of who makes room, at most
 
 }  // namespace
 
-// The next one on a lane beside, who finds no gap, is nearer than who is ahead and must come over to this lane, is let in: followed by braking gently.
+// The next one on a lane beside, who finds no gap, is nearer than who is ahead and must come over to this lane, is let
+// in: followed by braking gently.
 double TrafficModel::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const Agent& agent = agents_[id];
   const AgentTraits& traits = traits_[id];
@@ -28,7 +29,9 @@ double TrafficModel::WantedCourteous(std::uint32_t id, double limit_mps) const {
       if (other.id == id || other.middle_m() <= there) continue;
       const double gap = other.rear_m - there - 0.5 * traits.length_m;
       if (agents_[other.id].seeks && gap < ahead_[id].gap_m && FewerChanges(other.id, here.track) > 0) {
-        wanted = std::min(wanted, std::max(-kCourtesy_mps2, driver::IdmAcceleration(traits.idm, agent.speed_mps, limit_mps, gap, agents_[other.id].speed_mps)));
+        wanted =
+            std::min(wanted, std::max(-kCourtesy_mps2, driver::IdmAcceleration(traits.idm, agent.speed_mps, limit_mps,
+                                                                               gap, agents_[other.id].speed_mps)));
       }
       break;
     }

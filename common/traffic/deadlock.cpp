@@ -16,7 +16,8 @@ constexpr double kOverLine_m = 0.3;  // a front so far beyond where a zone begin
 
 }  // namespace
 
-// Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead only where it has come up to him, and else for who keeps it in its own zones.
+// Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead
+// only where it has come up to him, and else for who keeps it in its own zones.
 std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
   if (agents_[id].speed_mps > kAtRest_mps) return -1;
   const Ahead& ahead = ahead_[id];
@@ -29,7 +30,8 @@ std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
   return !is_in && ahead.any ? ahead.id : -1;
 }
 
-// The circle in which a chain closes, from where it does; empty where it does not, or comes to one that has been `seen`.
+// The circle in which a chain closes, from where it does; empty where it does not, or comes to one that has been
+// `seen`.
 std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
   std::vector<std::uint32_t> chain;
   std::int64_t at = start;
@@ -42,8 +44,9 @@ std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vect
   return {std::find(chain.begin(), chain.end(), static_cast<std::uint32_t>(at)), chain.end()};
 }
 
-// Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless somebody else holds one of those it stands in: nobody counts on it in the others,
-// and it stands where it would have waited.
+// Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless
+// somebody else holds one of those it stands in: nobody counts on it in the others, and it stands where it would have
+// waited.
 bool TrafficModel::GiveBack(std::uint32_t id) {
   Agent& agent = agents_[id];
   if (agent.grants.empty()) return false;
@@ -76,16 +79,23 @@ bool TrafficModel::AreInOneAnothersWay(std::span<const std::uint32_t> some) cons
   std::vector<std::size_t> sides;
   for (const std::uint32_t id : some) {
     for (const Crossing& crossing : passages_[id].crossings) {
-      if (crossing.zone >= 0) sides.push_back(ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
+      if (crossing.zone >= 0)
+        sides.push_back(
+            ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
     }
   }
   std::sort(sides.begin(), sides.end());
-  return std::any_of(sides.begin(), sides.end(), [&](std::size_t side) { return side % 2 == 0 && std::binary_search(sides.begin(), sides.end(), side + 1); });
+  return std::any_of(sides.begin(), sides.end(), [&](std::size_t side) {
+    return side % 2 == 0 && std::binary_search(sides.begin(), sides.end(), side + 1);
+  });
 }
 
-// Lets those of the circle in, each of whom waits for the next one, who are not in anybody's way, although they would have to yield, and whether anybody was. First those for whom there is room, who has waited longest
-// first (of equals the first). Then who has none since those who stand there wait, one behind another, for one who goes now. Where nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
-// else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good where they wait for one whom he is in the way of.
+// Lets those of the circle in, each of whom waits for the next one, who are not in anybody's way, although they would
+// have to yield, and whether anybody was. First those for whom there is room, who has waited longest first (of equals
+// the first). Then who has none since those who stand there wait, one behind another, for one who goes now. Where
+// nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
+// else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good
+// where they wait for one whom he is in the way of.
 bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
   struct AtLine {
     std::uint32_t id = 0;
@@ -139,23 +149,30 @@ bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
     const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
     const auto keeps_out = [&](const Crossing& mine) {
       return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
-        const auto& theirs = passages_[other].crossings;
-        return other != lines[i].id && std::any_of(theirs.begin(), theirs.end(), [&](const Crossing& their) { return their.zone == mine.zone && their.side != mine.side; });
-      });
+               const auto& theirs = passages_[other].crossings;
+               return other != lines[i].id && std::any_of(theirs.begin(), theirs.end(), [&](const Crossing& their) {
+                        return their.zone == mine.zone && their.side != mine.side;
+                      });
+             });
     };
-    if (!passage.able && std::none_of(passage.crossings.begin(), passage.crossings.end(), keeps_out) && let_in(lines[i])) return true;
+    if (!passage.able && std::none_of(passage.crossings.begin(), passage.crossings.end(), keeps_out) &&
+        let_in(lines[i]))
+      return true;
   }
   return false;
 }
 
-// Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside: first he who has come up to somebody ahead, of several he who was let in last.
+// Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside:
+// first he who has come up to somebody ahead, of several he who was let in last.
 void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
   if (LetIn(circle)) return;
   const std::uint32_t first = circle.front();
   std::vector<std::uint8_t> seen(agents_.size(), 0);
   if (CircleOf(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
   const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == ahead_[id].id; };
-  const auto number = [&](std::uint32_t id) { return agents_[id].grants.empty() ? 0 : agents_[id].grants.back().number; };
+  const auto number = [&](std::uint32_t id) {
+    return agents_[id].grants.empty() ? 0 : agents_[id].grants.back().number;
+  };
   std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (is_behind(a) != is_behind(b)) return is_behind(a);
     return number(a) != number(b) ? number(a) > number(b) : a < b;

@@ -30,11 +30,13 @@ base::Result<std::vector<double>> SharesOf(const lanes::Graph& graph, std::uint3
       leads = true;
       break;
     }
-    if (!leads) return base::WrongInput(fmt::format("the lane '{}' does not go on into '{}'", turn.lane, way), turn.place);
+    if (!leads)
+      return base::WrongInput(fmt::format("the lane '{}' does not go on into '{}'", turn.lane, way), turn.place);
   }
   double sum = 0.0;
   for (const double share : shares) sum += share;
-  if (sum <= 0.0) return base::WrongInput(fmt::format("no way on from the lane '{}' has a share above 0", turn.lane), turn.place);
+  if (sum <= 0.0)
+    return base::WrongInput(fmt::format("no way on from the lane '{}' has a share above 0", turn.lane), turn.place);
   double up_to = 0.0;
   for (double& share : shares) share = up_to += share / sum;
   return shares;
@@ -47,12 +49,15 @@ base::Result<std::int64_t> RouteNamed(const DemandSettings& settings, const Flow
     if (settings.routes[r].name == flow.route) return static_cast<std::int64_t>(r);
     known.push_back(settings.routes[r].name);
   }
-  return base::WrongInput(fmt::format("the route '{}' does not exist; one of 'routes' was expected{}", flow.route, base::DidYouMean(flow.route, known)), flow.place);
+  return base::WrongInput(fmt::format("the route '{}' does not exist; one of 'routes' was expected{}", flow.route,
+                                      base::DidYouMean(flow.route, known)),
+                          flow.place);
 }
 
 }  // namespace
 
-base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks, const DemandSettings& settings) {
+base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks,
+                                  const DemandSettings& settings) {
   Demand demand;
   for (const RouteSettings& wish : settings.routes) {
     auto route = Route::Make(graph, marks, wish);
@@ -70,12 +75,17 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     if (!number) return number.error();
     flow.route = number.value();
     if (flow.route >= 0) {
-      if (flow.track < 0) return base::WrongInput(fmt::format("the flow of the route '{}' says no lane; one was expected where it comes", wish.route), wish.place);
+      if (flow.track < 0)
+        return base::WrongInput(
+            fmt::format("the flow of the route '{}' says no lane; one was expected where it comes", wish.route),
+            wish.place);
       const Route& route = demand.route(flow.route);
       const auto track = static_cast<std::uint32_t>(flow.track);
       if (!route.Reaches(route.LegOn(0, track), track)) {
-        return base::WrongInput(fmt::format("the route '{}' does not exist from the lane '{}': no way leads from there to '{}'", wish.route, wish.lane,
-                                            settings.routes[static_cast<std::size_t>(flow.route)].ways.front()), wish.place);
+        return base::WrongInput(
+            fmt::format("the route '{}' does not exist from the lane '{}': no way leads from there to '{}'", wish.route,
+                        wish.lane, settings.routes[static_cast<std::size_t>(flow.route)].ways.front()),
+            wish.place);
       }
     }
     demand.flows_.push_back(flow);
@@ -87,8 +97,10 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     if (!tracks) return tracks.error();
     const std::uint32_t last = tracks.value().back();
     if (const auto [before, is_first] = told.emplace(last, &turn); !is_first) {
-      return base::WrongInput(fmt::format("the lane '{}' has turns already, as '{}'{}; one item a lane was expected", turn.lane, before->second->lane,
-                                          before->second->place.empty() ? "" : " in " + before->second->place), turn.place);
+      return base::WrongInput(
+          fmt::format("the lane '{}' has turns already, as '{}'{}; one item a lane was expected", turn.lane,
+                      before->second->lane, before->second->place.empty() ? "" : " in " + before->second->place),
+          turn.place);
     }
     auto shares = SharesOf(graph, last, turn);
     if (!shares) return shares.error();

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "common/traffic/demand_settings.hpp"
 #include "common/world/lanes/edge_marks.hpp"
 #include "common/world/lanes/graph.hpp"
-#include "common/traffic/demand_settings.hpp"
 
 namespace rodeira::traffic {
 
-// Roads that are passed one after the other, as a table: for each leg (how many of them have been reached) and track the way that is
-// left to the last one, lanes changed on the way counted as kChange_m each.
+// Roads that are passed one after the other, as a table: for each leg (how many of them have been reached) and track
+// the way that is left to the last one, lanes changed on the way counted as kChange_m each.
 class Route {
  public:
   static constexpr double kChange_m = 300.0;
 
   // Wrong input where the roads are unknown, or no way leads from one to the next; `place` says where they stand.
-  static base::Result<Route> Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks, const RouteSettings& settings);
+  static base::Result<Route> Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks,
+                                  const RouteSettings& settings);
 
   // Whether its end can be reached from a track, by changes of lanes where marks allow them.
   bool Reaches(std::uint32_t leg, std::uint32_t track) const { return At(leg, track).left_m < kNever_m; }
@@ -55,13 +56,17 @@ class Demand {
     std::int64_t route = -1;
   };
 
-  // Wrong input, a sentence with file and line, where a lane or road is unknown, a route is not there or cannot be driven.
-  static base::Result<Demand> Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks, const DemandSettings& settings);
+  // Wrong input, a sentence with file and line, where a lane or road is unknown, a route is not there or cannot be
+  // driven.
+  static base::Result<Demand> Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks,
+                                   const DemandSettings& settings);
 
   const std::vector<Flow>& flows() const { return flows_; }
   const Route& route(std::int64_t number) const { return routes_[static_cast<std::size_t>(number)]; }
   // By what chance the links of a track are taken, one after the other added up to 1; empty: all alike.
-  std::span<const double> Shares(std::uint32_t track) const { return shares_.empty() ? std::span<const double>() : shares_[track]; }
+  std::span<const double> Shares(std::uint32_t track) const {
+    return shares_.empty() ? std::span<const double>() : shares_[track];
+  }
 
  private:
   std::vector<Flow> flows_;
@@ -69,7 +74,9 @@ class Demand {
   std::vector<std::vector<double>> shares_;  // by track
 };
 
-// The tracks of ROAD or ROAD:LANE, in the order in which traffic comes to them; wrong input, with the nearest name, where there are none.
-base::Result<std::vector<std::uint32_t>> TracksOf(const lanes::Graph& graph, const std::string& way, const std::string& place);
+// The tracks of ROAD or ROAD:LANE, in the order in which traffic comes to them; wrong input, with the nearest name,
+// where there are none.
+base::Result<std::vector<std::uint32_t>> TracksOf(const lanes::Graph& graph, const std::string& way,
+                                                  const std::string& place);
 
 }  // namespace rodeira::traffic

@@ -16,7 +16,8 @@ constexpr const char* kOneRate = "one of 'vehicles_per_h', 'by_hour' and 'every_
 // "'a', 'b' and 'c'"
 std::string Listed(const std::vector<std::string>& keys) {
   std::string text;
-  for (std::size_t i = 0; i < keys.size(); ++i) text += (i == 0 ? "'" : i + 1 == keys.size() ? " and '" : ", '") + keys[i] + "'";
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    text += (i == 0 ? "'" : i + 1 == keys.size() ? " and '" : ", '") + keys[i] + "'";
   return text;
 }
 
@@ -32,21 +33,28 @@ void CheckRates(const config::Map& map) {
   const std::vector<std::string> keys = map.Keys();
   for (const std::string& key : keys) {
     const std::string meant = base::NearestName(key, kRates);
-    if (!meant.empty()) return map.Problem(key, fmt::format("'{}' was found; {}; did you mean '{}'?", key, kOneRate, meant));
+    if (!meant.empty())
+      return map.Problem(key, fmt::format("'{}' was found; {}; did you mean '{}'?", key, kOneRate, meant));
   }
-  map.Problem("", keys.empty() ? kOneRate : fmt::format("{} {} found; {}", Listed(keys), keys.size() == 1 ? "was" : "were", kOneRate));
+  map.Problem("", keys.empty()
+                      ? kOneRate
+                      : fmt::format("{} {} found; {}", Listed(keys), keys.size() == 1 ? "was" : "were", kOneRate));
 }
 
 void ReadRate(const config::Map& map, FlowSettings& flow) {
   CheckRates(map);
   if (map.Has("every_s")) {
     const std::vector<double> gaps = map.Numbers("every_s", {0.1, 1e6});
-    if (gaps.size() != 2 || gaps[0] > gaps[1]) map.Problem("every_s", fmt::format("[{}] was found; the shortest and the longest gap, as [3, 8], were expected", fmt::join(gaps, ", ")));
-    else flow.least_gap_s = gaps[0], flow.most_gap_s = gaps[1];
+    if (gaps.size() != 2 || gaps[0] > gaps[1])
+      map.Problem("every_s", fmt::format("[{}] was found; the shortest and the longest gap, as [3, 8], were expected",
+                                         fmt::join(gaps, ", ")));
+    else
+      flow.least_gap_s = gaps[0], flow.most_gap_s = gaps[1];
     flow.arrivals = Arrivals::kUniform;
     return;
   }
-  flow.per_h = map.Has("by_hour") ? map.Numbers("by_hour", {0.0, kMostAnHour}) : std::vector<double>{map.Number("vehicles_per_h", {0.0, kMostAnHour}, 0.0)};
+  flow.per_h = map.Has("by_hour") ? map.Numbers("by_hour", {0.0, kMostAnHour})
+                                  : std::vector<double>{map.Number("vehicles_per_h", {0.0, kMostAnHour}, 0.0)};
   if (flow.per_h.empty()) map.Problem("by_hour", "a number for each hour was expected");
   if (map.Choice("arrivals", {"poisson", "even"}, "poisson") == "even") flow.arrivals = Arrivals::kEven;
 }

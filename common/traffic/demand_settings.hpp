@@ -18,10 +18,10 @@ enum class Arrivals {
 
 // Vehicles that come to a lane. `place` is file and line, for what is wrong with it.
 struct FlowSettings {
-  std::string lane;                      // ROAD:LANE; empty: where traffic enters, by lot
-  std::string route;                     // by its name; empty: by turning shares, and by lot
+  std::string lane;   // ROAD:LANE; empty: where traffic enters, by lot
+  std::string route;  // by its name; empty: by turning shares, and by lot
   Arrivals arrivals = Arrivals::kPoisson;
-  std::vector<double> per_h;             // vehicles an hour, of each hour from from_s on; the last one goes on
+  std::vector<double> per_h;                   // vehicles an hour, of each hour from from_s on; the last one goes on
   double least_gap_s = 3.0, most_gap_s = 8.0;  // of kUniform
   double from_s = 0.0, to_s = 1e9;
   std::optional<VehicleMix> mix;

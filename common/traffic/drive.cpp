@@ -12,8 +12,12 @@ constexpr double kSlow_mps = 0.3;
 constexpr double kAbove = 1.0 + 1e-9;  // than any rounding of a square
 constexpr double kLeastGap_m = 0.02;
 constexpr double kEased_mps2 = 4.0;  // harder braking than this is let go of later
-constexpr double kComes_mps = -0.1, kEvades_mps2 = 1.0;  // who comes on the own lane; braking from which on it is braked for as hard as can be
-constexpr double kSeekingShare = 0.75, kSeeking_mps2 = 1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
+constexpr double kComes_mps = -0.1,
+                 kEvades_mps2 =
+                     1.0;  // who comes on the own lane; braking from which on it is braked for as hard as can be
+constexpr double kSeekingShare = 0.75,
+                 kSeeking_mps2 =
+                     1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
 // The deceleration by which it stops within a way, a: v²/(2 a), and a³/(24 j²) more since it ends without a jerk.
 double Needed_mps2(double v, double way_m, double jerk_mps3) {
@@ -23,7 +27,8 @@ double Needed_mps2(double v, double way_m, double jerk_mps3) {
 
 }  // namespace
 
-// The plan of the track at a place of its way, and what the beginnings of those beyond leave, braked for as the plans are.
+// The plan of the track at a place of its way, and what the beginnings of those beyond leave, braked for as the plans
+// are.
 driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id, double odometer_m) const {
   driver::SpeedPlan::Allowed allowed{1e3, 0.0};
   for (const Stretch& stretch : stretches_[id]) {
@@ -45,8 +50,9 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id, double odomet
   return allowed;
 }
 
-// The acceleration that keeps to the plan, and comes back to it. Where the plan soon asks for less than the driver does now, he begins with that half of the time earlier that
-// coming to it smoothly takes: as much below the plan before that place as behind it, he is never faster than it.
+// The acceleration that keeps to the plan, and comes back to it. Where the plan soon asks for less than the driver does
+// now, he begins with that half of the time earlier that coming to it smoothly takes: as much below the plan before
+// that place as behind it, he is never faster than it.
 double TrafficModel::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::Allowed& here) const {
   const Agent& agent = agents_[id];
   const double v = agent.speed_mps, share = traits_[id].speed_factor, twice_jerk = 2.0 * settings_.smooth.planned_mps3;
@@ -64,14 +70,16 @@ double TrafficModel::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::All
   return std::min(wanted, slows + (line - v) / settings_.tracking_s);
 }
 
-// The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable from where it must.
+// The acceleration with which its front comes to rest there without a jerk, braking by a share of what is comfortable
+// from where it must.
 double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) const {
   const double v = agents_[id].speed_mps, b = share * traits_[id].idm.braking_mps2;
   const double gap = odometer_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
   if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
   const driver::StopProfile there = driver::StopIn(gap, b, settings_.smooth.planned_mps3);
   const double stop = -there.deceleration_mps2 * v / std::max(there.speed_mps, kLeast_mps);
-  return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, settings_.smooth.planned_mps3)) : stop + (there.speed_mps - v) / settings_.tracking_s;
+  return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, settings_.smooth.planned_mps3))
+                             : stop + (there.speed_mps - v) / settings_.tracking_s;
 }
 
 double TrafficModel::LimitOn(std::uint32_t track, double d_m) const {
@@ -84,7 +92,8 @@ double TrafficModel::Desired_mps(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < agent.o_m) continue;
-    const double limit = stretch.limit_mps >= 0.0 ? stretch.limit_mps : LimitOn(stretch.track, agent.o_m - stretch.zero_m);
+    const double limit =
+        stretch.limit_mps >= 0.0 ? stretch.limit_mps : LimitOn(stretch.track, agent.o_m - stretch.zero_m);
     return std::min(limit * traits_[id].speed_factor, Cap_mps(id));
   }
   return Cap_mps(id);
@@ -99,17 +108,20 @@ double TrafficModel::Wanted(std::uint32_t id) const {
   const double planned = allowed.speed_mps * traits.speed_factor;
   const double limit = Desired_mps(id);
   const driver::IdmSettings idm = IdmOf(id);
-  const double free = idm.acceleration_mps2 > traits.idm.acceleration_mps2 ? std::min(idm.acceleration_mps2, (limit - v) / settings_.tracking_s)
-                                                                           : driver::IdmFreeAcceleration(idm, v, limit);
+  const double free = idm.acceleration_mps2 > traits.idm.acceleration_mps2
+                          ? std::min(idm.acceleration_mps2, (limit - v) / settings_.tracking_s)
+                          : driver::IdmFreeAcceleration(idm, v, limit);
   double wanted = std::min(free, WantedByPlan(id, allowed));
   if (planned > Cap_mps(id)) wanted = std::min(wanted, (Cap_mps(id) - v) / settings_.tracking_s);
-  if (agent.seeks) wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
+  if (agent.seeks)
+    wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / settings_.tracking_s));
   const Ahead& ahead = ahead_[id];
   if (ahead.any && ahead.gap_m < settings_.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
     const double behind = eased ? FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
                                 : driver::IdmAcceleration(idm, v, limit, ahead.gap_m, ahead.speed_mps);
-    const bool against = ahead.id < 0 && ahead.speed_mps < kComes_mps && behind < -kEvades_mps2;  // that one may not stop
+    const bool against =
+        ahead.id < 0 && ahead.speed_mps < kComes_mps && behind < -kEvades_mps2;  // that one may not stop
     wanted = std::min(wanted, against ? -idm.hardest_mps2 : behind);
   }
   if (passages_[id].any && passages_[id].due) wanted = std::min(wanted, StopAt(id, passages_[id].line_m));

@@ -12,12 +12,13 @@ constexpr double kGravity_mps2 = 9.81;
 constexpr double kHolding = 0.15;  // of the brake, while standing
 constexpr double kSoon_s = 1.0;    // a change of gear farther away asks for nothing yet
 constexpr double kFree_mps2 = 1e3;
-constexpr double kSpare = 0.9;     // of the jerk: the rest is for a grade that changes meanwhile
+constexpr double kSpare = 0.9;  // of the jerk: the rest is for a grade that changes meanwhile
 
 // What keeps a rolling car back beside engine and brakes.
 double Resistance_N(const dynamics::BicycleSettings& car, double speed_mps, double grade) {
   const double weight_N = car.body.mass_kg * kGravity_mps2 / std::sqrt(1.0 + grade * grade);
-  return weight_N * (grade + car.wheel.rolling_resistance) + dynamics::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
+  return weight_N * (grade + car.wheel.rolling_resistance) +
+         dynamics::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
 }
 
 // What the gears leave of an engine's torque at both driven wheels together (the inverse of dynamics::ShaftTorque).
@@ -29,16 +30,19 @@ double AtWheels(const dynamics::GearboxSettings& gearbox, double ratio, double e
 
 double FullBrake_N(const dynamics::BicycleSettings& car) {
   double torque_Nm = 0.0;
-  for (std::size_t wheel = 0; wheel < dynamics::kWheels; ++wheel) torque_Nm += dynamics::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
+  for (std::size_t wheel = 0; wheel < dynamics::kWheels; ++wheel)
+    torque_Nm += dynamics::BrakeTorque(car.brakes, wheel, 1.0, 0.0);
   return torque_Nm / car.wheel.rolling_radius_m;
 }
 
 // An engine without a torque curve's ends: what there is to open the throttle for, and the drag.
-Torques::Torques(const dynamics::EngineSettings& engine, double radps) : full_Nm(dynamics::FullLoadTorque(engine, radps)), drag_Nm(dynamics::DragTorque(engine, radps)) {}
+Torques::Torques(const dynamics::EngineSettings& engine, double radps)
+    : full_Nm(dynamics::FullLoadTorque(engine, radps)), drag_Nm(dynamics::DragTorque(engine, radps)) {}
 
 PlanarCar::PlanarCar(const dynamics::BicycleSettings& of)
     : settings_(&of), full_brake_N_(FullBrake_N(of)), idling_(of.powertrain.engine, of.powertrain.engine.idle_radps) {
-  for (int gear = 1; gear <= static_cast<int>(of.powertrain.gearbox.forward.size()); ++gear) ratios_.push_back(dynamics::TotalRatio(of.powertrain.gearbox, gear));
+  for (int gear = 1; gear <= static_cast<int>(of.powertrain.gearbox.forward.size()); ++gear)
+    ratios_.push_back(dynamics::TotalRatio(of.powertrain.gearbox, gear));
 }
 
 namespace {
@@ -61,7 +65,10 @@ struct Demand {
   bool Reaches(int gear, double margin = 1.0) const {
     const dynamics::PowertrainSettings& p = car.settings().powertrain;
     const double ratio = car.Ratio(gear);
-    return at_wheels_Nm <= 0.0 || AtWheels(p.gearbox, ratio, dynamics::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels_radps * ratio))) >= margin * at_wheels_Nm;
+    return at_wheels_Nm <= 0.0 ||
+           AtWheels(p.gearbox, ratio,
+                    dynamics::FullLoadTorque(p.engine, std::max(p.engine.idle_radps, wheels_radps * ratio))) >=
+               margin * at_wheels_Nm;
   }
 };
 
@@ -69,7 +76,9 @@ struct Demand {
 int BestGear(const Demand& demand) {
   const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   int gear = demand.car.gears();
-  while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps || (!demand.Reaches(gear) && demand.Turns_radps(gear - 1) < p.engine.resume_radps))) --gear;
+  while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps ||
+                      (!demand.Reaches(gear) && demand.Turns_radps(gear - 1) < p.engine.resume_radps)))
+    --gear;
   return gear;
 }
 
@@ -79,24 +88,31 @@ int NextGear(const Demand& demand, const Driving& before) {
   if (before.engine_radps <= 0.0 || best == gear) return best;
   if (best < gear) {
     int next = best;  // none that it would be too fast for soon
-    while (demand.Turns_radps(gear) >= p.automatic.down_light_radps && next < gear && demand.Turns_radps(next) * p.automatic.margin > p.engine.resume_radps) ++next;
+    while (demand.Turns_radps(gear) >= p.automatic.down_light_radps && next < gear &&
+           demand.Turns_radps(next) * p.automatic.margin > p.engine.resume_radps)
+      ++next;
     return next;
   }
   if (demand.Turns_radps(gear) > p.engine.resume_radps) return best;
   if (before.gear_s < p.automatic.pause_s || demand.force_N <= 0.0) return gear;
   for (int next = best; next > gear; --next) {
-    if (demand.Turns_radps(next) >= p.automatic.margin * p.automatic.down_light_radps && demand.Reaches(next, p.automatic.margin)) return next;
+    if (demand.Turns_radps(next) >= p.automatic.margin * p.automatic.down_light_radps &&
+        demand.Reaches(next, p.automatic.margin))
+      return next;
   }
   return gear;
 }
 
 Driving Standing(const PlanarCar& car, double grade) {
   const dynamics::BicycleSettings& of = car.settings();
-  return {0.0, std::min(1.0, kHolding + of.body.mass_kg * kGravity_mps2 * std::fabs(grade) / car.full_brake_N()), 1.0, of.powertrain.engine.idle_radps, 1};
+  return {0.0, std::min(1.0, kHolding + of.body.mass_kg * kGravity_mps2 * std::fabs(grade) / car.full_brake_N()), 1.0,
+          of.powertrain.engine.idle_radps, 1};
 }
 
 // How fast the engine turns in a gear.
-double EngineIn_radps(int gear, const Demand& demand) { return std::max(demand.car.settings().powertrain.engine.idle_radps, demand.Turns_radps(gear)); }
+double EngineIn_radps(int gear, const Demand& demand) {
+  return std::max(demand.car.settings().powertrain.engine.idle_radps, demand.Turns_radps(gear));
+}
 
 // The pedals for it in a gear.
 Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
@@ -113,14 +129,18 @@ Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
     driving.throttle = std::clamp((wanted + torques.drag_Nm) / (torques.full_Nm + torques.drag_Nm), 0.0, 1.0);
   }
   if (driving.throttle > 0.0) return driving;
-  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) / demand.car.settings().wheel.rolling_radius_m * (1.0 - driving.clutch);
+  const double overrun_N = -AtWheels(p.gearbox, ratio, -torques.drag_Nm) /
+                           demand.car.settings().wheel.rolling_radius_m * (1.0 - driving.clutch);
   driving.brake = std::clamp((-demand.force_N - overrun_N) / demand.car.full_brake_N(), 0.0, 1.0);
   return driving;
 }
 
-Torques TorquesIn(int gear, const Demand& demand) { return {demand.car.settings().powertrain.engine, EngineIn_radps(gear, demand)}; }
+Torques TorquesIn(int gear, const Demand& demand) {
+  return {demand.car.settings().powertrain.engine, EngineIn_radps(gear, demand)};
+}
 
-double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N, const Torques& torques) {
+double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N,
+                      const Torques& torques) {
   const dynamics::BicycleSettings& of = car.settings();
   const double net_Nm = torques.Net(driving.throttle) * (driving.throttle > 0.0 ? 1.0 : 1.0 - driving.clutch);
   const double push_N = AtWheels(of.powertrain.gearbox, car.Ratio(driving.gear), net_Nm) / of.wheel.rolling_radius_m;
@@ -145,19 +165,22 @@ Driving DrivingFor(const PlanarCar& car, double speed_mps, double acceleration_m
   return DrivingIn(gear, demand, TorquesIn(gear, demand));
 }
 
-Driving DriveOn(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
+Driving DriveOn(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade,
+                double dt_s) {
   return Drive(car, before, speed_mps, acceleration_mps2, grade, dt_s).driving;
 }
 
 double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double grade) {
-  return AccelerationOf(car, driving, speed_mps, Resistance_N(car.settings(), speed_mps, grade), Torques(car.settings().powertrain.engine, driving.engine_radps));
+  return AccelerationOf(car, driving, speed_mps, Resistance_N(car.settings(), speed_mps, grade),
+                        Torques(car.settings().powertrain.engine, driving.engine_radps));
 }
 
 double FuelFlow_mgps(const PlanarCar& car, const Driving& driving) {
   return FuelFlow_mgps(car, driving, Torques(car.settings().powertrain.engine, driving.engine_radps));
 }
 
-double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double jerk_mps3) {
+double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2,
+                               double grade, double jerk_mps3) {
   if (acceleration_mps2 <= 0.0 || before.engine_radps <= 0.0 || before.gear >= car.gears()) return kFree_mps2;
   const dynamics::BicycleSettings& of = car.settings();
   const double fastest_radps = of.powertrain.engine.resume_radps, ratio = car.Ratio(before.gear);
@@ -167,20 +190,24 @@ double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, doub
   then.gear = before.gear + 1;
   then.throttle = 1.0;
   then.engine_radps = std::max(of.powertrain.engine.idle_radps, fastest_radps * car.Ratio(then.gear) / ratio);
-  return AccelerationOf(car, then, changes_mps, grade) + kSpare * jerk_mps3 * (changes_mps - speed_mps) / acceleration_mps2;
+  return AccelerationOf(car, then, changes_mps, grade) +
+         kSpare * jerk_mps3 * (changes_mps - speed_mps) / acceleration_mps2;
 }
 
-Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade, double dt_s) {
+Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2, double grade,
+             double dt_s) {
   if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) {
     const Driving held = Standing(car, grade);
-    return {held, AccelerationOf(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()), FuelFlow_mgps(car, held, car.idling())};
+    return {held, AccelerationOf(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()),
+            FuelFlow_mgps(car, held, car.idling())};
   }
   const Demand demand(car, speed_mps, acceleration_mps2, grade);
   const int gear = NextGear(demand, before);
   const Torques torques = TorquesIn(gear, demand);
   Driving driving = DrivingIn(gear, demand, torques);
   driving.gear_s = gear == before.gear ? before.gear_s + dt_s : 0.0;
-  return {driving, AccelerationOf(car, driving, speed_mps, demand.resistance_N, torques), FuelFlow_mgps(car, driving, torques)};
+  return {driving, AccelerationOf(car, driving, speed_mps, demand.resistance_N, torques),
+          FuelFlow_mgps(car, driving, torques)};
 }
 
 }  // namespace rodeira::traffic

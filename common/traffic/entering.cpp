@@ -29,9 +29,11 @@ double TrafficModel::AtMostForLine(std::uint32_t id) {
   passages_[id].key = {};
   if (!std::exchange(passages_[id].any, false)) return Agent::kNoCap_mps;
   const double way = passages_[id].line_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
-  const double b = kEnteringBrake * traits_[id].idm.braking_mps2, j = settings_.smooth.planned_mps3, grows = b / (2.0 * j);
+  const double b = kEnteringBrake * traits_[id].idm.braking_mps2, j = settings_.smooth.planned_mps3,
+               grows = b / (2.0 * j);
   const double eased = std::max(0.0, way - b * b * b / (24.0 * j * j));
-  return std::min(b * (std::sqrt(grows * grows + 2.0 * eased / b) - grows), std::cbrt(std::max(0.0, way) * std::max(0.0, way) * j));  // v²/(2 b) + v b/(2 j); v √(v/j)
+  return std::min(b * (std::sqrt(grows * grows + 2.0 * eased / b) - grows),
+                  std::cbrt(std::max(0.0, way) * std::max(0.0, way) * j));  // v²/(2 b) + v b/(2 j); v √(v/j)
 }
 
 void TrafficModel::Leave(std::uint32_t id) {
@@ -49,12 +51,14 @@ void TrafficModel::Leave(std::uint32_t id) {
   waiting_.push_back(id);
 }
 
-// At each entry the first who waits there. Who is on it, or, where that lies in the middle of the network, on the way there, is looked for once for all.
+// At each entry the first who waits there. Who is on it, or, where that lies in the middle of the network, on the way
+// there, is looked for once for all.
 void TrafficModel::Enter() {
   if (waiting_.empty()) return;
   present_.Clear();
   expected_.assign(graph().tracks().size(), 0);
-  const bool among_others = std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return IsAmongOthers(agents_[id].entry); });
+  const bool among_others =
+      std::any_of(waiting_.begin(), waiting_.end(), [&](std::uint32_t id) { return IsAmongOthers(agents_[id].entry); });
   const auto appear = [&](std::uint32_t id) {
     for (const Piece& piece : agents_[id].path) {
       if (map_->watched[piece.track]) present_.Add(piece.track, id);
@@ -72,8 +76,10 @@ void TrafficModel::Enter() {
   std::vector<std::uint32_t> left;
   for (const std::uint32_t id : waiting_) {
     const std::uint32_t entry = agents_[id].entry;
-    if (tried[entry] || !TryEnter(id)) left.push_back(id);
-    else appear(id);
+    if (tried[entry] || !TryEnter(id))
+      left.push_back(id);
+    else
+      appear(id);
     tried[entry] = true;
   }
   waiting_ = std::move(left);
@@ -82,24 +88,30 @@ void TrafficModel::Enter() {
 // Whether somebody may come to a track's beginning, or to that of one that parts from it.
 bool TrafficModel::IsAmongOthers(std::uint32_t track) const {
   const auto partings = zones().PartingsOf(track);
-  return !graph()[track].before.empty() || std::any_of(partings.begin(), partings.end(), [&](const lanes::Parting& part) { return !graph()[part.other].before.empty(); });
+  return !graph()[track].before.empty() ||
+         std::any_of(partings.begin(), partings.end(),
+                     [&](const lanes::Parting& part) { return !graph()[part.other].before.empty(); });
 }
 
-// Whether somebody is on his way to a track's beginning, or to that of one that parts from it, or is not clear of it yet on such a one.
+// Whether somebody is on his way to a track's beginning, or to that of one that parts from it, or is not clear of it
+// yet on such a one.
 bool TrafficModel::IsExpected(std::uint32_t track, double gap_m) const {
   if (IsAmongOthers(track) && expected_[track] != 0) return true;
   for (const lanes::Parting& part : zones().PartingsOf(track)) {
     if (expected_[part.other] != 0) return true;
     for (const std::uint32_t other : present_.Of(part.other)) {
       for (const Piece& piece : agents_[other].path) {
-        if (piece.track == part.other && agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < part.other_out_m + gap_m) return true;
+        if (piece.track == part.other &&
+            agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m < part.other_out_m + gap_m)
+          return true;
       }
     }
   }
   return false;
 }
 
-// The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where another one holds any of them.
+// The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where
+// another one holds any of them.
 bool TrafficModel::TakeFirstZones(std::uint32_t id) {
   Agent& agent = agents_[id];
   const double stand = traits_[id].length_m + kStand_m;
@@ -122,7 +134,9 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   const bool as_motors = settings_.enters == EnterRule::kFree;
   const double free_m = std::max(settings_.free_m, traits.length_m + kUntouched_m);  // of the lane, by that rule
   for (const Block& block : blocks_[agent.entry]) {
-    if (block.span.rear_m < (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) && block.span.front_m > 0.0) return false;
+    if (block.span.rear_m < (as_motors ? free_m : traits.length_m + traits.idm.standing_gap_m) &&
+        block.span.front_m > 0.0)
+      return false;
   }
   const bool looks = settings_.driver != DriverKind::kMotors;  // beyond the lane that it enters
   if (looks && IsExpected(agent.entry, traits.idm.standing_gap_m)) return false;
@@ -137,7 +151,8 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   };
   FindStretches(id, settings_.sight_m);
   const double limit = map_->plans[agent.entry].limit_mps * traits.speed_factor;
-  double speed = kEnteringShare * std::min(Allowed(id, agents_[id].o_m).speed_mps * traits.speed_factor, traits.top_mps);
+  double speed =
+      kEnteringShare * std::min(Allowed(id, agents_[id].o_m).speed_mps * traits.speed_factor, traits.top_mps);
   if (looks && !TakeFirstZones(id)) return wait();
   speed = std::min(speed, AtMostForLine(id));
   if (people_) speed = std::min(speed, AtMostForPeople(id));
@@ -146,13 +161,15 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
   for (const std::uint32_t other : present_.Of(agent.entry)) {
     for (const Piece& piece : agents_[other].path) {
       const double rear = agents_[other].o_m - 0.5 * traits_[other].length_m - piece.zero_m;
-      if (piece.track == agent.entry && rear < (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m)) return wait();
+      if (piece.track == agent.entry && rear < (as_motors ? free_m : traits.length_m + 2.0 * traits.idm.standing_gap_m))
+        return wait();
     }
   }
   const Ahead ahead = FindAhead(id);
   if (ahead.any) {
     const auto safe = [&](double v) {
-      return ahead.gap_m > 2.0 * traits.idm.standing_gap_m && ahead.gap_m >= traits.idm.standing_gap_m + v * traits.idm.time_gap_s &&
+      return ahead.gap_m > 2.0 * traits.idm.standing_gap_m &&
+             ahead.gap_m >= traits.idm.standing_gap_m + v * traits.idm.time_gap_s &&
              driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kGentle_mps2;
     };
     if (!safe(speed)) speed = std::clamp(ahead.speed_mps, 0.0, speed);

@@ -17,7 +17,9 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Of its road, from the right edge of its direction.
 int IndexOf(const lanes::Graph& graph, std::uint32_t track) {
   int index = 0;
-  for (auto right = graph[track].right; right && graph[*right].lane.road == graph[track].lane.road; right = graph[*right].right) ++index;
+  for (auto right = graph[track].right; right && graph[*right].lane.road == graph[track].lane.road;
+       right = graph[*right].right)
+    ++index;
   return index;
 }
 
@@ -38,10 +40,12 @@ std::string FloatingCarsAt(double time_s, const TrafficModel& model) {
     const Eigen::Vector3d front = pose.p_WB_W + half * ahead;
     const double angle = std::remainder(90.0 - kDegrees * std::atan2(ahead.y(), ahead.x()), 360.0);
     fmt::format_to(std::back_inserter(text),
-                   "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
-                   pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps, agent.o_m + half - agent.path[i].zero_m,
-                   XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()), IndexOf(graph, agent.path[i].track),
-                   kDegrees * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));
+                   "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" "
+                   "speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
+                   pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps,
+                   agent.o_m + half - agent.path[i].zero_m,
+                   XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()),
+                   IndexOf(graph, agent.path[i].track), kDegrees * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));
   }
   return text + "    </timestep>\n";
 }

@@ -15,13 +15,14 @@ namespace rodeira::traffic {
 
 // Where an agent's path leads, as its driver sees it.
 struct PathAhead {
-  Eigen::Vector2d rear_W = Eigen::Vector2d::Zero();   // the point beside the middle of the rear axle of the line that it is to keep (RearLine_m)
+  Eigen::Vector2d rear_W = Eigen::Vector2d::Zero();  // the point beside the middle of the rear axle of the line that it
+                                                     // is to keep (RearLine_m)
   Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();  // the path's direction, unit
-  double curvature_1pm = 0.0;                          // where the car is when hands and tyres have answered; positive to the left
+  double curvature_1pm = 0.0;  // where the car is when hands and tyres have answered; positive to the left
 };
 
-// Agents' cars with full physics: each a car of dynamics::CarArray (four wheels on SUELO's ground, engine, clutch, gears, differential, brakes, drag),
-// driven by throttle, brake and steering wheel alone.
+// Agents' cars with full physics: each a car of dynamics::CarArray (four wheels on SUELO's ground, engine, clutch,
+// gears, differential, brakes, drag), driven by throttle, brake and steering wheel alone.
 class FullCars {
  public:
   // So many places, one an agent.
@@ -31,7 +32,8 @@ class FullCars {
   base::Status Place(std::uint32_t id, std::uint32_t body, const dynamics::InitialCondition& initial);
   void Clear(std::uint32_t id) { cars_.Clear(id); }
 
-  // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of the agent's own alone.
+  // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of
+  // the agent's own alone.
   void Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s);
   // The same by hands and feet of somebody else.
   void Hold(std::uint32_t id, const dynamics::Controls& controls) { controls_[id] = controls; }
@@ -41,8 +43,8 @@ class FullCars {
   const dynamics::CarArray& cars() const { return cars_; }
   const dynamics::Controls& controls(std::uint32_t id) const { return controls_[id]; }
   const driver::Pedals& foot(std::uint32_t id) const { return feet_[id]; }
-  // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion where it slides, and
-  // below 0 where it rolls back. At less than a millimetre a second it stands.
+  // Of its middle, in the plane, along the way on which its wheels roll, heading + atan(½ tan δ): less than its motion
+  // where it slides, and below 0 where it rolls back. At less than a millimetre a second it stands.
   double PlanSpeed_mps(std::uint32_t id) const;
   Eigen::Vector2d RearAxle_W(std::uint32_t id) const;
   Driving DrivingOf(std::uint32_t id) const;
@@ -60,7 +62,7 @@ class FullCars {
   std::shared_ptr<ground::Ground> ground_;
   dynamics::CarArray cars_;
   std::vector<dynamics::Controls> controls_;  // by agent
-  std::vector<driver::Pedals> feet_;         // by agent
+  std::vector<driver::Pedals> feet_;          // by agent
 };
 
 }  // namespace rodeira::traffic

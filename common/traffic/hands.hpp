@@ -4,8 +4,10 @@
 
 namespace rodeira::traffic {
 
-// The line that a rear axle keeps so that the path lies midway between both axles' tracks, beside the path, metres, positive to the left: in a bend the rear one runs L² κ / 4 inside of it, the front one
-// as much outside. κ is the mean of the path under the car, from bumper to bumper, by how far the path turns there (positive to the left), so that a long car is led over from one bend into the next, not all at once.
+// The line that a rear axle keeps so that the path lies midway between both axles' tracks, beside the path, metres,
+// positive to the left: in a bend the rear one runs L² κ / 4 inside of it, the front one as much outside. κ is the mean
+// of the path under the car, from bumper to bumper, by how far the path turns there (positive to the left), so that a
+// long car is led over from one bend into the next, not all at once.
 double RearLine_m(double wheelbase_m, double length_m, double turns_rad);
 
 // Where a car's rear axle is beside the line that it is to keep.
@@ -21,7 +23,8 @@ double SteeredWay_m(double wheelbase_m, double speed_mps);
 // The way over which a bend is steered for before it is there: 0.6 s, at least 2 m.
 double AnsweredWay_m(double speed_mps);
 
-// Where the steering wheel is after dt, radians, positive to the left: hands lead back to the line, critically damped over the steered way, at 12 rad/s at most.
+// Where the steering wheel is after dt, radians, positive to the left: hands lead back to the line, critically damped
+// over the steered way, at 12 rad/s at most.
 double MovedWheel_rad(const dynamics::BicycleSettings& car, const RearBeside& rear, double now_rad, double dt_s);
 
 }  // namespace rodeira::traffic

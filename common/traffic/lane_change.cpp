@@ -10,17 +10,18 @@ namespace {
 constexpr double kSideways_mps2 = 0.9;      // lateral acceleration of the path …
 constexpr double kSidewaysJerk_mps3 = 2.5;  // … and its jerk
 constexpr double kShortest_m = 24.0;
-constexpr double kNarrowest_m = 2.6;        // lanes are no narrower
-constexpr double kApart_m = 6.0;            // nor their middles farther apart …
-constexpr double kAside = 0.1;              // … nor pointing farther apart
-constexpr double kTightest_1pm = 0.02;      // bends are no tighter
-constexpr double kLook_m = 4.0;             // apart, along the way
+constexpr double kNarrowest_m = 2.6;            // lanes are no narrower
+constexpr double kApart_m = 6.0;                // nor their middles farther apart …
+constexpr double kAside = 0.1;                  // … nor pointing farther apart
+constexpr double kTightest_1pm = 0.02;          // bends are no tighter
+constexpr double kLook_m = 4.0;                 // apart, along the way
 constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so go on as one
-constexpr double kRouteSight_m = 500.0;     // so far ahead a driver thinks of the lane that his route goes on from
-constexpr double kClear_m = 1.3;            // from a lane's middle to what is beside it: half of a wide car and the margin
+constexpr double kRouteSight_m = 500.0;         // so far ahead a driver thinks of the lane that his route goes on from
+constexpr double kClear_m = 1.3;  // from a lane's middle to what is beside it: half of a wide car and the margin
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
-  const auto link = std::find_if(track.next.begin(), track.next.end(), [&](const lanes::Link& on) { return on.to == to; });
+  const auto link =
+      std::find_if(track.next.begin(), track.next.end(), [&](const lanes::Link& on) { return on.to == to; });
   return link == track.next.end() ? nullptr : &*link;
 }
 
@@ -35,7 +36,8 @@ bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
 
 }  // namespace
 
-// The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may come to.
+// The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may
+// come to.
 std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const {
   const Agent& agent = agents_[id];
   const Piece& last = agent.path.back();
@@ -47,7 +49,8 @@ std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const
   const lanes::CurvePoint at = track.curve.At(d);
   double there = graph().Across(last.track, d, *beside);
   lanes::CurvePoint to = graph()[*beside].curve.At(there);
-  for (int turn = 0; turn < 3; ++turn) {  // the foot: on banked climbs what lies across the road does not lie across the lane
+  for (int turn = 0; turn < 3;
+       ++turn) {  // the foot: on banked climbs what lies across the road does not lie across the lane
     const Eigen::Vector2d away = (at.p_W - to.p_W).head<2>();
     there += away.dot(to.ahead_W) / std::max(0.2, 1.0 - to.curvature_1pm * away.dot(to.left_W()));
     to = graph()[*beside].curve.At(there);
@@ -60,12 +63,14 @@ std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const
   if (size > kApart_m || std::fabs(piece.slope) > kAside) return std::nullopt;
   // The quintic's largest acceleration is 5.77 offset/T², its largest jerk 60 offset/T³.
   const double time = std::max(std::sqrt(5.77 * size / kSideways_mps2), std::cbrt(60.0 * size / kSidewaysJerk_mps3));
-  const double fastest = std::min(agent.speed_mps + traits_[id].idm.acceleration_mps2 * time, std::max(agent.speed_mps, Limit_mps(id, *beside, there)));
+  const double fastest = std::min(agent.speed_mps + traits_[id].idm.acceleration_mps2 * time,
+                                  std::max(agent.speed_mps, Limit_mps(id, *beside, there)));
   piece.blend_m = std::max(kShortest_m, time * fastest);
   return piece;
 }
 
-// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people on foot, easy to drive, and it goes on.
+// Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
+// on foot, easy to drive, and it goes on.
 bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
   const Stretch* before = nullptr;
   for (const Stretch& stretch : stretches_[id]) {
@@ -97,14 +102,16 @@ bool TrafficModel::MayCross(std::uint32_t id, int side, double from_m, double to
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < from_m) continue;
-    if (!map_->marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight, std::max(from_m, stretch.begin_m) - stretch.zero_m,
-                              std::min(to_m, stretch.end_m) - stretch.zero_m)) return false;
+    if (!map_->marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight,
+                              std::max(from_m, stretch.begin_m) - stretch.zero_m,
+                              std::min(to_m, stretch.end_m) - stretch.zero_m))
+      return false;
   }
   return true;
 }
 
-// Where the last track ends on which it can still get over to the lane that its route goes on from; far away where that is not in sight, or no
-// change is needed.
+// Where the last track ends on which it can still get over to the lane that its route goes on from; far away where that
+// is not in sight, or no change is needed.
 double TrafficModel::RouteEnds(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const Route* route = RouteOf(agent);
@@ -161,13 +168,15 @@ void TrafficModel::BeginChange(std::uint32_t id, Sideways&& way) {
   ahead_[id] = FindAhead(id);
 }
 
-// The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into it.
+// The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into
+// it.
 std::optional<std::uint32_t> TrafficModel::LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const {
   const Agent& agent = agents_[id];
   if (agent.change.side == 0 || stretch.changes || stretch.end_m < agent.change.from_m) return std::nullopt;
   const lanes::Track& track = graph()[stretch.track];
   const auto old = agent.change.side > 0 ? track.right : track.left;
-  if (!old || odometer_m >= agent.change.to_m) return std::nullopt;  // beyond it a lane that goes on begins a piece without any offset
+  if (!old || odometer_m >= agent.change.to_m)
+    return std::nullopt;  // beyond it a lane that goes on begins a piece without any offset
   std::size_t i = agent.path.size() - 1;
   while (i > 0 && agent.path[i].begin_m > odometer_m) --i;
   if (odometer_m < agent.change.from_m) return old;

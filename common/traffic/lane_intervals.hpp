@@ -7,12 +7,13 @@
 
 namespace rodeira::traffic {
 
-// What each track has seen in each of equal stretches of time, one behind the other: differences of the sums of LaneStatistics, which it looks at.
+// What each track has seen in each of equal stretches of time, one behind the other: differences of the sums of
+// LaneStatistics, which it looks at.
 class LaneIntervals {
  public:
   struct Track {
-    double distance_m = 0.0, time_s = 0.0;      // driven on it and spent there, by all
-    std::int64_t in = 0, out = 0;               // middles that came onto it, and left it
+    double distance_m = 0.0, time_s = 0.0;          // driven on it and spent there, by all
+    std::int64_t in = 0, out = 0;                   // middles that came onto it, and left it
     std::int64_t queue_longest = 0, queue_sum = 0;  // vehicles slower than 5 km/h, over the looks
   };
   struct Interval {

@@ -18,7 +18,8 @@ double FreeTime_s(double way_m, double free_mps) { return free_mps > 0.0 ? way_m
 
 }  // namespace
 
-LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0), now_(model.vehicles()) {
+LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m)
+    : seen_(model.vehicles()), fuel_mg_(model.vehicles(), 0.0), now_(model.vehicles()) {
   RODEIRA_ASSERT(cell_m > 0.0);
   queues_.resize(model.graph().tracks().size());
   counts_.resize(model.graph().tracks().size());
@@ -26,7 +27,8 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m) : seen_
     const auto count = static_cast<std::size_t>(std::max(1.0, std::round(track.length_m() / cell_m)));
     const auto index = static_cast<std::uint32_t>(tracks_.size());
     tracks_.push_back({free_mps_.size(), count, track.length_m() / static_cast<double>(count)});
-    for (std::size_t cell = 0; cell < count; ++cell) free_mps_.push_back(model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * tracks_.back().cell_m));
+    for (std::size_t cell = 0; cell < count; ++cell)
+      free_mps_.push_back(model.FreeSpeed_mps(index, (static_cast<double>(cell) + 0.5) * tracks_.back().cell_m));
   }
   RODEIRA_ASSERT(free_mps_.size() < std::numeric_limits<std::uint32_t>::max());
   cells_.resize(free_mps_.size());
@@ -64,9 +66,11 @@ void LaneStatistics::GoOnto(std::uint32_t id, std::uint32_t track) {
   now_[id].to = track;
 }
 
-// The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known counts to
-// its first piece. Pieces that come later begin at its front bumper or beyond, so that as far as there the last cell is its own.
-void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m, const LaneCell& sum) {
+// The way from one odometer to another, piece by piece and cell by cell. What lies before the path that is still known
+// counts to its first piece. Pieces that come later begin at its front bumper or beyond, so that as far as there the
+// last cell is its own.
+void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double from_m, double to_m,
+                           const LaneCell& sum) {
   const auto& path = model.agent(id).path;
   const double way = to_m - from_m, sure_m = to_m + 0.5 * model.traits(id).length_m;
   Seen& seen = seen_[id];
@@ -89,14 +93,17 @@ void LaneStatistics::Share(const TrafficModel& model, std::uint32_t id, double f
       return;
     }
     for (std::size_t cell = cell_at(at); at < end; ++cell) {
-      const double to = cell + 1 >= count ? end : std::min(end, path[i].zero_m + static_cast<double>(cell + 1) * length);
+      const double to =
+          cell + 1 >= count ? end : std::min(end, path[i].zero_m + static_cast<double>(cell + 1) * length);
       const double share = std::max(0.0, to - at) / way;
       cells[cell].distance_m += share * sum.distance_m;
       cells[cell].time_s += share * sum.time_s;
       cells[cell].fuel_mg += share * sum.fuel_mg;
       seen.free_s += FreeTime_s(share * sum.distance_m, free_mps_[first + cell]);
       seen.cell = static_cast<std::uint32_t>(first + cell);
-      seen.until_m = std::min({last ? sure_m : path[i + 1].begin_m, cell + 1 >= count ? sure_m : path[i].zero_m + static_cast<double>(cell + 1) * length, sure_m});
+      seen.until_m =
+          std::min({last ? sure_m : path[i + 1].begin_m,
+                    cell + 1 >= count ? sure_m : path[i].zero_m + static_cast<double>(cell + 1) * length, sure_m});
       at = std::max(at, to);
     }
     if (at >= to_m) return;

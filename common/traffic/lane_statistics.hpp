@@ -14,8 +14,8 @@ struct LaneCell {
   double time_s = 0.0;      // spent in it
   double fuel_mg = 0.0;     // burnt in it
 
-  // Of a stretch of a length, watched for a time: flow q = distance/(length · time), density k = time/(length · time), mean speed
-  // v = distance/time; so q = k v. A stretch that nobody was in has the speed 0.
+  // Of a stretch of a length, watched for a time: flow q = distance/(length · time), density k = time/(length · time),
+  // mean speed v = distance/time; so q = k v. A stretch that nobody was in has the speed 0.
   double Flow_vehps(double length_m, double watched_s) const { return distance_m / (length_m * watched_s); }
   double Density_vehpm(double length_m, double watched_s) const { return time_s / (length_m * watched_s); }
   double Speed_mps() const { return time_s > 0.0 ? distance_m / time_s : 0.0; }
@@ -29,8 +29,8 @@ struct LaneTrip {
   double entered_s = -1.0;         // since the watching began; below 0: was there then
   double took_s = 0.0;             // until it left
   double fuel_mg = 0.0;
-  double free_s = 0.0;             // what the same way takes at the free speed of each place (TrafficModel::FreeSpeed_mps)
-  std::int32_t flow = -1;          // it belongs to, of the settings' in their order; below 0: none
+  double free_s = 0.0;     // what the same way takes at the free speed of each place (TrafficModel::FreeSpeed_mps)
+  std::int32_t flow = -1;  // it belongs to, of the settings' in their order; below 0: none
 };
 
 struct LaneCount {
@@ -39,9 +39,10 @@ struct LaneCount {
   std::int64_t there() const { return began + in - out; }
 };
 
-// Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out exactly among
-// the cells that it crosses, its time and fuel in the same shares. What a vehicle does within a cell is summed up beside the vehicle and
-// told to the cell when it leaves it, or somebody asks: cells lie in far memory, and most steps lead to no other one.
+// Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out
+// exactly among the cells that it crosses, its time and fuel in the same shares. What a vehicle does within a cell is
+// summed up beside the vehicle and told to the cell when it leaves it, or somebody asks: cells lie in far memory, and
+// most steps lead to no other one.
 class LaneStatistics {
  public:
   // As many cells a track as make them nearly cell_m (over 0) long. The model is as it begins.
@@ -67,7 +68,9 @@ class LaneStatistics {
   std::int64_t LongestQueue(std::uint32_t track) const { return queues_[track].longest; }
   // Of a track, at the last look.
   std::int64_t QueueNow(std::uint32_t track) const { return queues_[track].now; }
-  double MeanQueue(std::uint32_t track) const { return looks_ > 0 ? static_cast<double>(queues_[track].sum) / static_cast<double>(looks_) : 0.0; }
+  double MeanQueue(std::uint32_t track) const {
+    return looks_ > 0 ? static_cast<double>(queues_[track].sum) / static_cast<double>(looks_) : 0.0;
+  }
 
   // Since the beginning: who came, who left; and who is there. began + entered - left = there, always.
   std::int64_t began() const { return began_; }
@@ -76,7 +79,8 @@ class LaneStatistics {
   std::int64_t there() const { return there_; }
   // Of trips that began and ended while watched, in the order of their ends.
   const std::vector<LaneTrip>& trips() const { return trips_; }
-  // Of a track: whose middle was on it at first, came onto it (from another lane, or into the network), and left it: began + in - out = there.
+  // Of a track: whose middle was on it at first, came onto it (from another lane, or into the network), and left it:
+  // began + in - out = there.
   const LaneCount& CountOf(std::uint32_t track) const { return counts_[track]; }
   // Of each vehicle, over all its trips.
   const std::vector<double>& fuel_mg() const { return fuel_mg_; }
@@ -89,7 +93,7 @@ class LaneStatistics {
     LaneCell sum;                 // … and what it has done there since the cell was told
     double free_s = 0.0;          // of its trip, up to that cell
     std::uint32_t trip = 0;
-    std::uint32_t cell = 0;       // of all cells, the one that it was seen in last
+    std::uint32_t cell = 0;  // of all cells, the one that it was seen in last
     bool on_road = false;
   };
   struct Queue {
@@ -109,14 +113,14 @@ class LaneStatistics {
   void FetchFor(const TrafficModel& model, std::uint32_t id) const;
 
   std::vector<Cells> tracks_;
-  mutable std::vector<LaneCell> cells_;   // track by track
-  mutable std::vector<Seen> seen_;        // by vehicle
-  mutable bool pending_ = false;          // somebody's sum may not have been told to its cell
-  std::vector<double> free_mps_;  // by cell
-  std::vector<Queue> queues_;                 // by track
+  mutable std::vector<LaneCell> cells_;  // track by track
+  mutable std::vector<Seen> seen_;       // by vehicle
+  mutable bool pending_ = false;         // somebody's sum may not have been told to its cell
+  std::vector<double> free_mps_;         // by cell
+  std::vector<Queue> queues_;            // by track
   std::int64_t looks_ = 0;
   std::vector<double> fuel_mg_;
-  std::vector<LaneTrip> now_;      // by vehicle: its trip as yet, `to` the track that its middle is on
+  std::vector<LaneTrip> now_;  // by vehicle: its trip as yet, `to` the track that its middle is on
   std::vector<LaneTrip> trips_;
   std::vector<LaneCount> counts_;  // by track
   double watched_s_ = 0.0;

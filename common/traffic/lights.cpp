@@ -7,8 +7,9 @@
 namespace rodeira::traffic {
 namespace {
 
-// Who can stop at the line by braking so hard, and coming to that smoothly, stops at amber. At 50 km/h three seconds of amber are as long as
-// v/(2 b) and half of the time in which the braking grows, so that nobody comes to the line at red (Gazis, Herman, Maradudin 1960).
+// Who can stop at the line by braking so hard, and coming to that smoothly, stops at amber. At 50 km/h three seconds of
+// amber are as long as v/(2 b) and half of the time in which the braking grows, so that nobody comes to the line at red
+// (Gazis, Herman, Maradudin 1960).
 constexpr double kForAmber_mps2 = 2.9;
 constexpr double kOthers_mps2 = 2.8;  // of who is no agent
 constexpr double kSame_m = 0.01;
@@ -18,7 +19,8 @@ double StopsIn(double v, double acceleration_mps2, double jerk_mps3) {
   const double b = kForAmber_mps2, j = jerk_mps3, grows = std::max(0.0, acceleration_mps2 + b) / j;
   const double then = v + grows * (acceleration_mps2 - 0.5 * j * grows);
   if (then < b * b / (2.0 * j)) return driver::SmoothStop_m(v, acceleration_mps2, j);
-  return grows * (v + grows * (0.5 * acceleration_mps2 - j * grows / 6.0)) + then * then / (2.0 * b) + b * b * b / (24.0 * j * j);
+  return grows * (v + grows * (0.5 * acceleration_mps2 - j * grows / 6.0)) + then * then / (2.0 * b) +
+         b * b * b / (24.0 * j * j);
 }
 
 }  // namespace
@@ -31,11 +33,12 @@ void TrafficModel::FindColours() {
   }
 }
 
-// The first line of a track beyond a place whose light is not green, if who comes from there with this speed can stop before it; far away where there
-// is none.
+// The first line of a track beyond a place whose light is not green, if who comes from there with this speed can stop
+// before it; far away where there is none.
 double TrafficModel::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
   for (const StopLine& line : map_->plans[track].lines) {
-    if (line.light >= 0 && !IsGreen(line.light) && speed_mps * speed_mps <= 2.0 * kOthers_mps2 * (line.d_m - from_m)) return line.d_m;
+    if (line.light >= 0 && !IsGreen(line.light) && speed_mps * speed_mps <= 2.0 * kOthers_mps2 * (line.d_m - from_m))
+      return line.d_m;
   }
   return kNoBarrier_m;
 }
@@ -46,18 +49,21 @@ bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const 
     if (stretch.begin_m > to_m) break;
     for (const StopLine& line : map_->plans[stretch.track].lines) {
       const double at = stretch.zero_m + line.d_m;
-      if (line.light >= 0 && at >= from_m - kSame_m && at <= to_m + kSame_m && at >= stretch.begin_m && !IsGreen(line.light)) return false;
+      if (line.light >= 0 && at >= from_m - kSame_m && at <= to_m + kSame_m && at >= stretch.begin_m &&
+          !IsGreen(line.light))
+        return false;
     }
   }
   return true;
 }
 
-// Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where it would
-// have waited: nobody who holds a zone of that way counts on it.
+// Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where
+// it would have waited: nobody who holds a zone of that way counts on it.
 void TrafficModel::ObeyLights(std::uint32_t id) {
   Agent& agent = agents_[id];
   if (agent.grants.empty()) return;
-  const double front = agent.o_m + 0.5 * traits_[id].length_m, stops = StopsIn(agent.speed_mps, agent.wish_mps2, settings_.smooth.planned_mps3);
+  const double front = agent.o_m + 0.5 * traits_[id].length_m,
+               stops = StopsIn(agent.speed_mps, agent.wish_mps2, settings_.smooth.planned_mps3);
   for (std::size_t i = 0; i < agent.grants.size(); ++i) {
     const ZoneGrant& grant = agent.grants[i];
     const double gap = grant.light_m - front;

@@ -6,8 +6,8 @@
 
 namespace rodeira::traffic {
 
-// One list for each of many keys, most of them empty, each in the order in which it was added to: four bytes a key, and all that is added in one
-// piece of memory.
+// One list for each of many keys, most of them empty, each in the order in which it was added to: four bytes a key, and
+// all that is added in one piece of memory.
 template <class Item>
 class Lists {
   struct Entry {

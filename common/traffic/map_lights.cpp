@@ -11,9 +11,12 @@
 namespace rodeira::traffic {
 namespace {
 
-bool IsGreen(const lights::Phase& phase, const std::string& name) { return std::find(phase.green.begin(), phase.green.end(), name) != phase.green.end(); }
+bool IsGreen(const lights::Phase& phase, const std::string& name) {
+  return std::find(phase.green.begin(), phase.green.end(), name) != phase.green.end();
+}
 
-// The phase in which both are green; where amber meets green, or they have different plans, the first in which the second one is.
+// The phase in which both are green; where amber meets green, or they have different plans, the first in which the
+// second one is.
 const lights::Phase* PhaseOf(const traffic_map::Heights& companion, const std::array<std::string, 2>& names) {
   const lights::Phase* found = nullptr;
   for (const lights::LightPlan& plan : companion.lights) {
@@ -28,15 +31,23 @@ const lights::Phase* PhaseOf(const traffic_map::Heights& companion, const std::a
 
 }  // namespace
 
-std::optional<traffic_map::Finding> LightsTogether(const traffic_map::LaneMap& map, const traffic_map::Heights& companion, const network::Network& network) {
+std::optional<traffic_map::Finding> LightsTogether(const traffic_map::LaneMap& map,
+                                                   const traffic_map::Heights& companion,
+                                                   const network::Network& network) {
   if (map.lights.empty()) return std::nullopt;
   const lanes::Graph graph(network);
   const auto together = lanes::FindGreenTogether(graph, lanes::Zones(graph));
   if (!together) return std::nullopt;
   std::array<std::string, 2> names;
-  for (std::size_t i = 0; i < names.size(); ++i) names[i] = std::to_string(map.lanes[map.lights[together->controllers[i]].lane].id);  // a light, a controller
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = std::to_string(map.lanes[map.lights[together->controllers[i]].lane].id);  // a light, a controller
   const lights::Phase* phase = PhaseOf(companion, names);
-  return traffic_map::Finding{traffic_map::Severity::kError, traffic_map::Element::kLights, 0, 0, phase == nullptr ? 0 : traffic_map::LineOf(phase->place), together->sentence};
+  return traffic_map::Finding{traffic_map::Severity::kError,
+                              traffic_map::Element::kLights,
+                              0,
+                              0,
+                              phase == nullptr ? 0 : traffic_map::LineOf(phase->place),
+                              together->sentence};
 }
 
 base::Status CheckLightsOfMap(const std::filesystem::path& path) {

@@ -8,16 +8,16 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr std::int64_t kEvery_ns = 500'000'000;    // an agent thinks of another lane so often
-constexpr std::int64_t kApart_ns = 37'000'000;     // one after the other
+constexpr std::int64_t kEvery_ns = 500'000'000;      // an agent thinks of another lane so often
+constexpr std::int64_t kApart_ns = 37'000'000;       // one after the other
 constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after a change
 constexpr double kSlowest_mps = 3.0;
 constexpr double kReaction_s = 2.0, kGentle_mps2 = 1.2;  // before whatever the other lane leads to it can stop by this
-constexpr double kBeside_m = 1e-6;                  // whose middle is no farther ahead or behind is neither
-constexpr double kOnLane_m = 1.5;                  // vehicles whose sides are nearer to a lane's middle drive on it
-constexpr double kSeeks_m = 350.0;                 // so far before its lane parts from its route it looks for a gap by driving slower
-constexpr double kSooner_m = 30.0;                 // a lane that ends so much sooner is no choice …
-constexpr double kEnding_mps2 = 1.0;               // … and one that ends, or parts from the route, is left for so much …
+constexpr double kBeside_m = 1e-6;                       // whose middle is no farther ahead or behind is neither
+constexpr double kOnLane_m = 1.5;   // vehicles whose sides are nearer to a lane's middle drive on it
+constexpr double kSeeks_m = 350.0;  // so far before its lane parts from its route it looks for a gap by driving slower
+constexpr double kSooner_m = 30.0;  // a lane that ends so much sooner is no choice …
+constexpr double kEnding_mps2 = 1.0;  // … and one that ends, or parts from the route, is left for so much …
 constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much over the last part
 
 }  // namespace
@@ -29,7 +29,8 @@ double TrafficModel::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m
 double TrafficModel::Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const {
   const driver::IdmSettings& idm = traits_[id].idm;
   const double v = agents_[id].speed_mps;
-  return any && gap_m < settings_.sight_m ? driver::IdmAcceleration(idm, v, limit_mps, gap_m, leader_mps) : driver::IdmFreeAcceleration(idm, v, limit_mps);
+  return any && gap_m < settings_.sight_m ? driver::IdmAcceleration(idm, v, limit_mps, gap_m, leader_mps)
+                                          : driver::IdmFreeAcceleration(idm, v, limit_mps);
 }
 
 // Who follows a rectangle whose middle and rear are there on a track: on it, or on those that lead to it.
@@ -38,9 +39,13 @@ Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double mi
   bool here = false;  // who is farther back on the same branch is nobody's follower
   const auto consider = [&](std::int64_t other, std::uint32_t on, double d_m, double gap_m, double speed_mps) {
     here = true;
-    if (gap_m < settings_.sight_m && (!behind.any || gap_m < behind.gap_m)) behind = {gap_m, speed_mps, other, on, d_m, true};
+    if (gap_m < settings_.sight_m && (!behind.any || gap_m < behind.gap_m))
+      behind = {gap_m, speed_mps, other, on, d_m, true};
   };
-  struct At { std::uint32_t track; double middle_m, rear_m; };
+  struct At {
+    std::uint32_t track;
+    double middle_m, rear_m;
+  };
   std::vector<At> open{{track, middle_m, rear_m}};
   for (std::size_t i = 0; i < open.size() && i < 32; ++i) {
     const At at = open[i];
@@ -55,7 +60,8 @@ Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double mi
       if (block.middle_m >= at.middle_m || block.span.right_m > kOnLane_m || block.span.left_m < -kOnLane_m) continue;
       consider(-1, at.track, block.span.front_m, at.rear_m - block.span.front_m, block.span.speed_mps);
     }
-    if (here || at.rear_m - longest_half_m_ > std::min(settings_.sight_m, behind.any ? behind.gap_m : kNoBarrier_m)) continue;
+    if (here || at.rear_m - longest_half_m_ > std::min(settings_.sight_m, behind.any ? behind.gap_m : kNoBarrier_m))
+      continue;
     for (const std::uint32_t before : graph()[at.track].before) {
       for (const lanes::Link& link : graph()[before].next) {
         const double further = graph()[before].length_m() - link.from_d_m;
@@ -75,7 +81,8 @@ double TrafficModel::FollowerDoes(const Behind& behind, bool any, double gap_m, 
     return Following(id, Limit_mps(id, behind.track, d), any, gap_m, leader_mps);
   }
   const double limit = std::max(behind.speed_mps, LimitOn(behind.track, d));
-  return any ? driver::IdmAcceleration(settings_.idm, behind.speed_mps, limit, gap_m, leader_mps) : driver::IdmFreeAcceleration(settings_.idm, behind.speed_mps, limit);
+  return any ? driver::IdmAcceleration(settings_.idm, behind.speed_mps, limit, gap_m, leader_mps)
+             : driver::IdmFreeAcceleration(settings_.idm, behind.speed_mps, limit);
 }
 
 // A change to one side with what it would bring; nothing where it cannot be, or is not safe.
@@ -99,7 +106,8 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
   stretches_[id].clear();
   agent.path.push_back(*piece);
   FindStretches(id, SightOf(agent));
-  const double v = agent.speed_mps, stops = piece->begin_m + std::min(SightOf(agent), kReaction_s * v + v * v / (2.0 * kGentle_mps2));
+  const double v = agent.speed_mps,
+               stops = piece->begin_m + std::min(SightOf(agent), kReaction_s * v + v * v / (2.0 * kGentle_mps2));
   const bool plain = IsPlain(id, rear, std::max(to, stops));
   const double ends = LaneEnds(id);
   const Ahead ahead = plain ? FindAhead(id) : Ahead();
@@ -107,22 +115,28 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
   Sideways way{*piece, side, 0.0, std::exchange(stretches_[id], std::move(own))};
   const int fewer = FewerChanges(id, piece->track);
   if (!plain || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)))) return std::nullopt;
-  const Behind old_follower = FindBehind(id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
+  const Behind old_follower =
+      FindBehind(id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Behind follower = FindBehind(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
   if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
   if (follower.any && follower.gap_m < settings_.idm.standing_gap_m) return std::nullopt;
   const double at = piece->begin_m - piece->zero_m;
   driver::MobilCase mobil;
-  mobil.own_mps2 = Following(id, Limit_mps(id, agent.path.back().track, piece->begin_m - agent.path.back().zero_m), own_ahead.any, own_ahead.gap_m, own_ahead.speed_mps);
+  mobil.own_mps2 = Following(id, Limit_mps(id, agent.path.back().track, piece->begin_m - agent.path.back().zero_m),
+                             own_ahead.any, own_ahead.gap_m, own_ahead.speed_mps);
   mobil.own_then_mps2 = Following(id, Limit_mps(id, piece->track, at), ahead.any, ahead.gap_m, ahead.speed_mps);
-  mobil.new_follower_mps2 = FollowerDoes(follower, ahead.any, follower.gap_m + traits.length_m + ahead.gap_m, ahead.speed_mps);
+  mobil.new_follower_mps2 =
+      FollowerDoes(follower, ahead.any, follower.gap_m + traits.length_m + ahead.gap_m, ahead.speed_mps);
   mobil.new_follower_then_mps2 = FollowerDoes(follower, true, follower.gap_m, v);
   mobil.old_follower_mps2 = FollowerDoes(old_follower, true, old_follower.gap_m, v);
-  mobil.old_follower_then_mps2 = FollowerDoes(old_follower, own_ahead.any, old_follower.gap_m + traits.length_m + own_ahead.gap_m, own_ahead.speed_mps);
+  mobil.old_follower_then_mps2 = FollowerDoes(
+      old_follower, own_ahead.any, old_follower.gap_m + traits.length_m + own_ahead.gap_m, own_ahead.speed_mps);
   if (!driver::MobilIsSafe(settings_.lane_changes, mobil)) return std::nullopt;
   const bool keep = (side < 0) != graph()[piece->track].left_hand;
   const bool must = own_ends < ends - kSooner_m || (fewer > 0 && own_ends < kNoBarrier_m);
-  way.surplus_mps2 = driver::MobilSurplus(settings_.lane_changes, mobil, keep) + (must ? std::lerp(kAtEnd_mps2, kEnding_mps2, std::clamp((own_ends - to) / kFrom_m, 0.0, 1.0)) : 0.0);
+  way.surplus_mps2 =
+      driver::MobilSurplus(settings_.lane_changes, mobil, keep) +
+      (must ? std::lerp(kAtEnd_mps2, kEnding_mps2, std::clamp((own_ends - to) / kFrom_m, 0.0, 1.0)) : 0.0);
   return way;
 }
 
@@ -138,7 +152,8 @@ bool TrafficModel::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
 
 bool TrafficModel::MayLeaveLane(std::uint32_t id) const {
   const Agent& agent = agents_[id];
-  return agent.speed_mps >= kSlowest_mps && graph()[agent.path.back().track].junction < 0 && agent.grants.empty() && !passages_[id].due;
+  return agent.speed_mps >= kSlowest_mps && graph()[agent.path.back().track].junction < 0 && agent.grants.empty() &&
+         !passages_[id].due;
 }
 
 // One after the other by their numbers: who has begun is seen by the next.

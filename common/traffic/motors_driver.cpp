@@ -25,7 +25,9 @@ double Between(double x, double x0, double y0, double x1, double y1) { return y0
 
 }  // namespace
 
-double TargetWeight(double distance_m) { return 2.0 / std::numbers::pi * std::atan(2.0 * (0.5 * distance_m) * (0.5 * distance_m)); }
+double TargetWeight(double distance_m) {
+  return 2.0 / std::numbers::pi * std::atan(2.0 * (0.5 * distance_m) * (0.5 * distance_m));
+}
 
 double SteeringAngle(double to_path_rad, double to_target_rad, double weight, double most_rad) {
   return std::clamp((to_path_rad + weight * to_target_rad) / (1.0 + weight), -most_rad, most_rad);
@@ -34,9 +36,12 @@ double SteeringAngle(double to_path_rad, double to_target_rad, double weight, do
 double TurningSpeed_mps(double angle_rad, double limit_mps) {
   const double angle = std::fabs(angle_rad) / kDegree;
   double speed = kSharp_mps;
-  if (angle <= kFree_deg) speed = limit_mps;
-  else if (angle <= kBend_deg) speed = Between(angle, kFree_deg, limit_mps, kBend_deg, kBend_mps);
-  else if (angle <= kSharp_deg) speed = Between(angle, kBend_deg, kBend_mps, kSharp_deg, kSharp_mps);
+  if (angle <= kFree_deg)
+    speed = limit_mps;
+  else if (angle <= kBend_deg)
+    speed = Between(angle, kFree_deg, limit_mps, kBend_deg, kBend_mps);
+  else if (angle <= kSharp_deg)
+    speed = Between(angle, kBend_deg, kBend_mps, kSharp_deg, kSharp_mps);
   return std::min(speed, limit_mps);
 }
 
@@ -49,8 +54,11 @@ double MotorsBrake(double excess_mps, bool stops) {
   return std::min(1.0, 2.0 / std::numbers::pi * std::atan(excess_mps) + (stops ? kStopBrake : 0.0));
 }
 
-bool SegmentsCross(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0, const Eigen::Vector2d& b1) {
-  const auto side = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& p) { return geometry::Cross(to - from, p - from); };
+bool SegmentsCross(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
+                   const Eigen::Vector2d& b1) {
+  const auto side = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& p) {
+    return geometry::Cross(to - from, p - from);
+  };
   return side(a0, a1, b0) * side(a0, a1, b1) < 0.0 && side(b0, b1, a0) * side(b0, b1, a1) < 0.0;
 }
 
@@ -64,8 +72,10 @@ void MotorsDriver::Begin(int gear) {
 
 // A change goes on: the clutch comes up evenly, without throttle. The next one waits for its pause.
 void MotorsDriver::Shift(double engine_radps, int gears, double dt_s) {
-  if (engine_radps > kRevLimit_radps) throttle_let_ = false;
-  else if (engine_radps < kRevAgain_radps) throttle_let_ = true;
+  if (engine_radps > kRevLimit_radps)
+    throttle_let_ = false;
+  else if (engine_radps < kRevAgain_radps)
+    throttle_let_ = true;
   if (changes_) {
     change_ += kRamp_1ps * dt_s;
     clutch_ = std::max(0.0, 1.0 - change_);
@@ -81,17 +91,21 @@ void MotorsDriver::Shift(double engine_radps, int gears, double dt_s) {
 }
 
 dynamics::Controls MotorsDriver::Step(const MotorsView& view, const MotorsCar& car, double dt_s) {
-  const double wanted = responsiveness_ * SteeringAngle(view.to_path_rad, view.to_target_rad, TargetWeight(view.distance_m), car.most_steer_rad);
+  const double wanted = responsiveness_ * SteeringAngle(view.to_path_rad, view.to_target_rad,
+                                                        TargetWeight(view.distance_m), car.most_steer_rad);
   const double most = aggression_radps_ * dt_s;
   steer_rad_ += std::clamp(wanted - steer_rad_, -most, most);
   dynamics::Controls controls;
   const double target = view.stops ? 0.0 : TurningSpeed_mps(view.turn_rad, view.limit_mps);
-  if (view.speed_mps < target) controls.throttle = MotorsThrottle(view.to_path_rad);
-  else controls.brake = MotorsBrake(view.speed_mps - target, view.stops);
+  if (view.speed_mps < target)
+    controls.throttle = MotorsThrottle(view.to_path_rad);
+  else
+    controls.brake = MotorsBrake(view.speed_mps - target, view.stops);
   if (view.engine_radps < car.stall_radps) controls.throttle += kIdleThrottle;
   Shift(view.engine_radps, car.gears, dt_s);
   if (!throttle_let_) controls.throttle = 0.0;
-  const double slow = std::clamp((car.closed_radps - view.engine_radps) / (car.closed_radps - car.bite_radps), 0.0, 1.0);
+  const double slow =
+      std::clamp((car.closed_radps - view.engine_radps) / (car.closed_radps - car.bite_radps), 0.0, 1.0);
   controls.clutch = std::max(changes_ ? clutch_ : 0.0, slow);
   controls.steering_wheel_rad = steer_rad_ * car.steering_ratio;
   controls.gear = gear_;

@@ -1,12 +1,13 @@
-// Cars of the traffic driven as MOTORS does: each along a trajectory of its own between the borders of its lane, giving way where paths cross, and to nobody else.
+// Cars of the traffic driven as MOTORS does: each along a trajectory of its own between the borders of its lane, giving
+// way where paths cross, and to nobody else.
 #include <algorithm>
 #include <cmath>
 
 #include "common/core/base/random.hpp"
 #include "common/core/geometry/plane.hpp"
 #include "common/traffic/car_of.hpp"
-#include "common/traffic/motors_looks.hpp"
 #include "common/traffic/each_driving.hpp"
+#include "common/traffic/motors_looks.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -17,23 +18,28 @@ using Eigen::Vector2d;
 // Purposes of draws; never renumber.
 enum Draws : std::uint64_t { kResponsiveness = 301, kAggression = 302, kWeight = 303 };
 
-constexpr double kLeftmost = 0.65;     // the weights are drawn between this and what is left of 1; the source states no range
+constexpr double kLeftmost =
+    0.65;  // the weights are drawn between this and what is left of 1; the source states no range
 constexpr double kLookAhead_s = 2.0;
-constexpr double kSlowest = 0.9;       // of the idle speed: there the clutch is closed …
-constexpr double kAboveStall = 1.2;    // … and here open
+constexpr double kSlowest = 0.9;     // of the idle speed: there the clutch is closed …
+constexpr double kAboveStall = 1.2;  // … and here open
 
-double AngleBetween(const Vector2d& from, const Vector2d& to) { return std::atan2(geometry::Cross(from, to), from.dot(to)); }
+double AngleBetween(const Vector2d& from, const Vector2d& to) {
+  return std::atan2(geometry::Cross(from, to), from.dot(to));
+}
 
 }  // namespace
 
 void TrafficModel::StartMotors() {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    motors_.emplace_back(base::RandomUniform({settings_.seed, id, kResponsiveness}, 0.5, 1.0), base::RandomUniform({settings_.seed, id, kAggression}, 3.0, 4.0));
+    motors_.emplace_back(base::RandomUniform({settings_.seed, id, kResponsiveness}, 0.5, 1.0),
+                         base::RandomUniform({settings_.seed, id, kAggression}, 3.0, 4.0));
   }
   segments_.resize(agents_.size());
 }
 
-// The mean of both borders with the driver's weight. The first control point of its curve is moved: the others lie as they are.
+// The mean of both borders with the driver's weight. The first control point of its curve is moved: the others lie as
+// they are.
 Vector2d TrafficModel::MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const {
   const lanes::Curve& curve = graph()[driver.track].curve;
   const double d = std::min(index * kCheckpoint_m, curve.length_m()), left = 1.0 - d / curve.length_m();
@@ -53,13 +59,15 @@ void TrafficModel::TakeLane(std::uint32_t id, const Piece& piece) {
   const Vector2d target = onward ? MotorsPoint(driver, MotorsPoints(driver) - 1) : Vector2d::Zero();
   driver.track = piece.track;
   driver.zero_m = piece.zero_m;
-  driver.weight = base::RandomUniform({settings_.seed, id, kWeight, driver.trip, driver.lanes++}, 1.0 - kLeftmost, kLeftmost);
+  driver.weight =
+      base::RandomUniform({settings_.seed, id, kWeight, driver.trip, driver.lanes++}, 1.0 - kLeftmost, kLeftmost);
   driver.join_W.setZero();
   driver.checkpoint = 0;
   if (onward) driver.join_W = 0.5 * (target - MotorsPoint(driver, 0));
 }
 
-// To the checkpoint that it comes to: one that is reached, or farther than the next, is passed; at the last one the next lane begins.
+// To the checkpoint that it comes to: one that is reached, or farther than the next, is passed; at the last one the
+// next lane begins.
 void TrafficModel::FollowTrajectory(std::uint32_t id) {
   const Agent& agent = agents_[id];
   MotorsDriver& driver = motors_[id];
@@ -70,17 +78,21 @@ void TrafficModel::FollowTrajectory(std::uint32_t id) {
     std::size_t i = agent.path.size() - 1;
     while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
     TakeLane(id, agent.path[i]);
-    driver.checkpoint = std::min(static_cast<std::uint32_t>(std::max(0.0, (agent.o_m - driver.zero_m) / kCheckpoint_m)), MotorsPoints(driver) - 2);
+    driver.checkpoint = std::min(static_cast<std::uint32_t>(std::max(0.0, (agent.o_m - driver.zero_m) / kCheckpoint_m)),
+                                 MotorsPoints(driver) - 2);
   }
   while (true) {
     const std::uint32_t last = MotorsPoints(driver) - 1;
     while (driver.checkpoint < last) {
-      const double here = (MotorsPoint(driver, driver.checkpoint) - at).norm(), next = (MotorsPoint(driver, driver.checkpoint + 1) - at).norm();
+      const double here = (MotorsPoint(driver, driver.checkpoint) - at).norm(),
+                   next = (MotorsPoint(driver, driver.checkpoint + 1) - at).norm();
       if (here < next && next >= kReached_m) break;
       ++driver.checkpoint;
     }
     if (driver.checkpoint < last) return;
-    const auto own = std::find_if(agent.path.begin(), agent.path.end(), [&](const Piece& piece) { return piece.track == driver.track && piece.zero_m == driver.zero_m; });
+    const auto own = std::find_if(agent.path.begin(), agent.path.end(), [&](const Piece& piece) {
+      return piece.track == driver.track && piece.zero_m == driver.zero_m;
+    });
     const auto next = own == agent.path.end() ? agent.path.begin() : own + 1;
     if (next == agent.path.end()) {  // the lane's traffic leaves here
       driver.checkpoint = last - 1;
@@ -92,17 +104,21 @@ void TrafficModel::FollowTrajectory(std::uint32_t id) {
 
 Vector2d TrafficModel::MotorsLooksAt(std::uint32_t id) const {
   const MotorsDriver& driver = motors_[id];
-  const auto ahead = driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
+  const auto ahead =
+      driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
   return MotorsPoint(driver, std::min(ahead, MotorsPoints(driver) - 2));
 }
 
 // At the end of its lane the point lies beside the car, or behind, and says nothing.
 double TrafficModel::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) const {
   const Vector2d to_W = look_W - full_->cars().p_WB_W(id).head<2>();
-  return to_W.norm() < 2.0 * kCheckpoint_m ? 0.0 : AngleBetween((full_->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
+  return to_W.norm() < 2.0 * kCheckpoint_m
+             ? 0.0
+             : AngleBetween((full_->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
 }
 
-// Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of way, to the lane's end.
+// Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of
+// way, to the lane's end.
 void TrafficModel::GiveWay() {
   EachDriving([&](std::uint32_t id) {
     FollowTrajectory(id);

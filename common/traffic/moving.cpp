@@ -10,7 +10,9 @@ namespace rodeira::traffic {
 namespace {
 
 // From one direction to another, positive to the left.
-double TurnOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to)); }
+double TurnOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
+}
 
 }  // namespace
 
@@ -29,12 +31,14 @@ void TrafficModel::StartFull(std::shared_ptr<ground::Ground> ground) {
 // With its axles' middles over the path, rolling along it.
 base::Status TrafficModel::PlaceFull(std::uint32_t id) {
   Agent& agent = agents_[id];
-  const Eigen::Vector3d front = FrameOf(id, agent.o_m + HalfBase(id)).p_W, rear = FrameOf(id, agent.o_m - HalfBase(id)).p_W;
+  const Eigen::Vector3d front = FrameOf(id, agent.o_m + HalfBase(id)).p_W,
+                        rear = FrameOf(id, agent.o_m - HalfBase(id)).p_W;
   const Eigen::Vector3d middle = 0.5 * (front + rear), along = front - rear;
   dynamics::InitialCondition initial;
   initial.x_m = middle.x(), initial.y_m = middle.y(), initial.z_hint_m = middle.z();
   initial.heading_rad = std::atan2(along.y(), along.x());
-  initial.speed_mps = agent.speed_mps * along.norm() / along.head<2>().norm();  // along the car; an agent's is over the plan
+  initial.speed_mps =
+      agent.speed_mps * along.norm() / along.head<2>().norm();  // along the car; an agent's is over the plan
   return full_->Place(id, traits_[id].body, initial);
 }
 
@@ -43,7 +47,8 @@ void TrafficModel::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
   Agent& agent = agents_[id];
   const double before = agent.speed_mps;
   const PlanarCar& car = PlanarCarOfBody(traits_[id].body);
-  const double at_most = AtMostBeforeChange_mps2(car, agent.driving, before, agent.wish_mps2, agent.grade, settings_.smooth.planned_mps3);
+  const double at_most =
+      AtMostBeforeChange_mps2(car, agent.driving, before, agent.wish_mps2, agent.grade, settings_.smooth.planned_mps3);
   const Driven driven = Drive(car, agent.driving, before, std::min(wanted_mps2, at_most), agent.grade, dt_s);
   agent.driving = driven.driving;
   const double acceleration = driven.acceleration_mps2;
@@ -70,9 +75,11 @@ void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) 
   rear = FrameOf(id, rear_m);
   const double soon_m = std::min(AnsweredWay_m(agent.speed_mps), agent.o_m + half - rear_m);
   const PathFrame soon = FrameOf(id, rear_m + soon_m);
-  const double aside = RearLine_m(traits_[id].wheelbase_m, traits_[id].length_m, TurnOf(FrameOf(id, agent.o_m - half).ahead_W, FrameOf(id, agent.o_m + half).ahead_W));
+  const double aside = RearLine_m(traits_[id].wheelbase_m, traits_[id].length_m,
+                                  TurnOf(FrameOf(id, agent.o_m - half).ahead_W, FrameOf(id, agent.o_m + half).ahead_W));
   const Eigen::Vector2d left(-rear.ahead_W.y(), rear.ahead_W.x());
-  full_->Drive(id, wanted_mps2, {rear.p_W.head<2>() + aside * left, rear.ahead_W, TurnOf(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
+  full_->Drive(id, wanted_mps2,
+               {rear.p_W.head<2>() + aside * left, rear.ahead_W, TurnOf(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
   const bool stands = agent.speed_mps <= 0.0 || full_->foot(id).holds();  // whatever is wanted below 0
   agent.wish_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
 }

@@ -5,7 +5,9 @@
 namespace rodeira::traffic {
 namespace {
 
-bool ComesFirst(const Occupant& a, const Occupant& b) { return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id; }
+bool ComesFirst(const Occupant& a, const Occupant& b) {
+  return a.middle_m() != b.middle_m() ? a.middle_m() < b.middle_m() : a.id < b.id;
+}
 
 }  // namespace
 
@@ -48,7 +50,8 @@ void Occupancy::Insert(std::uint32_t track, const Occupant& occupant) {
 
 std::span<const Occupant> Occupancy::Beyond(std::uint32_t track, double d_m) const {
   const auto all = On(track);
-  const auto from = std::lower_bound(all.begin(), all.end(), d_m - 1e-6, [](const Occupant& occupant, double d) { return occupant.middle_m() < d; });
+  const auto from = std::lower_bound(all.begin(), all.end(), d_m - 1e-6,
+                                     [](const Occupant& occupant, double d) { return occupant.middle_m() < d; });
   return {from, all.end()};
 }
 

@@ -16,8 +16,8 @@ struct Occupant {
   double middle_m() const { return 0.5 * (rear_m + front_m); }
 };
 
-// Who is on each track in a step, ascending by middles and of equals by numbers: all in one piece of memory, found through a table of eight bytes a
-// track, since everybody looks at several tracks and most of them hold nobody or one.
+// Who is on each track in a step, ascending by middles and of equals by numbers: all in one piece of memory, found
+// through a table of eight bytes a track, since everybody looks at several tracks and most of them hold nobody or one.
 class Occupancy {
  public:
   explicit Occupancy(std::size_t tracks) : places_(tracks) {}
@@ -30,7 +30,9 @@ class Occupancy {
   void Insert(std::uint32_t track, const Occupant& occupant);
 
   const std::vector<std::uint32_t>& taken() const { return taken_; }  // tracks on which there is somebody
-  std::span<const Occupant> On(std::uint32_t track) const { return {all_.data() + places_[track].begin, places_[track].count}; }
+  std::span<const Occupant> On(std::uint32_t track) const {
+    return {all_.data() + places_[track].begin, places_[track].count};
+  }
   // Those whose middles lie beyond d, and perhaps a few more.
   std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
 
@@ -38,7 +40,7 @@ class Occupancy {
   struct Place {
     std::uint32_t begin = 0, count = 0;
   };
-  std::vector<Place> places_;         // by track
+  std::vector<Place> places_;  // by track
   std::vector<std::uint32_t> taken_;
   std::vector<std::pair<std::uint32_t, Occupant>> added_;
   std::vector<Occupant> all_;

@@ -7,12 +7,12 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kBehind_m = 2.0;       // a vehicle whose end is so far behind one's own has gone by
+constexpr double kBehind_m = 2.0;        // a vehicle whose end is so far behind one's own has gone by
 constexpr double kOvertakers_m = 100.0;  // so far behind nobody may drive on the other lane
-constexpr double kOnLane_m = 1.5;       // vehicles whose sides are nearer to a lane's middle drive on it
+constexpr double kOnLane_m = 1.5;        // vehicles whose sides are nearer to a lane's middle drive on it
 constexpr double kMoves_mps = 0.5;
-constexpr double kEvery_m = 50.0;       // limits are looked at so often
-constexpr double kTrust_s = 0.5;        // who comes brakes for somebody who is back less than this before it is there
+constexpr double kEvery_m = 50.0;  // limits are looked at so often
+constexpr double kTrust_s = 0.5;   // who comes brakes for somebody who is back less than this before it is there
 constexpr double kStops_mps2 = 3.0;
 
 }  // namespace
@@ -35,7 +35,8 @@ void TrafficModel::FaceOncoming(std::uint32_t id) {
   }
 }
 
-// Along its way, as far as it sees: who comes, or could come from where it sees no further, or where vehicles begin their way.
+// Along its way, as far as it sees: who comes, or could come from where it sees no further, or where vehicles begin
+// their way.
 Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
   const double half = 0.5 * traits_[id].length_m, front = agents_[id].o_m + half, rear = agents_[id].o_m - half;
   const double fastest = std::max(1.0, settings_.speed_factor_high);
@@ -50,15 +51,19 @@ Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
     if (stretch.end_m < rear) continue;
     if (stretch.begin_m > found.from_m) break;
     const std::int64_t opposite = map_->opposites[stretch.track];
-    const bool goes_on = opposite >= 0 && (before < 0 || (graph()[static_cast<std::uint32_t>(before)].before.size() == 1 && graph()[static_cast<std::uint32_t>(before)].before[0] == opposite));
+    const bool goes_on =
+        opposite >= 0 && (before < 0 || (graph()[static_cast<std::uint32_t>(before)].before.size() == 1 &&
+                                         graph()[static_cast<std::uint32_t>(before)].before[0] == opposite));
     if (!goes_on) {
       found.from_m = std::min(found.from_m, stretch.begin_m - 2.0 * longest_half_m_);
       break;
     }
     const auto track = static_cast<std::uint32_t>(opposite);
     const auto here = [&](double d_m) { return stretch.zero_m + graph().Across(track, d_m, stretch.track); };
-    for (double d = 0.0; d <= graph()[track].length_m(); d += kEvery_m) found.speed_mps = std::max(found.speed_mps, fastest * graph().SpeedLimit_mps(track, d));
-    for (const Occupant& other : occupants_.On(track)) comes(here(other.front_m), here(other.rear_m), agents_[other.id].speed_mps);
+    for (double d = 0.0; d <= graph()[track].length_m(); d += kEvery_m)
+      found.speed_mps = std::max(found.speed_mps, fastest * graph().SpeedLimit_mps(track, d));
+    for (const Occupant& other : occupants_.On(track))
+      comes(here(other.front_m), here(other.rear_m), agents_[other.id].speed_mps);
     for (const Facing& other : facing_[track]) {
       if (other.id != id && here(other.rear_m) > rear - kOvertakers_m) found.own_way = true;
     }
@@ -72,12 +77,14 @@ Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
       found.from_m = std::min(found.from_m, stretch.end_m - 2.0 * longest_half_m_);
       break;
     }
-    if (&stretch == &stretches_[id].back()) found.from_m = std::min(found.from_m, std::max(stretch.end_m, front) - 2.0 * longest_half_m_);
+    if (&stretch == &stretches_[id].back())
+      found.from_m = std::min(found.from_m, std::max(stretch.end_m, front) - 2.0 * longest_half_m_);
   }
   return found;
 }
 
-// Who comes towards somebody who overtakes goes on as long as that one will be back in time by what it does; else it stops where both can stop.
+// Who comes towards somebody who overtakes goes on as long as that one will be back in time by what it does; else it
+// stops where both can stop.
 double TrafficModel::WantedFacing(std::uint32_t id, double limit_mps) const {
   const Agent& agent = agents_[id];
   const double front = agent.o_m + 0.5 * traits_[id].length_m, v = agent.speed_mps;

@@ -8,20 +8,21 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after it
-constexpr double kTooNear_s = 1.5;       // who comes: with less to spare it falls back, if that is sooner done
-constexpr double kSlower_mps = 4.0;      // than who was to be passed, while it falls back …
-constexpr double kFallsBack_mps2 = 2.5;  // … and its braking
+constexpr double kTooNear_s = 1.5;        // who comes: with less to spare it falls back, if that is sooner done
+constexpr double kSlower_mps = 4.0;       // than who was to be passed, while it falls back …
+constexpr double kFallsBack_mps2 = 2.5;   // … and its braking
 constexpr double kLeastPassed_mps = 5.0;  // who is slower is not fallen back behind
-constexpr double kHardest_mps2 = 2.0;    // braking of who follows, when it goes back …
-constexpr double kHardestOwn_mps2 = 2.5; // … and its own
+constexpr double kHardest_mps2 = 2.0;     // braking of who follows, when it goes back …
+constexpr double kHardestOwn_mps2 = 2.5;  // … and its own
 constexpr double kNever_s = 1e9;
 constexpr double kShortest_m = 24.0;
-constexpr double kLastPart = 0.2;       // of the path back, on the own side (PlanPass)
+constexpr double kLastPart = 0.2;  // of the path back, on the own side (PlanPass)
 
 }  // namespace
 
 // Whether somebody ahead is the one that it passes, and has cleared already.
-bool TrafficModel::IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body, double gap_m) const {
+bool TrafficModel::IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body,
+                            double gap_m) const {
   const bool same = (id >= 0 && id == overtaking.passed) || (body >= 0 && body == overtaking.passed_body);
   return same && !overtaking.back && front_m >= overtaking.clear_m && (!overtaking.gives_up || gap_m <= 0.0);
 }
@@ -32,26 +33,34 @@ std::optional<Ahead> TrafficModel::FindPassed(std::uint32_t id) const {
   const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
   for (const Stretch& stretch : stretches_[id]) {
     for (const Occupant& other : occupants_.On(stretch.track)) {
-      if (other.id == way.passed) return Ahead{stretch.zero_m + other.rear_m - front, agents_[other.id].speed_mps, other.id, true, -1, other.front_m - other.rear_m};
+      if (other.id == way.passed)
+        return Ahead{stretch.zero_m + other.rear_m - front, agents_[other.id].speed_mps, other.id, true, -1,
+                     other.front_m - other.rear_m};
     }
     for (const Block& block : blocks_[stretch.track]) {
-      if (block.body == way.passed_body) return Ahead{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body, block.span.front_m - block.span.rear_m};
+      if (block.body == way.passed_body)
+        return Ahead{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body,
+                     block.span.front_m - block.span.rear_m};
     }
   }
   return std::nullopt;
 }
 
-// Whether its own lane is free beside it: nobody would have to brake hard, before it or, where it goes back before somebody, behind it.
+// Whether its own lane is free beside it: nobody would have to brake hard, before it or, where it goes back before
+// somebody, behind it.
 bool TrafficModel::MayGoBack(std::uint32_t id, bool behind) const {
   const Agent& agent = agents_[id];
   const Piece& last = agent.path.back();
   const double half = 0.5 * traits_[id].length_m, v = agent.speed_mps, gap = traits_[id].idm.standing_gap_m;
   if (agent.o_m + half < last.blend_from_m + last.blend_m) return false;  // still on its path out
   const Behind follower = FindBehind(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
-  if (follower.any && (follower.gap_m < gap || (!behind && FollowerDoes(follower, true, follower.gap_m, v) < -kHardest_mps2))) return false;
+  if (follower.any &&
+      (follower.gap_m < gap || (!behind && FollowerDoes(follower, true, follower.gap_m, v) < -kHardest_mps2)))
+    return false;
   const Ahead ahead = FindAhead(id);
   if (!ahead.any) return true;
-  return ahead.gap_m >= gap && Following(id, Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m, ahead.speed_mps) >= -kHardestOwn_mps2;
+  return ahead.gap_m >= gap && Following(id, Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m,
+                                         ahead.speed_mps) >= -kHardestOwn_mps2;
 }
 
 void TrafficModel::GoBack(std::uint32_t id) {
@@ -77,7 +86,9 @@ void TrafficModel::DriveOvertaking(std::uint32_t id) {
   const bool is_past = !passed || passed->gap_m + 0.5 * (passed->length_m + length) < 0.0;
   if (!way.back && (is_past || way.gives_up) && MayGoBack(id, !is_past)) GoBack(id);
   if (way.back) {
-    way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : std::max(0.0, way.to_m + length - front - kLastPart * agent.path.back().blend_m) / v;
+    way.back_s = agent.brake_mps2 > 0.0
+                     ? kNever_s
+                     : std::max(0.0, way.to_m + length - front - kLastPart * agent.path.back().blend_m) / v;
     return;
   }
   const double aside = agent.path.back().aside_m, top = std::max(v, TopSpeed(id, front, std::max(front, way.to_m)));
@@ -86,14 +97,18 @@ void TrafficModel::DriveOvertaking(std::uint32_t id) {
   pass.gains_mps2 = std::max(0.1, pass.gains_mps2);
   const PassPlan on = PlanPass(pass);
   const Oncoming oncoming = FindOncoming(id);
-  const auto spare = [&](double time_s, double way_m) { return (oncoming.from_m - front - way_m) / oncoming.speed_mps - time_s; };
+  const auto spare = [&](double time_s, double way_m) {
+    return (oncoming.from_m - front - way_m) / oncoming.speed_mps - time_s;
+  };
   way.to_m = front + on.way_m, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : on.time_s;
   if (!passed || is_past || (passed->speed_mps < kLeastPassed_mps && passed->gap_m < 0.0)) return;
   // Falling back: slower than that one until it is behind him, and back.
-  const double slower = std::max(0.0, passed->speed_mps - kSlower_mps), least = std::max(1.0, passed->speed_mps - slower);
+  const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
+               least = std::max(1.0, passed->speed_mps - slower);
   const double behind_m = std::max(0.0, traits_[id].idm.standing_gap_m - passed->gap_m);
   const double still_out = std::max(0.0, agent.path.back().blend_from_m + agent.path.back().blend_m - front) / v;
-  const double time = std::max(still_out, std::max(0.0, v - slower) / kFallsBack_mps2 + behind_m / least) + pass.back_s + length / v;
+  const double time =
+      std::max(still_out, std::max(0.0, v - slower) / kFallsBack_mps2 + behind_m / least) + pass.back_s + length / v;
   const double far = std::max(pass.passed_mps, 0.5 * (v + pass.passed_mps)) * time;
   const bool late = spare(on.time_s, on.way_m) < kTooNear_s || way.to_m > way.legal_m;
   if (late && spare(time, far) > spare(on.time_s, on.way_m)) way.gives_up = true;
@@ -120,7 +135,9 @@ void TrafficModel::Overtake(std::int64_t step_ns) {
     Agent& agent = agents_[id];
     if (!agent.on_road) continue;
     if (!agent.overtaking.active()) {
-      if (agent.brake_mps2 == 0.0 && (agent.told_past ? MayLeaveLane(id) : settings_.overtaking.allowed && ThinksOfLanes(id, step_ns))) ThinkOfOvertaking(id);
+      if (agent.brake_mps2 == 0.0 &&
+          (agent.told_past ? MayLeaveLane(id) : settings_.overtaking.allowed && ThinksOfLanes(id, step_ns)))
+        ThinkOfOvertaking(id);
       continue;
     }
     if (agent.overtaking.back && agent.o_m - 0.5 * traits_[id].length_m > agent.overtaking.to_m) {

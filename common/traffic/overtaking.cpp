@@ -41,7 +41,8 @@ PassPlan PlanPass(const PassCase& at) {
   PassPlan plan;
   const double out = at.to_clear_m / std::max(kLeast_mps, at.speed_mps);
   const double gained = std::max(0.0, at.relative_m - out * (at.speed_mps - at.passed_mps));
-  const double gaining = TravelTime(gained, std::max(0.0, at.speed_mps - at.passed_mps), at.top_mps - at.passed_mps, at.gains_mps2);
+  const double gaining =
+      TravelTime(gained, std::max(0.0, at.speed_mps - at.passed_mps), at.top_mps - at.passed_mps, at.gains_mps2);
   plan.gaining_s = out + gaining;
   plan.speed_mps = std::max({kLeast_mps, at.speed_mps, std::min(at.top_mps, at.speed_mps + at.gains_mps2 * gaining)});
   const double back = std::max(at.back_least_m, at.back_s * plan.speed_mps);

@@ -10,13 +10,14 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 0.6;         // before the first zone, and before a light's line, the front stops
-constexpr double kStand_m = 2.5;        // more than its length a car needs to stand between two zones
+constexpr double kLine_m = 0.6;   // before the first zone, and before a light's line, the front stops
+constexpr double kStand_m = 2.5;  // more than its length a car needs to stand between two zones
 constexpr double kReaction_s = 1.0;
 constexpr double kEarly_m = 4.0;
-constexpr double kStopped_m = 2.0;      // at most so far before a STOP line
-constexpr double kOverLine_m = 0.3;     // a front so far beyond a light's line has passed it
-constexpr double kFarther_m = 20.0;     // than where it would stand behind the zones that it knows it looks for the next ones
+constexpr double kStopped_m = 2.0;   // at most so far before a STOP line
+constexpr double kOverLine_m = 0.3;  // a front so far beyond a light's line has passed it
+constexpr double kFarther_m =
+    20.0;  // than where it would stand behind the zones that it knows it looks for the next ones
 
 }  // namespace
 
@@ -38,7 +39,8 @@ double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::siz
     if (stretch.end_m < odometer_m && &stretch != &stretches_[id].back()) continue;
     const double d = odometer_m - stretch.zero_m;
     PlannedAt& known = known_[id][place];
-    if (known.track != stretch.track || known.d_m != d) known = {stretch.track, d, map_->plans[stretch.track].plan.At(d).speed_mps};
+    if (known.track != stretch.track || known.d_m != d)
+      known = {stretch.track, d, map_->plans[stretch.track].plan.At(d).speed_mps};
     return known.planned_mps * traits_[id].speed_factor;
   }
   return 0.0;
@@ -47,15 +49,18 @@ double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::siz
 // What else a passage has is found anew.
 bool TrafficModel::KeepPassage(std::uint32_t id) {
   Passage& passage = passages_[id];
-  if (passage.key.way != ways_[id] || passage.key.granted_m != agents_[id].granted_m || FrontOf(id) > passage.key.until_m) return false;
-  passage.due = passage.head = passage.able = passage.taken = passage.must_stop = passage.lit = passage.red = passage.barred = false;
+  if (passage.key.way != ways_[id] || passage.key.granted_m != agents_[id].granted_m ||
+      FrontOf(id) > passage.key.until_m)
+    return false;
+  passage.due = passage.head = passage.able = passage.taken = passage.must_stop = passage.lit = passage.red =
+      passage.barred = false;
   passage.lacks_m = passage.arrives_s = passage.delay_s = passage.later_s = 0.0;
   passage.waits_for = -1;
   return true;
 }
 
-// Who must know now looks on to where it would stand, however slowly it drives: where zones are longer than it sees, the next ones may begin where those end, and
-// who has taken the first ones alone would stand in them.
+// Who must know now looks on to where it would stand, however slowly it drives: where zones are longer than it sees,
+// the next ones may begin where those end, and who has taken the first ones alone would stand in them.
 void TrafficModel::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
   const Passage& passage = passages_[id];
@@ -79,7 +84,8 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
   const double stand = traits_[id].length_m + kStand_m;
   passage.key = {ways_[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
-    if (!passage.any) passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
+    if (!passage.any)
+      passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
     passage.any = true;
     passage.end_m = std::max(passage.end_m, crossing.out_m);
     crossings.push_back(crossing);
@@ -91,13 +97,15 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
     if (!stretch.crosses && !stretch.has_lines) continue;
     if (stretch.has_lines) passage.key.way = 0;  // what its lines say changes
     const auto sides = zones().ConflictsOf(stretch.track);
-    const std::span<const StopLine> lines = stretch.has_lines ? std::span<const StopLine>(map_->plans[stretch.track].lines) : std::span<const StopLine>();
+    const std::span<const StopLine> lines =
+        stretch.has_lines ? std::span<const StopLine>(map_->plans[stretch.track].lines) : std::span<const StopLine>();
     std::size_t next = 0;
     const auto take_lines = [&](double before_m) {
       for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
         const double at = stretch.zero_m + lines[next].d_m;
         const bool light = lines[next].light >= 0;
-        if (at < front - (light ? kOverLine_m : kStopped_m) || at <= agent.granted_m || at < stretch.begin_m) continue;  // a STOP line alone is granted once
+        if (at < front - (light ? kOverLine_m : kStopped_m) || at <= agent.granted_m || at < stretch.begin_m)
+          continue;  // a STOP line alone is granted once
         if (light) {
           if (passage.any && at > passage.end_m + stand) break;
           passage.lit = true;
@@ -128,7 +136,8 @@ void TrafficModel::TellComing(std::uint32_t id) {
   Passage& passage = passages_[id];
   const double in = passage.crossings.front().in_m, most = KnowAllowedAt(id, in, 0);
   (void)KnowAllowedAt(id, passage.end_m, 1);
-  passage.arrives_s = TravelTime(in - FrontOf(id), agents_[id].speed_mps, most, traits_[id].start_mps2, {agents_[id].wish_mps2, settings_.smooth.planned_mps3});
+  passage.arrives_s = TravelTime(in - FrontOf(id), agents_[id].speed_mps, most, traits_[id].start_mps2,
+                                 {agents_[id].wish_mps2, settings_.smooth.planned_mps3});
   FindRoom(id);
 }
 

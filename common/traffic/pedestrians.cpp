@@ -79,15 +79,20 @@ std::string WithoutCrossing(const network::Network& network, std::string_view ro
   return fmt::format("there is no road '{}'{}", road, base::DidYouMean(road, ids));
 }
 
-base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lanes::LargestCar& car, const PedestrianSettings& settings, std::uint64_t seed) {
+base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lanes::LargestCar& car,
+                                            const PedestrianSettings& settings, std::uint64_t seed) {
   Pedestrians made(settings, seed);
   made.crossings_ = std::make_shared<const std::vector<lanes::FootCrossing>>(lanes::FindFootCrossings(graph, car));
   if (settings.per_h > 0.0 && made.crossings_->empty()) {
-    return base::WrongInput("the network '" + graph.network().name() + "' has no crossing for people on foot; one ('crossing' of a road's markings, OpenDRIVE's 'crosswalk' or signal 293), or no 'pedestrians', was expected", settings.place);
+    return base::WrongInput("the network '" + graph.network().name() +
+                                "' has no crossing for people on foot; one ('crossing' of a road's markings, "
+                                "OpenDRIVE's 'crosswalk' or signal 293), or no 'pedestrians', was expected",
+                            settings.place);
   }
   auto of_track = std::make_shared<std::vector<std::vector<OnTrack>>>(graph.tracks().size());
   for (std::uint32_t c = 0; c < made.crossings().size(); ++c) {
-    for (std::uint32_t p = 0; p < made.crossings()[c].passes.size(); ++p) (*of_track)[made.crossings()[c].passes[p].track].push_back({c, p});
+    for (std::uint32_t p = 0; p < made.crossings()[c].passes.size(); ++p)
+      (*of_track)[made.crossings()[c].passes[p].track].push_back({c, p});
   }
   made.of_track_ = std::move(of_track);
   made.per_h_.assign(made.crossings().size(), settings.per_h);
@@ -110,7 +115,8 @@ std::int64_t Pedestrians::NextAt(std::uint32_t crossing) const {
   return NextArrival_ns(flow, seed_, kFlows + crossing, count.flowed, count.flowed == 0 ? 0 : count.next_ns);
 }
 
-std::optional<std::uint32_t> Pedestrians::Nearest(const network::Network& network, std::string_view road, double s_m) const {
+std::optional<std::uint32_t> Pedestrians::Nearest(const network::Network& network, std::string_view road,
+                                                  double s_m) const {
   const auto index = network.FindRoad(road);
   std::optional<std::uint32_t> nearest;
   for (std::uint32_t c = 0; index && c < crossings().size(); ++c) {
@@ -129,9 +135,13 @@ double Pedestrians::WalkingSpeed(const Person& person) const {
 }
 
 // So many can walk beside one another each way.
-int Pedestrians::FilesOf(std::uint32_t crossing) const { return std::max(1, static_cast<int>(crossings()[crossing].half_width_m / kFile_m)); }
+int Pedestrians::FilesOf(std::uint32_t crossing) const {
+  return std::max(1, static_cast<int>(crossings()[crossing].half_width_m / kFile_m));
+}
 
-int Pedestrians::FileOf(const Person& person) const { return static_cast<int>(Draw(person, kFile) * static_cast<double>(FilesOf(person.crossing))); }
+int Pedestrians::FileOf(const Person& person) const {
+  return static_cast<int>(Draw(person, kFile) * static_cast<double>(FilesOf(person.crossing)));
+}
 
 double Pedestrians::BeforeOf(const Person& person) const {
   const lanes::FootCrossing& crossing = crossings()[person.crossing];
@@ -144,7 +154,9 @@ double Pedestrians::AfterOf(const Person& person) const {
 }
 
 bool Pedestrians::Waits(std::uint32_t crossing) const {
-  return std::any_of(order_[crossing].begin(), order_[crossing].end(), [&](std::uint32_t p) { return !people_[p].walks && !people_[p].is_hit && people_[p].u_m >= -kAtKerb_m; });
+  return std::any_of(order_[crossing].begin(), order_[crossing].end(), [&](std::uint32_t p) {
+    return !people_[p].walks && !people_[p].is_hit && people_[p].u_m >= -kAtKerb_m;
+  });
 }
 
 bool Pedestrians::IsUsed(std::uint32_t crossing, std::uint32_t pass) const {
@@ -180,7 +192,8 @@ void Pedestrians::Come(std::uint32_t crossing, std::uint32_t side) {
   free->trip = trip;
   free->u_m = -BeforeOf(*free);
   for (const std::uint32_t p : order_[crossing]) {  // there is no room for two
-    if (people_[p].side == side && FileOf(people_[p]) == FileOf(*free)) free->u_m = std::min(free->u_m, people_[p].u_m - kBehind_m);
+    if (people_[p].side == side && FileOf(people_[p]) == FileOf(*free))
+      free->u_m = std::min(free->u_m, people_[p].u_m - kBehind_m);
   }
   order_[crossing].push_back(static_cast<std::uint32_t>(free - people_.begin()));
 }
@@ -225,7 +238,8 @@ void Pedestrians::Hit(std::uint32_t id) {
 Eigen::Vector3d Pedestrians::PlaceOf(const Person& person) const {
   const lanes::FootCrossing& at = crossings()[person.crossing];
   const double u = person.side == 0 ? person.u_m : at.length_m - person.u_m;
-  const double aside = std::min(at.half_width_m, (0.5 + static_cast<double>(FileOf(person))) * kFile_m) * (person.side == 0 ? -1.0 : 1.0);
+  const double aside = std::min(at.half_width_m, (0.5 + static_cast<double>(FileOf(person))) * kFile_m) *
+                       (person.side == 0 ? -1.0 : 1.0);
   const Eigen::Vector2d p = at.begin_W + u * at.across_W + aside * at.left_W();
   return {p.x(), p.y(), at.HeightAt(u)};
 }
@@ -252,7 +266,8 @@ std::vector<PersonPose> Pedestrians::Poses() const {
 
 std::vector<driver::Footprint> Pedestrians::Footprints() const {
   std::vector<driver::Footprint> footprints;
-  for (const PersonPose& pose : Poses()) footprints.push_back({pose.id, pose.p_W.x(), pose.p_W.y(), pose.heading_rad, pose.speed_mps, kLength_m, kWidth_m});
+  for (const PersonPose& pose : Poses())
+    footprints.push_back({pose.id, pose.p_W.x(), pose.p_W.y(), pose.heading_rad, pose.speed_mps, kLength_m, kWidth_m});
   return footprints;
 }
 
@@ -261,7 +276,9 @@ void Pedestrians::OrderAll() {
   for (std::uint32_t p = 0; p < people_.size(); ++p) {
     if (people_[p].present) order_[people_[p].crossing].push_back(p);
   }
-  for (auto& order : order_) std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return people_[a].number < people_[b].number; });
+  for (auto& order : order_)
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return people_[a].number < people_[b].number; });
 }
 
 void Pedestrians::Save(base::StateWriter& writer) const {

@@ -11,8 +11,8 @@
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
 #include "common/driving/driver/footprint.hpp"
-#include "common/world/lanes/foot_crossings.hpp"
 #include "common/traffic/pedestrian_settings.hpp"
+#include "common/world/lanes/foot_crossings.hpp"
 
 namespace rodeira::traffic {
 
@@ -31,9 +31,10 @@ struct PersonPose {
 // Why nobody on foot crosses a road: it is not there, or has no crossing.
 std::string WithoutCrossing(const network::Network& network, std::string_view road);
 
-// People on foot at a network's crossings: they arrive by Poisson flows, wait at the kerb until they are let go, cross straight at a speed of
-// their own, keeping to the right and behind one another, and are gone. Who is hit stays where he is. What cars do is told from outside. A
-// step is a function of the state and of what is told; draws are keyed by seed, crossing and number of arrival.
+// People on foot at a network's crossings: they arrive by Poisson flows, wait at the kerb until they are let go, cross
+// straight at a speed of their own, keeping to the right and behind one another, and are gone. Who is hit stays where
+// he is. What cars do is told from outside. A step is a function of the state and of what is told; draws are keyed by
+// seed, crossing and number of arrival.
 class Pedestrians {
  public:
   static constexpr std::uint32_t kFirstId = 2'000'000;  // their numbers lie beyond those of vehicles
@@ -41,17 +42,17 @@ class Pedestrians {
   static constexpr double kStrideRadius_m = 0.24;
 
   struct Person {
-    bool present = false;   // between arrival and end; else the place is free for another one
-    bool walks = false;     // has been let go
+    bool present = false;  // between arrival and end; else the place is free for another one
+    bool walks = false;    // has been let go
     bool is_hit = false;
     std::uint32_t crossing = 0;
-    std::uint32_t side = 0;   // begins at the crossing's beginning (0) or end (1)
+    std::uint32_t side = 0;    // begins at the crossing's beginning (0) or end (1)
     std::uint32_t number = 0;  // of arrival at the crossing
     std::uint32_t trip = 0;
-    double u_m = 0.0;         // gone from his kerb; below 0 before it
-    double speed_mps = 0.0;   // now
+    double u_m = 0.0;        // gone from his kerb; below 0 before it
+    double speed_mps = 0.0;  // now
     double gone_m = 0.0;
-    double waited_s = 0.0;    // at the kerb
+    double waited_s = 0.0;  // at the kerb
 
     void Save(base::StateWriter& writer) const;
     void Restore(base::StateReader& reader);
@@ -68,7 +69,8 @@ class Pedestrians {
   };
 
   // Wrong input where somebody should walk and there is no crossing.
-  static base::Result<Pedestrians> Make(const lanes::Graph& graph, const lanes::LargestCar& car, const PedestrianSettings& settings, std::uint64_t seed);
+  static base::Result<Pedestrians> Make(const lanes::Graph& graph, const lanes::LargestCar& car,
+                                        const PedestrianSettings& settings, std::uint64_t seed);
 
   const std::vector<lanes::FootCrossing>& crossings() const { return *crossings_; }
   // The passes that lead over a track: crossing and index of the pass.
@@ -119,8 +121,8 @@ class Pedestrians {
   std::uint64_t seed_ = 1;
   std::shared_ptr<const std::vector<lanes::FootCrossing>> crossings_;
   std::shared_ptr<const std::vector<std::vector<OnTrack>>> of_track_;
-  std::vector<double> per_h_;                       // by crossing
-  std::vector<Count> counts_;                       // by crossing
+  std::vector<double> per_h_;  // by crossing
+  std::vector<Count> counts_;  // by crossing
   std::vector<Person> people_;
   std::vector<std::vector<std::uint32_t>> order_;  // by crossing: who is present, by arrival; found from people_
 };

@@ -11,7 +11,8 @@
 
 namespace rodeira::traffic {
 
-// What an agent is told: the deceleration to brake by, the speed to keep to, to forget all, to overtake, the side to change lanes to.
+// What an agent is told: the deceleration to brake by, the speed to keep to, to forget all, to overtake, the side to
+// change lanes to.
 enum class OrderKind : std::uint8_t { kBrake = 0, kSpeed = 1, kRelease = 2, kOvertake = 3, kChangeLane = 4 };
 // Whether that may be told with this value: above 0 of braking and speed, 1 (left) or -1 (right) of a side.
 bool IsSound(OrderKind kind, double value);
@@ -19,17 +20,19 @@ bool IsSound(OrderKind kind, double value);
 // Told at once.
 void Obey(TrafficModel& model, std::uint32_t id, OrderKind kind, double value);
 
-// What agents are told when they come to a place: as soon as the middle of one has passed a station of a road, whichever way it drives there.
+// What agents are told when they come to a place: as soon as the middle of one has passed a station of a road,
+// whichever way it drives there.
 struct PlaceOrder {
   OrderKind kind = OrderKind::kBrake;
-  double value = 0.0;       // m/s², m/s, or a side
-  std::uint32_t road = 0;   // index into the network's roads
-  double s_m = 0.0;         // of the road's axis
+  double value = 0.0;      // m/s², m/s, or a side
+  std::uint32_t road = 0;  // index into the network's roads
+  double s_m = 0.0;        // of the road's axis
   enum class Whom : std::uint8_t { kOne = 0, kNext = 1, kAll = 2 } whom = Whom::kNext;
   std::uint32_t id = 0;  // kOne: this agent, when it passes next
 };
 
-// Orders that wait for somebody to pass. Those for one agent, and for the next one, end when they have been obeyed; those for all go on.
+// Orders that wait for somebody to pass. Those for one agent, and for the next one, end when they have been obeyed;
+// those for all go on.
 class PlaceOrders {
  public:
   // Wrong input with the nearest name where the network has no such road, or the road is shorter.

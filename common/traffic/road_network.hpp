@@ -12,7 +12,8 @@ std::shared_ptr<const network::Network> NetworkOf(const std::shared_ptr<const ro
 // A world that has nothing but these roads.
 std::shared_ptr<const road::World> WorldOf(std::shared_ptr<const network::Network> network);
 
-// Where the driver's car starts, which is known before anything is published: no traffic begins there, in a run nor without one.
+// Where the driver's car starts, which is known before anything is published: no traffic begins there, in a run nor
+// without one.
 driver::Footprint KeptClear(const road::World& world);
 
 }  // namespace rodeira::traffic

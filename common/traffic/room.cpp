@@ -12,17 +12,20 @@ namespace {
 constexpr double kHardest_mps2 = 3.0;  // braking by which it is told where a vehicle could stand that may stop
 constexpr double kSameLine_m = 1.2;    // lines nearer to one another than this are one
 constexpr double kNever_m = 1e18;
-constexpr double kRoom_m = 5.0;        // before who stands anywhere else than at a line
-constexpr int kDeepest = 256;           // longer columns count as ending there
-constexpr double kStands_mps = 0.5, kFollows_s = 1.2, kClose_m = 3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
-constexpr double kWaits_s = 3.0;        // within its zones for who leaves it room, at most, as told beforehand
+constexpr double kRoom_m = 5.0;  // before who stands anywhere else than at a line
+constexpr int kDeepest = 256;    // longer columns count as ending there
+constexpr double kStands_mps = 0.5, kFollows_s = 1.2,
+                 kClose_m =
+                     3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
+constexpr double kWaits_s = 3.0;  // within its zones for who leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
 
 }  // namespace
 
-// Whoever stands or drives before it on its way as far as `to_m`, and how far its rear surely comes: `tell(id, rear_m)`, in its
-// own odometer, -1 for a vehicle that is no agent. Who parts from its way and surely comes clear of it is nobody to it.
+// Whoever stands or drives before it on its way as far as `to_m`, and how far its rear surely comes: `tell(id,
+// rear_m)`, in its own odometer, -1 for a vehicle that is no agent. Who parts from its way and surely comes clear of it
+// is nobody to it.
 template <class Tell>
 void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell) {
   const Agent& agent = agents_[id];
@@ -51,20 +54,24 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
     for (const lanes::Parting& part : PartingsOf(stretch.track)) {
       if (stretch.zero_m + part.out_m < agent.o_m) continue;
       for (const Occupant& other : occupants_.On(part.other)) {
-        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m) told(other, stretch.zero_m, part.other_out_m);
+        if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m)
+          told(other, stretch.zero_m, part.other_out_m);
       }
     }
     for (const Block& block : BlocksOn(stretch.track)) {
       const double rear = stretch.zero_m + block.span.rear_m;
-      if (rear > to_m || stretch.zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width || block.span.left_m < -half_width) continue;
+      if (rear > to_m || stretch.zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width ||
+          block.span.left_m < -half_width)
+        continue;
       tell(std::int64_t{-1}, rear, rear + StopsWithin(block.span.speed_mps));
     }
   }
 }
 
-// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but for the hand's breadth before it at
-// which it may come to rest), behind whoever is before it as far as those come, and as far as those let it who hold its own zones before it. Who is told to brake, and whoever is no agent, may stop at once. In a ring of
-// followers the one that closes it counts as standing.
+// How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but
+// for the hand's breadth before it at which it may come to rest), behind whoever is before it as far as those come, and
+// as far as those let it who hold its own zones before it. Who is told to brake, and whoever is no agent, may stop at
+// once. In a ring of followers the one that closes it counts as standing.
 double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   if (reaches_[id] >= 0.0) return reaches_[id];
   const Agent& agent = agents_[id];
@@ -82,8 +89,8 @@ double TrafficModel::ReachOf(std::uint32_t id, int depth) {
   return reaches_[id] = std::max(0.0, to - front);
 }
 
-// Whether somebody has gone so far before this one has long been waiting at the end of its zones. Who stands starts so long after all who stand in a row
-// before him; who drives up to such a row comes as far as its end before.
+// Whether somebody has gone so far before this one has long been waiting at the end of its zones. Who stands starts so
+// long after all who stand in a row before him; who drives up to such a row comes as far as its end before.
 bool TrafficModel::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
   double comes = 0.0, starts = 0.0;
   std::uint32_t at = other;
@@ -92,21 +99,25 @@ bool TrafficModel::LeavesInTime(std::uint32_t id, std::uint32_t other, double wa
     const Ahead& ahead = ahead_[at];
     const bool stands = agent.speed_mps < kStands_mps;
     const std::int64_t next = agent.eased_for >= 0 ? agent.eased_for : ahead.id;
-    const double gap = next == ahead.id ? ahead.gap_m : 0.0, closes = std::max(0.0, gap - traits_[at].idm.standing_gap_m);
+    const double gap = next == ahead.id ? ahead.gap_m : 0.0,
+                 closes = std::max(0.0, gap - traits_[at].idm.standing_gap_m);
     if (next < 0 || next == other || (stands ? closes > kClose_m : starts > 0.0)) break;
-    if (stands) starts += kFollows_s;
-    else comes += closes;
+    if (stands)
+      starts += kFollows_s;
+    else
+      comes += closes;
     if (starts == 0.0 && comes >= way_m) return true;
     at = static_cast<std::uint32_t>(next);
   }
   if (starts == 0.0) return true;
   const double leaves = starts + TravelTime(way_m - comes, 0.0, Desired_mps(other), traits_[other].start_mps2);
-  const double arrives = TravelTime(passages_[id].end_m - FrontOf(id), agents_[id].speed_mps, AllowedAt(id, passages_[id].end_m), traits_[id].start_mps2);
+  const double arrives = TravelTime(passages_[id].end_m - FrontOf(id), agents_[id].speed_mps,
+                                    AllowedAt(id, passages_[id].end_m), traits_[id].start_mps2);
   return leaves < arrives + kWaits_s;
 }
 
-// Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at the
-// same line makes it no head.
+// Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at
+// the same line makes it no head.
 void TrafficModel::FindRoom(std::uint32_t id) {
   Passage& passage = passages_[id];
   passage.head = passage.able = true;

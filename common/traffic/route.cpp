@@ -24,7 +24,8 @@ bool MayChange(const lanes::Graph& graph, const lanes::EdgeMarks& marks, std::ui
 
 }  // namespace
 
-base::Result<Route> Route::Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks, const RouteSettings& settings) {
+base::Result<Route> Route::Make(const lanes::Graph& graph, const lanes::EdgeMarks& marks,
+                                const RouteSettings& settings) {
   Route route;
   const std::size_t count = graph.tracks().size(), legs = settings.ways.size();
   std::vector<std::vector<std::uint32_t>> on;
@@ -40,9 +41,13 @@ base::Result<Route> Route::Make(const lanes::Graph& graph, const lanes::EdgeMark
   for (std::size_t leg = legs; leg-- > 0;) {
     route.FindWays(graph, marks, static_cast<std::uint32_t>(leg));
     if (leg == 0) break;
-    const bool any = std::any_of(on[leg - 1].begin(), on[leg - 1].end(), [&](std::uint32_t track) { return route.Reaches(static_cast<std::uint32_t>(leg), track); });
+    const bool any = std::any_of(on[leg - 1].begin(), on[leg - 1].end(), [&](std::uint32_t track) {
+      return route.Reaches(static_cast<std::uint32_t>(leg), track);
+    });
     if (!any) {
-      return base::WrongInput(fmt::format("the route '{}' does not exist: no way leads from '{}' on to '{}'", settings.name, settings.ways[leg - 1], settings.ways[leg]), settings.place);
+      return base::WrongInput(fmt::format("the route '{}' does not exist: no way leads from '{}' on to '{}'",
+                                          settings.name, settings.ways[leg - 1], settings.ways[leg]),
+                              settings.place);
     }
   }
   return route;
@@ -69,15 +74,18 @@ void Route::FindWays(const lanes::Graph& graph, const lanes::EdgeMarks& marks, s
     for (const std::uint32_t before : graph[track].before) {
       if (!reached_[leg][before]) improve(before, {way_m + graph[before].length_m(), here.changes, false});
     }
-    for (const auto& [beside, side] : {std::pair{graph[track].left, lanes::Side::kRight}, {graph[track].right, lanes::Side::kLeft}}) {
-      if (beside && !reached_[leg][*beside] && MayChange(graph, marks, *beside, side)) improve(*beside, {way_m + kChange_m, here.changes + 1, true});
+    for (const auto& [beside, side] :
+         {std::pair{graph[track].left, lanes::Side::kRight}, {graph[track].right, lanes::Side::kLeft}}) {
+      if (beside && !reached_[leg][*beside] && MayChange(graph, marks, *beside, side))
+        improve(*beside, {way_m + kChange_m, here.changes + 1, true});
     }
   }
   for (std::uint32_t track = 0; track < left.size(); ++track) {  // who may as well change later, does not have to now
     const auto& next = graph[track].next;
     if (left[track].must_change && std::any_of(next.begin(), next.end(), [&](const lanes::Link& on) {
           return left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kSame_m;
-        })) left[track].must_change = false;
+        }))
+      left[track].must_change = false;
   }
 }
 

@@ -8,14 +8,15 @@
 
 #include "common/driving/driver/speed_plan.hpp"
 #include "common/driving/driver/way.hpp"
-#include "common/world/lanes/curve.hpp"
 #include "common/traffic/agent.hpp"
+#include "common/world/lanes/curve.hpp"
 
 namespace rodeira::traffic {
 
 // Who is where on the tracks, as agents see it in a step.
 
-// A track on an agent's way, in its odometer, with what is asked of that track in each step: beside the agent it is in near memory.
+// A track on an agent's way, in its odometer, with what is asked of that track in each step: beside the agent it is in
+// near memory.
 struct Stretch {
   std::uint32_t track = 0;
   double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
@@ -28,10 +29,12 @@ struct Stretch {
   double planned_mps = 0.0;  // that the track's plan allows where it begins here
 };
 
-// From the track under its rear bumper to as far as it looks: most look over no more than three, which lie in its own place in memory.
+// From the track under its rear bumper to as far as it looks: most look over no more than three, which lie in its own
+// place in memory.
 using Stretches = boost::container::small_vector<Stretch, 3>;
 
-// Of the track below an agent's middle what is asked in each step, beside the agent in near memory: nothing that the map does not say.
+// Of the track below an agent's middle what is asked in each step, beside the agent in near memory: nothing that the
+// map does not say.
 struct Below {
   std::uint32_t track = 0xFFFFFFFF;
   std::int32_t road = 0, lane = 0;
@@ -41,7 +44,7 @@ struct Below {
   std::optional<lanes::Curve::Straight> straight;
   std::optional<Eigen::Quaterniond> turned;  // how a car stands anywhere on a straight whose surface does not twist …
   double grade = 0.0;                        // … and climbs
-  driver::SpeedPlan::Part plan;  // about that place
+  driver::SpeedPlan::Part plan;              // about that place
 };
 
 // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
@@ -87,7 +90,7 @@ struct Behind {
   double speed_mps = 0.0;
   std::int64_t id = -1;  // of an agent
   std::uint32_t track = 0;
-  double d_m = 0.0;      // of its front
+  double d_m = 0.0;  // of its front
   bool any = false;
 };
 

@@ -8,17 +8,20 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kHarder = 2.0;          // than its comfortable braking: who brakes so does it in an emergency, and lets go as quickly
+constexpr double kHarder =
+    2.0;  // than its comfortable braking: who brakes so does it in an emergency, and lets go as quickly
 constexpr double kRounding_mps2 = 1e-6;
 constexpr double kCreeps_mps = 1.0;
 
 }  // namespace
 
-// By no more than the planned jerk, so that it also comes to rest without one. In an emergency by the emergency's: it would have to brake harder than is comfortable,
-// and sooner than it can so; or as hard as it may, but not for traffic that drives away from it; or it has come to brake harder than it could let go of so. What a scenario commands is done exactly.
-// A car with full physics may brake a little harder than it is asked to, and so be slower than the deceleration that it has come to would be let go of from: that is let go of by the planned jerk all the
-// same, as long as what is left of it is taken by the foot that ends the stop. Nor are the last centimetres before a line, which ask for as much as one likes, an emergency for it: it comes to stand a hand's
-// breadth behind; before somebody they are.
+// By no more than the planned jerk, so that it also comes to rest without one. In an emergency by the emergency's: it
+// would have to brake harder than is comfortable, and sooner than it can so; or as hard as it may, but not for traffic
+// that drives away from it; or it has come to brake harder than it could let go of so. What a scenario commands is done
+// exactly. A car with full physics may brake a little harder than it is asked to, and so be slower than the
+// deceleration that it has come to would be let go of from: that is let go of by the planned jerk all the same, as long
+// as what is left of it is taken by the foot that ends the stop. Nor are the last centimetres before a line, which ask
+// for as much as one likes, an emergency for it: it comes to stand a hand's breadth behind; before somebody they are.
 double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
   const Agent& agent = agents_[id];
   const double before = agent.wish_mps2, v = agent.speed_mps, b = traits_[id].idm.braking_mps2;
@@ -26,15 +29,21 @@ double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s)
   hurries_[id] = 0;
   if (agent.brake_mps2 > 0.0) return wanted_mps2;
   const double lets_go = driver::EasedStop_mps2(v, smooth.planned_mps3, dt_s);
-  const double can_let_go = full_ ? driver::EasedStop_mps2(v + driver::Pedals::kEnds_mps, smooth.planned_mps3, dt_s) : lets_go;
-  const bool parts = ahead_[id].any && ahead_[id].id >= 0 && ahead_[id].speed_mps > v;  // who has merged in before it, and drives away
+  const double can_let_go =
+      full_ ? driver::EasedStop_mps2(v + driver::Pedals::kEnds_mps, smooth.planned_mps3, dt_s) : lets_go;
+  const bool parts =
+      ahead_[id].any && ahead_[id].id >= 0 && ahead_[id].speed_mps > v;  // who has merged in before it, and drives away
   const bool longer = wanted_mps2 < -b && driver::NeedsHaste(wanted_mps2, v, before, smooth.planned_mps3);
-  const bool at_line = full_ && v < kCreeps_mps && !(ahead_[id].any && (ahead_[id].speed_mps < 0.0 || ahead_[id].gap_m < driver::SmoothStop_m(v, before, smooth.planned_mps3)));
+  const bool at_line = full_ && v < kCreeps_mps &&
+                       !(ahead_[id].any && (ahead_[id].speed_mps < 0.0 ||
+                                            ahead_[id].gap_m < driver::SmoothStop_m(v, before, smooth.planned_mps3)));
   const bool hurries = -before > std::min(kHarder * b, can_let_go + smooth.planned_mps3 * dt_s + kRounding_mps2) ||
                        (wanted_mps2 <= -traits_[id].idm.hardest_mps2 && !parts && !at_line) || longer;
   hurries_[id] = hurries ? 1 : 0;
   const double jerk = hurries ? smooth.emergency_mps3 : smooth.planned_mps3;
-  const double hardest = hurries ? driver::EasedStop_mps2(v, jerk, dt_s) : full_ ? std::max(lets_go, -before - jerk * dt_s) : lets_go;
+  const double hardest = hurries ? driver::EasedStop_mps2(v, jerk, dt_s)
+                         : full_ ? std::max(lets_go, -before - jerk * dt_s)
+                                 : lets_go;
   return std::max(std::clamp(wanted_mps2, before - jerk * dt_s, before + jerk * dt_s), -hardest);
 }
 

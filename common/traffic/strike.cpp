@@ -11,11 +11,12 @@ namespace {
 constexpr double kSlidingFriction = 0.7;  // of locked wheels on dry asphalt
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kNoticed_mps = 1e-3;  // some kilonewtons for a millisecond
-constexpr double kReach_m = 12.0;         // lanes so near give it its height
+constexpr double kReach_m = 12.0;      // lanes so near give it its height
 
 // What static friction holds: less than its wheels can take in a step, of momentum and of its moment about the middle.
 bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
-  const double takes_mps = kSlidingFriction * kGravity_mps2 * dt_s, arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
+  const double takes_mps = kSlidingFriction * kGravity_mps2 * dt_s,
+               arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
   const double gyration2 = (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
   return struck.v_W.norm() + std::fabs(struck.yaw_rate_radps) * gyration2 / arm <= takes_mps;
 }
@@ -45,7 +46,8 @@ void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, c
     agent.struck.v_W = body.speed_mps * Eigen::Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
   }
   agent.struck.Push(traits_[id], impulse_Ns, point_W);
-  agent.speed_mps = agent.struck.v_W.dot(Eigen::Vector2d(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad)));
+  agent.speed_mps =
+      agent.struck.v_W.dot(Eigen::Vector2d(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad)));
   *std::find_if(poses_.begin(), poses_.end(), [&](const AgentPose& pose) { return pose.id == id; }) = PoseOfStruck(id);
 }
 
@@ -54,7 +56,8 @@ void TrafficModel::SlideStruck(double dt_s) {
     Agent& agent = agents_[id];
     if (!agent.is_struck) continue;
     const Eigen::Vector2d before = agent.struck.v_W;
-    if (agent.waited_s > 0.0 && Holds(agent.struck, traits_[id], dt_s)) agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
+    if (agent.waited_s > 0.0 && Holds(agent.struck, traits_[id], dt_s))
+      agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
     agent.struck.Slide(traits_[id], kSlidingFriction, dt_s);
     agent.waited_s = agent.struck.at_rest() ? agent.waited_s + dt_s : 0.0;  // at rest
     const Eigen::Vector2d ahead(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad));
@@ -69,7 +72,8 @@ double TrafficModel::HeightAt(const Struck& struck, double near_z_m) const {
   double height = near_z_m, nearest = kReach_m;
   for (const lanes::Graph::Beside& beside : graph().TracksAt(struck.p_W, kReach_m)) {
     const lanes::CurvePoint at = graph()[beside.track].curve.At(beside.foot.d_m);
-    if (std::fabs(at.p_W.z() - near_z_m) > network::Network::kLevel_m || std::fabs(beside.foot.offset_m) >= nearest) continue;
+    if (std::fabs(at.p_W.z() - near_z_m) > network::Network::kLevel_m || std::fabs(beside.foot.offset_m) >= nearest)
+      continue;
     nearest = std::fabs(beside.foot.offset_m);
     height = at.p_W.z() + at.bank * beside.foot.offset_m;
   }

@@ -14,7 +14,9 @@ namespace {
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kSubstep_s = 1e-3;
 
-double Inertia(const AgentTraits& traits) { return traits.mass_kg * (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0; }
+double Inertia(const AgentTraits& traits) {
+  return traits.mass_kg * (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
+}
 
 Eigen::Vector2d Turned(const Eigen::Vector2d& r, double rate) { return {-rate * r.y(), rate * r.x()}; }
 
@@ -34,7 +36,8 @@ void Struck::Slide(const AgentTraits& traits, double mu, double dt_s) {
     const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad)), left(-ahead.y(), ahead.x());
     Eigen::Vector2d force = Eigen::Vector2d::Zero();
     double moment = 0.0;
-    for (const auto& [along, across] : {std::array{1.0, 1.0}, std::array{1.0, -1.0}, std::array{-1.0, 1.0}, std::array{-1.0, -1.0}}) {
+    for (const auto& [along, across] :
+         {std::array{1.0, 1.0}, std::array{1.0, -1.0}, std::array{-1.0, 1.0}, std::array{-1.0, -1.0}}) {
       const Eigen::Vector2d r = along * corner.x() * ahead + across * corner.y() * left;
       const Eigen::Vector2d v = v_W + Turned(r, yaw_rate_radps);
       const double speed = v.norm();

@@ -16,7 +16,8 @@ struct Struck {
 
   // An impulse on it, N s, at a point: v += J/m, yaw rate += (r × J)/I, I = m (length² + width²)/12.
   void Push(const AgentTraits& traits, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
-  // Each wheel, at the corners of wheelbase and width, bears a quarter of the weight and slides with the friction coefficient mu.
+  // Each wheel, at the corners of wheelbase and width, bears a quarter of the weight and slides with the friction
+  // coefficient mu.
   void Slide(const AgentTraits& traits, double mu, double dt_s);
   bool at_rest() const { return v_W.isZero(0.0) && yaw_rate_radps == 0.0; }
 

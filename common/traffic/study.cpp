@@ -21,12 +21,18 @@ constexpr double kMoves_mps = 0.5;
 constexpr double kHard_mps2 = 3.0;
 constexpr double kOnLane_m = 1e-3;
 constexpr double kWidest_m = 4.0, kHalfTyre_m = 0.1;
-constexpr double kSmooth_mps3 = 3.0 * (1.0 + 1e-6), kLateral_mps2 = 3.0, kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;  // what is told of
+constexpr double kSmooth_mps3 = 3.0 * (1.0 + 1e-6), kLateral_mps2 = 3.0,
+                 kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;  // what is told of
 
 class Watcher {
  public:
   Watcher(const network::Network& network, const StudySettings& settings)
-      : network_(network), settings_(settings), stands_s_(settings.traffic.vehicles + settings.traffic.scripted.size(), 0.0), with_room_s_(stands_s_), turning_(stands_s_.size()), hurried_(stands_s_.size(), 0) {}
+      : network_(network),
+        settings_(settings),
+        stands_s_(settings.traffic.vehicles + settings.traffic.scripted.size(), 0.0),
+        with_room_s_(stands_s_),
+        turning_(stands_s_.size()),
+        hurried_(stands_s_.size(), 0) {}
 
   StudyResult& result() { return result_; }
 
@@ -50,14 +56,19 @@ class Watcher {
       result_.worst_step_m = std::max(result_.worst_step_m, error);
       result_.hardest_any_mps2 = std::max(result_.hardest_any_mps2, -pose.acceleration_mps2);
       if (model.agent(pose.id).driving.brake <= 0.0) continue;  // a hill that the engine is too weak for
-      if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2) Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
+      if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2)
+        Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
       if (pose.speed_mps < kMoves_mps) continue;
       const dynamics::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
-      result_.foot_mps2 = std::max(result_.foot_mps2, model.agent(pose.id).driving.brake * FullBrake_N(car) / car.body.mass_kg);
+      result_.foot_mps2 =
+          std::max(result_.foot_mps2, model.agent(pose.id).driving.brake * FullBrake_N(car) / car.body.mass_kg);
     }
-    if (result_.steps == 0) result_.began = static_cast<std::int64_t>(model.poses().size());
-    else result_.entered += static_cast<std::int64_t>(model.poses().size() - same), result_.left += static_cast<std::int64_t>(before_.size() - same);
+    if (result_.steps == 0)
+      result_.began = static_cast<std::int64_t>(model.poses().size());
+    else
+      result_.entered += static_cast<std::int64_t>(model.poses().size() - same),
+          result_.left += static_cast<std::int64_t>(before_.size() - same);
     before_ = model.poses();
     ++result_.steps;
   }
@@ -79,10 +90,12 @@ class Watcher {
       return std::atan2(forward.y(), forward.x());
     };
     const double rate = std::remainder(heading(pose) - heading(before), 2.0 * std::numbers::pi) / settings_.step_s;
-    const double jerk = std::fabs(pose.acceleration_mps2 - before.acceleration_mps2) / settings_.step_s, lateral = std::fabs(pose.speed_mps * rate);
+    const double jerk = std::fabs(pose.acceleration_mps2 - before.acceleration_mps2) / settings_.step_s,
+                 lateral = std::fabs(pose.speed_mps * rate);
     double& worst = model.Hurries(pose.id) ? result_.emergency_jerk_mps3 : result_.planned_jerk_mps3;
     if (jerk > worst && jerk > kSmooth_mps3) Tell("jerks by {:.2f} m/s3", pose, jerk);
-    if (lateral > result_.lateral_mps2 && lateral > kLateral_mps2) Tell("is pressed sideways by {:.2f} m/s2", pose, lateral);
+    if (lateral > result_.lateral_mps2 && lateral > kLateral_mps2)
+      Tell("is pressed sideways by {:.2f} m/s2", pose, lateral);
     worst = std::max(worst, jerk);
     result_.lateral_mps2 = std::max(result_.lateral_mps2, lateral);
     if (goes_on) {
@@ -113,7 +126,8 @@ class Watcher {
       if (model.RoomAhead(pose.id)) with_room += settings_.watch_s;
       result_.standing_s += settings_.watch_s;
       if (stands > result_.longest_stand_s) result_.longest_stand_s = stands, result_.longest_stand_id = pose.id;
-      if (with_room > result_.longest_with_room_s) result_.longest_with_room_s = with_room, result_.longest_with_room_id = pose.id;
+      if (with_room > result_.longest_with_room_s)
+        result_.longest_with_room_s = with_room, result_.longest_with_room_id = pose.id;
     }
   }
 
@@ -127,10 +141,14 @@ class Watcher {
   bool IsForVehicles(const TrafficModel& model, const Eigen::Vector3d& p_W) {
     const auto place = network_.Locate(p_W.x(), p_W.y(), p_W.z(), &hint_);
     const network::Lane* lane = place ? network_.Find(place->lane) : nullptr;
-    if (lane != nullptr && place->distance_m <= kOnLane_m && (network::IsDrivable(lane->type) || lane->type == network::LaneType::kShoulder)) return true;
+    if (lane != nullptr && place->distance_m <= kOnLane_m &&
+        (network::IsDrivable(lane->type) || lane->type == network::LaneType::kShoulder))
+      return true;
     for (const lanes::Graph::Beside& beside : model.graph().TracksAt(p_W.head<2>(), kWidest_m)) {
       const lanes::Curve& curve = model.graph()[beside.track].curve;
-      if (std::fabs(beside.foot.offset_m) <= 0.5 * curve.WidthAt(beside.foot.d_m) + kOnLane_m && std::fabs(curve.At(beside.foot.d_m).p_W.z() - p_W.z()) < network::Network::kLevel_m) return true;
+      if (std::fabs(beside.foot.offset_m) <= 0.5 * curve.WidthAt(beside.foot.d_m) + kOnLane_m &&
+          std::fabs(curve.At(beside.foot.d_m).p_W.z() - p_W.z()) < network::Network::kLevel_m)
+        return true;
     }
     return false;
   }
@@ -139,7 +157,9 @@ class Watcher {
     const AgentTraits& traits = model.traits(pose.id);
     for (const double along : {-0.5, 0.5}) {
       for (const double aside : {-1.0, 1.0}) {
-        const Eigen::Vector3d wheel_W = pose.p_WB_W + pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, aside * (0.5 * traits.width_m - kHalfTyre_m), 0.0);
+        const Eigen::Vector3d wheel_W =
+            pose.p_WB_W +
+            pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, aside * (0.5 * traits.width_m - kHalfTyre_m), 0.0);
         if (IsForVehicles(model, wheel_W)) continue;
         ++result_.wheels_off;
         Tell("has a wheel off the road, at ({:.2f}, {:.2f})", pose, wheel_W.x(), wheel_W.y());
@@ -150,10 +170,11 @@ class Watcher {
   template <class... Values>
   void Tell(const char* what, const AgentPose& pose, Values... values) {
     if (result_.incidents.size() >= kIncidents) return;
-    result_.incidents.push_back(fmt::format("{:.2f} s: car {} on road '{}', lane {}, at ({:.2f}, {:.2f}), {:.2f} m/s: ", time_s_, pose.id,
-                                            network_.roads()[static_cast<std::size_t>(pose.road)].id(), pose.lane, pose.p_WB_W.x(),
-                                            pose.p_WB_W.y(), pose.speed_mps) +
-                                fmt::format(fmt::runtime(what), values...));
+    result_.incidents.push_back(
+        fmt::format("{:.2f} s: car {} on road '{}', lane {}, at ({:.2f}, {:.2f}), {:.2f} m/s: ", time_s_, pose.id,
+                    network_.roads()[static_cast<std::size_t>(pose.road)].id(), pose.lane, pose.p_WB_W.x(),
+                    pose.p_WB_W.y(), pose.speed_mps) +
+        fmt::format(fmt::runtime(what), values...));
   }
 
   void Contacts(const TrafficModel& model) {
@@ -170,7 +191,8 @@ class Watcher {
           for (const AgentPose* a : here) {
             for (const AgentPose* b : beside->second) {
               if (a->id >= b->id || std::fabs(a->p_WB_W.z() - b->p_WB_W.z()) > network::Network::kLevel_m) continue;
-              if (driver::Overlap(FootprintOf(*a, model.traits(a->id)), FootprintOf(*b, model.traits(b->id)))) now.insert({a->id, b->id});
+              if (driver::Overlap(FootprintOf(*a, model.traits(a->id)), FootprintOf(*b, model.traits(b->id))))
+                now.insert({a->id, b->id});
             }
           }
         }
@@ -179,9 +201,12 @@ class Watcher {
     for (const auto& pair : now) {
       if (touching_.count(pair) != 0) continue;
       ++result_.collisions;
-      const auto a = std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == pair.first; });
-      const auto b = std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == pair.second; });
-      Tell("touches car {} on road '{}', lane {}, {:.2f} m/s", *a, b->id, network_.roads()[static_cast<std::size_t>(b->road)].id(), b->lane, b->speed_mps);
+      const auto a = std::find_if(model.poses().begin(), model.poses().end(),
+                                  [&](const AgentPose& p) { return p.id == pair.first; });
+      const auto b = std::find_if(model.poses().begin(), model.poses().end(),
+                                  [&](const AgentPose& p) { return p.id == pair.second; });
+      Tell("touches car {} on road '{}', lane {}, {:.2f} m/s", *a, b->id,
+           network_.roads()[static_cast<std::size_t>(b->road)].id(), b->lane, b->speed_mps);
     }
     touching_ = std::move(now);
   }
@@ -198,7 +223,8 @@ class Watcher {
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching_;
 };
 
-base::Result<StudyResult> Study(const StudySettings& settings, base::Result<TrafficModel> made, const std::function<void(const StudyMoment&)>& watch) {
+base::Result<StudyResult> Study(const StudySettings& settings, base::Result<TrafficModel> made,
+                                const std::function<void(const StudyMoment&)>& watch) {
   if (!made) return made.error();
   TrafficModel model = std::move(made).value();
   Watcher watcher(model.graph().network(), settings);
@@ -206,8 +232,11 @@ base::Result<StudyResult> Study(const StudySettings& settings, base::Result<Traf
   const auto every = std::max<std::int64_t>(1, std::llround(settings.watch_s / settings.step_s));
   std::optional<LaneStatistics> lanes;
   std::optional<LaneIntervals> intervals;
-  const auto steps_of = [&](double time_s) { return static_cast<std::int64_t>(std::llround(time_s / settings.step_s)); };
-  const std::int64_t warm = steps_of(settings.warm_s), interval = settings.every_s > 0.0 ? std::max<std::int64_t>(1, steps_of(settings.every_s)) : 0;
+  const auto steps_of = [&](double time_s) {
+    return static_cast<std::int64_t>(std::llround(time_s / settings.step_s));
+  };
+  const std::int64_t warm = steps_of(settings.warm_s),
+                     interval = settings.every_s > 0.0 ? std::max<std::int64_t>(1, steps_of(settings.every_s)) : 0;
   const auto begin = [&] {
     lanes.emplace(model, settings.cell_m);
     if (interval > 0) intervals.emplace(*lanes, model.graph().tracks().size(), settings.warm_s);

@@ -33,21 +33,26 @@ struct StudyResult {
   std::uint32_t longest_stand_id = 0;
   double longest_with_room_s = 0.0;  // the part of one stand in which there was room ahead (TrafficModel::RoomAhead)
   std::uint32_t longest_with_room_id = 0;
-  std::int64_t collisions = 0;       // times that two rectangles on one level came to overlap
-  std::int64_t off_lane = 0;         // times that a middle was looked at beside every drivable lane
-  std::int64_t wheels_off = 0;       // times that a wheel was looked at beside everything that is there for vehicles, shoulders among it
-  double worst_step_m = 0.0;         // |distance between two poses - mean speed · step|, in plan
-  double hardest_mps2 = 0.0;         // deceleration with a foot on the brake, whatever else slows the car down
-  double foot_mps2 = 0.0;            // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (who stands is held by it)
+  std::int64_t collisions = 0;  // times that two rectangles on one level came to overlap
+  std::int64_t off_lane = 0;    // times that a middle was looked at beside every drivable lane
+  std::int64_t wheels_off =
+      0;  // times that a wheel was looked at beside everything that is there for vehicles, shoulders among it
+  double worst_step_m = 0.0;  // |distance between two poses - mean speed · step|, in plan
+  double hardest_mps2 = 0.0;  // deceleration with a foot on the brake, whatever else slows the car down
+  double foot_mps2 = 0.0;  // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (who
+                           // stands is held by it)
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
   double emergency_jerk_mps3 = 0.0;  // … in an emergency
-  std::int64_t hurried_steps = 0;    // steps that somebody drove in an emergency (TrafficModel::Hurries), each vehicle's counted
-  double lateral_mps2 = 0.0;         // largest speed times yaw rate, and change of the yaw rate
+  std::int64_t hurried_steps =
+      0;  // steps that somebody drove in an emergency (TrafficModel::Hurries), each vehicle's counted
+  double lateral_mps2 = 0.0;  // largest speed times yaw rate, and change of the yaw rate
   double yaw_radps2 = 0.0;
-  double hardest_any_mps2 = 0.0;     // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
-  std::int64_t arrivals = 0;         // trips that ended
-  std::int64_t began = 0, entered = 0, left = 0;  // on the road at first; came onto it, and left it, since: began + entered - left = on_road
-  double fuel_mg = 0.0;              // burnt on the road
+  double hardest_any_mps2 =
+      0.0;  // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
+  std::int64_t arrivals = 0;  // trips that ended
+  std::int64_t began = 0, entered = 0,
+               left = 0;  // on the road at first; came onto it, and left it, since: began + entered - left = on_road
+  double fuel_mg = 0.0;   // burnt on the road
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences
   std::optional<LaneStatistics> lanes;
@@ -65,8 +70,8 @@ struct StudyMoment {
 // Runs the model without any network or node. `watch`, where there is one, sees the beginning and every watch_s.
 base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
                                    const std::function<void(const StudyMoment&)>& watch = {});
-// The same on a world's roads and ground, with nobody beginning where a driver's car would (KeptClear): to the bit what a traffic node with
-// these settings publishes in a run of that world, as long as it meets nobody and is told nothing.
+// The same on a world's roads and ground, with nobody beginning where a driver's car would (KeptClear): to the bit what
+// a traffic node with these settings publishes in a run of that world, as long as it meets nobody and is told nothing.
 base::Result<StudyResult> RunStudy(const StudySettings& settings, const std::shared_ptr<const road::World>& world,
                                    const std::function<void(const StudyMoment&)>& watch = {});
 

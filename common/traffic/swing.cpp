@@ -13,22 +13,26 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kTight = 0.16;     // wheelbase over radius of bends that are looked at; wider ones put a car's corner less than 0.2 m farther out than lines do
-constexpr double kAround_m = 16.0;   // of way before and behind such a track …
-constexpr double kSettles_m = 8.0;   // … of which so much settles how the car lies there
+constexpr double kTight = 0.16;     // wheelbase over radius of bends that are looked at; wider ones put a car's corner
+                                    // less than 0.2 m farther out than lines do
+constexpr double kAround_m = 16.0;  // of way before and behind such a track …
+constexpr double kSettles_m = 8.0;  // … of which so much settles how the car lies there
 constexpr double kStep_s = 0.02, kLook_m = 0.5, kOutline_m = 0.9;
 constexpr double kPlan_m = 0.5;
 constexpr double kPlannedBraking_mps2 = 1.5;
 constexpr double kLeast_mps = 0.5;
-constexpr std::array kShares{1.0, 0.6, 0.3};  // of the planned speed: hands are late at the first, at the last who comes from rest cuts the bend
+constexpr std::array kShares{
+    1.0, 0.6, 0.3};  // of the planned speed: hands are late at the first, at the last who comes from rest cuts the bend
 constexpr std::size_t kMostWays = 64;  // through one track
 
 class Swinger {
  public:
-  Swinger(const lanes::Graph& graph, const TrafficSettings& settings) : graph_(graph), settings_(settings), largest_(LargestOf(settings)), swings_(graph.tracks().size()) {
+  Swinger(const lanes::Graph& graph, const TrafficSettings& settings)
+      : graph_(graph), settings_(settings), largest_(LargestOf(settings)), swings_(graph.tracks().size()) {
     const auto bodies = BodiesOf(settings);
     const auto base = [](std::uint32_t body) { return CarOfBody(body).body.wheelbase_m; };
-    car_ = &CarOfBody(*std::max_element(bodies.begin(), bodies.end(), [&](std::uint32_t a, std::uint32_t b) { return base(a) < base(b); }));
+    car_ = &CarOfBody(*std::max_element(bodies.begin(), bodies.end(),
+                                        [&](std::uint32_t a, std::uint32_t b) { return base(a) < base(b); }));
     speed_ = settings.speed;
     speed_.tips_mps2 = TipsAt_mps2(settings);
   }
@@ -37,7 +41,9 @@ class Swinger {
 
   bool IsTight(std::uint32_t track) const {
     const auto& nodes = graph_[track].curve.nodes();
-    return std::any_of(nodes.begin(), nodes.end(), [&](const lanes::Curve::Node& node) { return std::fabs(node.curvature_1pm) * car_->body.wheelbase_m > kTight; });
+    return std::any_of(nodes.begin(), nodes.end(), [&](const lanes::Curve::Node& node) {
+      return std::fabs(node.curvature_1pm) * car_->body.wheelbase_m > kTight;
+    });
   }
 
   // Over every way through a track.
@@ -96,7 +102,8 @@ class Swinger {
   double PlannedSquared(const Path& path, double odometer_m) {
     const Piece& piece = PieceAt(path, odometer_m);
     auto found = plans_.find(piece.track);
-    if (found == plans_.end()) found = plans_.emplace(piece.track, driver::SpeedPlan(TrackWay(graph_, piece.track), speed_)).first;
+    if (found == plans_.end())
+      found = plans_.emplace(piece.track, driver::SpeedPlan(TrackWay(graph_, piece.track), speed_)).first;
     const double speed = found->second.At(odometer_m - piece.zero_m).speed_mps * settings_.speed_factor_high;
     return speed * speed;
   }
@@ -107,16 +114,21 @@ class Swinger {
     double o = half_base;  // of the middle
     std::vector<double> squared;
     for (double at = 0.0; at <= end_m + half_base; at += kPlan_m) squared.push_back(PlannedSquared(path, at));
-    for (std::size_t i = squared.size(); i-- > 1;) squared[i - 1] = std::min(squared[i - 1], squared[i] + 2.0 * kPlannedBraking_mps2 * kPlan_m);
-    const double liveliest = settings_.idm.acceleration_mps2 * (1.0 + settings_.variety);  // nobody leaves a bend faster than so
-    for (std::size_t i = 1; i < squared.size(); ++i) squared[i] = std::min(squared[i], squared[i - 1] + 2.0 * liveliest * kPlan_m);
+    for (std::size_t i = squared.size(); i-- > 1;)
+      squared[i - 1] = std::min(squared[i - 1], squared[i] + 2.0 * kPlannedBraking_mps2 * kPlan_m);
+    const double liveliest =
+        settings_.idm.acceleration_mps2 * (1.0 + settings_.variety);  // nobody leaves a bend faster than so
+    for (std::size_t i = 1; i < squared.size(); ++i)
+      squared[i] = std::min(squared[i], squared[i - 1] + 2.0 * liveliest * kPlan_m);
     Eigen::Vector2d rear = FrameAt(graph_, path, 0.0).p_W.head<2>();
     const Eigen::Vector2d along = FrameAt(graph_, path, 2.0 * half_base).p_W.head<2>() - rear;
-    double heading = std::atan2(along.y(), along.x()), wheel = 0.0, next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;
+    double heading = std::atan2(along.y(), along.x()), wheel = 0.0,
+           next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;
     while (o < end_m) {
       const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
       if (o >= next_look_m) Look(path, rear + half_base * ahead, ahead, o), next_look_m += kLook_m;
-      const double speed = std::max(kLeast_mps, share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
+      const double speed = std::max(
+          kLeast_mps, share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
       double rear_m = o - half_base;
       PathFrame beside = FrameAt(graph_, path, rear_m);
       rear_m += beside.ahead_W.dot(rear - beside.p_W.head<2>()) / beside.stretch;
@@ -126,11 +138,15 @@ class Swinger {
       const Eigen::Vector2d left(-beside.ahead_W.y(), beside.ahead_W.x());
       const double turns = std::atan2(soon.ahead_W.dot(left), soon.ahead_W.dot(beside.ahead_W));
       const double half = 0.5 * (car_->dimensions.front_m + car_->dimensions.rear_m);
-      const Eigen::Vector2d last = FrameAt(graph_, path, o - half).ahead_W, first = FrameAt(graph_, path, o + half).ahead_W;
-      const double aside = RearLine_m(wheelbase, 2.0 * half, std::atan2(last.x() * first.y() - last.y() * first.x(), last.dot(first)));
-      const RearBeside place{std::atan2(ahead.dot(left), ahead.dot(beside.ahead_W)), (rear - beside.p_W.head<2>()).dot(left) - aside, turns / soon_m, speed};
+      const Eigen::Vector2d last = FrameAt(graph_, path, o - half).ahead_W,
+                            first = FrameAt(graph_, path, o + half).ahead_W;
+      const double aside =
+          RearLine_m(wheelbase, 2.0 * half, std::atan2(last.x() * first.y() - last.y() * first.x(), last.dot(first)));
+      const RearBeside place{std::atan2(ahead.dot(left), ahead.dot(beside.ahead_W)),
+                             (rear - beside.p_W.head<2>()).dot(left) - aside, turns / soon_m, speed};
       wheel = MovedWheel_rad(*car_, place, wheel, kStep_s);
-      const double tangent = std::tan(wheel / car_->steering.ratio), rolls_m = speed * kStep_s / std::hypot(1.0, 0.5 * tangent);
+      const double tangent = std::tan(wheel / car_->steering.ratio),
+                   rolls_m = speed * kStep_s / std::hypot(1.0, 0.5 * tangent);
       const double turned = rolls_m * tangent / wheelbase;
       rear += rolls_m * Eigen::Vector2d(std::cos(heading + 0.5 * turned), std::sin(heading + 0.5 * turned));
       heading += turned;
@@ -171,7 +187,8 @@ class Swinger {
     if (d_m < -kBeside_m || d_m > graph_[track].length_m() + kBeside_m) return;
     std::vector<lanes::Swing>& swings = swings_[track];
     if (swings.empty()) swings.resize(nodes.size());
-    auto node = std::lower_bound(nodes.begin(), nodes.end(), d_m - kBeside_m, [](const lanes::Curve::Node& at, double d) { return at.d_m < d; });
+    auto node = std::lower_bound(nodes.begin(), nodes.end(), d_m - kBeside_m,
+                                 [](const lanes::Curve::Node& at, double d) { return at.d_m < d; });
     for (; node != nodes.end() && node->d_m <= d_m + kBeside_m; ++node) {
       const auto i = static_cast<std::size_t>(node - nodes.begin());
       swings[i].left_m = std::max(swings[i].left_m, offset_m);
@@ -191,7 +208,8 @@ class Swinger {
 }  // namespace
 
 lanes::Swings SwingsOf(const lanes::Graph& graph, const TrafficSettings& settings) {
-  if (settings.physics != Physics::kFull || settings.driver == DriverKind::kMotors || BodiesOf(settings).empty()) return {};
+  if (settings.physics != Physics::kFull || settings.driver == DriverKind::kMotors || BodiesOf(settings).empty())
+    return {};
   Swinger swinger(graph, settings);
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     if (swinger.IsTight(track)) swinger.Through(track);

@@ -27,7 +27,8 @@ TightBend WorstOn(const lanes::Graph& graph, std::uint32_t track, std::uint32_t 
     const double at = from + 0.5 * base, width = curve.WidthAt(at);
     const double off = 0.5 * traits.width_m + 0.25 * base * base * bends_1pm - 0.5 * width;
     const bool turns = std::atan(base * bends_1pm) <= car.steering.limit_rad / car.steering.ratio;
-    if (bends_1pm > 0.0 && off > worst.off_m && (off > kHand_m || !turns)) worst = {body, track, at, 1.0 / bends_1pm, width, off, turns, 0};
+    if (bends_1pm > 0.0 && off > worst.off_m && (off > kHand_m || !turns))
+      worst = {body, track, at, 1.0 / bends_1pm, width, off, turns, 0};
   }
   return worst;
 }
@@ -55,10 +56,15 @@ std::vector<TightBend> TightBendsOf(const lanes::Graph& graph, const TrafficSett
 std::string Text(const TightBend& bend, const lanes::Graph& graph) {
   const AgentTraits traits = TraitsOfBody(bend.body);
   const network::LaneKey& lane = graph[bend.track].lane;
-  const std::string off = bend.off_m > kHand_m ? fmt::format(": {:.2f} m off to either side", bend.off_m) : std::string();
-  return fmt::format("{} lane{} too {} in {} bends for the wheels of a {} of {:.1f} m; the worst: road '{}', lane {}, {:.1f} m on, radius {:.1f} m{}, {:.2f} m wide{}", bend.lanes, bend.lanes == 1 ? " is" : "s are",
-                     bend.turns ? "narrow" : "narrow or too tight", bend.lanes == 1 ? "its" : "their", kNames[static_cast<std::size_t>(traits.kind)], traits.length_m, graph.network().roads()[lane.road].id(), lane.lane,
-                     bend.d_m, bend.radius_m, bend.turns ? "" : ", to which they do not turn", bend.width_m, off);
+  const std::string off =
+      bend.off_m > kHand_m ? fmt::format(": {:.2f} m off to either side", bend.off_m) : std::string();
+  return fmt::format(
+      "{} lane{} too {} in {} bends for the wheels of a {} of {:.1f} m; the worst: road '{}', lane {}, {:.1f} m on, "
+      "radius {:.1f} m{}, {:.2f} m wide{}",
+      bend.lanes, bend.lanes == 1 ? " is" : "s are", bend.turns ? "narrow" : "narrow or too tight",
+      bend.lanes == 1 ? "its" : "their", kNames[static_cast<std::size_t>(traits.kind)], traits.length_m,
+      graph.network().roads()[lane.road].id(), lane.lane, bend.d_m, bend.radius_m,
+      bend.turns ? "" : ", to which they do not turn", bend.width_m, off);
 }
 
 }  // namespace rodeira::traffic

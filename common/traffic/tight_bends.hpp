@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "common/world/lanes/graph.hpp"
 #include "common/traffic/traffic_settings.hpp"
+#include "common/world/lanes/graph.hpp"
 
 namespace rodeira::traffic {
 
@@ -12,14 +12,16 @@ namespace rodeira::traffic {
 struct TightBend {
   std::uint32_t body = 0;
   std::uint32_t track = 0;
-  double d_m = 0.0, radius_m = 0.0, width_m = 0.0;  // along the track; of its line in the mean over a wheelbase; of the lane
-  double off_m = 0.0;                               // by how much its wheels leave the lane to either side
-  bool turns = true;                                // whether its wheels turn so far at all
-  std::size_t lanes = 0;                            // on how many lanes there is such a bend
+  double d_m = 0.0, radius_m = 0.0,
+         width_m = 0.0;   // along the track; of its line in the mean over a wheelbase; of the lane
+  double off_m = 0.0;     // by how much its wheels leave the lane to either side
+  bool turns = true;      // whether its wheels turn so far at all
+  std::size_t lanes = 0;  // on how many lanes there is such a bend
 };
 
-// Of every body that there may be the worst such bend, for cars with full physics; nothing for others. With the mean of both axles' circles on radius R the outsides of its tyres are w/2 + L²/(4R) from the line; ends
-// of bends are shorter than that takes, so that what is off by less than a hand's breadth is left out.
+// Of every body that there may be the worst such bend, for cars with full physics; nothing for others. With the mean of
+// both axles' circles on radius R the outsides of its tyres are w/2 + L²/(4R) from the line; ends of bends are shorter
+// than that takes, so that what is off by less than a hand's breadth is left out.
 std::vector<TightBend> TightBendsOf(const lanes::Graph& graph, const TrafficSettings& settings);
 
 // The same as a sentence.

@@ -9,7 +9,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kAside_m = 1.0;
-constexpr double kTurn = 0.45;       // rad by which a way must bend to be a turn …
+constexpr double kTurn = 0.45;        // rad by which a way must bend to be a turn …
 constexpr double kLongTurn_m = 80.0;  // … no longer than this
 
 bool HasOneLimit(const lanes::Graph& graph, std::uint32_t track) {
@@ -18,8 +18,10 @@ bool HasOneLimit(const lanes::Graph& graph, std::uint32_t track) {
   const double from = road.spec().sections[key.section].s_m, to = road.spec().sections[key.section].end_s_m;
   const auto changes = [&](double s_m) { return s_m > from && s_m <= to; };
   const auto& speeds = graph.network().Find(key)->speeds;
-  return std::none_of(speeds.begin(), speeds.end(), [&](const network::SpeedLimit& limit) { return changes(limit.s_m); }) &&
-         std::none_of(road.spec().types.begin(), road.spec().types.end(), [&](const network::RoadType& type) { return changes(type.s_m); });
+  return std::none_of(speeds.begin(), speeds.end(),
+                      [&](const network::SpeedLimit& limit) { return changes(limit.s_m); }) &&
+         std::none_of(road.spec().types.begin(), road.spec().types.end(),
+                      [&](const network::RoadType& type) { return changes(type.s_m); });
 }
 
 // To which side a track turns that is one of several ways on.
@@ -75,7 +77,10 @@ std::optional<driver::Way::Place> TrackWay::Locate(double x_m, double y_m, std::
 }
 
 TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings)
-    : plan(TrackWay(graph, track), settings), limit_mps(graph.SpeedLimit_mps(track, 0.0)), one_limit(HasOneLimit(graph, track)), turn(TurnOf(graph, track)) {
+    : plan(TrackWay(graph, track), settings),
+      limit_mps(graph.SpeedLimit_mps(track, 0.0)),
+      one_limit(HasOneLimit(graph, track)),
+      turn(TurnOf(graph, track)) {
   for (const lanes::LightPlace& light : lanes::LightsOf(graph, track)) lines.push_back({light.d_m, light.controller});
   if (!lines.empty()) return;
   for (const lanes::SignPlace& sign : lanes::SignsOf(graph, track)) {

@@ -37,14 +37,14 @@ struct StopLine {
 
 inline constexpr int kRing = 2;  // TrackPlan::turn of a track along a ring
 
-// What is known of a track beforehand: the speed that it allows, its limit, and its lines. Where there are lights STOP signs
-// say nothing.
+// What is known of a track beforehand: the speed that it allows, its limit, and its lines. Where there are lights STOP
+// signs say nothing.
 struct TrackPlan {
   driver::SpeedPlan plan;
-  double limit_mps;            // at its beginning …
-  bool one_limit;              // … and everywhere
-  std::vector<StopLine> lines;   // ascending
-  int turn = 0;                // to which side who chooses this way turns: +1 to the left, -1 to the right, 0 straight on; kRing
+  double limit_mps;             // at its beginning …
+  bool one_limit;               // … and everywhere
+  std::vector<StopLine> lines;  // ascending
+  int turn = 0;  // to which side who chooses this way turns: +1 to the left, -1 to the right, 0 straight on; kRing
 
   TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings);
 };

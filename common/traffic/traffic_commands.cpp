@@ -35,7 +35,8 @@ void TrafficModel::TellToChange(std::uint32_t id, int side) {
   agents_[id].told_side = side;
 }
 
-// To which side it is to go over now: of a road of several lanes, who is ahead is passed on the lane beside. 0: to none, or there is no lane.
+// To which side it is to go over now: of a road of several lanes, who is ahead is passed on the lane beside. 0: to
+// none, or there is no lane.
 int TrafficModel::ToldSide(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const lanes::Track& track = graph()[agent.path.back().track];
@@ -50,15 +51,18 @@ void TrafficModel::ChangeAsTold(std::uint32_t id, int side) {
   if (!MayLeaveLane(id)) return;
   auto way = Weigh(id, side, true);
   if (!way) return;
-  if (agents_[id].told_side != 0) agents_[id].told_side = 0;
-  else agents_[id].told_past = false;
+  if (agents_[id].told_side != 0)
+    agents_[id].told_side = 0;
+  else
+    agents_[id].told_past = false;
   BeginChange(id, std::move(*way));
 }
 
 std::optional<std::uint32_t> TrafficModel::AheadOf(const driver::Footprint& other) const {
   constexpr double kWidest_m = 4.0;
   constexpr std::size_t kMostWays = 256;
-  std::vector<std::vector<std::pair<double, std::uint32_t>>> on(graph().tracks().size());  // middles of the agents, by track
+  std::vector<std::vector<std::pair<double, std::uint32_t>>> on(
+      graph().tracks().size());  // middles of the agents, by track
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     if (!agents_[id].on_road || id == other.id) continue;
     for (const Piece& piece : agents_[id].path) on[piece.track].emplace_back(agents_[id].o_m - piece.zero_m, id);
@@ -73,7 +77,8 @@ std::optional<std::uint32_t> TrafficModel::AheadOf(const driver::Footprint& othe
     const lanes::CurvePoint at = curve.At(beside.foot.d_m);
     if (std::fabs(beside.foot.offset_m) > 0.5 * curve.WidthAt(beside.foot.d_m)) continue;
     if (at.ahead_W.dot(Eigen::Vector2d(std::cos(other.heading_rad), std::sin(other.heading_rad))) <= 0.0) continue;
-    if (std::fabs((Eigen::Vector2d(other.x_m, other.y_m) - at.p_W.head<2>()).dot(at.ahead_W)) > 1e-3) continue;  // beyond an end
+    if (std::fabs((Eigen::Vector2d(other.x_m, other.y_m) - at.p_W.head<2>()).dot(at.ahead_W)) > 1e-3)
+      continue;  // beyond an end
     ways.push_back({beside.track, -beside.foot.d_m});
   }
   std::optional<std::uint32_t> nearest;

@@ -5,9 +5,9 @@
 
 #include "common/core/base/huge_pages.hpp"
 #include "common/core/base/random.hpp"
-#include "common/world/lanes/ring.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/swing.hpp"
+#include "common/world/lanes/ring.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -16,14 +16,18 @@ constexpr double kEntryClear_m = 12.0;  // from a lane's beginning to its first 
 constexpr double kAlike = 0.9;          // cosine between the approaches of lanes that merge with equal right
 
 bool Zips(const lanes::Graph& graph, const lanes::Zone& zone) {
-  if (zone.kind != lanes::ZoneKind::kMerge || zone.signed_ || lanes::OnRing(graph, zone.track[0]) != lanes::OnRing(graph, zone.track[1])) return false;
-  return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
+  if (zone.kind != lanes::ZoneKind::kMerge || zone.signed_ ||
+      lanes::OnRing(graph, zone.track[0]) != lanes::OnRing(graph, zone.track[1]))
+    return false;
+  return graph[zone.track[0]].curve.nodes().front().along_W.head<2>().dot(
+             graph[zone.track[1]].curve.nodes().front().along_W.head<2>()) > kAlike;
 }
 
 std::uint64_t KeyOf(const lanes::Graph& graph, std::uint32_t track) {
   const network::LaneKey& lane = graph[track].lane;
   std::uint64_t key = 0;
-  for (const char letter : graph.network().roads()[lane.road].id()) key = base::RandomBits({key, static_cast<unsigned char>(letter)});
+  for (const char letter : graph.network().roads()[lane.road].id())
+    key = base::RandomBits({key, static_cast<unsigned char>(letter)});
   return base::RandomBits({key, lane.section, static_cast<std::uint64_t>(static_cast<std::int64_t>(lane.lane))});
 }
 
@@ -61,7 +65,12 @@ std::uint32_t TrafficMap::DrawEntry(std::uint64_t draw) const {
 }
 
 TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings)
-    : network(std::move(of)), graph(*network), zones(graph, LargestOf(settings), SwingsOf(graph, settings)), marks(graph), opposites(lanes::Opposites(graph)), no_overtaking(graph) {
+    : network(std::move(of)),
+      graph(*network),
+      zones(graph, LargestOf(settings), SwingsOf(graph, settings)),
+      marks(graph),
+      opposites(lanes::Opposites(graph)),
+      no_overtaking(graph) {
   driver::SpeedPlanSettings speed = settings.speed;
   speed.tips_mps2 = TipsAt_mps2(settings);
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, speed);

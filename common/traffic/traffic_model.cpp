@@ -13,13 +13,18 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
-constexpr std::size_t kAhead = 6;       // agents: so far ahead memory is fetched
-constexpr double kGentle_m = 3e-4;      // what a bend makes of the way of a step, and no more
+constexpr std::size_t kAhead = 6;   // agents: so far ahead memory is fetched
+constexpr double kGentle_m = 3e-4;  // what a bend makes of the way of a step, and no more
 
 }  // namespace
 
 TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map)
-    : settings_(settings), map_(std::move(map)), agents_(settings.vehicles + settings.scripted.size()), occupants_(graph().tracks().size()), book_(zones().zones().size()), present_(graph().tracks().size()) {
+    : settings_(settings),
+      map_(std::move(map)),
+      agents_(settings.vehicles + settings.scripted.size()),
+      occupants_(graph().tracks().size()),
+      book_(zones().zones().size()),
+      present_(graph().tracks().size()) {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
@@ -64,19 +69,23 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   const auto network = NetworkOf(world);
   auto model = Make(settings, network, others, world);
   if (!model && network->roads().empty()) {
-    return base::WrongInput("the world '" + world->name() + "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
+    return base::WrongInput("the world '" + world->name() +
+                            "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
   }
   return model;
 }
 
-base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
+base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings,
+                                              std::shared_ptr<const network::Network> network,
                                               std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(network != nullptr);
   return Make(settings, network, others, nullptr);
 }
 
-base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
-                                              std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world) {
+base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings,
+                                              std::shared_ptr<const network::Network> network,
+                                              std::span<const driver::Footprint> others,
+                                              std::shared_ptr<const road::World> world) {
   const auto map = std::make_shared<TrafficMap>(std::move(network), settings);
   auto demand = Demand::Make(map->graph, map->marks, settings.demand);
   if (!demand) return demand.error();
@@ -86,7 +95,8 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   }
   TrafficModel model(settings, map);
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
-    return base::WrongInput("the network '" + model.map_->network->name() + "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
+    return base::WrongInput("the network '" + model.map_->network->name() +
+                            "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
   }
   if (settings.pedestrians) {
     auto people = Pedestrians::Make(model.graph(), LargestOf(settings), *settings.pedestrians, settings.seed);
@@ -96,8 +106,10 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   }
   if (const auto status = lanes::CheckLights(model.map_->graph, model.map_->zones); !status) return status.error();
   model.FindColours();
-  if (!settings.demand.flows.empty()) model.BeginFlows();
-  else if (settings.vehicles > 0) model.PlaceAll(others);
+  if (!settings.demand.flows.empty())
+    model.BeginFlows();
+  else if (settings.vehicles > 0)
+    model.PlaceAll(others);
   if (settings.physics == Physics::kFull) {
     if (world == nullptr) world = WorldOf(model.map_->network);
     model.StartFull(world->MakeGround());
@@ -122,8 +134,12 @@ const lanes::Link& TrafficModel::NextLink(std::uint32_t id, std::uint32_t track,
   if (!chosen) {
     const double draw = base::RandomUniform({settings_.seed, id, kDrawLink, agent.trip, choice.link});
     const auto shares = map_->demand.Shares(track);
-    if (shares.empty()) chosen = static_cast<std::size_t>(draw * static_cast<double>(next.size()));
-    else chosen = std::min<std::size_t>(static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), draw) - shares.begin()), next.size() - 1);
+    if (shares.empty())
+      chosen = static_cast<std::size_t>(draw * static_cast<double>(next.size()));
+    else
+      chosen = std::min<std::size_t>(
+          static_cast<std::size_t>(std::upper_bound(shares.begin(), shares.end(), draw) - shares.begin()),
+          next.size() - 1);
   }
   const lanes::Link& link = next[*chosen];
   ++choice.link;
@@ -156,15 +172,17 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   See(bodies_);
   if (people_ || !motors_.empty()) LookAhead();  // else with what comes next, while an agent is in near memory
-  Decide(dt_s);  // reads the old state …
+  Decide(dt_s);                                  // reads the old state …
   if (full_) full_->Step(dt_s, crew_.get());
   std::fill(is_moved_.begin(), is_moved_.end(), 0);
   std::fill(ends_.begin(), ends_.end(), 0);
   std::fill(missed_now_.begin(), missed_now_.end(), 0);
   EachDriving([&](std::uint32_t id) {  // … writes the new one
     FetchBend(id);
-    if (full_) FollowFull(id, dt_s);
-    else MovePlanar(id, wanted_[id], dt_s);
+    if (full_)
+      FollowFull(id, dt_s);
+    else
+      MovePlanar(id, wanted_[id], dt_s);
     missed_now_[id] = Follow(id);
     ends_[id] = AtTheEnd(id);
     is_moved_[id] = !ends_[id];
@@ -174,7 +192,8 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
       agents_[id].grade = as_below ? below_[id].grade : GradeOf(moved_[id].q_WB);
     }
     const auto& path = agents_[id].path;
-    at_entry_[id] = std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->watched[piece.track]; });
+    at_entry_[id] =
+        std::any_of(path.begin(), path.end(), [&](const Piece& piece) { return map_->watched[piece.track]; });
   });
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     missed_ += missed_now_[id];
@@ -190,9 +209,12 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   FindPoses();
 }
 
-// The line of who soon moves in a bend lies in far memory where there are thousands of agents: first the track, then what that names.
+// The line of who soon moves in a bend lies in far memory where there are thousands of agents: first the track, then
+// what that names.
 void TrafficModel::FetchBend(std::size_t id) const {
-  const auto bends = [&](std::size_t of) { return of < below_.size() && below_[of].track < graph().tracks().size() && !below_[of].straight; };
+  const auto bends = [&](std::size_t of) {
+    return of < below_.size() && below_[of].track < graph().tracks().size() && !below_[of].straight;
+  };
   constexpr std::size_t kLine_bytes = 64;
   if (const std::size_t later = id + 2 * kAhead; bends(later)) {
     const auto* curve = reinterpret_cast<const char*>(&graph()[below_[later].track].curve);
@@ -200,7 +222,8 @@ void TrafficModel::FetchBend(std::size_t id) const {
   }
   if (const std::size_t soon = id + kAhead; bends(soon)) {
     const Below& below = below_[soon];  // all that may be read of it: another thread may move it now
-    graph()[below.track].curve.Fetch(0.5 * (std::max(0.0, below.plan.from_m) + std::min(below.length_m, below.plan.to_m)));
+    graph()[below.track].curve.Fetch(0.5 *
+                                     (std::max(0.0, below.plan.from_m) + std::min(below.length_m, below.plan.to_m)));
   }
 }
 
@@ -217,7 +240,8 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   if (StraightBelow(id) != nullptr) return agent.o_m + travel_m;
   const double rate = Advance(id, agent.o_m + 0.5 * travel_m);
   double odometer = agent.o_m + travel_m / rate;
-  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active()) return odometer;
+  if (std::fabs(rate - 1.0) * travel_m < kGentle_m && agent.change.side == 0 && !agent.overtaking.active())
+    return odometer;
   const auto middle = [&](double o) -> Eigen::Vector2d {
     return 0.5 * (FrameOf(id, o + HalfBase(id)).p_W + FrameOf(id, o - HalfBase(id)).p_W).head<2>();
   };
@@ -230,7 +254,8 @@ double TrafficModel::Moved(std::uint32_t id, double travel_m) const {
   return odometer;
 }
 
-// The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has missed.
+// The path grows under the front bumper and is forgotten behind the rear one. How many lanes for its route it has
+// missed.
 std::uint32_t TrafficModel::Follow(std::uint32_t id) {
   std::uint32_t missed = 0;
   Agent& agent = agents_[id];

@@ -14,8 +14,6 @@
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
 #include "common/driving/driver/footprint.hpp"
-#include "common/world/lanes/zones.hpp"
-#include "common/world/road/world.hpp"
 #include "common/traffic/agent.hpp"
 #include "common/traffic/agent_detail.hpp"
 #include "common/traffic/demand.hpp"
@@ -29,49 +27,57 @@
 #include "common/traffic/traffic_settings.hpp"
 #include "common/traffic/yielding.hpp"
 #include "common/traffic/zone_book.hpp"
+#include "common/world/lanes/zones.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::traffic {
 
-// Cars on the lanes of a network: each draws its way at every branch, follows whoever is ahead on it with the IDM, at the
-// speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to the next
-// place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters again, by lot,
-// where traffic enters the network, as soon as there is a safe gap: their number never changes, and nobody is moved or
-// removed elsewhere. With flows (DemandSettings) they come as those say, with a route or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles, wherever they are. On roads
-// of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of arrival, threads or the clock: the state is Save's, and each
-// step is a function of it and of `others`.
+// Cars on the lanes of a network: each draws its way at every branch, follows whoever is ahead on it with the IDM, at
+// the speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to
+// the next place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters
+// again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never changes, and
+// nobody is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route or without,
+// and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles, wherever they
+// are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of
+// arrival, threads or the clock: the state is Save's, and each step is a function of it and of `others`.
 class TrafficModel {
  public:
-  // Places the agents on all lanes, clear of `others`; who finds no room waits to enter. Wrong input where there should be
-  // vehicles and the world has no lane.
+  // Places the agents on all lanes, clear of `others`; who finds no room waits to enter. Wrong input where there should
+  // be vehicles and the world has no lane.
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
                                          std::span<const driver::Footprint> others);
-  static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
+  static base::Result<TrafficModel> Make(const TrafficSettings& settings,
+                                         std::shared_ptr<const network::Network> network,
                                          std::span<const driver::Footprint> others);
 
   void Step(double dt_s, std::span<const driver::Footprint> others);
 
   // A scenario's commands, from the next step on until the agent leaves the road or is released. An agent that waits to
   // enter obeys when it has entered.
-  void Brake(std::uint32_t id, double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
-  void CapSpeed(std::uint32_t id, double speed_mps);       // never faster
-  // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as soon as the lane beside is free.
+  void Brake(std::uint32_t id,
+             double deceleration_mps2);  // at exactly this rate down to rest, and stay; harder where it must
+  void CapSpeed(std::uint32_t id, double speed_mps);  // never faster
+  // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as
+  // soon as the lane beside is free.
   void TellToPass(std::uint32_t id);
   // Once, to the lane on its left (+1) or right (-1), as soon as marks, road and safety allow it, whatever it brings.
   void TellToChange(std::uint32_t id, int side);
   void Release(std::uint32_t id);  // forgets all that
-  // One of the settings' `scripted` comes onto a lane (ROAD:LANE), with its middle at a station of the road, no faster than asked and than lets it stop
-  // before what is ahead: in this step's end, or the first one in which there is room for it. Wrong input with a sentence where there can never be room; false
-  // where it is on the road already, or waits to be.
+  // One of the settings' `scripted` comes onto a lane (ROAD:LANE), with its middle at a station of the road, no faster
+  // than asked and than lets it stop before what is ahead: in this step's end, or the first one in which there is room
+  // for it. Wrong input with a sentence where there can never be room; false where it is on the road already, or waits
+  // to be.
   base::Result<bool> LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
   // Whether it ever could; Wrong input as LetAppear's.
   base::Status CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const;
   bool IsAppearing(std::uint32_t id) const;
-  // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked wheels and stays
-  // where it comes to rest, an obstacle to all others. A push that would change its speed by less than 1 mm/s is nothing to it
-  // as long as it drives; nothing happens to who is not there.
+  // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked
+  // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
+  // 1 mm/s is nothing to it as long as it drives; nothing happens to who is not there.
   void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
-  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or further on
-  // the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front of itself.
+  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or
+  // further on the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front
+  // of itself.
   std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
 
   // Those on the road, driving or struck, by ascending id.
@@ -85,8 +91,9 @@ class TrafficModel {
   std::size_t on_road() const { return poses_.size(); }
   std::size_t vehicles() const { return agents_.size(); }
   std::size_t waiting() const { return waiting_.size(); }
-  // Of each flow: how many have arrived, and how many of those have been given a vehicle (fewer only where all `vehicles` are in use).
-  // Given = waiting to enter + on the road + ended, always (without those whom a scenario lets appear).
+  // Of each flow: how many have arrived, and how many of those have been given a vehicle (fewer only where all
+  // `vehicles` are in use). Given = waiting to enter + on the road + ended, always (without those whom a scenario lets
+  // appear).
   struct FlowCount {
     std::uint32_t arrived = 0, given = 0;
     std::int64_t next_ns = -1;  // when the next one arrives; below 0: none does
@@ -97,21 +104,21 @@ class TrafficModel {
   std::uint64_t missed() const { return missed_; }
   // Those on foot; null where the settings have no `pedestrians`. All other numbers here count vehicles alone.
   const Pedestrians* people() const { return people_ ? &*people_ : nullptr; }
-  // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input where there
-  // is none, or the settings have no `pedestrians`.
+  // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input
+  // where there is none, or the settings have no `pedestrians`.
   base::Status CallPedestrian(std::string_view road, double s_m, bool from_left);
   base::Status CheckCall(std::string_view road, double s_m) const;  // whether somebody can be called there
   // Who has been hit, by his number, stays where he is.
   void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
   double GapAhead(std::uint32_t id) const { return ahead_[id].gap_m; }
-  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it stands at a line before
-  // conflict zones, none up to where it would stand behind them.
+  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it
+  // stands at a line before conflict zones, none up to where it would stand behind them.
   bool RoomAhead(std::uint32_t id) const;
   // Whether its driver braked in an emergency in the last step (docs/traffic.md).
   bool Hurries(std::uint32_t id) const { return hurries_[id] != 0; }
-  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30 m or three seconds,
-  // indicates; in a roundabout only who leaves it.
+  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30
+  // m or three seconds, indicates; in a roundabout only who leaves it.
   std::uint32_t LightsOf(const AgentPose& pose) const;
   // Of those on the road, in the order of poses().
   std::vector<AgentDetail> Details();
@@ -127,14 +134,18 @@ class TrafficModel {
 
  private:
   static constexpr double kNoBarrier_m = 1e18, kFree_mps2 = 1e3;
-  static constexpr double kYieldingShare = 0.75;  // of the comfortable braking, for people on foot: who follows brakes harder
+  static constexpr double kYieldingShare =
+      0.75;  // of the comfortable braking, for people on foot: who follows brakes harder
 
-  static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const network::Network> network,
-                                         std::span<const driver::Footprint> others, std::shared_ptr<const road::World> world);
+  static base::Result<TrafficModel> Make(const TrafficSettings& settings,
+                                         std::shared_ptr<const network::Network> network,
+                                         std::span<const driver::Footprint> others,
+                                         std::shared_ptr<const road::World> world);
 
   TrafficModel(const TrafficSettings& settings, std::shared_ptr<const TrafficMap> map);
 
-  // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody writes meanwhile (each_driving.hpp).
+  // tell(id) for all that drive, by several threads: it may write what is that agent's alone, and read what nobody
+  // writes meanwhile (each_driving.hpp).
   template <class Tell>
   void EachDriving(const Tell& tell);
 
@@ -150,11 +161,17 @@ class TrafficModel {
   bool SeesTo(std::uint32_t id, double odometer_m) const;
   void LookBelow(std::uint32_t id);
   PathFrame FrameOf(std::uint32_t id, double odometer_m) const;  // of its path
-  double LengthOf(std::uint32_t id, std::uint32_t track) const { return below_[id].track == track ? below_[id].length_m : graph()[track].length_m(); }
-  bool GoesOn(std::uint32_t id, std::uint32_t track) const { return below_[id].track == track ? below_[id].goes_on : !graph()[track].next.empty(); }
+  double LengthOf(std::uint32_t id, std::uint32_t track) const {
+    return below_[id].track == track ? below_[id].length_m : graph()[track].length_m();
+  }
+  bool GoesOn(std::uint32_t id, std::uint32_t track) const {
+    return below_[id].track == track ? below_[id].goes_on : !graph()[track].next.empty();
+  }
   bool HasBeside(std::uint32_t id, std::uint32_t track) const;
   void SeeOthers(std::span<const driver::Footprint> others);
-  std::span<const Block> BlocksOn(std::uint32_t track) const { return any_block_ ? std::span<const Block>(blocks_[track]) : std::span<const Block>(); }
+  std::span<const Block> BlocksOn(std::uint32_t track) const {
+    return any_block_ ? std::span<const Block>(blocks_[track]) : std::span<const Block>();
+  }
   Ahead FindAhead(std::uint32_t id) const;
   const lanes::Link& NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const;
   const Route* RouteOf(const Agent& agent) const;
@@ -241,7 +258,8 @@ class TrafficModel {
   double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;
   double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
   bool MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const;
-  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s, double clears_s) const;
+  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s,
+                   double clears_s) const;
   void ResolveDeadlocks();
   std::int64_t WaitsFor(std::uint32_t id) const;
   std::vector<std::uint32_t> CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const;
@@ -250,7 +268,9 @@ class TrafficModel {
   bool LetIn(const std::vector<std::uint32_t>& circle);
   void OpenCircle(std::vector<std::uint32_t> circle);
   bool GiveBack(std::uint32_t id);
-  bool IsGreen(std::int64_t light) const { return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen; }
+  bool IsGreen(std::int64_t light) const {
+    return colours_[static_cast<std::size_t>(light)] == network::LightColour::kGreen;
+  }
   double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
   bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
   void ObeyLights(std::uint32_t id);
@@ -274,7 +294,8 @@ class TrafficModel {
   std::uint32_t MotorsPoints(const MotorsDriver& driver) const;
   void TakeLane(std::uint32_t id, const Piece& piece);
   void FollowTrajectory(std::uint32_t id);
-  // The point that he looks to, two seconds of way on and not beyond the lane's end, and its angle from where his car points.
+  // The point that he looks to, two seconds of way on and not beyond the lane's end, and its angle from where his car
+  // points.
   Eigen::Vector2d MotorsLooksAt(std::uint32_t id) const;
   double MotorsTurn_rad(std::uint32_t id, const Eigen::Vector2d& look_W) const;
   void GiveWay();
@@ -299,7 +320,7 @@ class TrafficModel {
   double Advance(std::uint32_t id, double odometer_m) const;
   double Moved(std::uint32_t id, double travel_m) const;
   double FrontOf(std::uint32_t id) const { return agents_[id].o_m + 0.5 * traits_[id].length_m; }  // odometer
-  double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }  // of the odometer
+  double HalfBase(std::uint32_t id) const { return 0.5 * traits_[id].wheelbase_m; }                // of the odometer
   std::uint32_t Follow(std::uint32_t id);
   bool AtTheEnd(std::uint32_t id) const;
   void SlideStruck(double dt_s);
@@ -320,7 +341,8 @@ class TrafficModel {
     double d_m = 0.0, speed_mps = 0.0;
   };
   base::Status CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const;
-  base::Result<std::pair<std::uint32_t, double>> PlaceToAppear(std::uint32_t id, const std::string& lane, double s_m) const;
+  base::Result<std::pair<std::uint32_t, double>> PlaceToAppear(std::uint32_t id, const std::string& lane,
+                                                               double s_m) const;
   bool IsClearFor(const Appearing& next) const;
   bool IsTakenUp(std::uint32_t id) const;
   bool TryAppear(const Appearing& next);
@@ -342,59 +364,61 @@ class TrafficModel {
   std::shared_ptr<base::Crew> crew_;  // null: one thread
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
-  std::optional<FullCars> full_;  // none: planar
+  std::optional<FullCars> full_;      // none: planar
   std::vector<MotorsDriver> motors_;  // by agent; empty where others drive
   std::optional<Pedestrians> people_;
-  std::vector<Yielding> yielding_;  // by agent; empty without people
-  double longest_half_m_ = 0.0;  // of all agents
+  std::vector<Yielding> yielding_;      // by agent; empty without people
+  double longest_half_m_ = 0.0;         // of all agents
   std::vector<std::uint32_t> waiting_;  // to enter, first come first
   std::vector<Appearing> appearing_;    // first told first
   std::uint64_t next_grant_ = 1;
   std::vector<FlowCount> flows_;
   std::uint64_t ended_ = 0, missed_ = 0;  // trips; lanes for routes
-  std::int64_t time_ns_ = 0;  // since the beginning
+  std::int64_t time_ns_ = 0;              // since the beginning
   std::vector<AgentPose> poses_;
-  std::vector<driver::Footprint> bodies_;  // what agents see that does not drive as they do: other vehicles, and who has been struck
+  std::vector<driver::Footprint>
+      bodies_;  // what agents see that does not drive as they do: other vehicles, and who has been struck
 
   // Found anew each step.
-  std::vector<network::LightColour> colours_;          // by controller
-  std::vector<Stretches> stretches_;                   // by agent
-  std::vector<WayKey> way_keys_;                       // by agent
-  std::vector<std::uint32_t> ways_;                    // by agent: of the way in stretches_, another one whenever that changes
-  std::vector<Below> below_;                           // by agent; the map alone says it, so that it is never wrong
-  Occupancy occupants_;                                // of agents
-  std::vector<std::uint8_t> parts_;                    // by track: somebody is on one that parts from it
-  std::vector<std::vector<Block>> blocks_;             // by track
-  std::vector<std::vector<Facing>> facing_;            // by track
-  bool any_block_ = false, any_facing_ = false;        // on whatever track
-  bool any_overtaking_ = false;                        // is somebody
-  std::vector<std::uint8_t> is_overtaken_;             // by agent
-  std::vector<std::uint8_t> beside_, passes_;          // by agent: it may think of another lane, of overtaking
-  std::vector<Ahead> ahead_;                           // by agent
-  std::vector<Passage> passages_;                      // by agent
-  std::vector<std::array<PlannedAt, 2>> known_;        // by agent: at the beginning and the end of its passage; the map alone says it, so that it is never wrong
-  std::vector<double> reaches_;                        // by agent: how far its front comes whatever others decide; below 0 not yet told
-  std::vector<double> wanted_;                         // by agent: acceleration
-  std::vector<std::uint8_t> hurries_;                  // by agent: brakes in an emergency
-  std::vector<std::uint32_t> missed_now_;              // by agent
-  std::vector<std::uint8_t> ends_;                     // by agent: has come to the end of its last lane
-  std::vector<AgentPose> moved_;                       // by agent: where the step has brought it …
-  std::vector<std::uint8_t> is_moved_;                 // … if that is known, and it has not left or been struck since
-  std::vector<double> leaves_;                         // by agent: acceleration that who holds its zones before it leaves it
-  std::vector<double> bars_;                           // by agent: odometer at which it waits for people on foot
-  std::vector<Eigen::Vector2d> segments_;              // by agent: where MOTORS' driver looks to
-  std::vector<AtCrossing> at_crossings_;               // by crossing for people on foot
+  std::vector<network::LightColour> colours_;  // by controller
+  std::vector<Stretches> stretches_;           // by agent
+  std::vector<WayKey> way_keys_;               // by agent
+  std::vector<std::uint32_t> ways_;            // by agent: of the way in stretches_, another one whenever that changes
+  std::vector<Below> below_;                   // by agent; the map alone says it, so that it is never wrong
+  Occupancy occupants_;                        // of agents
+  std::vector<std::uint8_t> parts_;            // by track: somebody is on one that parts from it
+  std::vector<std::vector<Block>> blocks_;     // by track
+  std::vector<std::vector<Facing>> facing_;    // by track
+  bool any_block_ = false, any_facing_ = false;  // on whatever track
+  bool any_overtaking_ = false;                  // is somebody
+  std::vector<std::uint8_t> is_overtaken_;       // by agent
+  std::vector<std::uint8_t> beside_, passes_;    // by agent: it may think of another lane, of overtaking
+  std::vector<Ahead> ahead_;                     // by agent
+  std::vector<Passage> passages_;                // by agent
+  std::vector<std::array<PlannedAt, 2>> known_;  // by agent: at the beginning and the end of its passage; the map alone
+                                                 // says it, so that it is never wrong
+  std::vector<double> reaches_;        // by agent: how far its front comes whatever others decide; below 0 not yet told
+  std::vector<double> wanted_;         // by agent: acceleration
+  std::vector<std::uint8_t> hurries_;  // by agent: brakes in an emergency
+  std::vector<std::uint32_t> missed_now_;  // by agent
+  std::vector<std::uint8_t> ends_;         // by agent: has come to the end of its last lane
+  std::vector<AgentPose> moved_;           // by agent: where the step has brought it …
+  std::vector<std::uint8_t> is_moved_;     // … if that is known, and it has not left or been struck since
+  std::vector<double> leaves_;             // by agent: acceleration that who holds its zones before it leaves it
+  std::vector<double> bars_;               // by agent: odometer at which it waits for people on foot
+  std::vector<Eigen::Vector2d> segments_;  // by agent: where MOTORS' driver looks to
+  std::vector<AtCrossing> at_crossings_;   // by crossing for people on foot
   std::vector<ToCrossing> to_crossings_;
-  ZoneBook book_;                                                   // who has or wants each zone
-  std::vector<std::uint8_t> is_asked_;                              // by 2 zone + side: somebody asks who comes there
-  std::vector<std::uint32_t> asked_sides_;                          // … of which he does
-  std::vector<std::uint32_t> coming_;                               // agents with zones before them, ascending
-  std::vector<std::uint32_t> heads_;                                // of them who must know now, and nobody before them at their line does, ascending
-  std::vector<std::uint32_t> held_up_;                              // agents who hold zones and stand, ascending
-  std::vector<std::uint32_t> order_;                                // of them who may ask to be let in, in the order in which they are looked at
-  Lists<std::uint32_t> present_;                                    // by track: agents on it while others enter
-  std::vector<std::uint8_t> at_entry_;                              // by agent: is on a track where somebody may begin his way
-  std::vector<std::uint8_t> expected_;                              // by track: somebody is on the way to its beginning while others enter
+  ZoneBook book_;                           // who has or wants each zone
+  std::vector<std::uint8_t> is_asked_;      // by 2 zone + side: somebody asks who comes there
+  std::vector<std::uint32_t> asked_sides_;  // … of which he does
+  std::vector<std::uint32_t> coming_;       // agents with zones before them, ascending
+  std::vector<std::uint32_t> heads_;  // of them who must know now, and nobody before them at their line does, ascending
+  std::vector<std::uint32_t> held_up_;  // agents who hold zones and stand, ascending
+  std::vector<std::uint32_t> order_;    // of them who may ask to be let in, in the order in which they are looked at
+  Lists<std::uint32_t> present_;        // by track: agents on it while others enter
+  std::vector<std::uint8_t> at_entry_;  // by agent: is on a track where somebody may begin his way
+  std::vector<std::uint8_t> expected_;  // by track: somebody is on the way to its beginning while others enter
 };
 
 }  // namespace rodeira::traffic

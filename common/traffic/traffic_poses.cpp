@@ -15,7 +15,8 @@ constexpr double kStopping_mps = 0.1;       // … or less at the end of a stop,
 
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits) {
   const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
-  return {pose.id, pose.p_WB_W.x(), pose.p_WB_W.y(), std::atan2(forward.y(), forward.x()), pose.speed_mps, traits.length_m, traits.width_m};
+  return {pose.id,        pose.p_WB_W.x(), pose.p_WB_W.y(), std::atan2(forward.y(), forward.x()),
+          pose.speed_mps, traits.length_m, traits.width_m};
 }
 
 namespace {
@@ -32,7 +33,9 @@ Eigen::Quaterniond Turned(const Eigen::Vector3d& along_W, const Eigen::Vector2d&
 
 }  // namespace
 
-Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight) { return Turned(straight.along_W, straight.along_W.head<2>(), straight.bank); }
+Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight) {
+  return Turned(straight.along_W, straight.along_W.head<2>(), straight.bank);
+}
 
 double GradeOf(const Eigen::Quaterniond& q_WB) {
   const Eigen::Vector3d ahead_W = q_WB * Eigen::Vector3d::UnitX();
@@ -72,7 +75,8 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   pose.speed_mps = agent.speed_mps;
   pose.acceleration_mps2 = agent.acceleration_mps2;
   pose.wheel_spin_rad = geometry::WrapAngle(agent.driven_m / traits.wheel_radius_m);
-  pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2 || (agent.speed_mps < kStopping_mps && agent.acceleration_mps2 <= 0.0 && agent.driving.brake > 0.0);
+  pose.braking = agent.acceleration_mps2 < kBrakeLights_mps2 ||
+                 (agent.speed_mps < kStopping_mps && agent.acceleration_mps2 <= 0.0 && agent.driving.brake > 0.0);
   if (full_) full_->Tell(id, pose);
   const std::uint32_t on = PieceAt(agent.path, agent.o_m).track;
   if (below.track == on) {

@@ -42,8 +42,10 @@ void TrafficModel::Restore(base::StateReader& reader) {
   if (full_) reader.Get("full", *full_);
   for (MotorsDriver& driver : motors_) {
     reader.Get("motors", driver);
-    if (driver.track >= graph().tracks().size()) driver.lanes = driver.track = 0;
-    else driver.checkpoint = std::min(driver.checkpoint, MotorsPoints(driver) - 2);
+    if (driver.track >= graph().tracks().size())
+      driver.lanes = driver.track = 0;
+    else
+      driver.checkpoint = std::min(driver.checkpoint, MotorsPoints(driver) - 2);
   }
   if (people_) reader.Get("people", *people_);
   for (Yielding& yielding : yielding_) {
@@ -66,7 +68,8 @@ void TrafficModel::Restore(base::StateReader& reader) {
   for (std::size_t i = 0; 2 * i + 1 < appearing.size() && 2 * i + 1 < appearing_at.size(); ++i) {
     const Appearing next{appearing[2 * i], appearing[2 * i + 1], appearing_at[2 * i], appearing_at[2 * i + 1]};
     if (next.id < settings_.vehicles || next.id >= agents_.size() || next.track >= graph().tracks().size()) continue;
-    if (next.d_m >= 0.0 && next.d_m <= graph()[next.track].length_m() && next.speed_mps >= 0.0) appearing_.push_back(next);
+    if (next.d_m >= 0.0 && next.d_m <= graph()[next.track].length_m() && next.speed_mps >= 0.0)
+      appearing_.push_back(next);
   }
   reader.Get("next_grant", next_grant_);
   reader.Get("time_ns", time_ns_);
@@ -79,15 +82,19 @@ void TrafficModel::Restore(base::StateReader& reader) {
   }
   for (Agent& agent : agents_) {
     const auto tracks = graph().tracks().size();
-    if (agent.entry >= tracks || std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; })) agent = Agent();
+    if (agent.entry >= tracks ||
+        std::any_of(agent.path.begin(), agent.path.end(), [&](const Piece& p) { return p.track >= tracks; }))
+      agent = Agent();
     if (agent.overtaking.passed >= static_cast<std::int64_t>(agents_.size())) agent = Agent();
     if (agent.flow >= static_cast<std::int32_t>(flows_.size())) agent.flow = -1;
     const Route* route = RouteOf(agent);
     if (route != nullptr) agent.leg = std::min(agent.leg, route->legs());
   }
   for (std::uint32_t id = 0; full_ && id < agents_.size(); ++id) {
-    if (!agents_[id].on_road) full_->Clear(id);
-    else if (!full_->cars().present(id)) agents_[id] = Agent();
+    if (!agents_[id].on_road)
+      full_->Clear(id);
+    else if (!full_->cars().present(id))
+      agents_[id] = Agent();
   }
   for (std::uint32_t id = 0; has_flows() && id < agents_.size(); ++id) traits_[id] = TraitsFor(id);
   std::erase_if(waiting_, [&](std::uint32_t id) { return id >= agents_.size(); });

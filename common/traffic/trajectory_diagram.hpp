@@ -10,8 +10,8 @@
 
 namespace rodeira::traffic {
 
-// Where the cars of one lane are over time: their ways as lines, coloured by speed. Waves of stopped traffic show as bands that
-// run against the driving.
+// Where the cars of one lane are over time: their ways as lines, coloured by speed. Waves of stopped traffic show as
+// bands that run against the driving.
 class TrajectoryDiagram {
  public:
   // The track must be one of the model's.

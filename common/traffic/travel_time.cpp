@@ -18,8 +18,8 @@ double TravelTime(double distance_m, double speed_mps, double most_mps, double s
   return (std::sqrt(v * v + 2.0 * start_mps2 * distance_m) - v) / start_mps2;
 }
 
-// Until the rate is reached it loses speed Δ²/(2 j), of the time that this takes at all, and way Δ³/(6 j²) beside, Δ what is still to gain of the rate: as if it began slower, and
-// so much nearer.
+// Until the rate is reached it loses speed Δ²/(2 j), of the time that this takes at all, and way Δ³/(6 j²) beside, Δ
+// what is still to gain of the rate: as if it began slower, and so much nearer.
 double TravelTime(double distance_m, double speed_mps, double most_mps, double start_mps2, const Setting& off) {
   if (distance_m <= 0.0) return 0.0;
   const double gains = std::max(0.0, start_mps2 - off.acceleration_mps2), j = off.jerk_mps3;

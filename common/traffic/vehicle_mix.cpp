@@ -21,7 +21,8 @@ std::vector<VehicleKind> ReadKinds(const config::List& list) {
     const std::string name = list.Text(i);
     const auto* const found = std::find(kKindNames.begin(), kKindNames.end(), name);
     if (found == kKindNames.end()) {
-      list.Problem(i, fmt::format("'{}' was found; car, van, lorry or bus was expected{}", name, base::DidYouMean(name, {kKindNames.begin(), kKindNames.end()})));
+      list.Problem(i, fmt::format("'{}' was found; car, van, lorry or bus was expected{}", name,
+                                  base::DidYouMean(name, {kKindNames.begin(), kKindNames.end()})));
       continue;
     }
     kinds.push_back(static_cast<VehicleKind>(found - kKindNames.begin()));
@@ -34,7 +35,8 @@ VehicleMix ReadMix(const config::Map& map) {
   double sum = 0.0;
   for (std::size_t k = 0; k < mix.shares.size(); ++k) sum += mix.shares[k] = map.Number(kKindNames[k], {0.0, 1e6}, 0.0);
   if (sum <= 0.0) {
-    map.Problem("", fmt::format("no kind of vehicle has a share; at least one above 0 was expected, of {}", fmt::join(kKindNames, ", ")));
+    map.Problem("", fmt::format("no kind of vehicle has a share; at least one above 0 was expected, of {}",
+                                fmt::join(kKindNames, ", ")));
     return {};
   }
   for (double& share : mix.shares) share /= sum;

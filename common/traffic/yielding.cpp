@@ -1,5 +1,6 @@
-// What agents and people on foot make of each other at crossings: people step out when everybody who comes can stop comfortably, stands, or has
-// passed; who can stop comfortably does so for who waits, and everybody for who has stepped out.
+// What agents and people on foot make of each other at crossings: people step out when everybody who comes can stop
+// comfortably, stands, or has passed; who can stop comfortably does so for who waits, and everybody for who has stepped
+// out.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
@@ -9,19 +10,21 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 1.0;        // before the walkway the front stops
-constexpr double kReaction_s = 0.5;    // before the brakes do
+constexpr double kLine_m = 1.0;      // before the walkway the front stops
+constexpr double kReaction_s = 0.5;  // before the brakes do
 constexpr double kAtRest_mps = 0.05;
-constexpr double kPatience_s = 20.0;   // so long a car waits for those on foot before they let it go
-constexpr double kRoom_m = 3.0;        // … if it has so much before it
-constexpr double kDrivers_mps2 = 2.0;  // braking that is expected of other vehicles …
+constexpr double kPatience_s = 20.0;     // so long a car waits for those on foot before they let it go
+constexpr double kRoom_m = 3.0;          // … if it has so much before it
+constexpr double kDrivers_mps2 = 2.0;    // braking that is expected of other vehicles …
 constexpr double kDriversReact_s = 1.0;  // … and when it begins
-constexpr double kAside_m = 1.5;       // from a lane's middle: farther away a vehicle is not on it
-constexpr double kEntering = 0.6;      // share of the comfortable braking that an entering car may need
-constexpr double kShareOfRed = 0.8;    // in which people step out, where red is shorter than they need
+constexpr double kAside_m = 1.5;         // from a lane's middle: farther away a vehicle is not on it
+constexpr double kEntering = 0.6;        // share of the comfortable braking that an entering car may need
+constexpr double kShareOfRed = 0.8;      // in which people step out, where red is shorter than they need
 constexpr std::size_t kMostWays = 64;
 
-double NeedsToStop(double speed_mps, double braking_mps2) { return speed_mps * speed_mps / (2.0 * braking_mps2) + kReaction_s * speed_mps; }
+double NeedsToStop(double speed_mps, double braking_mps2) {
+  return speed_mps * speed_mps / (2.0 * braking_mps2) + kReaction_s * speed_mps;
+}
 
 }  // namespace
 
@@ -39,7 +42,8 @@ bool TrafficModel::NearCrossing(std::uint32_t track, double low_m, double high_m
   });
 }
 
-// Green for those on foot; without a light of theirs red for those who come over every lane that has one, as long as they need.
+// Green for those on foot; without a light of theirs red for those who come over every lane that has one, as long as
+// they need.
 bool TrafficModel::LightsLetGo(const lanes::FootCrossing& crossing) const {
   if (crossing.light >= 0) return IsGreen(crossing.light);
   for (const lanes::FootPass& pass : crossing.passes) {
@@ -60,7 +64,8 @@ void TrafficModel::CarsAtCrossings() {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
     const Agent& agent = agents_[id];
     if (!agent.on_road) continue;
-    const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half, v = agent.speed_mps;
+    const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half,
+                 v = agent.speed_mps;
     for (const Stretch& stretch : stretches_[id]) {
       for (const Pedestrians::OnTrack& on : people_->OfTrack(stretch.track)) {
         const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
@@ -72,8 +77,10 @@ void TrafficModel::CarsAtCrossings() {
           at.blocked = at.blocked || v < kAtRest_mps;
           continue;
         }
-        const bool yields = yielding_[id].crossing == on.crossing + 1 && v * v <= 2.0 * traits_[id].idm.hardest_mps2 * (in - front);
-        const bool able = yields || v < kAtRest_mps || NeedsToStop(v, kYieldingShare * traits_[id].idm.braking_mps2) <= line - front;
+        const bool yields =
+            yielding_[id].crossing == on.crossing + 1 && v * v <= 2.0 * traits_[id].idm.hardest_mps2 * (in - front);
+        const bool able =
+            yields || v < kAtRest_mps || NeedsToStop(v, kYieldingShare * traits_[id].idm.braking_mps2) <= line - front;
         to_crossings_.push_back({id, on.crossing, on.pass, std::max(front, line), able});
       }
     }
@@ -87,8 +94,10 @@ void TrafficModel::CarsAtCrossings() {
   for (std::size_t i = 0; i < to_crossings_.size(); ++i) {
     ToCrossing& to = to_crossings_[i];
     if (i == 0 || to.crossing != to_crossings_[i - 1].crossing || to.pass != to_crossings_[i - 1].pass) queue_m = 0.0;
-    const double v = agents_[to.id].speed_mps, needed = NeedsToStop(v, kYieldingShare * traits_[to.id].idm.braking_mps2);
-    if (!to.able || (v >= kAtRest_mps && yielding_[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m)) at_crossings_[to.crossing].held = true;
+    const double v = agents_[to.id].speed_mps,
+                 needed = NeedsToStop(v, kYieldingShare * traits_[to.id].idm.braking_mps2);
+    if (!to.able || (v >= kAtRest_mps && yielding_[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m))
+      at_crossings_[to.crossing].held = true;
     queue_m += traits_[to.id].length_m + settings_.idm.standing_gap_m;
   }
 }
@@ -110,11 +119,12 @@ void TrafficModel::OthersAtCrossings() {
         const At at = open[i];
         for (const Pedestrians::OnTrack& on : people_->OfTrack(at.track)) {
           const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
-          const double gap = at.ahead_m + pass.in_m;                   // from its front
-          const double back = -length - at.ahead_m - pass.out_m;       // from its rear, to what lies behind it
+          const double gap = at.ahead_m + pass.in_m;              // from its front
+          const double back = -length - at.ahead_m - pass.out_m;  // from its rear, to what lies behind it
           const bool there = gap < 0.0 && back < 0.0;
           if (there) at_crossings_[on.crossing].blocked = at_crossings_[on.crossing].blocked || v < kAtRest_mps;
-          if (there || (v >= kAtRest_mps && (along ? gap >= 0.0 && gap < stops_m : back >= 0.0 && back < stops_m))) at_crossings_[on.crossing].held = true;
+          if (there || (v >= kAtRest_mps && (along ? gap >= 0.0 && gap < stops_m : back >= 0.0 && back < stops_m)))
+            at_crossings_[on.crossing].held = true;
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
         if (!along || end > stops_m) continue;
@@ -137,7 +147,8 @@ void TrafficModel::Yield(double dt_s) {
   }
   for (const ToCrossing& to : to_crossings_) {  // who is let go by those on foot has waited long until it drives
     const Yielding& before = yielding_[to.id];
-    if (now[to.id].crossing == 0 && before.crossing == to.crossing + 1 && before.waited_s >= kPatience_s) now[to.id] = before;
+    if (now[to.id].crossing == 0 && before.crossing == to.crossing + 1 && before.waited_s >= kPatience_s)
+      now[to.id] = before;
   }
   yielding_ = std::move(now);
 }
@@ -150,7 +161,8 @@ void TrafficModel::LookAtPeople(double dt_s) {
   OthersAtCrossings();
   for (const ToCrossing& to : to_crossings_) {
     const Yielding& yielding = yielding_[to.id];
-    if (yielding.crossing == to.crossing + 1 && yielding.waited_s >= kPatience_s && ahead_[to.id].gap_m > kRoom_m) at_crossings_[to.crossing].tired = true;
+    if (yielding.crossing == to.crossing + 1 && yielding.waited_s >= kPatience_s && ahead_[to.id].gap_m > kRoom_m)
+      at_crossings_[to.crossing].tired = true;
   }
   for (std::uint32_t c = 0; c < at_crossings_.size(); ++c) {
     AtCrossing& at = at_crossings_[c];
@@ -160,7 +172,8 @@ void TrafficModel::LookAtPeople(double dt_s) {
   Yield(dt_s);
 }
 
-// The speed from which an entering car can stop before the first crossing at which somebody walks or waits; below 0 where it would stand on one.
+// The speed from which an entering car can stop before the first crossing at which somebody walks or waits; below 0
+// where it would stand on one.
 double TrafficModel::AtMostForPeople(std::uint32_t id) const {
   const Agent& agent = agents_[id];
   const double front = agent.o_m + 0.5 * traits_[id].length_m, rear = front - traits_[id].length_m;
@@ -173,22 +186,27 @@ double TrafficModel::AtMostForPeople(std::uint32_t id) const {
       const double way = stretch.zero_m + pass.in_m - kLine_m - front;
       if (way < 0.0) return -1.0;
       const double b = kEntering * traits_[id].idm.braking_mps2;
-      speed = std::min(speed, b * (std::sqrt(kReaction_s * kReaction_s + 2.0 * way / b) - kReaction_s));  // v²/(2b) + v·reaction = way
+      speed = std::min(speed, b * (std::sqrt(kReaction_s * kReaction_s + 2.0 * way / b) -
+                                   kReaction_s));  // v²/(2b) + v·reaction = way
     }
   }
   return speed;
 }
 
 base::Status TrafficModel::CheckCall(std::string_view road, double s_m) const {
-  if (!people_) return base::WrongInput("the traffic has no people on foot; 'pedestrians' in its settings was expected (its 'per_hour' may be 0)");
-  return people_->Nearest(*map_->network, road, s_m) ? base::Status() : base::WrongInput(WithoutCrossing(*map_->network, road));
+  if (!people_)
+    return base::WrongInput(
+        "the traffic has no people on foot; 'pedestrians' in its settings was expected (its 'per_hour' may be 0)");
+  return people_->Nearest(*map_->network, road, s_m) ? base::Status()
+                                                     : base::WrongInput(WithoutCrossing(*map_->network, road));
 }
 
 base::Status TrafficModel::CallPedestrian(std::string_view road, double s_m, bool from_left) {
   if (const auto status = CheckCall(road, s_m); !status) return status;
   const auto crossing = people_->Nearest(*map_->network, road, s_m);
   const network::Road& at = map_->network->roads()[people_->crossings()[*crossing].road];
-  const double heading = at.axis().Evaluate(std::clamp(people_->crossings()[*crossing].s_m, 0.0, at.length_m())).heading_rad;
+  const double heading =
+      at.axis().Evaluate(std::clamp(people_->crossings()[*crossing].s_m, 0.0, at.length_m())).heading_rad;
   const Eigen::Vector2d left(-std::sin(heading), std::cos(heading));
   const bool begins_right = people_->crossings()[*crossing].across_W.dot(left) > 0.0;  // u = 0 lies on the road's right
   people_->Come(*crossing, begins_right == from_left ? 1 : 0);

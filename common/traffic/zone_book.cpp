@@ -2,7 +2,8 @@
 
 namespace rodeira::traffic {
 
-ZoneBook::ZoneBook(std::size_t zones) : holders_(2 * zones), comers_(2 * zones), awaited_(2 * zones), room_for_(2 * zones) {}
+ZoneBook::ZoneBook(std::size_t zones)
+    : holders_(2 * zones), comers_(2 * zones), awaited_(2 * zones), room_for_(2 * zones) {}
 
 void ZoneBook::Clear() {
   holders_.Clear(), comers_.Clear();

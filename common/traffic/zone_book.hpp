@@ -38,21 +38,26 @@ class ZoneBook {
 
   // An urgent agent waits for this side to end …
   void Await(std::size_t zone, std::size_t side);
-  bool IsAwaited(std::size_t zone, std::size_t side) const { return !urged_.empty() && awaited_[Side(zone, side)] != 0; }
-  // … or has waited so long for room behind the zone that this side could take; of several who has waited longest, of equals the first who said so.
+  bool IsAwaited(std::size_t zone, std::size_t side) const {
+    return !urged_.empty() && awaited_[Side(zone, side)] != 0;
+  }
+  // … or has waited so long for room behind the zone that this side could take; of several who has waited longest, of
+  // equals the first who said so.
   struct Wish {
     double waited_s = 0.0;
     std::uint32_t id = 0;
   };
   void WantRoom(std::size_t zone, std::size_t side, const Wish& wish);
-  Wish RoomWanted(std::size_t zone, std::size_t side) const { return urged_.empty() ? Wish{} : room_for_[Side(zone, side)]; }
+  Wish RoomWanted(std::size_t zone, std::size_t side) const {
+    return urged_.empty() ? Wish{} : room_for_[Side(zone, side)];
+  }
 
  private:
   Lists<Holder> holders_;
   Lists<Comer> comers_;
-  std::vector<std::uint8_t> awaited_;   // by side
-  std::vector<Wish> room_for_;          // by side
-  std::vector<std::size_t> urged_;      // sides of which one of both says something: hardly ever any
+  std::vector<std::uint8_t> awaited_;  // by side
+  std::vector<Wish> room_for_;         // by side
+  std::vector<std::size_t> urged_;     // sides of which one of both says something: hardly ever any
 };
 
 }  // namespace rodeira::traffic

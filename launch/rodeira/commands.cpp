@@ -4,8 +4,6 @@
 #include <iostream>
 
 #include "common/core/base/mathematics.hpp"
-#include "launch/rodeira/run/ctl_command.hpp"
-#include "launch/rodeira/doctor/doctor.hpp"
 #include "launch/rodeira/commands/edit_command.hpp"
 #include "launch/rodeira/commands/export_command.hpp"
 #include "launch/rodeira/commands/info_command.hpp"
@@ -13,17 +11,19 @@
 #include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/commands/map_command.hpp"
 #include "launch/rodeira/commands/mechanism_command.hpp"
-#include "launch/rodeira/option_errors.hpp"
 #include "launch/rodeira/commands/polyline_command.hpp"
 #include "launch/rodeira/commands/repair_command.hpp"
-#include "launch/rodeira/replay/replay_command.hpp"
-#include "launch/rodeira/run/run_command.hpp"
-#include "launch/rodeira/start_window/start_window.hpp"
 #include "launch/rodeira/commands/surface_command.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
 #include "launch/rodeira/commands/vehicle_command.hpp"
 #include "launch/rodeira/commands/view_command.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
+#include "launch/rodeira/doctor/doctor.hpp"
+#include "launch/rodeira/option_errors.hpp"
+#include "launch/rodeira/replay/replay_command.hpp"
+#include "launch/rodeira/run/ctl_command.hpp"
+#include "launch/rodeira/run/run_command.hpp"
+#include "launch/rodeira/start_window/start_window.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -40,7 +40,8 @@ std::pair<std::string, std::string> KeyValue(const std::string& text) {
 }
 
 // False, after a sentence, where one of them is none.
-bool TakePairs(const char* option, const std::vector<std::string>& texts, std::vector<std::pair<std::string, std::string>>& out) {
+bool TakePairs(const char* option, const std::vector<std::string>& texts,
+               std::vector<std::pair<std::string, std::string>>& out) {
   for (const std::string& text : texts) {
     const auto pair = KeyValue(text);
     if (pair.first.empty()) {
@@ -57,7 +58,8 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
-  CLI::Option* record = run->add_option("--record", options.record, "recording (MCAP); otherwise a dated file in the folder of recordings");
+  CLI::Option* record = run->add_option("--record", options.record,
+                                        "recording (MCAP); otherwise a dated file in the folder of recordings");
   run->add_flag("--no-record", options.no_record, "no recording")->excludes(record);
   run->add_option("--seed", options.seed, "seed of everything that is drawn")->check(WholeNumber());
   run->add_option("--set", sets, "KEY=VALUE: replaces a value of the launch file; KEY=~ takes it out");
@@ -72,7 +74,9 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
 }
 
 CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
-  CLI::App* ctl = app.add_subcommand("ctl", "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | restart NODE | state");
+  CLI::App* ctl = app.add_subcommand(
+      "ctl",
+      "control a run that is going on: pause | resume | step [N] | pace X | mark TEXT | stop | restart NODE | state");
   ctl->add_option("COMMAND", options.words, "what to do")->required();
   ctl->add_option("--run", options.run, "name of the run; the only one otherwise");
   return ctl;
@@ -81,15 +85,22 @@ CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
 void AddWorld(CLI::App& app, WorldOptions& options) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
-  for (const auto& [name, text] : {std::pair("check", "name every problem of a world file, or of a folder that was built"), std::pair("info", "what the world is"),
-                                   std::pair("map", "draw the plan as SVG"), std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"), std::pair("build", "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb; not of version 1)")}) {
+  for (const auto& [name, text] :
+       {std::pair("check", "name every problem of a world file, or of a folder that was built"),
+        std::pair("info", "what the world is"), std::pair("map", "draw the plan as SVG"),
+        std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"),
+        std::pair("build",
+                  "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb; not "
+                  "of version 1)")}) {
     CLI::App* command = world->add_subcommand(name, text);
     command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
     if (std::string(name) == "query") {
       command->add_option("X", options.x_m, "metres east")->required()->check(Finite());
       command->add_option("Y", options.y_m, "metres north")->required()->check(Finite());
-      command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another")->check(Finite());
-      command->add_flag("--earth", options.earth, "X and Y are longitude and latitude (WGS 84, degrees) by the world's projection");
+      command->add_option("Z", options.z_hint_m, "near which height, where surfaces lie over one another")
+          ->check(Finite());
+      command->add_flag("--earth", options.earth,
+                        "X and Y are longitude and latitude (WGS 84, degrees) by the world's projection");
     }
     if (std::string(name) == "build") {
       command->add_option("-o,--out", options.out, "folder")->required();
@@ -98,13 +109,20 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     }
     if (std::string(name) == "map") {
       command->add_option("-o,--out", options.out, "file to draw the plan into")->required()->check(NewFile());
-      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file")->check(NewFile());
+      command
+          ->add_option("--profile", options.profile,
+                       "draw heights, grades, curvatures and slopes across into this file")
+          ->check(NewFile());
     }
-    if (std::string(name) == "export") command->add_option("-o,--out,--opendrive", options.out, "file to write")->required()->check(NewFile());
+    if (std::string(name) == "export")
+      command->add_option("-o,--out,--opendrive", options.out, "file to write")->required()->check(NewFile());
     if (std::string(name) == "check") command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances");
     if (std::string(name) == "info") {
       command->add_option("--svg", options.svg, "draw the plan into this file")->check(NewFile());
-      command->add_option("--profile", options.profile, "draw heights, grades, curvatures and slopes across into this file")->check(NewFile());
+      command
+          ->add_option("--profile", options.profile,
+                       "draw heights, grades, curvatures and slopes across into this file")
+          ->check(NewFile());
     }
     command->callback([&options, name] { options.command = name; });
   }
@@ -113,11 +131,18 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
 void AddMap(CLI::App& app, MapOptions& options) {
   CLI::App* map = app.add_subcommand("map", "traffic maps (.motors): check and convert them");
   map->require_subcommand(1);
-  for (const auto& [name, text] : {std::pair("check", "name everything that is wrong, and what the map holds"),
-                                   std::pair("convert", "draw it (.svg), or write it as OpenDRIVE (.xodr) or as a world of this project (.yaml)")}) {
+  for (const auto& [name, text] :
+       {std::pair("check", "name everything that is wrong, and what the map holds"),
+        std::pair("convert",
+                  "draw it (.svg), or write it as OpenDRIVE (.xodr) or as a world of this project (.yaml)")}) {
     CLI::App* command = map->add_subcommand(name, text);
     command->add_option("FILE.motors", options.file, "map")->required();
-    if (std::string(name) == "convert") command->add_option("-o,--out", options.out, "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")->required()->check(NewFile());
+    if (std::string(name) == "convert")
+      command
+          ->add_option("-o,--out", options.out,
+                       "file to write: OUT.svg, OUT.xodr or OUT.yaml (with OUT.xodr beside it)")
+          ->required()
+          ->check(NewFile());
     command->callback([&options, name] { options.command = name; });
   }
 }
@@ -127,18 +152,33 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   traffic->require_subcommand(1);
   CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
   run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
-  run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")->check(Between(0, 100000));
+  run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")
+      ->check(Between(0, 100000));
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--step", options.step_s, "seconds a step, to 0.1")->check(Between(0.001, 0.1));
   run->add_option("--seed", options.seed, "seed of everything that is drawn")->check(WholeNumber());
-  run->add_option("--driver", options.driver, "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")->check(OneOf({"standard", "motors"}));
-  run->add_option("--physics", options.physics, "how cars move: planar, along their paths, or full, as the driver's car does")->check(OneOf({"planar", "full"}));
-  run->add_option("--settings", options.settings, "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
+  run->add_option("--driver", options.driver,
+                  "who drives: standard, or motors, as MOTORS' own driver does (with full physics)")
+      ->check(OneOf({"standard", "motors"}));
+  run->add_option("--physics", options.physics,
+                  "how cars move: planar, along their paths, or full, as the driver's car does")
+      ->check(OneOf({"planar", "full"}));
+  run->add_option("--settings", options.settings,
+                  "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
   run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
-  run->add_option("--every", options.every_s, "seconds a row of intervals.csv, in that folder: flow, speed, queue of every lane over time")->check(Positive);
-  run->add_option("--warm", options.warm_s, "seconds at the beginning that tables and heat leave out")->check(From0())->capture_default_str();
-  run->add_option("--heat", options.heat, "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")->check(NewFile());
-  run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")->check(Between(0.1, 1000.0))->needs("--heat")->capture_default_str();
+  run->add_option("--every", options.every_s,
+                  "seconds a row of intervals.csv, in that folder: flow, speed, queue of every lane over time")
+      ->check(Positive);
+  run->add_option("--warm", options.warm_s, "seconds at the beginning that tables and heat leave out")
+      ->check(From0())
+      ->capture_default_str();
+  run->add_option("--heat", options.heat,
+                  "mean speed by the metre as a picture (.svg); flow, density, speed and fuel as a GeoTIFF (.tif)")
+      ->check(NewFile());
+  run->add_option("--pixel", options.pixel_m, "metres a pixel of the GeoTIFF")
+      ->check(Between(0.1, 1000.0))
+      ->needs("--heat")
+      ->capture_default_str();
   run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
   run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
   run->add_option("--lane", options.lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
@@ -147,34 +187,54 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
 }
 
 void AddPolyline(CLI::App& app, PolylineOptions& options) {
-  CLI::App* polyline = app.add_subcommand("polyline", "chains of points in CSV files (x_m,y_m,z_m) and axes of roads (WORLD.yaml#ROAD), put together and moved");
+  CLI::App* polyline = app.add_subcommand(
+      "polyline",
+      "chains of points in CSV files (x_m,y_m,z_m) and axes of roads (WORLD.yaml#ROAD), put together and moved");
   polyline->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, const char* file) {
     CLI::App* command = polyline->add_subcommand(name, text);
-    CLI::Option* files = command->add_option(file, options.files, "CSV file, or a road's axis: WORLD.yaml#ROAD, FILE.xodr#ROAD")->required();
-    if (std::string(name) == "join") files->expected(2, CLI::detail::expected_max_vector_size);
-    else files->expected(1);
+    CLI::Option* files =
+        command->add_option(file, options.files, "CSV file, or a road's axis: WORLD.yaml#ROAD, FILE.xodr#ROAD")
+            ->required();
+    if (std::string(name) == "join")
+      files->expected(2, CLI::detail::expected_max_vector_size);
+    else
+      files->expected(1);
     command->add_option("-o,--out", options.out, "CSV file to write")->required()->check(NewFile());
-    command->add_option("--step", options.step_m, "metres between the points of a road's axis")->check(Above0("a number above 0"))->capture_default_str();
+    command->add_option("--step", options.step_m, "metres between the points of a road's axis")
+        ->check(Above0("a number above 0"))
+        ->capture_default_str();
     command->callback([&options, name] { options.command = name; });
     return command;
   };
   CLI::App* join = add("join", "one line after the other", "IN.csv");
-  join->add_option("--within", options.within_m, "metres that an end may lie from the next beginning")->check(From0())->capture_default_str();
+  join->add_option("--within", options.within_m, "metres that an end may lie from the next beginning")
+      ->check(From0())
+      ->capture_default_str();
   join->add_flag("--bridge", options.bridge, "bridge larger gaps by a straight piece");
   join->add_flag("--turn", options.turn, "turn a line round whose end is nearer than its beginning");
   CLI::App* translate = add("translate", "shift", "IN.csv");
-  translate->add_option("--by", options.by_m, "metres east, north and, if wanted, up")->required()->check(Finite())->expected(2, 3);
+  translate->add_option("--by", options.by_m, "metres east, north and, if wanted, up")
+      ->required()
+      ->check(Finite())
+      ->expected(2, 3);
   CLI::App* rotate = add("rotate", "turn about a vertical axis", "IN.csv");
   rotate->add_option("--deg", options.angle_deg, "degrees, from east to north")->required()->check(Finite());
-  rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")->check(Finite())->expected(2);
+  rotate->add_option("--about", options.about_m, "X Y of the axis; the first point otherwise")
+      ->check(Finite())
+      ->expected(2);
   CLI::App* scale = add("scale", "stretch or shrink", "IN.csv");
   scale->add_option("--by", options.factor, "factor, greater than 0")->required()->check(Above0("a number above 0"));
   scale->add_option("--z-by", options.z_factor, "another factor for the heights")->check(Above0("a number above 0"));
-  scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")->check(Finite())->expected(2, 3);
+  scale->add_option("--about", options.about_m, "X Y [Z] that stays; the first point otherwise")
+      ->check(Finite())
+      ->expected(2, 3);
   CLI::App* offset = add("offset", "the line beside it", "IN.csv");
-  offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")->required()->check(Finite());
-  offset->add_flag("--keep-length", options.keep_length, "nodes move by the distance itself along their mitres: bends become narrower");
+  offset->add_option("--left", options.left_m, "metres to the left; negative: to the right")
+      ->required()
+      ->check(Finite());
+  offset->add_flag("--keep-length", options.keep_length,
+                   "nodes move by the distance itself along their mitres: bends become narrower");
   offset->add_flag("--despite-faults", options.despite_faults, "write it even where it folds or crosses itself");
 }
 
@@ -189,7 +249,9 @@ void AddSurface(CLI::App& app, SurfaceOptions& options) {
 
 void AddDoctor(CLI::App& app, DoctorOptions& options) {
   CLI::App* doctor = app.add_subcommand("doctor", "is this PC ready: packages, GL, DDS, ports, shared memory");
-  doctor->add_option("--transport", options.transport, "of the DDS loop-back")->check(OneOf({"shared_memory", "udp"}))->capture_default_str();
+  doctor->add_option("--transport", options.transport, "of the DDS loop-back")
+      ->check(OneOf({"shared_memory", "udp"}))
+      ->capture_default_str();
   doctor->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(Between(0, 232))->capture_default_str();
   doctor->add_flag("--quiet", options.quiet, "only what is not well");
   doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
@@ -215,7 +277,9 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   vehicle->require_subcommand(1);
   CLI::App* test = vehicle->add_subcommand("test", "drive the usual manoeuvres and print their figures");
   test->add_option("VEHICLE.yaml", options.file, "vehicle file")->required();
-  test->add_option("--manoeuvre", options.manoeuvres, "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; otherwise all");
+  test->add_option("--manoeuvre", options.manoeuvres,
+                   "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; "
+                   "otherwise all");
   test->add_option("--step", options.step_s, "step in seconds")->capture_default_str();
   test->add_option("--csv", options.csv, "write the motion over time into this file")->check(NewFile());
   test->add_option("--svg", options.svg, "draw it into this file")->check(NewFile());
@@ -227,9 +291,14 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
 void AddInput(CLI::App& app, InputOptions& options) {
   CLI::App* input = app.add_subcommand("input", "steering wheels and pedals");
   input->require_subcommand(1);
-  CLI::App* setup = input->add_subcommand("setup", "find out what turns and what is pressed, by moving it, and write a wheel file");
-  setup->add_option("-o,--out", options.out, "wheel file; otherwise one in the user's configuration, by the device's GUID");
-  setup->add_option("--lock-deg", options.lock_deg, "angle of the car's steering wheel at the device's end, from straight ahead")->check(Between(10.0, 1800.0));
+  CLI::App* setup =
+      input->add_subcommand("setup", "find out what turns and what is pressed, by moving it, and write a wheel file");
+  setup->add_option("-o,--out", options.out,
+                    "wheel file; otherwise one in the user's configuration, by the device's GUID");
+  setup
+      ->add_option("--lock-deg", options.lock_deg,
+                   "angle of the car's steering wheel at the device's end, from straight ahead")
+      ->check(Between(10.0, 1800.0));
   setup->callback([&options] { options.asked = true; });
 }
 
@@ -241,9 +310,13 @@ void AddJoysticks(CLI::App& app, JoysticksOptions& options) {
 }
 
 CLI::App* AddView(CLI::App& app, ViewOptions& options) {
-  CLI::App* view = app.add_subcommand("view", "the start window: choose what to drive, or what to watch; with a launch file: its run, by one of its views");
+  CLI::App* view = app.add_subcommand(
+      "view",
+      "the start window: choose what to drive, or what to watch; with a launch file: its run, by one of its views");
   view->add_option("LAUNCH.yaml", options.launch_file, "launch file");
-  view->add_option("--screen", options.screen, "of the laboratory: only the view that looks through it, as its PC's part of the run where the launch file names one");
+  view->add_option("--screen", options.screen,
+                   "of the laboratory: only the view that looks through it, as its PC's part of the run where the "
+                   "launch file names one");
   view->add_flag("--headset", options.headset, "in a headset too");
   view->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   return view;
@@ -261,10 +334,15 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   CLI::Option* view = replay->add_flag("--view", options.view, "watch it, or the branch, in a window");
   replay->add_option("--speed", options.watch.speed, "times real time, 0.1 to 10")->needs(view)->capture_default_str();
   replay->add_flag("--paused", options.watch.paused, "begin standing still")->needs(view);
-  CLI::Option* frames = replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
+  CLI::Option* frames =
+      replay->add_option("--frames", options.watch.frames, "folder: write pictures (PNG) as the run's view would have");
   CLI::Option* at = replay->add_option("--at", options.watch.at_s, "simulated seconds of the pictures")->needs(frames);
-  replay->add_option("--fps", options.watch.fps, "instead: a film of so many pictures a simulated second, from --from on")->needs(frames)->excludes(at);
-  replay->add_option("--camera", options.watch.camera, "chase, driver, bonnet, orbit, top or trackside; otherwise as the run's view");
+  replay
+      ->add_option("--fps", options.watch.fps, "instead: a film of so many pictures a simulated second, from --from on")
+      ->needs(frames)
+      ->excludes(at);
+  replay->add_option("--camera", options.watch.camera,
+                     "chase, driver, bonnet, orbit, top or trackside; otherwise as the run's view");
   replay->add_option("--follow", options.watch.follow, "name of a vehicle node; otherwise as the run's view");
   replay->add_option("--quality", options.watch.quality, "low, medium or high; otherwise as the run's view");
   replay->add_option("--size", options.watch.size, "WIDTHxHEIGHT in pixels; otherwise as the run's view");
@@ -273,7 +351,8 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
   replay->add_option("--for", options.for_s, "simulated seconds of the branch or film")->check(Positive);
   replay->add_option("--record", options.record, "recording of the branch (MCAP)");
-  replay->add_option("--pace", options.pace, "of the branch: max, real or a factor; otherwise real where a person drives or watches, or max");
+  replay->add_option("--pace", options.pace,
+                     "of the branch: max, real or a factor; otherwise real where a person drives or watches, or max");
   replay->add_flag("--quiet", options.quiet, "no progress");
   return replay;
 }
@@ -342,14 +421,17 @@ int Main(int argc, char** argv) {
   const CLI::App* view = AddView(app, view_options);
   if (argc == 1 && CanStartByWindow()) return StartByWindow();
   if (argc == 1) {
-    std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or name a command (`rodeira --help` lists them)\n";
+    std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or "
+                 "name a command (`rodeira --help` lists them)\n";
     return 2;
   }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
-    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(problem);  // --help, --version
-    std::cerr << "rodeira: " << OptionSentence(app, problem) << "\n'rodeira --help' and 'rodeira COMMAND --help' say more\n";
+    if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+      return app.exit(problem);  // --help, --version
+    std::cerr << "rodeira: " << OptionSentence(app, problem)
+              << "\n'rodeira --help' and 'rodeira COMMAND --help' say more\n";
     return 2;
   }
   if (view->parsed()) return View(view_options);

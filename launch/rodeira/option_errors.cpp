@@ -30,7 +30,8 @@ Reading Deepest(const CLI::App& app) {
 
 std::vector<std::string> CommandsOf(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(inner->get_name());
+  for (const CLI::App* inner : command.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(inner->get_name());
   return names;
 }
 
@@ -67,7 +68,8 @@ std::string WhyNot(const std::string& text, const Passes& passes, const std::str
   return fmt::format("'{}' was found; {} was expected", text, what);
 }
 
-// The parser says "NAME: At least N required but received M", or "at most" and "exactly"; nothing where it says something else.
+// The parser says "NAME: At least N required but received M", or "at most" and "exactly"; nothing where it says
+// something else.
 std::string CountSentence(const CLI::App& command, const std::string& called, const std::string& said) {
   const std::size_t colon = said.find(':'), received = said.find("received ");
   if (colon == std::string::npos || received == std::string::npos) return "";
@@ -75,8 +77,11 @@ std::string CountSentence(const CLI::App& command, const std::string& called, co
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_name() != name && !option->check_name(name)) continue;
     const int least = option->get_items_expected_min(), most = option->get_items_expected_max();
-    const std::string expected = least == most ? fmt::format("{}", least) : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least) : fmt::format("{} to {}", least, most);
-    return fmt::format("{} of '{}' has {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s", expected);
+    const std::string expected = least == most                                   ? fmt::format("{}", least)
+                                 : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least)
+                                                                                 : fmt::format("{} to {}", least, most);
+    return fmt::format("{} of '{}' has {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s",
+                       expected);
   }
   return "";
 }
@@ -87,7 +92,9 @@ CLI::Validator OneOf(std::vector<std::string> words) {
   const std::string described = fmt::format("{}", fmt::join(words, "|"));
   return CLI::Validator(
       [words = std::move(words)](std::string& text) {
-        return std::find(words.begin(), words.end(), text) != words.end() ? std::string() : fmt::format("'{}' was found{}", text, base::DidYouMean(text, words));
+        return std::find(words.begin(), words.end(), text) != words.end()
+                   ? std::string()
+                   : fmt::format("'{}' was found{}", text, base::DidYouMean(text, words));
       },
       described);
 }
@@ -97,21 +104,39 @@ CLI::Validator Above0(std::string what) {
       [what = std::move(what)](std::string& text) {
         char* end = nullptr;
         const double value = std::strtod(text.c_str(), &end);
-        return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : fmt::format("'{}' was found; {} was expected", text, what);
+        return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value)
+                   ? std::string()
+                   : fmt::format("'{}' was found; {} was expected", text, what);
       },
       "NUMBER");
 }
 
 CLI::Validator Finite() {
-  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value); }, "a finite number"); }, "NUMBER");
+  return CLI::Validator(
+      [](std::string& text) {
+        return WhyNot(
+            text, [](double value) { return std::isfinite(value); }, "a finite number");
+      },
+      "NUMBER");
 }
 
 CLI::Validator From0() {
-  return CLI::Validator([](std::string& text) { return WhyNot(text, [](double value) { return std::isfinite(value) && value >= 0.0; }, "a number from 0 on"); }, "NUMBER");
+  return CLI::Validator(
+      [](std::string& text) {
+        return WhyNot(
+            text, [](double value) { return std::isfinite(value) && value >= 0.0; }, "a number from 0 on");
+      },
+      "NUMBER");
 }
 
 CLI::Validator Between(double low, double high) {
-  return CLI::Validator([=](std::string& text) { return WhyNot(text, [=](double value) { return value >= low && value <= high; }, fmt::format("a number from {} to {}", low, high)); }, "NUMBER");
+  return CLI::Validator(
+      [=](std::string& text) {
+        return WhyNot(
+            text, [=](double value) { return value >= low && value <= high; },
+            fmt::format("a number from {} to {}", low, high));
+      },
+      "NUMBER");
 }
 
 CLI::Validator WholeNumber() {
@@ -119,7 +144,9 @@ CLI::Validator WholeNumber() {
       [](std::string& text) {
         std::uint64_t value = 0;
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-        return problem == std::errc() && end == text.data() + text.size() ? std::string() : fmt::format("'{}' was found; a whole number from 0 on was expected", text);
+        return problem == std::errc() && end == text.data() + text.size()
+                   ? std::string()
+                   : fmt::format("'{}' was found; a whole number from 0 on was expected", text);
       },
       "NUMBER");
 }
@@ -139,22 +166,32 @@ std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) 
   const Reading reading = Deepest(app);
   // A word before the command that was read: 'trafic run' is not 'run'.
   const std::vector<std::string> before = app.remaining(false);
-  if (reading.command != &app && !before.empty() && before.front().front() != '-') return fmt::format("'{}' is no command of '{}'{}", before.front(), app.get_name(), base::DidYouMean(before.front(), CommandsOf(app)));
+  if (reading.command != &app && !before.empty() && before.front().front() != '-')
+    return fmt::format("'{}' is no command of '{}'{}", before.front(), app.get_name(),
+                       base::DidYouMean(before.front(), CommandsOf(app)));
   const std::vector<std::string> extras = reading.command->remaining(true);
-  const auto option = std::find_if(extras.begin(), extras.end(), [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
+  const auto option = std::find_if(extras.begin(), extras.end(),
+                                   [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
-    return fmt::format("'{}' is no option of '{}'{}", name, reading.name, base::DidYouMean(name, OptionsOf(*reading.command)));
+    return fmt::format("'{}' is no option of '{}'{}", name, reading.name,
+                       base::DidYouMean(name, OptionsOf(*reading.command)));
   }
   const std::vector<std::string> commands = CommandsOf(*reading.command);
-  if (!commands.empty() && !extras.empty()) return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name, base::DidYouMean(extras.front(), commands));
-  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr) return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
+  if (!commands.empty() && !extras.empty())
+    return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name,
+                       base::DidYouMean(extras.front(), commands));
+  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr)
+    return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
   if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
   if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
-    if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+    if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what());
+        !sentence.empty())
+      return sentence;
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr) {
-    if (const std::string sentence = CountSentence(*reading.command, reading.name, problem.what()); !sentence.empty()) return sentence;
+    if (const std::string sentence = CountSentence(*reading.command, reading.name, problem.what()); !sentence.empty())
+      return sentence;
   }
   return problem.what();
 }

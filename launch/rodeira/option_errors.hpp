@@ -11,7 +11,8 @@ namespace rodeira::cli {
 CLI::Validator OneOf(std::vector<std::string> words);
 // A finite number above 0; `what` says of which kind ("a positive number of seconds").
 CLI::Validator Above0(std::string what);
-// A finite number, below 0 too; what is no number at all is left to the parser's own conversion, whose sentence names it.
+// A finite number, below 0 too; what is no number at all is left to the parser's own conversion, whose sentence names
+// it.
 CLI::Validator Finite();
 // A finite number from 0 on.
 CLI::Validator From0();
@@ -23,8 +24,8 @@ CLI::Validator WholeNumber();
 // A file to be written, in a folder that is there.
 CLI::Validator NewFile();
 
-// One line without its end: the word that no command or option is called, of which command, and the nearest that there is;
-// otherwise the parser's own words.
+// One line without its end: the word that no command or option is called, of which command, and the nearest that there
+// is; otherwise the parser's own words.
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);
 
 }  // namespace rodeira::cli

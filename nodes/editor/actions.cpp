@@ -24,10 +24,13 @@ void NewCurve(Work& work) {
   // A third of the view long, through its middle; below the last one where that one lies there still.
   const double third_m = work.view.width_m() / 6.0, below_m = 30.0 * work.view.metres_per_px;
   Eigen::Vector2d middle = work.view.middle_W;
-  const auto taken = [&](const Eigen::Vector2d& at) { return editor::HandleAt(work.session.document(), at - Eigen::Vector2d(third_m, 0.0), 0.4 * below_m).has_value(); };
+  const auto taken = [&](const Eigen::Vector2d& at) {
+    return editor::HandleAt(work.session.document(), at - Eigen::Vector2d(third_m, 0.0), 0.4 * below_m).has_value();
+  };
   for (int i = 0; i < 20 && taken(middle); ++i) middle.y() -= below_m;
   editor::Points points;
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] = middle + Eigen::Vector2d((static_cast<double>(i) - 1.5) * third_m * 2.0 / 3.0, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = middle + Eigen::Vector2d((static_cast<double>(i) - 1.5) * third_m * 2.0 / 3.0, 0.0);
   if (!work.session.Do([&](Document& document) { return editor::NewCurve(document, points); })) return;
   work.session.selection = {};
   work.session.selection.curves.insert(work.session.document().map.curves.back().value.id);
@@ -35,13 +38,16 @@ void NewCurve(Work& work) {
 
 void DeleteChosen(Work& work) {
   editor::Selection chosen = work.session.selection;
-  if (work.session.Do([&](Document& document) { return editor::Remove(document, chosen); })) work.session.selection = {};
+  if (work.session.Do([&](Document& document) { return editor::Remove(document, chosen); }))
+    work.session.selection = {};
 }
 
 void ChooseAll(Work& work) {
   constexpr double kEverything_m = 2e6;
-  work.session.selection = editor::Inside(work.session.document(), {-kEverything_m, -kEverything_m}, {kEverything_m, kEverything_m});
-  work.session.Say(fmt::format("{} curves, {} lanes and {} connections chosen", work.session.selection.curves.size(), work.session.selection.lanes.size(), work.session.selection.connections.size()));
+  work.session.selection =
+      editor::Inside(work.session.document(), {-kEverything_m, -kEverything_m}, {kEverything_m, kEverything_m});
+  work.session.Say(fmt::format("{} curves, {} lanes and {} connections chosen", work.session.selection.curves.size(),
+                               work.session.selection.lanes.size(), work.session.selection.connections.size()));
 }
 
 void ShowAll(Work& work) {
@@ -94,11 +100,12 @@ void AskToSave(Work& work, bool despite_errors, const Action& then) {
 }
 
 void AskToImport(Work& work) {
-  work.files.Ask("Import a background", {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}, false, Start(work, "").parent_path() / "", [&work](const std::filesystem::path& path) {
-    auto bytes = editor::ImportPicture(path);
-    if (!bytes) return work.session.Say(bytes.error().Text(), false);
-    work.session.SetPicture(std::move(bytes).value(), work.session.document().map.scale.value.value);
-  });
+  work.files.Ask("Import a background", {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}, false,
+                 Start(work, "").parent_path() / "", [&work](const std::filesystem::path& path) {
+                   auto bytes = editor::ImportPicture(path);
+                   if (!bytes) return work.session.Say(bytes.error().Text(), false);
+                   work.session.SetPicture(std::move(bytes).value(), work.session.document().map.scale.value.value);
+                 });
 }
 
 void AskToExport(Work& work) {

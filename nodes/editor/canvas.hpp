@@ -47,10 +47,10 @@ class Canvas {
   Hold hold_ = Hold::kNone;
   Eigen::Vector2d pressed_px_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d pressed_W_ = Eigen::Vector2d::Zero();
-  bool moved_ = false;                    // more than a click's tremble
-  std::vector<editor::Handle> dragged_;   // with the one that was taken first
+  bool moved_ = false;                                // more than a click's tremble
+  std::vector<editor::Handle> dragged_;               // with the one that was taken first
   Eigen::Vector2d grip_W_ = Eigen::Vector2d::Zero();  // where that one was
-  bool edited_ = false;                   // the gesture has its edit
+  bool edited_ = false;                               // the gesture has its edit
 };
 
 }  // namespace rodeira::nodes

@@ -18,7 +18,8 @@ using editor::Document;
 constexpr double kReach_px = 8.0;  // of the pointer
 
 Eigen::Vector2d Position(const Document& document, const editor::Handle& handle) {
-  return editor::CubicOf(document.map.curves[*editor::Find(document.map.curves, handle.curve)].value).p_W[static_cast<std::size_t>(handle.index)];
+  return editor::CubicOf(document.map.curves[*editor::Find(document.map.curves, handle.curve)].value)
+      .p_W[static_cast<std::size_t>(handle.index)];
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ void Canvas::Press(Work& work, const Eigen::Vector2d& px) {
     return;
   }
   const Document& document = work.session.document();
-  const auto handle = work.handles ? editor::HandleAt(document, pressed_W_, kReach_px * work.view.metres_per_px) : std::nullopt;
+  const auto handle =
+      work.handles ? editor::HandleAt(document, pressed_W_, kReach_px * work.view.metres_per_px) : std::nullopt;
   if (!handle) return;
   hold_ = Hold::kHandles;
   grip_W_ = Position(document, *handle);
@@ -58,7 +60,8 @@ void Canvas::DragHandles(Work& work, const Eigen::Vector2d& px) {
   if (work.snap) {
     std::set<std::int32_t> curves;
     for (const editor::Handle& handle : dragged_) curves.insert(handle.curve);
-    to_W = editor::Snap(work.session.document(), dragged_.front(), curves, to_W, kSnap_px * work.view.metres_per_px).p_W;
+    to_W =
+        editor::Snap(work.session.document(), dragged_.front(), curves, to_W, kSnap_px * work.view.metres_per_px).p_W;
   }
   const Eigen::Vector2d by_W = to_W - grip_W_;
   const auto move = [&](Document& document) { return editor::MoveHandles(document, dragged_, by_W); };
@@ -77,7 +80,8 @@ void Canvas::Release(Work& work, const Eigen::Vector2d& px) {
   if (held == Hold::kRectangle && moved_) {
     work.session.selection = editor::Inside(work.session.document(), pressed_W_, work.view.ToWorld(px));
     const auto& chosen = work.session.selection;
-    return work.session.Say(fmt::format("{} handles, {} curves, {} lanes chosen", chosen.handles.size(), chosen.curves.size(), chosen.lanes.size()));
+    return work.session.Say(fmt::format("{} handles, {} curves, {} lanes chosen", chosen.handles.size(),
+                                        chosen.curves.size(), chosen.lanes.size()));
   }
   if (!moved_) ChooseAt(work, px, add);
 }
@@ -86,8 +90,10 @@ void Canvas::ChooseAt(Work& work, const Eigen::Vector2d& px, bool add) {
   const Document& document = work.session.document();
   const Eigen::Vector2d p_W = work.view.ToWorld(px);
   if (!add) work.session.selection = {};
-  if (const auto curve = editor::CurveAt(document, p_W, kReach_px * work.view.metres_per_px)) work.session.selection.curves.insert(*curve);
-  else if (const auto lane = editor::LaneAt(document, p_W)) work.session.selection.lanes.insert(*lane);
+  if (const auto curve = editor::CurveAt(document, p_W, kReach_px * work.view.metres_per_px))
+    work.session.selection.curves.insert(*curve);
+  else if (const auto lane = editor::LaneAt(document, p_W))
+    work.session.selection.lanes.insert(*lane);
 }
 
 void Canvas::FinishTool(Work& work, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W) {
@@ -108,7 +114,8 @@ void Canvas::FinishTool(Work& work, const Eigen::Vector2d& from_W, const Eigen::
   editor::TemplatePlace place = work.place;
   place.middle_W = from_W;
   if (moved_) place.heading_rad = std::atan2(to_W.y() - from_W.y(), to_W.x() - from_W.x());
-  if (work.session.Do([&](Document& document) { return editor::Place(document, work.placing, place); })) work.tool = Tool::kChoose;
+  if (work.session.Do([&](Document& document) { return editor::Place(document, work.placing, place); }))
+    work.tool = Tool::kChoose;
 }
 
 }  // namespace rodeira::nodes

@@ -18,7 +18,8 @@ bool SideFields(Work& work, const std::string& name, traffic_map::LaneSide& side
   ImGui::Text("%s curve %d", name.c_str(), side.curve);
   ImGui::SameLine();
   bool changed = Tick(work, name + " inverted", "inverted", side.inverted);
-  if (OneOf(work, name + " border", "border", type, kBorderNames, 150.0f)) side.type = static_cast<traffic_map::BorderType>(type), changed = true;
+  if (OneOf(work, name + " border", "border", type, kBorderNames, 150.0f))
+    side.type = static_cast<traffic_map::BorderType>(type), changed = true;
   ImGui::PopID();
   return changed;
 }
@@ -31,7 +32,8 @@ void DrawLane(Work& work, std::int32_t number) {
   bool changed = SideFields(work, "left", lane.left);
   changed |= SideFields(work, "right", lane.right);
   int mode = static_cast<int>(lane.mode);
-  if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f)) lane.mode = static_cast<traffic_map::LaneMode>(mode), changed = true;
+  if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f))
+    lane.mode = static_cast<traffic_map::LaneMode>(mode), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetLane(document, lane); });
 }
 
@@ -42,7 +44,8 @@ void DrawConnection(Work& work, const std::pair<std::int32_t, std::int32_t>& pai
   ImGui::AlignTextToFramePadding();
   ImGui::Text("connection %d to %d", pair.first, pair.second);
   ImGui::SameLine();
-  if (Tick(work, "STOP", "STOP", stop)) work.session.Do([&](Document& document) { return editor::SetStop(document, pair.first, pair.second, stop); });
+  if (Tick(work, "STOP", "STOP", stop))
+    work.session.Do([&](Document& document) { return editor::SetStop(document, pair.first, pair.second, stop); });
 }
 
 // Heights at the four handles, and a drawing of them along the curve.
@@ -58,9 +61,11 @@ void DrawHeights(Work& work, std::int32_t curve) {
   std::array<float, 33> profile{};
   for (std::size_t i = 0; i < profile.size(); ++i) {
     const double t = static_cast<double>(i) / static_cast<double>(profile.size() - 1), u = 1.0 - t;
-    profile[i] = static_cast<float>(u * u * u * z_m[0] + 3.0 * u * u * t * z_m[1] + 3.0 * u * t * t * z_m[2] + t * t * t * z_m[3]);
+    profile[i] = static_cast<float>(u * u * u * z_m[0] + 3.0 * u * u * t * z_m[1] + 3.0 * u * t * t * z_m[2] +
+                                    t * t * t * z_m[3]);
   }
-  ImGui::PlotLines("profile", profile.data(), static_cast<int>(profile.size()), 0, nullptr, FLT_MAX, FLT_MAX, ImVec2(0.0f, 50.0f));
+  ImGui::PlotLines("profile", profile.data(), static_cast<int>(profile.size()), 0, nullptr, FLT_MAX, FLT_MAX,
+                   ImVec2(0.0f, 50.0f));
   Note(work, "profile");
 }
 
@@ -84,16 +89,19 @@ void DrawSigns(Work& work, std::int32_t lane) {
       changed |= Number(work, name + " limit", "km/h", signs[i].limit_kmh, "%.0f", 60.0f);
     }
     ImGui::SameLine();
-    if (SmallButton(work, "delete " + name, "Delete")) signs.erase(signs.begin() + static_cast<std::ptrdiff_t>(i)), changed = true;
+    if (SmallButton(work, "delete " + name, "Delete"))
+      signs.erase(signs.begin() + static_cast<std::ptrdiff_t>(i)), changed = true;
     ImGui::PopID();
   }
-  if (SmallButton(work, "add sign", "Add a sign at its end")) signs.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
+  if (SmallButton(work, "add sign", "Add a sign at its end"))
+    signs.push_back({lane, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}), changed = true;
   if (changed) work.session.Do([&](Document& document) { return editor::SetSigns(document, signs); });
 }
 
 void DrawFlow(Work& work, std::int32_t lane) {
   const auto& flows = work.session.document().companion.flows;
-  const auto at = std::find_if(flows.begin(), flows.end(), [lane](const traffic_map::LaneFlow& flow) { return flow.lane == lane; });
+  const auto at =
+      std::find_if(flows.begin(), flows.end(), [lane](const traffic_map::LaneFlow& flow) { return flow.lane == lane; });
   double vehph = at != flows.end() ? at->vehph : 0.0;
   if (Number(work, "flow", "vehicles an hour", vehph, "%.0f", 100.0f))
     work.session.Do([&](Document& document) { return editor::SetFlow(document, lane, vehph); });
@@ -110,13 +118,17 @@ void DrawChosenPanel(Work& work) {
   if (chosen.lanes.size() == 1) DrawLane(work, *chosen.lanes.begin());
   if (chosen.connections.size() == 1) DrawConnection(work, *chosen.connections.begin());
   if (chosen.curves.size() == 1) ImGui::Text("curve %d", *chosen.curves.begin());
-  if (chosen.curves.size() + chosen.lanes.size() + chosen.connections.size() > 1) ImGui::Text("%zu curves, %zu lanes, %zu connections", chosen.curves.size(), chosen.lanes.size(), chosen.connections.size());
+  if (chosen.curves.size() + chosen.lanes.size() + chosen.connections.size() > 1)
+    ImGui::Text("%zu curves, %zu lanes, %zu connections", chosen.curves.size(), chosen.lanes.size(),
+                chosen.connections.size());
   if (Button(work, "delete chosen", "Delete")) DeleteChosen(work);
 }
 
 void DrawBesidePanel(Work& work) {
   const editor::Selection chosen = work.session.selection;
-  if (chosen.curves.size() == 1 && chosen.lanes.empty() && editor::Find(work.session.document().map.curves, *chosen.curves.begin())) DrawHeights(work, *chosen.curves.begin());
+  if (chosen.curves.size() == 1 && chosen.lanes.empty() &&
+      editor::Find(work.session.document().map.curves, *chosen.curves.begin()))
+    DrawHeights(work, *chosen.curves.begin());
   if (chosen.lanes.size() != 1) return;
   const std::int32_t number = *chosen.lanes.begin();
   const auto at = editor::Find(work.session.document().map.lanes, number);

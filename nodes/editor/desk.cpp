@@ -21,7 +21,8 @@ constexpr double kMostTrafficTime_s = 0.025;  // of a picture
 
 }  // namespace
 
-Desk::Desk(window::Window& window, const std::filesystem::path& file, const std::filesystem::path& kept) : window_(window) {
+Desk::Desk(window::Window& window, const std::filesystem::path& file, const std::filesystem::path& kept)
+    : window_(window) {
   work_.view.width_px = window.width_px() - kSide_px;
   work_.view.height_px = window.height_px();
   if (!kept.empty()) {
@@ -100,7 +101,8 @@ void Desk::RunTraffic() {
     work_.session.Say("traffic pauses: the map was edited");
   }
   if (traffic.runs) {
-    // No more than the machine can do in a part of a picture's time: then traffic is slower than wished, the desk is not.
+    // No more than the machine can do in a part of a picture's time: then traffic is slower than wished, the desk is
+    // not.
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     double left_s = static_cast<double>(ImGui::GetIO().DeltaTime) * static_cast<double>(traffic.pace);
@@ -120,9 +122,12 @@ void Desk::WritePicture(const window::Image& picture) {
   const std::string name = work_.session.path().empty() ? "map" : work_.session.path().stem().string();
   std::error_code problem;
   std::filesystem::path file = folder / (name + ".png");
-  for (int number = 2; std::filesystem::exists(file, problem); ++number) file = folder / fmt::format("{}-{}.png", name, number);
-  if (auto status = window::WritePng(file, picture); !status) work_.session.Say(status.error().Text(), false);
-  else work_.session.Say("the window's picture is " + file.string());
+  for (int number = 2; std::filesystem::exists(file, problem); ++number)
+    file = folder / fmt::format("{}-{}.png", name, number);
+  if (auto status = window::WritePng(file, picture); !status)
+    work_.session.Say(status.error().Text(), false);
+  else
+    work_.session.Say("the window's picture is " + file.string());
 }
 
 void Desk::KeepWork() {

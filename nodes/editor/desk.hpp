@@ -13,12 +13,14 @@ namespace rodeira::nodes {
 // The drawing desk in its window. The window must outlive it.
 class Desk {
  public:
-  // `kept`: where unsaved work is kept (editor::Keeper); empty: nowhere. `file` is opened; one that is not there is said in the status line.
+  // `kept`: where unsaved work is kept (editor::Keeper); empty: nowhere. `file` is opened; one that is not there is
+  // said in the status line.
   Desk(window::Window& window, const std::filesystem::path& file, const std::filesystem::path& kept);
 
   // One picture: takes what hands did, does it, draws. False: the desk is closed.
   bool Frame(int wait_ms, window::Image* seen = nullptr);
-  // How long the next picture may wait for hands, ms: not at all where something moves, a little while the background is read beside it.
+  // How long the next picture may wait for hands, ms: not at all where something moves, a little while the background
+  // is read beside it.
   int wait_ms() const;
 
   // How long unsaved work may be kept nowhere, s; 10 otherwise.

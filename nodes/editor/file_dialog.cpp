@@ -19,7 +19,8 @@ std::string EndingOf(const fs::path& path) {
 
 }  // namespace
 
-void FileDialog::Ask(std::string title, std::vector<std::string> endings, bool to_write, const fs::path& start, Chosen chosen) {
+void FileDialog::Ask(std::string title, std::vector<std::string> endings, bool to_write, const fs::path& start,
+                     Chosen chosen) {
   open_ = opens_ = true;
   to_write_ = to_write;
   title_ = std::move(title);
@@ -40,8 +41,10 @@ void FileDialog::List() {
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(folder_, fs::directory_options::skip_permission_denied, problem)) {
     if (entry.path().filename().string().starts_with('.')) continue;
-    if (entry.is_directory(problem)) folders_.push_back(entry.path());
-    else if (std::find(endings_.begin(), endings_.end(), EndingOf(entry.path())) != endings_.end()) files_.push_back(entry.path());
+    if (entry.is_directory(problem))
+      folders_.push_back(entry.path());
+    else if (std::find(endings_.begin(), endings_.end(), EndingOf(entry.path())) != endings_.end())
+      files_.push_back(entry.path());
   }
   std::sort(folders_.begin(), folders_.end());
   std::sort(files_.begin(), files_.end());
@@ -108,7 +111,8 @@ void FileDialog::Draw() {
   const bool pressed = ImGui::Button("OK", ImVec2(65.0f, 0.0f));
   if (entered || pressed) Confirm();
   ImGui::SameLine();
-  if (ImGui::Button("Cancel", ImVec2(65.0f, 0.0f)) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) open_ = false;
+  if (ImGui::Button("Cancel", ImVec2(65.0f, 0.0f)) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape)))
+    open_ = false;
   ImGui::TextColored(ImVec4(1.0f, 0.45f, 0.4f, 1.0f), "%s", why_not_.c_str());
   if (!open_) ImGui::CloseCurrentPopup();
   ImGui::EndPopup();

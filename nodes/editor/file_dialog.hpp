@@ -13,9 +13,10 @@ class FileDialog {
  public:
   using Chosen = std::function<void(const std::filesystem::path&)>;
 
-  // `endings` (".motors") are what is listed beside folders; a name without one of them gets the first. `to_write`: the file may be new, and
-  // a second look is asked for where it is there.
-  void Ask(std::string title, std::vector<std::string> endings, bool to_write, const std::filesystem::path& start, Chosen chosen);
+  // `endings` (".motors") are what is listed beside folders; a name without one of them gets the first. `to_write`: the
+  // file may be new, and a second look is asked for where it is there.
+  void Ask(std::string title, std::vector<std::string> endings, bool to_write, const std::filesystem::path& start,
+           Chosen chosen);
   bool open() const { return open_; }
   void Draw();
 

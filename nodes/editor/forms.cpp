@@ -49,8 +49,11 @@ Answer DrawLaneForm(Work& work) {
   }
   const Answer answer = Buttons(work, "Make the lane");
   if (answer != Answer::kYes) return answer;
-  const traffic_map::LaneSide left{form.left, form.left_inverted, static_cast<traffic_map::BorderType>(form.left_type)}, right{form.right, form.right_inverted, static_cast<traffic_map::BorderType>(form.right_type)};
-  work.session.Do([&](Document& document) { return editor::NewLane(document, left, right, static_cast<traffic_map::LaneMode>(form.mode)); });
+  const traffic_map::LaneSide left{form.left, form.left_inverted, static_cast<traffic_map::BorderType>(form.left_type)},
+      right{form.right, form.right_inverted, static_cast<traffic_map::BorderType>(form.right_type)};
+  work.session.Do([&](Document& document) {
+    return editor::NewLane(document, left, right, static_cast<traffic_map::LaneMode>(form.mode));
+  });
   return answer;
 }
 
@@ -63,7 +66,8 @@ Answer DrawConnectionForm(Work& work) {
   ImGui::InputInt("to lane", &form.to, 0);
   Tick(work, "STOP", "STOP", form.stop);
   const Answer answer = Buttons(work, "Connect");
-  if (answer == Answer::kYes) work.session.Do([&](Document& document) { return editor::NewConnection(document, form.from, form.to, form.stop); });
+  if (answer == Answer::kYes)
+    work.session.Do([&](Document& document) { return editor::NewConnection(document, form.from, form.to, form.stop); });
   return answer;
 }
 
@@ -72,14 +76,18 @@ Answer DrawMeasured(Work& work) {
   if (work.form_opens) ImGui::SetKeyboardFocusHere();
   ImGui::InputDouble("m", &work.known_m, 0.0, 0.0, "%.3f");
   const Answer answer = Buttons(work, "Scale");
-  if (answer == Answer::kYes) work.session.Do([&](Document& document) { return editor::ScaleByDistance(document, work.measured[0], work.measured[1], work.known_m); });
+  if (answer == Answer::kYes)
+    work.session.Do([&](Document& document) {
+      return editor::ScaleByDistance(document, work.measured[0], work.measured[1], work.known_m);
+    });
   return answer;
 }
 
 Answer DrawReset(Work& work) {
   ImGui::TextUnformatted("All curves, lanes and connections go; the background stays.");
   const Answer answer = Buttons(work, "Reset");
-  if (answer == Answer::kYes) work.session.selection = {}, work.session.Do([](Document& document) { return editor::Reset(document); });
+  if (answer == Answer::kYes)
+    work.session.selection = {}, work.session.Do([](Document& document) { return editor::Reset(document); });
   return answer;
 }
 
@@ -130,10 +138,13 @@ Answer DrawKeys(Work& work) {
 
 void DrawForms(Work& work) {
   if (work.form == Form::kNone) return;
-  constexpr const char* kTitles[] = {"", "New lane", "New connection", "Reset the map", "Scale of the background", "Unsaved work", "Recovery", "Keys and mouse"};
+  constexpr const char* kTitles[] = {
+      "",         "New lane",      "New connection", "Reset the map", "Scale of the background", "Unsaved work",
+      "Recovery", "Keys and mouse"};
   const char* title = kTitles[static_cast<int>(work.form)];
   if (work.form_opens) ImGui::OpenPopup(title);
-  ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.4f * ImGui::GetIO().DisplaySize.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowPos(ImVec2(0.5f * ImGui::GetIO().DisplaySize.x, 0.4f * ImGui::GetIO().DisplaySize.y),
+                          ImGuiCond_Always, ImVec2(0.5f, 0.5f));
   if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
     work.form = Form::kNone;
     return;
@@ -141,14 +152,29 @@ void DrawForms(Work& work) {
   Answer answer = Answer::kNone;
   const Form form = work.form;
   switch (form) {
-    case Form::kLane: answer = DrawLaneForm(work); break;
-    case Form::kConnection: answer = DrawConnectionForm(work); break;
-    case Form::kMeasured: answer = DrawMeasured(work); break;
-    case Form::kReset: answer = DrawReset(work); break;
-    case Form::kUnsaved: answer = DrawUnsaved(work); break;
-    case Form::kRecover: answer = DrawRecover(work); break;
-    case Form::kKeys: answer = DrawKeys(work); break;
-    case Form::kNone: break;
+    case Form::kLane:
+      answer = DrawLaneForm(work);
+      break;
+    case Form::kConnection:
+      answer = DrawConnectionForm(work);
+      break;
+    case Form::kMeasured:
+      answer = DrawMeasured(work);
+      break;
+    case Form::kReset:
+      answer = DrawReset(work);
+      break;
+    case Form::kUnsaved:
+      answer = DrawUnsaved(work);
+      break;
+    case Form::kRecover:
+      answer = DrawRecover(work);
+      break;
+    case Form::kKeys:
+      answer = DrawKeys(work);
+      break;
+    case Form::kNone:
+      break;
   }
   work.form_opens = work.form != form;  // what was answered may have opened another one
   if (answer != Answer::kNone) {

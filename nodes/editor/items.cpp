@@ -33,12 +33,14 @@ bool Listed(Work& work, const std::string& name, const std::string& text, bool c
 }
 
 bool Heading(Work& work, const char* label, bool open_at_first) {
-  const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
+  const bool open =
+      ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None);
   Note(work, label);
   return open;
 }
 
-bool OneOf(Work& work, const std::string& name, const char* label, int& value, std::span<const char* const> names, float width_px) {
+bool OneOf(Work& work, const std::string& name, const char* label, int& value, std::span<const char* const> names,
+           float width_px) {
   ImGui::SetNextItemWidth(width_px);
   const bool open = ImGui::BeginCombo(label, names[static_cast<std::size_t>(value)]);
   if (!open) {
@@ -65,9 +67,12 @@ bool Number(Work& work, const std::string& name, const char* label, double& valu
   ImGui::InputDouble(("##" + name).c_str(), &shown, 0.0, 0.0, format);
   Note(work, name);
   const bool active = ImGui::IsItemActive();
-  if (active) work.written[name] = {shown, now};
-  else if (entry != work.written.end()) work.written.erase(entry);
-  const bool changed = written && !active && shown != value && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+  if (active)
+    work.written[name] = {shown, now};
+  else if (entry != work.written.end())
+    work.written.erase(entry);
+  const bool changed =
+      written && !active && shown != value && !ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
   if (changed) value = shown;
   if (*label != '\0') {
     ImGui::SameLine(0.0f, ImGui::GetStyle().ItemInnerSpacing.x);

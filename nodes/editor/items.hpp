@@ -7,7 +7,8 @@
 
 #include "nodes/editor/work.hpp"
 
-// What panels and forms are made of. Each writes down where it stands (Work::places) by a name, so that scripted hands find it.
+// What panels and forms are made of. Each writes down where it stands (Work::places) by a name, so that scripted hands
+// find it.
 namespace rodeira::nodes {
 
 // Where the item that was drawn last stands; nowhere where it cannot be seen.
@@ -20,8 +21,10 @@ bool Listed(Work& work, const std::string& name, const std::string& text, bool c
 // A heading that opens what is below it.
 bool Heading(Work& work, const char* label, bool open_at_first);
 // One of `names`; those of the opened list are noted as "NAME: ONE".
-bool OneOf(Work& work, const std::string& name, const char* label, int& value, std::span<const char* const> names, float width_px);
-// A number that counts when its field is left, by Enter, Tab or a click elsewhere; Escape leaves it as it was. True: it has changed.
+bool OneOf(Work& work, const std::string& name, const char* label, int& value, std::span<const char* const> names,
+           float width_px);
+// A number that counts when its field is left, by Enter, Tab or a click elsewhere; Escape leaves it as it was. True: it
+// has changed.
 bool Number(Work& work, const std::string& name, const char* label, double& value, const char* format, float width_px);
 
 }  // namespace rodeira::nodes

@@ -36,7 +36,8 @@ bool PhaseFields(Work& work, const std::string& of, lights::LightPlan& plan, std
     changed = true;
   }
   ImGui::SameLine();
-  if (SmallButton(work, "delete " + name, "x") && plan.phases.size() > 1) plan.phases.erase(plan.phases.begin() + static_cast<std::ptrdiff_t>(number)), changed = true;
+  if (SmallButton(work, "delete " + name, "x") && plan.phases.size() > 1)
+    plan.phases.erase(plan.phases.begin() + static_cast<std::ptrdiff_t>(number)), changed = true;
   ImGui::PopID();
   return changed;
 }
@@ -70,12 +71,16 @@ void DrawLightsPanel(Work& work) {
       changed = true;
     }
     changed = changed || TimeFields(work, name, plans[i]);
-    for (std::size_t phase = 0; !changed && phase < plans[i].phases.size(); ++phase) changed = PhaseFields(work, name, plans[i], phase);
-    if (!changed && SmallButton(work, name + " add phase", "Add a phase")) plans[i].phases.emplace_back(), changed = true;
+    for (std::size_t phase = 0; !changed && phase < plans[i].phases.size(); ++phase)
+      changed = PhaseFields(work, name, plans[i], phase);
+    if (!changed && SmallButton(work, name + " add phase", "Add a phase"))
+      plans[i].phases.emplace_back(), changed = true;
     ImGui::PopID();
   }
-  if (chosen.empty()) ImGui::TextDisabled("choose lanes to give them lights");
-  else if (SmallButton(work, "new lights", "New lights, chosen lanes first")) plans = WithNewLights(plans, chosen), changed = true;
+  if (chosen.empty())
+    ImGui::TextDisabled("choose lanes to give them lights");
+  else if (SmallButton(work, "new lights", "New lights, chosen lanes first"))
+    plans = WithNewLights(plans, chosen), changed = true;
   if (changed) work.session.Do([&](editor::Document& document) { return editor::SetLights(document, plans); });
 }
 

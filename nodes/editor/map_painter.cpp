@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "common/editor/lane_tools.hpp"
+#include "common/view/scene/road_markings/stencils.hpp"
 #include "common/world/traffic_map/border_paint.hpp"
 #include "common/world/traffic_map/lane_shape.hpp"
-#include "common/view/scene/road_markings/stencils.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -17,8 +17,10 @@ namespace {
 using traffic_map::BorderType;
 
 constexpr Colour kStart = {70, 190, 90, 110}, kEnd = {210, 80, 70, 110}, kPlain = {90, 130, 190, 100};
-constexpr Colour kLine = {245, 245, 245, 255}, kUnused = {255, 170, 60, 255}, kHandle = {255, 220, 90, 255}, kArm = {255, 220, 90, 120};
-constexpr Colour kLink = {120, 220, 255, 200}, kStop = {235, 40, 40, 255}, kGiveWay = {255, 150, 40, 255}, kPaint = {255, 255, 255, 255}, kLight = {80, 230, 110, 255};
+constexpr Colour kLine = {245, 245, 245, 255}, kUnused = {255, 170, 60, 255}, kHandle = {255, 220, 90, 255},
+                 kArm = {255, 220, 90, 120};
+constexpr Colour kLink = {120, 220, 255, 200}, kStop = {235, 40, 40, 255}, kGiveWay = {255, 150, 40, 255},
+                 kPaint = {255, 255, 255, 255}, kLight = {80, 230, 110, 255};
 constexpr Colour kChosen = {255, 235, 60, 255}, kProposed = {255, 120, 255, 255};
 
 const Colour& ColourOf(traffic_map::LaneMode mode) {
@@ -26,14 +28,17 @@ const Colour& ColourOf(traffic_map::LaneMode mode) {
   return mode == traffic_map::LaneMode::kEnd ? kEnd : kPlain;
 }
 
-bool IsDashed(BorderType type) { return type != BorderType::kNone && type != BorderType::kBoundary && type != BorderType::kSingle; }
+bool IsDashed(BorderType type) {
+  return type != BorderType::kNone && type != BorderType::kBoundary && type != BorderType::kSingle;
+}
 
 }  // namespace
 
 void MapPainter::Begin(const editor::Viewport& view, int left_px, int below_px) {
   shapes_.metres_per_px = view.metres_per_px;
   // Far from the origin a float would show steps: what is drawn is counted from near the middle of the view.
-  if ((view.middle_W - shapes_.origin_W).cwiseAbs().maxCoeff() > 1e5 * view.metres_per_px) shapes_.origin_W = view.middle_W, built_.reset();
+  if ((view.middle_W - shapes_.origin_W).cwiseAbs().maxCoeff() > 1e5 * view.metres_per_px)
+    shapes_.origin_W = view.middle_W, built_.reset();
   glViewport(left_px, below_px, static_cast<int>(view.width_px), static_cast<int>(view.height_px));
   const double half_x = 0.5 * view.width_m(), half_y = 0.5 * view.height_px * view.metres_per_px;
   const Eigen::Vector2d middle = view.middle_W - shapes_.origin_W;
@@ -49,7 +54,8 @@ void MapPainter::Begin(const editor::Viewport& view, int left_px, int below_px) 
 }
 
 void MapPainter::Build(const editor::Document& document) {
-  for (Vertices* vertices : {&grounds_, &paint_, &curves_, &links_, &bars_, &handle_lines_, &handles_}) vertices->clear();
+  for (Vertices* vertices : {&grounds_, &paint_, &curves_, &links_, &bars_, &handle_lines_, &handles_})
+    vertices->clear();
   const traffic_map::NumberIndex curves(document.map.curves), lanes(document.map.lanes);
   std::vector<bool> used(document.map.curves.size(), false), dashed(document.map.curves.size(), false);
   std::vector<std::optional<traffic_map::Cubic>> middles(document.map.lanes.size());
@@ -59,7 +65,8 @@ void MapPainter::Build(const editor::Document& document) {
     if (left) used[*left] = true, dashed[*left] = IsDashed(lane.left.type);
     if (right) used[*right] = true, dashed[*right] = IsDashed(lane.right.type);
     if (!left || !right) continue;
-    const editor::Borders borders{traffic_map::BorderOf(lane.left, document.map.curves[*left].value, {}).plan, traffic_map::BorderOf(lane.right, document.map.curves[*right].value, {}).plan};
+    const editor::Borders borders{traffic_map::BorderOf(lane.left, document.map.curves[*left].value, {}).plan,
+                                  traffic_map::BorderOf(lane.right, document.map.curves[*right].value, {}).plan};
     middles[i] = borders.Middle();
     shapes_.AddGround(grounds_, borders, ColourOf(lane.mode));
   }
@@ -87,14 +94,16 @@ void MapPainter::AddLinesAcross(const editor::Document& document, const traffic_
     if (!borders) return;
     const traffic_map::LaneShape lane({borders->left, {}}, {borders->right, {}});
     const traffic_map::LanePoint place = lane.At(lane.length_m() - before_end_m - traffic_map::kLineBefore_m);
-    for (const auto& polygon : stops ? scene::StopLineShape(place.right_m, place.left_m) : scene::GiveWayShape(place.right_m, place.left_m))
+    for (const auto& polygon :
+         stops ? scene::StopLineShape(place.right_m, place.left_m) : scene::GiveWayShape(place.right_m, place.left_m))
       shapes_.AddPolygon(paint_, polygon, place.p_W, place.tangent_W, kPaint);
   };
   for (const auto& line : document.map.connections) {
     if (line.value.stop) add(line.value.from, 0.0, true);
   }
   for (const traffic_map::LaneSign& sign : document.companion.signs) {
-    if (sign.kind == traffic_map::SignKind::kStop || sign.kind == traffic_map::SignKind::kGiveWay) add(sign.lane, sign.before_end_m, sign.kind == traffic_map::SignKind::kStop);
+    if (sign.kind == traffic_map::SignKind::kStop || sign.kind == traffic_map::SignKind::kGiveWay)
+      add(sign.lane, sign.before_end_m, sign.kind == traffic_map::SignKind::kStop);
   }
   for (const lights::LightPlan& plan : document.companion.lights) {
     for (const std::string& name : plan.Names()) {
@@ -147,7 +156,8 @@ void MapPainter::DrawMap(const editor::Document& document, std::uint64_t state, 
 void MapPainter::DrawChosen(const editor::Document& document, const editor::Selection& selection) {
   Vertices lines, points;
   for (const std::int32_t number : selection.curves) {
-    if (const auto at = editor::Find(document.map.curves, number)) shapes_.AddCurve(lines, editor::CubicOf(document.map.curves[*at].value), kChosen);
+    if (const auto at = editor::Find(document.map.curves, number))
+      shapes_.AddCurve(lines, editor::CubicOf(document.map.curves[*at].value), kChosen);
   }
   for (const std::int32_t number : selection.lanes) {
     const auto at = editor::Find(document.map.lanes, number);
@@ -162,7 +172,8 @@ void MapPainter::DrawChosen(const editor::Document& document, const editor::Sele
   }
   for (const editor::Handle& handle : selection.handles) {
     if (const auto at = editor::Find(document.map.curves, handle.curve))
-      points.push_back(shapes_.At(editor::CubicOf(document.map.curves[*at].value).p_W[static_cast<std::size_t>(handle.index)], kChosen));
+      points.push_back(shapes_.At(
+          editor::CubicOf(document.map.curves[*at].value).p_W[static_cast<std::size_t>(handle.index)], kChosen));
   }
   glLineWidth(3.0f);
   DrawVertices(lines, GL_LINES);
@@ -177,7 +188,8 @@ void MapPainter::DrawProposals(const editor::Document& document, std::uint64_t s
   Vertices lines;
   for (const auto& [from, to] : proposals_) {
     const auto a = editor::Find(document.map.lanes, from), b = editor::Find(document.map.lanes, to);
-    shapes_.AddLink(lines, editor::BordersOf(document, document.map.lanes[*a].value)->Middle(), editor::BordersOf(document, document.map.lanes[*b].value)->Middle(), kProposed);
+    shapes_.AddLink(lines, editor::BordersOf(document, document.map.lanes[*a].value)->Middle(),
+                    editor::BordersOf(document, document.map.lanes[*b].value)->Middle(), kProposed);
   }
   DrawVertices(lines, GL_LINES);
 }

@@ -11,8 +11,8 @@
 
 namespace rodeira::nodes {
 
-// Draws a map with OpenGL: ground of lanes, borders, connections, handles; what is chosen; traffic. What does not change from picture to picture is
-// worked out once.
+// Draws a map with OpenGL: ground of lanes, borders, connections, handles; what is chosen; traffic. What does not
+// change from picture to picture is worked out once.
 class MapPainter {
  public:
   // Sets the projection for the canvas; `left_px`, `below_px` are its corner in the window.

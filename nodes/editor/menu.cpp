@@ -39,7 +39,8 @@ constexpr Shortcut kShortcuts[] = {
     {"File", "Open…", "Ctrl+O", SDL_SCANCODE_O, true, false, [](Work& w) { UnlessUnsaved(w, AskToOpen); }},
     {"File", "Save", "Ctrl+S", SDL_SCANCODE_S, true, false, [](Work& w) { SaveOrAsk(w); }},
     {"File", "Save as…", "Ctrl+Shift+S", SDL_SCANCODE_S, true, true, [](Work& w) { AskToSave(w, false); }},
-    {"File", "Save a draft despite errors…", "Ctrl+Shift+D", SDL_SCANCODE_D, true, true, [](Work& w) { AskToSave(w, true); }},
+    {"File", "Save a draft despite errors…", "Ctrl+Shift+D", SDL_SCANCODE_D, true, true,
+     [](Work& w) { AskToSave(w, true); }},
     {"File", "Export as a world (OpenDRIVE)…", "Ctrl+E", SDL_SCANCODE_E, true, false, AskToExport},
     {"File", "Quit", "Ctrl+Q", SDL_SCANCODE_Q, true, false, AskToClose},
     {"Edit", "Undo", "Ctrl+Z", SDL_SCANCODE_Z, true, false, [](Work& w) { w.session.Undo(); }},
@@ -49,18 +50,27 @@ constexpr Shortcut kShortcuts[] = {
     {"Edit", "Reset map…", "Ctrl+R", SDL_SCANCODE_R, true, false, [](Work& w) { w.Open(Form::kReset); }},
     {"Draw", "New curve", "C", SDL_SCANCODE_C, false, false, NewCurve},
     {"Draw", "New lane…", "N", SDL_SCANCODE_N, false, false, [](Work& w) { w.lane_form = {}, w.Open(Form::kLane); }},
-    {"Draw", "New connection…", "K", SDL_SCANCODE_K, false, false, [](Work& w) { w.connection_form = {}, w.Open(Form::kConnection); }},
-    {"Draw", "Lane along a line", "L", SDL_SCANCODE_L, false, false, [](Work& w) { Choose(w, Tool::kLane, "draw a lane along its middle; ends of lanes catch it"); }},
-    {"Draw", "Lane beside, on the left", "Z", SDL_SCANCODE_Z, false, false, [](Work& w) { LaneBesideChosen(w, true, true); }},
-    {"Draw", "Lane beside, on the right", "X", SDL_SCANCODE_X, false, false, [](Work& w) { LaneBesideChosen(w, false, true); }},
-    {"Draw", "Lane against it, on the left", "Shift+Z", SDL_SCANCODE_Z, false, true, [](Work& w) { LaneBesideChosen(w, true, false); }},
+    {"Draw", "New connection…", "K", SDL_SCANCODE_K, false, false,
+     [](Work& w) { w.connection_form = {}, w.Open(Form::kConnection); }},
+    {"Draw", "Lane along a line", "L", SDL_SCANCODE_L, false, false,
+     [](Work& w) { Choose(w, Tool::kLane, "draw a lane along its middle; ends of lanes catch it"); }},
+    {"Draw", "Lane beside, on the left", "Z", SDL_SCANCODE_Z, false, false,
+     [](Work& w) { LaneBesideChosen(w, true, true); }},
+    {"Draw", "Lane beside, on the right", "X", SDL_SCANCODE_X, false, false,
+     [](Work& w) { LaneBesideChosen(w, false, true); }},
+    {"Draw", "Lane against it, on the left", "Shift+Z", SDL_SCANCODE_Z, false, true,
+     [](Work& w) { LaneBesideChosen(w, true, false); }},
     {"Draw", "Connect where ends meet", "P", SDL_SCANCODE_P, false, false, ProposeConnections},
-    {"Draw", "Crossing", "1", SDL_SCANCODE_1, false, false, [](Work& w) { ChooseTemplate(w, editor::Template::kCrossing); }},
-    {"Draw", "Roundabout", "2", SDL_SCANCODE_2, false, false, [](Work& w) { ChooseTemplate(w, editor::Template::kRoundabout); }},
+    {"Draw", "Crossing", "1", SDL_SCANCODE_1, false, false,
+     [](Work& w) { ChooseTemplate(w, editor::Template::kCrossing); }},
+    {"Draw", "Roundabout", "2", SDL_SCANCODE_2, false, false,
+     [](Work& w) { ChooseTemplate(w, editor::Template::kRoundabout); }},
     {"Draw", "Merge", "3", SDL_SCANCODE_3, false, false, [](Work& w) { ChooseTemplate(w, editor::Template::kMerge); }},
     {"Background", "Import…", "B", SDL_SCANCODE_B, false, false, AskToImport},
-    {"Background", "Scale by a known distance", "M", SDL_SCANCODE_M, false, false, [](Work& w) { Choose(w, Tool::kMeasure, "draw along a distance that is known"); }},
-    {"Background", "Take away", "Shift+B", SDL_SCANCODE_B, false, true, [](Work& w) { w.session.SetPicture("", w.session.document().map.scale.value.value); }},
+    {"Background", "Scale by a known distance", "M", SDL_SCANCODE_M, false, false,
+     [](Work& w) { Choose(w, Tool::kMeasure, "draw along a distance that is known"); }},
+    {"Background", "Take away", "Shift+B", SDL_SCANCODE_B, false, true,
+     [](Work& w) { w.session.SetPicture("", w.session.document().map.scale.value.value); }},
     {"View", "Handles", "H", SDL_SCANCODE_H, false, false, [](Work& w) { Turn(w.handles); }},
     {"View", "Numbers", "I", SDL_SCANCODE_I, false, false, [](Work& w) { Turn(w.numbers); }},
     {"View", "Centre mark", "O", SDL_SCANCODE_O, false, false, [](Work& w) { Turn(w.centre); }},
@@ -75,12 +85,18 @@ constexpr Shortcut kShortcuts[] = {
 
 bool IsOn(const Work& work, const Shortcut& entry) {
   switch (entry.scancode) {
-    case SDL_SCANCODE_H: return work.handles;
-    case SDL_SCANCODE_I: return work.numbers;
-    case SDL_SCANCODE_G: return work.snap;
-    case SDL_SCANCODE_T: return work.heat;
-    case SDL_SCANCODE_O: return !entry.ctrl && work.centre;
-    default: return false;
+    case SDL_SCANCODE_H:
+      return work.handles;
+    case SDL_SCANCODE_I:
+      return work.numbers;
+    case SDL_SCANCODE_G:
+      return work.snap;
+    case SDL_SCANCODE_T:
+      return work.heat;
+    case SDL_SCANCODE_O:
+      return !entry.ctrl && work.centre;
+    default:
+      return false;
   }
 }
 
@@ -111,7 +127,9 @@ void TakeShortcuts(Work& work) {
   if (io.WantTextInput || work.form != Form::kNone || work.files.open()) return;
   if (ImGui::IsKeyPressed(SDL_SCANCODE_ESCAPE, false)) work.tool = Tool::kChoose;
   for (const Shortcut& entry : kShortcuts) {
-    if (io.KeyCtrl == entry.ctrl && io.KeyShift == entry.shift && !io.KeyAlt && ImGui::IsKeyPressed(entry.scancode, false)) return entry.act(work);
+    if (io.KeyCtrl == entry.ctrl && io.KeyShift == entry.shift && !io.KeyAlt &&
+        ImGui::IsKeyPressed(entry.scancode, false))
+      return entry.act(work);
   }
 }
 

@@ -13,7 +13,8 @@ void DrawMenu(Work& work);
 // Keys that stand in the menu.
 void TakeShortcuts(Work& work);
 // Left: new elements, lists, what is chosen, traffic. `proposals`: connections that could be made.
-void DrawSide(Work& work, const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals, float top, float width, float height);
+void DrawSide(Work& work, const std::vector<std::pair<std::int32_t, std::int32_t>>& proposals, float top, float width,
+              float height);
 void DrawLists(Work& work);
 void DrawChosenPanel(Work& work);
 void DrawBesidePanel(Work& work);  // heights, signs, flows of what is chosen

@@ -31,8 +31,10 @@ void PictureLoader::Want(const std::string& bytes, std::uint64_t state) {
       made_ = std::move(preview);
     };
     auto picture = editor::ReadPyramid(bytes, progress, sooner);
-    if (picture) sooner(std::move(picture).value());
-    else found_problem_ = "the background cannot be shown: " + picture.error().Text();
+    if (picture)
+      sooner(std::move(picture).value());
+    else
+      found_problem_ = "the background cannot be shown: " + picture.error().Text();
     done_ = true;
   });
 }

@@ -21,7 +21,8 @@ class PictureLoader {
   PictureLoader(const PictureLoader&) = delete;
   PictureLoader& operator=(const PictureLoader&) = delete;
 
-  // Begins to read these bytes (a copy of them), if `state` is another one than before. What was read so far is given up.
+  // Begins to read these bytes (a copy of them), if `state` is another one than before. What was read so far is given
+  // up.
   void Want(const std::string& bytes, std::uint64_t state);
   // Takes what has become ready.
   void Look();

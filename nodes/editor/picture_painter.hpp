@@ -10,8 +10,8 @@
 
 namespace rodeira::nodes {
 
-// Draws the background by tiles of the level that fits the screen. Tiles become textures as they are needed, some a picture, so that no
-// picture waits long; until then the coarsest level is seen.
+// Draws the background by tiles of the level that fits the screen. Tiles become textures as they are needed, some a
+// picture, so that no picture waits long; until then the coarsest level is seen.
 class PicturePainter {
  public:
   PicturePainter() = default;
@@ -20,7 +20,8 @@ class PicturePainter {
   PicturePainter& operator=(const PicturePainter&) = delete;
 
   // `height_m` tall, its middle at the origin of W.
-  void Draw(const std::shared_ptr<const editor::Pyramid>& picture, double height_m, const editor::Viewport& view, int left_px, int below_px);
+  void Draw(const std::shared_ptr<const editor::Pyramid>& picture, double height_m, const editor::Viewport& view,
+            int left_px, int below_px);
   // Tiles that are seen are not all there yet: draw again.
   bool incomplete() const { return incomplete_; }
 

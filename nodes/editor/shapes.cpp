@@ -46,7 +46,8 @@ void Shapes::AddCurve(Vertices& lines, const traffic_map::Cubic& cubic, const Co
   }
 }
 
-void Shapes::AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to, const Colour& colour) const {
+void Shapes::AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to,
+                     const Colour& colour) const {
   const Eigen::Vector2d a = from.At(0.85), b = from.At(1.0), c = to.At(0.0), d = to.At(0.15);
   AddLine(lines, a, b, colour);
   AddLine(lines, b, c, colour);
@@ -57,14 +58,19 @@ void Shapes::AddLink(Vertices& lines, const traffic_map::Cubic& from, const traf
   AddLine(lines, d, d - 1.2 * ahead - 0.6 * across, colour);
 }
 
-void Shapes::AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double half_length_m, double half_width_m, const Colour& colour) const {
+void Shapes::AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead,
+                          double half_length_m, double half_width_m, const Colour& colour) const {
   const Eigen::Vector2d along = half_length_m * ahead, across = half_width_m * Eigen::Vector2d(-ahead.y(), ahead.x());
-  const Eigen::Vector2d a = middle + along + across, b = middle + along - across, c = middle - along - across, d = middle - along + across;
+  const Eigen::Vector2d a = middle + along + across, b = middle + along - across, c = middle - along - across,
+                        d = middle - along + across;
   for (const auto& p : {a, b, c, a, c, d}) triangles.push_back(At(p, colour));
 }
 
-void Shapes::AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place, const Eigen::Vector2d& ahead, const Colour& colour) const {
-  const auto at = [&](const Eigen::Vector2d& p) { return At(place + p.x() * ahead + p.y() * Eigen::Vector2d(-ahead.y(), ahead.x()), colour); };
+void Shapes::AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place,
+                        const Eigen::Vector2d& ahead, const Colour& colour) const {
+  const auto at = [&](const Eigen::Vector2d& p) {
+    return At(place + p.x() * ahead + p.y() * Eigen::Vector2d(-ahead.y(), ahead.x()), colour);
+  };
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     for (const std::size_t corner : {std::size_t{0}, i, i + 1}) triangles.push_back(at(corners[corner]));
   }

@@ -32,10 +32,13 @@ struct Shapes {
   void AddLine(Vertices& lines, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Colour& colour) const;
   void AddGround(Vertices& triangles, const editor::Borders& borders, const Colour& colour) const;
   void AddCurve(Vertices& lines, const traffic_map::Cubic& cubic, const Colour& colour, bool dashed = false) const;
-  void AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to, const Colour& colour) const;
-  void AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead, double half_length_m, double half_width_m, const Colour& colour) const;
+  void AddLink(Vertices& lines, const traffic_map::Cubic& from, const traffic_map::Cubic& to,
+               const Colour& colour) const;
+  void AddRectangle(Vertices& triangles, const Eigen::Vector2d& middle, const Eigen::Vector2d& ahead,
+                    double half_length_m, double half_width_m, const Colour& colour) const;
   // Convex; laid at a place with its x axis ahead.
-  void AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place, const Eigen::Vector2d& ahead, const Colour& colour) const;
+  void AddPolygon(Vertices& triangles, std::span<const Eigen::Vector2d> corners, const Eigen::Vector2d& place,
+                  const Eigen::Vector2d& ahead, const Colour& colour) const;
 };
 
 }  // namespace rodeira::nodes

@@ -75,12 +75,13 @@ struct Work {
   FileDialog files;
   Traffic traffic;
   PictureLoader picture;
-  std::vector<editor::Keeper::Left> left;  // unsaved work of editors that live no more
+  std::vector<editor::Keeper::Left> left;        // unsaved work of editors that live no more
   std::optional<editor::Keeper::Left> taken_up;  // of it, which stays there until our own keeper has it
-  bool take_picture = false;               // of the window, when it is drawn next
-  bool closing = false;                    // the window should close, and nothing hinders that
-  std::map<std::string, Written> written;         // by the field's name
-  std::map<std::string, Eigen::Vector2d> places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
+  bool take_picture = false;                     // of the window, when it is drawn next
+  bool closing = false;                          // the window should close, and nothing hinders that
+  std::map<std::string, Written> written;        // by the field's name
+  std::map<std::string, Eigen::Vector2d>
+      places;  // of buttons and fields in the last picture, pixels of the window: for scripted hands
 
   void Open(Form what) { form = what, form_opens = true; }
 };

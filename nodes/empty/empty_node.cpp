@@ -20,7 +20,8 @@ namespace topics = idl::topics;
 
 class EmptyNode final : public lockstep::Node {
  public:
-  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at, const std::string& broken, bool saves)
+  EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at,
+            const std::string& broken, bool saves)
       : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at), broken_(broken), saves_(saves) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
@@ -34,9 +35,11 @@ class EmptyNode final : public lockstep::Node {
     for (const lockstep::Sample& sample : inbox.All(topics::kPulse)) {
       const auto pulse = idl::Decode<msg::Pulse>(*sample.payload);
       if (!pulse) return pulse.error();
-      value_ = base::RandomBits({value_, sample.source(), static_cast<std::uint64_t>(sample.valid()), pulse.value().value()});
+      value_ = base::RandomBits(
+          {value_, sample.source(), static_cast<std::uint64_t>(sample.valid()), pulse.value().value()});
     }
-    if (broken_ == "clock") value_ += static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+    if (broken_ == "clock")
+      value_ += static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
     if (broken_ == "order") value_ = base::RandomBits({value_, OrderOfAddresses()});
     Publish(outbox);
     return {};
@@ -91,7 +94,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeEmptyNode(launch::NodeContext&
   const std::int64_t hang_at = config.Integer("hang_at_step", -1, INT64_MAX, -1);
   const std::string broken = config.Choice("broken", {"no", "clock", "order"}, "no");
   const bool saves = config.Flag("saves", true);
-  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken, saves));
+  return std::unique_ptr<lockstep::Node>(
+      std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken, saves));
 }
 
 }  // namespace rodeira::nodes

@@ -23,19 +23,26 @@ dynamics::VehicleState FromWire(const msg::VehicleState& in) {
   out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
   out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
   out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
-  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(), in.angular_velocity_b_radps().z()};
+  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(),
+                in.angular_velocity_b_radps().z()};
   out.a_WB_W = {in.acceleration_w_mps2().x(), in.acceleration_w_mps2().y(), in.acceleration_w_mps2().z()};
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.gear = in.gear();
   return out;
 }
 
-// What others take up. Somebody who walks across is given the way that he goes in the next seconds, so that he is seen in time.
+// What others take up. Somebody who walks across is given the way that he goes in the next seconds, so that he is seen
+// in time.
 driver::Footprint FootprintOf(const msg::TrafficAgent& agent) {
   constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
   constexpr double kAhead_s = 6.0;
-  driver::Footprint footprint{agent.id(), agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()),
-                              agent.speed_mps(), static_cast<double>(agent.length_m()), static_cast<double>(agent.width_m())};
+  driver::Footprint footprint{agent.id(),
+                              agent.position_x_m(),
+                              agent.position_y_m(),
+                              static_cast<double>(agent.heading_rad()),
+                              agent.speed_mps(),
+                              static_cast<double>(agent.length_m()),
+                              static_cast<double>(agent.width_m())};
   if (agent.kind() != kPedestrian) return footprint;
   const double way = kAhead_s * footprint.speed_mps;
   footprint.x_m += 0.5 * way * std::cos(footprint.heading_rad);
@@ -49,11 +56,15 @@ class AutopilotSource final : public Source {
   // The way belongs to the world, which is kept alive.
   AutopilotSource(std::shared_ptr<const road::World> world, const driver::AutopilotSettings& settings,
                   const dynamics::VehicleDimensions& dimensions, driver::WayAndLights way)
-      : world_(std::move(world)), dimensions_(dimensions), lines_(std::move(way.lines)), autopilot_(settings, std::move(way.way)) {}
+      : world_(std::move(world)),
+        dimensions_(dimensions),
+        lines_(std::move(way.lines)),
+        autopilot_(settings, std::move(way.way)) {}
 
   dynamics::Controls First() override { return {}; }
 
-  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t,
+                                        const lockstep::Inbox& inbox) override {
     const auto own = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
     if (!own) return own.error();
     others_.clear();
@@ -69,7 +80,9 @@ class AutopilotSource final : public Source {
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
   void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& /*signals*/) override { autopilot_.TakeOver(last); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& /*signals*/) override {
+    autopilot_.TakeOver(last);
+  }
 
  private:
   // Lights that nobody tells of are dark.
@@ -106,7 +119,8 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   const auto lane_wish = static_cast<int>(config.Integer("lane", -20, 20, 0));
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   bool sees_the_car = false;
-  for (const lockstep::Port& port : context.spec().inputs) sees_the_car = sees_the_car || port.topic == topics::kVehicleState;
+  for (const lockstep::Port& port : context.spec().inputs)
+    sees_the_car = sees_the_car || port.topic == topics::kVehicleState;
   if (!sees_the_car)
     return base::WrongInput("the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it",
                             config.Place());
@@ -120,8 +134,8 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
                       : driver::WayFromStart(*world.value(), std::nullopt, context.launch().world().string());
   if (!way) return way.error();
   context.set_world_hash(world.value()->content_hash());
-  return std::unique_ptr<Source>(std::make_unique<AutopilotSource>(std::move(world).value(), settings.value(),
-                                                                   model.value()->dimensions(), std::move(way).value()));
+  return std::unique_ptr<Source>(std::make_unique<AutopilotSource>(
+      std::move(world).value(), settings.value(), model.value()->dimensions(), std::move(way).value()));
 }
 
 }  // namespace rodeira::nodes

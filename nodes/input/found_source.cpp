@@ -35,7 +35,8 @@ std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
     if (!std::filesystem::exists(file, problem)) continue;
     auto source = OpenWheelFile(file, config, search.node);
     if (source) return std::move(source).value();
-    search.Say(fmt::format("{}; '{}' is not driven by this file (`rodeira input setup` writes a new one)", source.error().Text(), info.name));
+    search.Say(fmt::format("{}; '{}' is not driven by this file (`rodeira input setup` writes a new one)",
+                           source.error().Text(), info.name));
     if (!search.broken) search.broken = info;
   }
   return nullptr;
@@ -43,7 +44,8 @@ std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
 
 // Null: it cannot be guessed at. `why` it has to be.
 std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, const char* why) {
-  const auto wheel = input_devices::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes), static_cast<std::size_t>(info.buttons));
+  const auto wheel = input_devices::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes),
+                                               static_cast<std::size_t>(info.buttons));
   if (!wheel) return nullptr;
   auto source = OpenWheel(*wheel, search.node);
   if (!source) return nullptr;
@@ -56,7 +58,9 @@ std::unique_ptr<Source> NewWheel(const Search& search) {
   for (const JoystickInfo& info : search.connected) {
     std::error_code problem;
     if (!info.is_wheel || std::filesystem::exists(input_devices::WheelFileOf(info.guid), problem)) continue;
-    if (auto source = Guess(search, info, "; it was not set up: `rodeira input setup` finds its axes, ends and buttons")) return source;
+    if (auto source =
+            Guess(search, info, "; it was not set up: `rodeira input setup` finds its axes, ends and buttons"))
+      return source;
   }
   return nullptr;
 }
@@ -90,11 +94,15 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
     if (auto guessed = Guess(search, *search.broken, "")) return guessed;
   }
   if (has_keys) {
-    search.Say(fmt::format("no wheel that was set up (`rodeira input setup`) and no game pad is there ({}); the windows' keys drive", ListJoysticks(search.connected)));
+    search.Say(fmt::format(
+        "no wheel that was set up (`rodeira input setup`) and no game pad is there ({}); the windows' keys drive",
+        ListJoysticks(search.connected)));
     return MakeKeyboardSource(config, context);
   }
-  return base::WrongInput(fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}", input_devices::WheelFolder().string(), ListJoysticks(search.connected)),
-                          config.Place());
+  return base::WrongInput(
+      fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}",
+                  input_devices::WheelFolder().string(), ListJoysticks(search.connected)),
+      config.Place());
 }
 
 }  // namespace rodeira::nodes

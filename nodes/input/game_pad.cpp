@@ -28,7 +28,9 @@ constexpr std::array<std::pair<PadButton, SDL_GameControllerButton>, input_devic
     {PadButton::kPause, SDL_CONTROLLER_BUTTON_START},
 }};
 
-double Share(SDL_GameController* pad, SDL_GameControllerAxis axis) { return std::max(SDL_GameControllerGetAxis(pad, axis) / 32767.0, -1.0); }
+double Share(SDL_GameController* pad, SDL_GameControllerAxis axis) {
+  return std::max(SDL_GameControllerGetAxis(pad, axis) / 32767.0, -1.0);
+}
 
 }  // namespace
 
@@ -36,7 +38,8 @@ base::Result<std::unique_ptr<GamePad>> GamePad::Start() {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");                // signals are the run's
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // it drives whatever window has the keyboard
   SDL_SetMainReady();
-  if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0) return base::WrongInput(fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
+  if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
+    return base::WrongInput(fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
   SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
   SDL_GameControllerEventState(SDL_IGNORE);
   std::unique_ptr<GamePad> made(new GamePad());
@@ -53,7 +56,8 @@ GamePad::~GamePad() {
 void GamePad::Find() {
   SDL_LockJoysticks();
   for (int index = 0; index < SDL_NumJoysticks() && pad_ == nullptr; ++index) {
-    if (SDL_IsGameController(index) == SDL_FALSE || SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL) continue;
+    if (SDL_IsGameController(index) == SDL_FALSE || SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL)
+      continue;
     pad_ = SDL_GameControllerOpen(index);
   }
   SDL_UnlockJoysticks();
@@ -75,7 +79,8 @@ void GamePad::Update() {
   reading_.stick = Share(pad_, SDL_CONTROLLER_AXIS_LEFTX);
   reading_.throttle = std::max(Share(pad_, SDL_CONTROLLER_AXIS_TRIGGERRIGHT), 0.0);
   reading_.brake = std::max(Share(pad_, SDL_CONTROLLER_AXIS_TRIGGERLEFT), 0.0);
-  for (const auto& [what, button] : kButtons) reading_.down[static_cast<std::size_t>(what)] = SDL_GameControllerGetButton(pad_, button) != 0;
+  for (const auto& [what, button] : kButtons)
+    reading_.down[static_cast<std::size_t>(what)] = SDL_GameControllerGetButton(pad_, button) != 0;
 }
 
 }  // namespace rodeira::nodes

@@ -13,7 +13,8 @@ constexpr double kMost = 32767.0;
 class HapticForce final : public input_devices::ForceDevice {
  public:
   // Takes the device; `effect` is on it already.
-  HapticForce(SDL_Haptic* haptic, int effect, const SDL_HapticEffect& told, bool inverted) : haptic_(haptic), effect_(effect), told_(told), inverted_(inverted) {}
+  HapticForce(SDL_Haptic* haptic, int effect, const SDL_HapticEffect& told, bool inverted)
+      : haptic_(haptic), effect_(effect), told_(told), inverted_(inverted) {}
   ~HapticForce() override {
     SDL_HapticStopAll(haptic_);
     SDL_HapticClose(haptic_);
@@ -51,7 +52,8 @@ std::unique_ptr<input_devices::ForceDevice> OpenHapticForce(_SDL_Joystick* joyst
     if ((SDL_HapticQuery(haptic) & SDL_HAPTIC_AUTOCENTER) != 0) (void)SDL_HapticSetAutocenter(haptic, 0);
     if ((SDL_HapticQuery(haptic) & SDL_HAPTIC_GAIN) != 0) (void)SDL_HapticSetGain(haptic, 100);
     SDL_HapticEffect effect = NoForce();
-    if (const int number = SDL_HapticNewEffect(haptic, &effect); number >= 0) return std::make_unique<HapticForce>(haptic, number, effect, inverted);
+    if (const int number = SDL_HapticNewEffect(haptic, &effect); number >= 0)
+      return std::make_unique<HapticForce>(haptic, number, effect, inverted);
   }
   if (haptic != nullptr) SDL_HapticClose(haptic);
   SDL_QuitSubSystem(SDL_INIT_HAPTIC);

@@ -49,12 +49,14 @@ dynamics::Controls FromWire(const msg::Controls& in) {
 }
 
 input_devices::Signals SignalsOf(const msg::Controls& in) {
-  return {static_cast<input_devices::Indicators>(in.indicators() % 4), static_cast<input_devices::Headlights>(in.headlights() % 3), in.horn() != 0};
+  return {static_cast<input_devices::Indicators>(in.indicators() % 4),
+          static_cast<input_devices::Headlights>(in.headlights() % 3), in.horn() != 0};
 }
 
 class InputNode final : public lockstep::Node {
  public:
-  InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns) : source_(std::move(source)), base_step_ns_(base_step_ns) {}
+  InputNode(std::unique_ptr<Source> source, std::int64_t base_step_ns)
+      : source_(std::move(source)), base_step_ns_(base_step_ns) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     const dynamics::Controls first = source_->First();
@@ -93,7 +95,8 @@ base::Result<std::unique_ptr<Source>> MakeScript(const config::Map& config, laun
   return MakeScriptSource(std::move(script).value());
 }
 
-base::Result<std::unique_ptr<Source>> MakePerson(const std::string& device, const config::Map& config, launch::NodeContext& context) {
+base::Result<std::unique_ptr<Source>> MakePerson(const std::string& device, const config::Map& config,
+                                                 launch::NodeContext& context) {
   if (device == "keyboard") return MakeKeyboardSource(config, context);
   if (device == "joystick") return MakeJoystickSource(config, context);
   return MakePadSource(config, context);
@@ -116,6 +119,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeInputNode(launch::NodeContext&
   return InputNodeOf(std::move(source).value(), context.roster().base_step_ns());
 }
 
-std::unique_ptr<lockstep::Node> InputNodeOf(std::unique_ptr<Source> source, std::int64_t base_step_ns) { return std::make_unique<InputNode>(std::move(source), base_step_ns); }
+std::unique_ptr<lockstep::Node> InputNodeOf(std::unique_ptr<Source> source, std::int64_t base_step_ns) {
+  return std::make_unique<InputNode>(std::move(source), base_step_ns);
+}
 
 }  // namespace rodeira::nodes

@@ -20,7 +20,8 @@ namespace {
 
 class JoystickSource final : public Source {
  public:
-  JoystickSource(std::string node, const input_devices::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks, MotorOpener motor)
+  JoystickSource(std::string node, const input_devices::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks,
+                 MotorOpener motor)
       : node_(std::move(node)),
         settings_(settings),
         driver_(settings),
@@ -31,7 +32,8 @@ class JoystickSource final : public Source {
 
   dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<dynamics::Controls> Step(const lockstep::StepInfo&, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo&, std::int64_t,
+                                        const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     joysticks_->Update();
@@ -49,7 +51,9 @@ class JoystickSource final : public Source {
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.TakeOver(last, signals);
+  }
 
  private:
   // What the road gives back, to the hands: no part of the run. A wheel that is back has its motor anew.
@@ -60,15 +64,17 @@ class JoystickSource final : public Source {
     felt_ = wheel;
     if (!driver_.rim_rad()) return;
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm, car.front_load_difference_N}, now_s);
+    force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm, car.front_load_difference_N},
+                now_s);
   }
 
   // To the person, once for each time.
   void Tell(std::size_t place, bool there) {
     if (there_[place] == there) return;
     there_[place] = there;
-    fmt::print(stderr, "rodeira: node '{}': {} '{}' ({}) {}\n", node_, settings_.devices[place].name, joysticks_->name(place),
-               settings_.devices[place].guid, there ? "is there again" : "was unplugged: pedals released, steering held");
+    fmt::print(stderr, "rodeira: node '{}': {} '{}' ({}) {}\n", node_, settings_.devices[place].name,
+               joysticks_->name(place), settings_.devices[place].guid,
+               there ? "is there again" : "was unplugged: pedals released, steering held");
   }
 
   std::string node_;
@@ -89,14 +95,16 @@ void ReplaceGuids(const config::Map& config, input_devices::WheelSettings& setti
   for (const input_devices::DeviceUse& device : settings.devices) names.push_back(device.name);
   for (const std::string& name : devices.Keys()) {
     std::string guid = devices.Text(name);
-    std::transform(guid.begin(), guid.end(), guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(guid.begin(), guid.end(), guid.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
       devices.Problem(name, fmt::format("the wheel file has no device '{}'{}", name, base::DidYouMean(name, names)));
     } else if (!input_devices::IsGuid(guid)) {
       devices.Problem(
-          name, fmt::format("'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them", name,
-                            guid));
+          name,
+          fmt::format("'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them",
+                      name, guid));
     } else {
       auto& device = settings.devices[static_cast<std::size_t>(found - names.begin())];
       device.guid = guid;
@@ -110,20 +118,21 @@ base::Status CheckDevices(const input_devices::WheelSettings& settings, const Jo
   for (std::size_t place = 0; place < settings.devices.size(); ++place) {
     const input_devices::DeviceUse& device = settings.devices[place];
     if (joysticks.reading(place).connected) continue;
-    return base::WrongInput(
-        fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid, ListJoysticks(joysticks.Connected())),
-        device.place);
+    return base::WrongInput(fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid,
+                                        ListJoysticks(joysticks.Connected())),
+                            device.place);
   }
   const auto check = [&](std::size_t place, std::size_t number, std::size_t count, const char* kind,
                          const std::string& where) -> base::Status {
     if (number < count) return {};
-    return base::WrongInput(fmt::format("{} {} of device '{}' was asked for; '{}' has {} (the first is 0)", kind, number,
-                                        settings.devices[place].name, joysticks.name(place), count),
+    return base::WrongInput(fmt::format("{} {} of device '{}' was asked for; '{}' has {} (the first is 0)", kind,
+                                        number, settings.devices[place].name, joysticks.name(place), count),
                             where);
   };
   for (const auto& axis : settings.axes) {
     if (!axis) continue;
-    if (auto status = check(axis->device, axis->axis, joysticks.reading(axis->device).axes.size(), "axis", axis->place); !status)
+    if (auto status = check(axis->device, axis->axis, joysticks.reading(axis->device).axes.size(), "axis", axis->place);
+        !status)
       return status;
   }
   std::vector<input_devices::ButtonUse> buttons;
@@ -132,7 +141,8 @@ base::Status CheckDevices(const input_devices::WheelSettings& settings, const Jo
   }
   for (const auto& [gear, button] : settings.lever) buttons.push_back(button);
   for (const input_devices::ButtonUse& use : buttons) {
-    if (auto status = check(use.device, use.button, joysticks.reading(use.device).buttons.size(), "button", use.place); !status)
+    if (auto status = check(use.device, use.button, joysticks.reading(use.device).buttons.size(), "button", use.place);
+        !status)
       return status;
   }
   return {};
@@ -140,17 +150,20 @@ base::Status CheckDevices(const input_devices::WheelSettings& settings, const Jo
 
 }  // namespace
 
-base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node, MotorOpener motor) {
+base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node,
+                                                MotorOpener motor) {
   auto joysticks = Joysticks::Start();
   if (!joysticks) return joysticks.error();
   std::vector<std::string> guids;
   for (const input_devices::DeviceUse& device : settings.devices) guids.push_back(device.guid);
   joysticks.value()->Use(guids);
   if (auto status = CheckDevices(settings, *joysticks.value()); !status) return status.error();
-  return std::unique_ptr<Source>(std::make_unique<JoystickSource>(node, settings, std::move(joysticks).value(), std::move(motor)));
+  return std::unique_ptr<Source>(
+      std::make_unique<JoystickSource>(node, settings, std::move(joysticks).value(), std::move(motor)));
 }
 
-base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config, const std::string& node) {
+base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config,
+                                                    const std::string& node) {
   auto settings = input_devices::LoadWheel(file);
   if (!settings) return settings.error();
   ReplaceGuids(config, settings.value());

@@ -5,23 +5,25 @@
 #include <memory>
 #include <string>
 
-#include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/runtime/launch/node_context.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "nodes/input/haptic_force.hpp"
 #include "nodes/input/source.hpp"
 
 namespace rodeira::nodes {
 
-// A steering wheel with pedals, or any other joystick, as a wheel file says (docs/formats.md). A device that is missing at
-// the start is wrong input; one that is unplugged during the run is told of, its pedals are released, the run goes on. Where no file is
-// named: MakeFoundSource.
+// A steering wheel with pedals, or any other joystick, as a wheel file says (docs/formats.md). A device that is missing
+// at the start is wrong input; one that is unplugged during the run is told of, its pedals are released, the run goes
+// on. Where no file is named: MakeFoundSource.
 base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context);
 
-// The same of one file, or of settings from anywhere. `config` may say other GUIDs (`devices`); what is wrong with these stays in its
-// collection.
-base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config, const std::string& node);
+// The same of one file, or of settings from anywhere. `config` may say other GUIDs (`devices`); what is wrong with
+// these stays in its collection.
+base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config,
+                                                    const std::string& node);
 // `motor`: opens the force feedback of a joystick; null where it has none.
 using MotorOpener = std::function<std::unique_ptr<input_devices::ForceDevice>(_SDL_Joystick* joystick, bool inverted)>;
-base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node, MotorOpener motor = OpenHapticForce);
+base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node,
+                                                MotorOpener motor = OpenHapticForce);
 
 }  // namespace rodeira::nodes

@@ -57,7 +57,8 @@ std::vector<JoystickInfo> Joysticks::Connected() const {
   std::vector<JoystickInfo> all;
   for (int index = 0; index < SDL_NumJoysticks(); ++index) {
     SDL_Joystick* joystick = SDL_JoystickOpen(index);  // an open one is counted, not opened again
-    JoystickInfo info{OrNameless(SDL_JoystickNameForIndex(index)), GuidText(SDL_JoystickGetDeviceGUID(index)), 0, 0, SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL};
+    JoystickInfo info{OrNameless(SDL_JoystickNameForIndex(index)), GuidText(SDL_JoystickGetDeviceGUID(index)), 0, 0,
+                      SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL};
     if (joystick != nullptr) {
       info.axes = SDL_JoystickNumAxes(joystick);
       info.buttons = SDL_JoystickNumButtons(joystick);
@@ -95,8 +96,8 @@ void Joysticks::OpenMissing() {
       return used.joystick != nullptr && SDL_JoystickInstanceID(used.joystick) == id;
     });
     if (taken) continue;
-    const auto waiting =
-        std::find_if(used_.begin(), used_.end(), [&](const Used& used) { return used.joystick == nullptr && used.guid == guid; });
+    const auto waiting = std::find_if(used_.begin(), used_.end(),
+                                      [&](const Used& used) { return used.joystick == nullptr && used.guid == guid; });
     if (waiting == used_.end()) continue;
     waiting->joystick = SDL_JoystickOpen(index);
     if (waiting->joystick != nullptr) waiting->name = OrNameless(SDL_JoystickName(waiting->joystick));

@@ -18,14 +18,16 @@ class KeyboardSource final : public Source {
 
   dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t,
+                                        const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     const launch::KeysNow now = keys_->Take();
     input_devices::KeyboardInput input;
     for (std::size_t action = 0; action < input_devices::kActions; ++action) {
       const auto& keys = settings_.keys[action];
-      input.held[action] = std::any_of(keys.begin(), keys.end(), [&](input_devices::Key key) { return now.Holds(key); });
+      input.held[action] =
+          std::any_of(keys.begin(), keys.end(), [&](input_devices::Key key) { return now.Holds(key); });
     }
     input.lever.up = Presses(now, Action::kGearUp);
     input.lever.down = Presses(now, Action::kGearDown);
@@ -43,7 +45,9 @@ class KeyboardSource final : public Source {
   input_devices::Signals signals() const override { return driver_.signals(); }
   void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
   void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.TakeOver(last, signals);
+  }
 
  private:
   std::uint32_t Presses(const launch::KeysNow& now, Action action) const {

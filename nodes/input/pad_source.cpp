@@ -17,7 +17,8 @@ class PadSource final : public Source {
 
   dynamics::Controls First() override { return driver_.controls(); }
 
-  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t,
+                                        const lockstep::Inbox& inbox) override {
     const auto car = SeeCar(inbox);
     if (!car) return car.error();
     pad_->Update();
@@ -29,14 +30,17 @@ class PadSource final : public Source {
   bool is_brief() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("pad", driver_); }
   void Restore(base::StateReader& in) override { in.Get("pad", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override { driver_.TakeOver(last, signals); }
+  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.TakeOver(last, signals);
+  }
 
  private:
   // To the person, once for each time.
   void Tell(bool there) {
     if (there_ == there) return;
     there_ = there;
-    fmt::print(stderr, "rodeira: node '{}': game pad '{}' {}\n", node_, pad_->name(), there ? "is there" : "was unplugged: pedals released, steering held");
+    fmt::print(stderr, "rodeira: node '{}': game pad '{}' {}\n", node_, pad_->name(),
+               there ? "is there" : "was unplugged: pedals released, steering held");
   }
 
   std::string node_;
@@ -47,7 +51,9 @@ class PadSource final : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<GamePad> pad) { return std::make_unique<PadSource>(node, std::move(pad)); }
+std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<GamePad> pad) {
+  return std::make_unique<PadSource>(node, std::move(pad));
+}
 
 base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, launch::NodeContext& context) {
   if (auto status = context.launch().file().Finish(); !status) return status.error();
@@ -57,7 +63,8 @@ base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, l
   auto joysticks = Joysticks::Start();
   if (!joysticks) return joysticks.error();
   joysticks.value()->Update();
-  return base::WrongInput(fmt::format("no game pad is there; {}", ListJoysticks(joysticks.value()->Connected())), config.Place());
+  return base::WrongInput(fmt::format("no game pad is there; {}", ListJoysticks(joysticks.value()->Connected())),
+                          config.Place());
 }
 
 }  // namespace rodeira::nodes

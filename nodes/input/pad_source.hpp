@@ -9,8 +9,8 @@
 
 namespace rodeira::nodes {
 
-// A game pad, as common/vehicle/input_devices/pad_driver.hpp says. One that is unplugged during the run is told of, its pedals are released, the run goes on;
-// the next one that is plugged in drives.
+// A game pad, as common/vehicle/input_devices/pad_driver.hpp says. One that is unplugged during the run is told of, its
+// pedals are released, the run goes on; the next one that is plugged in drives.
 std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<GamePad> pad);
 // `source: gamepad`. Wrong input where none is there at the start.
 base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, launch::NodeContext& context);

@@ -17,7 +17,8 @@ class Parked final : public Source {
 
   dynamics::Controls First() override { return person_->First(); }
 
-  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) override {
+  base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns,
+                                        const lockstep::Inbox& inbox) override {
     auto controls = person_->Step(step, valid_ns, inbox);
     if (!controls) return controls;
     if (!begun_) {
@@ -67,6 +68,8 @@ class Parked final : public Source {
 
 }  // namespace
 
-std::unique_ptr<Source> ParkedSource(std::unique_ptr<Source> person) { return std::make_unique<Parked>(std::move(person)); }
+std::unique_ptr<Source> ParkedSource(std::unique_ptr<Source> person) {
+  return std::make_unique<Parked>(std::move(person));
+}
 
 }  // namespace rodeira::nodes

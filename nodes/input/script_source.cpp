@@ -43,13 +43,18 @@ const std::vector<Column>& Columns() {
   static const std::vector<Column> kColumns = {
       {"time_s", 0.0, 1e7, [](Controls&, double) {}},
       {"steering_wheel_rad", -kTurns, kTurns, [](Controls& c, double x) { c.steering_wheel_rad = x; }},
-      {"steering_wheel_deg", -1800.0, 1800.0, [](Controls& c, double x) { c.steering_wheel_rad = x * std::numbers::pi / 180.0; }},
+      {"steering_wheel_deg", -1800.0, 1800.0,
+       [](Controls& c, double x) { c.steering_wheel_rad = x * std::numbers::pi / 180.0; }},
       {"throttle", 0.0, 1.0, [](Controls& c, double x) { c.throttle = x; }},
       {"brake", 0.0, 1.0, [](Controls& c, double x) { c.brake = x; }},
       {"clutch", 0.0, 1.0, [](Controls& c, double x) { c.clutch = x; }},
       {"handbrake", 0.0, 1.0, [](Controls& c, double x) { c.handbrake = x; }},
       {"gear", -1.0, 20.0, [](Controls& c, double x) { c.gear = static_cast<std::int32_t>(x); }, true},
-      {"manual", 0.0, 1.0, [](Controls& c, double x) { c.gearbox = x != 0.0 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic; }, true},
+      {"manual", 0.0, 1.0,
+       [](Controls& c, double x) {
+         c.gearbox = x != 0.0 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
+       },
+       true},
       {"starter", 0.0, 1.0, [](Controls& c, double x) { c.starter = x != 0.0; }, true},
   };
   return kColumns;
@@ -64,12 +69,17 @@ std::vector<std::string> ColumnNames() {
 base::Result<std::vector<const Column*>> ReadHead(const std::string& line, const std::string& where) {
   std::vector<const Column*> columns;
   for (const std::string& name : Split(line)) {
-    const auto found = std::find_if(Columns().begin(), Columns().end(), [&](const Column& column) { return column.name == name; });
-    if (found == Columns().end()) return base::WrongInput(fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, ColumnNames())), where);
-    if (std::find(columns.begin(), columns.end(), &*found) != columns.end()) return base::WrongInput(fmt::format("column '{}' stands twice", name), where);
+    const auto found =
+        std::find_if(Columns().begin(), Columns().end(), [&](const Column& column) { return column.name == name; });
+    if (found == Columns().end())
+      return base::WrongInput(fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, ColumnNames())), where);
+    if (std::find(columns.begin(), columns.end(), &*found) != columns.end())
+      return base::WrongInput(fmt::format("column '{}' stands twice", name), where);
     columns.push_back(&*found);
   }
-  if (columns.front()->name != "time_s") return base::WrongInput(fmt::format("the first column is '{}'; 'time_s' was expected", columns.front()->name), where);
+  if (columns.front()->name != "time_s")
+    return base::WrongInput(fmt::format("the first column is '{}'; 'time_s' was expected", columns.front()->name),
+                            where);
   return columns;
 }
 
@@ -78,8 +88,9 @@ base::Result<double> ReadCell(const Column& column, const std::string& cell, con
   const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   const bool number = problem == std::errc{} && end == cell.data() + cell.size();
   if (!number || !(value >= column.low && value <= column.high) || (column.whole && value != std::floor(value))) {
-    return base::WrongInput(fmt::format("'{}' is '{}'; {} number from {} to {} was expected", column.name, cell.substr(0, 40), column.whole ? "a whole" : "a",
-                                        column.low, column.high), where);
+    return base::WrongInput(fmt::format("'{}' is '{}'; {} number from {} to {} was expected", column.name,
+                                        cell.substr(0, 40), column.whole ? "a whole" : "a", column.low, column.high),
+                            where);
   }
   return value;
 }
@@ -104,7 +115,9 @@ base::Result<Script> Script::Parse(std::string_view text, const std::filesystem:
       continue;
     }
     const auto cells = Split(line);
-    if (cells.size() != columns.size()) return base::WrongInput(fmt::format("{} values were found, {} were expected", cells.size(), columns.size()), where);
+    if (cells.size() != columns.size())
+      return base::WrongInput(fmt::format("{} values were found, {} were expected", cells.size(), columns.size()),
+                              where);
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto value = ReadCell(*columns[i], cells[i], where);
@@ -113,16 +126,20 @@ base::Result<Script> Script::Parse(std::string_view text, const std::filesystem:
       columns[i]->set(row.controls, value.value());
     }
     if (!script.rows_.empty() && row.time_s <= script.rows_.back().time_s) {
-      return base::WrongInput(fmt::format("time_s {} follows {}; ascending times were expected", row.time_s, script.rows_.back().time_s), where);
+      return base::WrongInput(
+          fmt::format("time_s {} follows {}; ascending times were expected", row.time_s, script.rows_.back().time_s),
+          where);
     }
     script.rows_.push_back(row);
   }
-  if (script.rows_.empty()) return base::WrongInput("the script has no row; a head line and at least one row were expected", name.string());
+  if (script.rows_.empty())
+    return base::WrongInput("the script has no row; a head line and at least one row were expected", name.string());
   return script;
 }
 
 Controls Script::At(double time_s) const {
-  const auto after = std::upper_bound(rows_.begin(), rows_.end(), time_s, [](double t, const Row& row) { return t < row.time_s; });
+  const auto after =
+      std::upper_bound(rows_.begin(), rows_.end(), time_s, [](double t, const Row& row) { return t < row.time_s; });
   if (after == rows_.begin()) return rows_.front().controls;
   const Row& before = *(after - 1);
   Controls controls = before.controls;

@@ -2,10 +2,10 @@
 
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
-#include "common/vehicle/input_devices/signals.hpp"
 #include "common/runtime/lockstep/inbox.hpp"
 #include "common/runtime/lockstep/step.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
+#include "common/vehicle/input_devices/signals.hpp"
 
 namespace rodeira::nodes {
 
@@ -16,7 +16,8 @@ class Source {
   // The controls valid at time zero, before anything is seen.
   virtual dynamics::Controls First() = 0;
   // The controls for the time `valid_ns` at which they will be valid, from what is seen now.
-  virtual base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns, const lockstep::Inbox& inbox) = 0;
+  virtual base::Result<dynamics::Controls> Step(const lockstep::StepInfo& step, std::int64_t valid_ns,
+                                                const lockstep::Inbox& inbox) = 0;
   // Lamps and horn that go with the controls of the last First or Step.
   virtual input_devices::Signals signals() const { return {}; }
   // May be asked on any thread, one at a time, and soon has its answer.

@@ -60,13 +60,19 @@ base::Status LogChannels::Write(record::McapWriter& writer) {
       if (wall.through <= last_wall_) continue;
       last_wall_ = wall.through;
       const std::uint64_t time_ns = TimeOf(wall.through);
-      if (auto status = writer.Write(wall_, static_cast<std::uint32_t>(batch.number), time_ns, time_ns, idl::Encode(launch::ToWire(wall))); !status) return status;
+      if (auto status = writer.Write(wall_, static_cast<std::uint32_t>(batch.number), time_ns, time_ns,
+                                     idl::Encode(launch::ToWire(wall)));
+          !status)
+        return status;
     }
     for (const lockstep::Remark& remark : batch.remarks) {
       if (remark.number <= last_remark_) continue;
       last_remark_ = remark.number;
       const std::uint64_t time_ns = TimeOf(remark.step);
-      if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns, idl::Encode(launch::ToWire(remark, base_step_ns_))); !status) return status;
+      if (auto status = writer.Write(remarks_, remark.number, time_ns, time_ns,
+                                     idl::Encode(launch::ToWire(remark, base_step_ns_)));
+          !status)
+        return status;
     }
   }
   return {};

@@ -3,14 +3,14 @@
 #include <memory>
 
 #include "common/core/base/result.hpp"
-#include "common/runtime/launch/run_log_border.hpp"
 #include "common/data/record/mcap_writer.hpp"
+#include "common/runtime/launch/run_log_border.hpp"
 
 namespace rodeira::nodes {
 
-// The clock's log in a recording: one message of rodeira/wall a grant, one of rodeira/remarks a remark. Their log time is
-// the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages, and the
-// sequence number of a wall's message is that of its batch. A run without a log gets no such channels.
+// The clock's log in a recording: one message of rodeira/wall a grant, one of rodeira/remarks a remark. Their log time
+// is the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages, and
+// the sequence number of a wall's message is that of its batch. A run without a log gets no such channels.
 class LogChannels {
  public:
   LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);
@@ -19,7 +19,8 @@ class LogChannels {
   void Remember(const record::Channel& channel, const record::Message& message);
   // What has come so far.
   base::Status Write(record::McapWriter& writer);
-  // Waits for the rest, longer where the run went well; false where not all of it has come. The run does not fail by that.
+  // Waits for the rest, longer where the run went well; false where not all of it has come. The run does not fail by
+  // that.
   bool AwaitEnd(bool complete);
 
  private:
@@ -29,8 +30,8 @@ class LogChannels {
   std::int64_t base_step_ns_;
   record::ChannelId wall_ = 0;
   record::ChannelId remarks_ = 0;
-  lockstep::Step last_wall_ = -1;      // through_step of the newest that is written
-  std::uint32_t last_remark_ = 0;      // its number
+  lockstep::Step last_wall_ = -1;  // through_step of the newest that is written
+  std::uint32_t last_remark_ = 0;  // its number
 };
 
 }  // namespace rodeira::nodes

@@ -28,11 +28,16 @@ constexpr std::uint64_t kChunkSpanNs = 800'000'000;
 class RecorderNode final : public lockstep::Node {
  public:
   RecorderNode(std::filesystem::path file, const lockstep::Roster& roster, launch::NodeContext& context)
-      : file_(std::move(file)), roster_(roster), log_(context.RunLog(), roster.base_step_ns()), written_(roster, context.index()) {}
-  // Of a run that never began no recording is left: only what this recorder has made is removed. What is no plain file (a device, a pipe) was not made here.
+      : file_(std::move(file)),
+        roster_(roster),
+        log_(context.RunLog(), roster.base_step_ns()),
+        written_(roster, context.index()) {}
+  // Of a run that never began no recording is left: only what this recorder has made is removed. What is no plain file
+  // (a device, a pipe) was not made here.
   ~RecorderNode() override {
     std::error_code problem;
-    if (writer_ && !complete_ && !has_samples_ && std::filesystem::is_regular_file(file_, problem)) std::filesystem::remove(file_, problem);
+    if (writer_ && !complete_ && !has_samples_ && std::filesystem::is_regular_file(file_, problem))
+      std::filesystem::remove(file_, problem);
   }
 
   // A file of its own, or that of an earlier life.
@@ -71,8 +76,8 @@ class RecorderNode final : public lockstep::Node {
     return {};
   }
 
-  // Called while the writer is being opened: the samples of the file's end, which others may ask for. False where the file holds
-  // none yet.
+  // Called while the writer is being opened: the samples of the file's end, which others may ask for. False where the
+  // file holds none yet.
   base::Result<bool> GoOn(launch::NodeContext& context, const record::WriterSettings& settings) {
     const auto take = [&](const record::Channel& channel, const record::Message& message) -> base::Status {
       const auto number = channel.metadata.find("source_number");
@@ -80,15 +85,18 @@ class RecorderNode final : public lockstep::Node {
         log_.Remember(channel, message);
         return {};
       }
-      if (!lockstep::SampleHeader::HasHeader(message.data)) return base::WrongInput("a sample without a header was found", file_.string());
-      const lockstep::Sample sample{lockstep::SampleHeader::Read(message.data), std::make_shared<const base::Bytes>(message.data.begin(), message.data.end())};
+      if (!lockstep::SampleHeader::HasHeader(message.data))
+        return base::WrongInput("a sample without a header was found", file_.string());
+      const lockstep::Sample sample{lockstep::SampleHeader::Read(message.data),
+                                    std::make_shared<const base::Bytes>(message.data.begin(), message.data.end())};
       last_step_ = sample.valid();
       last_source_ = sample.source();
       return context.Remember(sample);
     };
     const auto safe = context.SafeStep();
     if (!safe) return safe.error();
-    auto writer = record::McapWriter::GoOn(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});
+    auto writer =
+        record::McapWriter::GoOn(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});
     if (!writer) return writer.error();
     if (!writer.value()) return false;
     writer_ = std::move(writer).value();
@@ -162,8 +170,8 @@ class RecorderNode final : public lockstep::Node {
     const bool log_complete = log_.AwaitEnd(complete);
     if (auto status = log_.Write(*writer_); !status) return status;
     record::TextMap end{{"last_step", std::to_string(last_step)},
-                              {"complete", complete ? "true" : "false"},
-                              {"log_complete", log_complete ? "true" : "false"}};
+                        {"complete", complete ? "true" : "false"},
+                        {"log_complete", log_complete ? "true" : "false"}};
     end.merge(written_.Entries(last_step));
     if (auto status = writer_->AddMetadata("rodeira.end", end); !status) return status;
     return writer_->Close();
@@ -191,10 +199,12 @@ class RecorderNode final : public lockstep::Node {
     has_samples_ = true;
     const std::uint64_t written_bytes = writer_->written_bytes();
     payload_ = *sample.payload;
-    std::memset(payload_.data() + lockstep::SampleHeader::kIncarnationAt, 0, 4);  // which life it was is no part of the run
+    std::memset(payload_.data() + lockstep::SampleHeader::kIncarnationAt, 0,
+                4);  // which life it was is no part of the run
     const auto time_ns = static_cast<std::uint64_t>(sample.header.time_ns);
     const auto sequence = static_cast<std::uint32_t>(sample.valid() / roster_.source(sample.source()).period);
-    if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status) return status;
+    if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status)
+      return status;
     written_.Note(sample.valid(), sample.source());
     // Whatever went out before this sample was put into a chunk of its own is beyond harm.
     if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
@@ -216,7 +226,7 @@ class RecorderNode final : public lockstep::Node {
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;
-  lockstep::Step last_step_ = -1;           // of an earlier life's last sample
+  lockstep::Step last_step_ = -1;  // of an earlier life's last sample
   lockstep::SourceIndex last_source_ = 0;
 };
 

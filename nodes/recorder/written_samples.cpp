@@ -30,7 +30,9 @@ record::TextMap WrittenSamples::Entries(Step last_step) const {
     samples += static_cast<std::uint64_t>(line.next / line.period);
     if (line.next <= last_step) missing += static_cast<std::uint64_t>((last_step - line.next) / line.period + 1);
   }
-  return {{"samples", std::to_string(samples - missing_)}, {"sources", std::to_string(lines_.size())}, {"missing", std::to_string(missing)}};
+  return {{"samples", std::to_string(samples - missing_)},
+          {"sources", std::to_string(lines_.size())},
+          {"missing", std::to_string(missing)}};
 }
 
 }  // namespace rodeira::nodes

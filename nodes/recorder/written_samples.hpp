@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/runtime/lockstep/roster.hpp"
 #include "common/data/record/mcap_types.hpp"
+#include "common/runtime/lockstep/roster.hpp"
 
 namespace rodeira::nodes {
 
@@ -17,8 +17,8 @@ class WrittenSamples {
   // An earlier life has written everything up to here, in the order of (step, source).
   void BeginBehind(lockstep::Step step, lockstep::SourceIndex source);
   void Note(lockstep::Step valid, lockstep::SourceIndex source);
-  // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier life among them, and how
-  // many are `missing` of a run that ended at `last_step`.
+  // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier life among
+  // them, and how many are `missing` of a run that ended at `last_step`.
   record::TextMap Entries(lockstep::Step last_step) const;
 
  private:

@@ -1,4 +1,6 @@
 #include "common/runtime/dds/run.hpp"
 #include "nodes/road/road_service.hpp"
 
-int main(int argc, char** argv) { return rodeira::dds::RunService("road", argc, argv, rodeira::nodes::MakeRoadService); }
+int main(int argc, char** argv) {
+  return rodeira::dds::RunService("road", argc, argv, rodeira::nodes::MakeRoadService);
+}

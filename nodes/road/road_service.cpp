@@ -13,7 +13,8 @@ constexpr std::size_t kMostPoints = 1'000'000;  // a larger batch is nobody's qu
 
 class RoadService final : public launch::Service {
  public:
-  explicit RoadService(std::shared_ptr<const road::World> world) : world_(std::move(world)), ground_(world_->MakeGround()) {}
+  explicit RoadService(std::shared_ptr<const road::World> world)
+      : world_(std::move(world)), ground_(world_->MakeGround()) {}
 
   base::Digest world_hash() const override { return world_->content_hash(); }
 
@@ -25,7 +26,10 @@ class RoadService final : public launch::Service {
     info.start_x_m(summary.start_x_m);
     info.start_y_m(summary.start_y_m);
     info.start_heading_rad(summary.start_heading_rad);
-    info.roads(world_->network() == nullptr ? 0u : static_cast<std::uint32_t>(world_->network()->roads().size()));  // what junctions cut, and ways through them, count each
+    info.roads(world_->network() == nullptr
+                   ? 0u
+                   : static_cast<std::uint32_t>(
+                         world_->network()->roads().size()));  // what junctions cut, and ways through them, count each
     return idl::Encode(info);
   }
 
@@ -70,7 +74,9 @@ launch::WorldSummary Summary(const road::World& world) {
 }
 
 base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeContext& context) {
-  if (context.launch().world().empty()) return base::WrongInput("key 'world' is missing; a road server needs a world file", context.launch().path().string());
+  if (context.launch().world().empty())
+    return base::WrongInput("key 'world' is missing; a road server needs a world file",
+                            context.launch().path().string());
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
   return std::unique_ptr<launch::Service>(std::make_unique<RoadService>(std::move(world).value()));

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "common/core/base/suggest.hpp"
+#include "common/driving/scenario/request.hpp"
+#include "common/driving/scenario/scenario_file.hpp"
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
 #include "common/world/road/world_weather.hpp"
-#include "common/driving/scenario/request.hpp"
-#include "common/driving/scenario/scenario_file.hpp"
 #include "common/world/weather/named_weather.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -39,8 +39,8 @@ class Stations {
   const std::string& id() const { return id_; }
   double length_m() const { return length_m_; }
 
-  // Where the car is along the road: kNowhere where it is not on this one. In a junction, on a way that is another road's, nothing new is known:
-  // `before_m` again.
+  // Where the car is along the road: kNowhere where it is not on this one. In a junction, on a way that is another
+  // road's, nothing new is known: `before_m` again.
   double At(const Eigen::Vector3d& p_W, double before_m) const {
     if (road_ != nullptr) {
       const auto place = road_->Locate(p_W.x(), p_W.y());
@@ -66,7 +66,8 @@ std::vector<Stations> StationsOf(const road::World& world) {
   std::vector<Stations> all;
   for (const road::Road& road : world.roads()) all.emplace_back(road);
   if (all.empty() && world.network() != nullptr) {
-    for (road::RoadChain& chain : road::ChainsOf(*world.network())) all.emplace_back(*world.network(), std::move(chain));
+    for (road::RoadChain& chain : road::ChainsOf(*world.network()))
+      all.emplace_back(*world.network(), std::move(chain));
   }
   return all;
 }
@@ -106,18 +107,27 @@ base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::s
   const auto place = scenario::ParsePlace(event.argument);
   if (!place) return place.error();
   if (std::find(vehicles.begin(), vehicles.end(), place.value().vehicle) != vehicles.end()) return {};
-  return base::WrongInput(fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle, base::DidYouMean(place.value().vehicle, vehicles)));
+  return base::WrongInput(fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle,
+                                      base::DidYouMean(place.value().vehicle, vehicles)));
 }
 
 class ScenarioNode final : public lockstep::Node {
  public:
   // `requests`: what windows ask for; null: nobody may.
-  ScenarioNode(std::string name, scenario::Scenario scenario, std::int64_t base_step_ns, std::shared_ptr<const road::World> world, std::vector<Gate> gates,
+  ScenarioNode(std::string name, scenario::Scenario scenario, std::int64_t base_step_ns,
+               std::shared_ptr<const road::World> world, std::vector<Gate> gates,
                std::unique_ptr<launch::LiveRequestsReceiver> requests, std::vector<std::string> vehicles)
-      : name_(std::move(name)), scenario_(std::move(scenario)), base_step_ns_(base_step_ns), world_(std::move(world)), gates_(std::move(gates)),
-        requests_(std::move(requests)), vehicles_(std::move(vehicles)), weather_(scenario_.weather) {}
+      : name_(std::move(name)),
+        scenario_(std::move(scenario)),
+        base_step_ns_(base_step_ns),
+        world_(std::move(world)),
+        gates_(std::move(gates)),
+        requests_(std::move(requests)),
+        vehicles_(std::move(vehicles)),
+        weather_(scenario_.weather) {}
 
-  // The initial sample may stand at several steps (law L1), so no event is said in it; the weather is that of the run's beginning.
+  // The initial sample may stand at several steps (law L1), so no event is said in it; the weather is that of the run's
+  // beginning.
   base::Status Initialise(lockstep::Outbox& outbox) override {
     outbox.Put(topics::kScenarioEvents, idl::Encode(msg::ScenarioEvents()));
     outbox.Put(topics::kWeatherState, idl::Encode(WeatherAt(0)));
@@ -126,15 +136,17 @@ class ScenarioNode final : public lockstep::Node {
 
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     msg::ScenarioEvents events;
-    const auto due = std::lower_bound(scenario_.scheduled.begin(), scenario_.scheduled.end(), step.output_valid,
-                                      [](const scenario::ScheduledEvent& event, lockstep::Step at) { return event.step < at; });
+    const auto due =
+        std::lower_bound(scenario_.scheduled.begin(), scenario_.scheduled.end(), step.output_valid,
+                         [](const scenario::ScheduledEvent& event, lockstep::Step at) { return event.step < at; });
     for (auto event = due; event != scenario_.scheduled.end() && event->step == step.output_valid; ++event)
       Add(event->event, step.output_valid, events);
     if (!gates_.empty()) {
       const auto car = idl::Decode<msg::VehicleState>(*inbox.Latest(topics::kVehicleState).payload);
       if (!car) return car.error();
       for (std::size_t i = 0; i < gates_.size(); ++i) {
-        if (gates_[i].Passed({car.value().position_w_m().x(), car.value().position_w_m().y(), car.value().position_w_m().z()}))
+        if (gates_[i].Passed(
+                {car.value().position_w_m().x(), car.value().position_w_m().y(), car.value().position_w_m().z()}))
           Add(scenario_.conditional[i].event, step.output_valid, events);
       }
     }
@@ -207,8 +219,10 @@ class ScenarioNode final : public lockstep::Node {
       const auto event = scenario::EventOf({request.name, request.argument, request.x_m, request.y_m, request.value});
       base::Status sound = event ? base::Status() : event.error();
       if (sound && event.value().name == scenario::kVehiclePlace) sound = CheckVehicle(event.value(), vehicles_);
-      if (sound) Add(event.value(), valid, events);
-      else fmt::print(stderr, "rodeira: node '{}': a request is refused: {}\n", name_, sound.error().Text());
+      if (sound)
+        Add(event.value(), valid, events);
+      else
+        fmt::print(stderr, "rodeira: node '{}': a request is refused: {}\n", name_, sound.error().Text());
     }
   }
 
@@ -281,11 +295,15 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
   std::vector<Gate> gates;
   for (const scenario::ConditionalEvent& event : scenario.conditional) {
     if (!sees)
-      return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario", event.place);
+      return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario",
+                              event.place);
     auto road = std::find(names.begin(), names.end(), event.road);
     if (event.road.empty() && names.size() == 1) road = names.begin();
     if (event.road.empty() && names.size() > 1) {
-      return base::WrongInput(fmt::format("'passes_m' is on no road that is named, and the world has {}; 'road' was expected beside it", names.size()), event.place);
+      return base::WrongInput(
+          fmt::format("'passes_m' is on no road that is named, and the world has {}; 'road' was expected beside it",
+                      names.size()),
+          event.place);
     }
     if (road == names.end())
       return base::WrongInput(fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
@@ -293,7 +311,8 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
     const Stations& found = roads[static_cast<std::size_t>(road - names.begin())];
     if (event.passes_m > found.length_m()) {
       return base::WrongInput(
-          fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()), event.place);
+          fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()),
+          event.place);
     }
     gates.emplace_back(found, event.passes_m);
   }
@@ -304,7 +323,8 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
 
 base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeContext& context) {
   const bool takes_requests = context.config().Flag("requests", false);
-  const std::filesystem::path file = takes_requests ? context.config().OptionalPath("scenario").value_or("") : context.config().Path("scenario");
+  const std::filesystem::path file =
+      takes_requests ? context.config().OptionalPath("scenario").value_or("") : context.config().Path("scenario");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   const scenario::Timing timing{context.roster().base_step_ns(), context.spec().period, context.spec().delay};
   auto scenario = file.empty() ? scenario::Scenario() : scenario::LoadScenario(file, timing);
@@ -328,9 +348,9 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeConte
     if (!made) return made.error();
     gates = std::move(made).value();
   }
-  return std::unique_ptr<lockstep::Node>(
-      std::make_unique<ScenarioNode>(context.spec().name, std::move(scenario).value(), context.roster().base_step_ns(), std::move(world), std::move(gates),
-                                     takes_requests ? context.RequestsReceiver() : nullptr, Obedient(context, "vehicle")));
+  return std::unique_ptr<lockstep::Node>(std::make_unique<ScenarioNode>(
+      context.spec().name, std::move(scenario).value(), context.roster().base_step_ns(), std::move(world),
+      std::move(gates), takes_requests ? context.RequestsReceiver() : nullptr, Obedient(context, "vehicle")));
 }
 
 }  // namespace rodeira::nodes

@@ -47,12 +47,14 @@ base::Status CheckAgainst(const traffic::TrafficModel& model, const scenario::Ev
   if (event.name == scenario::kTrafficAppear) {
     const auto choice = scenario::ParseAgentOnLane(event.argument);
     if (!choice) return choice.error();
-    if (!(event.value >= 0.0)) return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", event.value));
+    if (!(event.value >= 0.0))
+      return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", event.value));
     return model.CheckAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m);
   }
   const auto kind = OrderOf(event.name);
   if (!kind) return base::WrongInput("the traffic does not know this event");
-  if (!traffic::IsSound(*kind, event.value)) return base::WrongInput(fmt::format("its value is {}; one that the traffic can obey was expected", event.value));
+  if (!traffic::IsSound(*kind, event.value))
+    return base::WrongInput(fmt::format("its value is {}; one that the traffic can obey was expected", event.value));
   const auto choice = scenario::ParseAgent(event.argument);
   return choice ? CheckAgent(model, choice.value()) : choice.error();
 }

@@ -4,8 +4,8 @@
 #include <string_view>
 
 #include "common/core/base/result.hpp"
-#include "common/runtime/launch/node_context.hpp"
 #include "common/driving/scenario/event.hpp"
+#include "common/runtime/launch/node_context.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/traffic_model.hpp"
 
@@ -14,11 +14,13 @@ namespace rodeira::nodes {
 // What an event of the traffic's tells whom it speaks to; nothing for those that speak to nobody who drives yet.
 std::optional<traffic::OrderKind> OrderOf(std::string_view event);
 
-// Wrong input where the traffic can never do what an event asks: no such agent, road, lane, station or crossing, or a value that nobody can obey.
+// Wrong input where the traffic can never do what an event asks: no such agent, road, lane, station or crossing, or a
+// value that nobody can obey.
 base::Status CheckAgainst(const traffic::TrafficModel& model, const scenario::Event& event);
 
-// The same of all events of the scenarios that this node listens to, before the run begins, each with its line: an experiment does not end in its twentieth minute for a slip of the pen. Files that are not
-// on this machine are left to who reads them.
+// The same of all events of the scenarios that this node listens to, before the run begins, each with its line: an
+// experiment does not end in its twentieth minute for a slip of the pen. Files that are not on this machine are left to
+// who reads them.
 base::Status CheckScenarios(const launch::NodeContext& context, const traffic::TrafficModel& model);
 
 }  // namespace rodeira::nodes

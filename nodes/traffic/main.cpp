@@ -1,4 +1,6 @@
 #include "common/runtime/dds/run.hpp"
 #include "nodes/traffic/traffic_node.hpp"
 
-int main(int argc, char** argv) { return rodeira::dds::RunNode("traffic", argc, argv, rodeira::nodes::MakeTrafficNode); }
+int main(int argc, char** argv) {
+  return rodeira::dds::RunNode("traffic", argc, argv, rodeira::nodes::MakeTrafficNode);
+}

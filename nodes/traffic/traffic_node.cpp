@@ -10,14 +10,14 @@
 #include <string_view>
 #include <utility>
 
-#include "common/world/traffic_map/heights.hpp"
-#include "common/world/road/map_world.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/traffic/map_lights.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/tight_bends.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "common/world/road/map_world.hpp"
+#include "common/world/traffic_map/heights.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -105,14 +105,20 @@ driver::Footprint FootprintOf(const msg::VehicleState& in, std::uint32_t id) {
   const auto length_m = static_cast<double>(in.length_m());
   const double middle = static_cast<double>(in.front_m()) - 0.5 * length_m;
   const double along = std::cos(heading) * in.velocity_w_mps().x() + std::sin(heading) * in.velocity_w_mps().y();
-  return {id, in.position_w_m().x() + middle * std::cos(heading), in.position_w_m().y() + middle * std::sin(heading), heading, along, length_m,
+  return {id,
+          in.position_w_m().x() + middle * std::cos(heading),
+          in.position_w_m().y() + middle * std::sin(heading),
+          heading,
+          along,
+          length_m,
           static_cast<double>(in.width_m())};
 }
 
 class TrafficNode final : public lockstep::Node {
  public:
   // stream: by which it is a partner in collisions.
-  TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model) : name_(std::move(name)), stream_(stream), model_(std::move(model)) {}
+  TrafficNode(std::string name, lockstep::SourceIndex stream, traffic::TrafficModel model)
+      : name_(std::move(name)), stream_(stream), model_(std::move(model)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     Publish(outbox, true);
@@ -166,7 +172,8 @@ class TrafficNode final : public lockstep::Node {
         model_.HitPedestrian(hit.partner_id());
         continue;
       }
-      model_.Strike(hit.partner_id(), {-hit.impulse_x_ns(), -hit.impulse_y_ns()}, {hit.position_x_m(), hit.position_y_m()});
+      model_.Strike(hit.partner_id(), {-hit.impulse_x_ns(), -hit.impulse_y_ns()},
+                    {hit.position_x_m(), hit.position_y_m()});
     }
     return {};
   }
@@ -176,7 +183,8 @@ class TrafficNode final : public lockstep::Node {
     for (const msg::ScenarioEvent& event : events.value().events()) {
       if (!event.name().starts_with("traffic.")) continue;
       const std::string where = fmt::format("event '{}' at step {}", event.name(), sample.valid());
-      if (auto status = CheckAgainst(model_, {event.name(), event.argument(), event.value()}); !status) return base::WrongInput(status.error().message, where);
+      if (auto status = CheckAgainst(model_, {event.name(), event.argument(), event.value()}); !status)
+        return base::WrongInput(status.error().message, where);
       if (event.name() == scenario::kTrafficPedestrian) {
         if (auto status = Call(event.argument(), where); !status) return status;
         continue;
@@ -195,13 +203,19 @@ class TrafficNode final : public lockstep::Node {
     if (!choice) return base::WrongInput(choice.error().message, where);
     const auto told = model_.LetAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
     if (!told) return base::WrongInput(told.error().message, where);
-    if (told.value()) told_to_appear_.emplace_back(choice.value().id, where);
-    else fmt::print(stderr, "rodeira: node '{}': {}: agent {} is on the road already, or waits to be; nothing happens\n", name_, where, choice.value().id);
+    if (told.value())
+      told_to_appear_.emplace_back(choice.value().id, where);
+    else
+      fmt::print(stderr, "rodeira: node '{}': {}: agent {} is on the road already, or waits to be; nothing happens\n",
+                 name_, where, choice.value().id);
     return {};
   }
   void TellWhoWaits() {
     for (const auto& [id, where] : told_to_appear_) {
-      if (model_.IsAppearing(id)) fmt::print(stderr, "rodeira: node '{}': {}: there is no room for agent {} yet; it appears as soon as there is\n", name_, where, id);
+      if (model_.IsAppearing(id))
+        fmt::print(stderr,
+                   "rodeira: node '{}': {}: there is no room for agent {} yet; it appears as soon as there is\n", name_,
+                   where, id);
     }
     told_to_appear_.clear();
   }
@@ -225,7 +239,9 @@ class TrafficNode final : public lockstep::Node {
     order.value().kind = kind, order.value().value = value;
     using Whom = traffic::PlaceOrder::Whom;
     using Kind = scenario::AgentChoice::Kind;
-    order.value().whom = choice.value().kind == Kind::kAll ? Whom::kAll : choice.value().kind == Kind::kNext ? Whom::kNext : Whom::kOne;
+    order.value().whom = choice.value().kind == Kind::kAll    ? Whom::kAll
+                         : choice.value().kind == Kind::kNext ? Whom::kNext
+                                                              : Whom::kOne;
     if (order.value().whom == Whom::kOne && agents.empty()) return {};  // nobody was ahead
     if (order.value().whom == Whom::kOne) order.value().id = agents.front();
     orders_.Add(order.value());
@@ -242,8 +258,11 @@ class TrafficNode final : public lockstep::Node {
         for (std::uint32_t id = 0; id < model_.vehicles(); ++id) agents.push_back(id);
         break;
       case scenario::AgentChoice::Kind::kAhead:
-        if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front())) agents.push_back(*ahead);
-        else fmt::print(stderr, "rodeira: node '{}': {}: nobody is ahead of the driver's car, nothing happens\n", name_, where);
+        if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front()))
+          agents.push_back(*ahead);
+        else
+          fmt::print(stderr, "rodeira: node '{}': {}: nobody is ahead of the driver's car, nothing happens\n", name_,
+                     where);
         break;
       case scenario::AgentChoice::Kind::kNext:
         break;
@@ -253,7 +272,8 @@ class TrafficNode final : public lockstep::Node {
   void Publish(lockstep::Outbox& outbox, bool with_details) {
     msg::TrafficState state;
     state.agents().reserve(model_.poses().size());
-    for (const traffic::AgentPose& pose : model_.poses()) state.agents().push_back(ToWire(pose, model_.traits(pose.id), model_.LightsOf(pose)));
+    for (const traffic::AgentPose& pose : model_.poses())
+      state.agents().push_back(ToWire(pose, model_.traits(pose.id), model_.LightsOf(pose)));
     if (model_.people() != nullptr) {
       for (const traffic::PersonPose& person : model_.people()->Poses()) state.agents().push_back(ToWire(person));
     }
@@ -291,7 +311,8 @@ class TrafficNode final : public lockstep::Node {
 base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContext& context) {
   const traffic::TrafficSettings settings = traffic::ReadTraffic(context.config(), context.seed());
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  if (context.launch().world().empty()) return base::WrongInput("key 'world' is missing; traffic needs roads", context.launch().path().string());
+  if (context.launch().world().empty())
+    return base::WrongInput("key 'world' is missing; traffic needs roads", context.launch().path().string());
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
   context.set_world_hash(world.value()->content_hash());
@@ -299,7 +320,10 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
     if (auto status = traffic::CheckLightsOfMap(map); !status) return status.error();
     const auto companion = traffic_map::LoadHeightsOf(map);
     if (companion && !companion.value().flows.empty() && settings.demand.flows.empty()) {
-      fmt::print(stderr, "rodeira: node '{}': warning: {}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in a run the traffic's own 'flows' say who comes\n", context.spec().name, map.string());
+      fmt::print(stderr,
+                 "rodeira: node '{}': warning: {}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in "
+                 "a run the traffic's own 'flows' say who comes\n",
+                 context.spec().name, map.string());
     }
   }
   const driver::Footprint clear = traffic::KeptClear(*world.value());
@@ -307,13 +331,15 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   if (!model) return model.error();
   if (auto status = CheckScenarios(context, model.value()); !status) return status.error();
   for (const traffic::TightBend& bend : traffic::TightBendsOf(model.value().graph(), settings)) {
-    fmt::print(stderr, "rodeira: node '{}': warning: {}\n", context.spec().name, traffic::Text(bend, model.value().graph()));
+    fmt::print(stderr, "rodeira: node '{}': warning: {}\n", context.spec().name,
+               traffic::Text(bend, model.value().graph()));
   }
   lockstep::SourceIndex stream = 0;
   for (const lockstep::SourceIndex output : context.spec().outputs) {
     if (context.roster().source(output).topic == topics::kTrafficState) stream = output;
   }
-  return std::unique_ptr<lockstep::Node>(std::make_unique<TrafficNode>(context.spec().name, stream, std::move(model).value()));
+  return std::unique_ptr<lockstep::Node>(
+      std::make_unique<TrafficNode>(context.spec().name, stream, std::move(model).value()));
 }
 
 }  // namespace rodeira::nodes

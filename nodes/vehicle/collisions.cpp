@@ -12,7 +12,8 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr std::uint32_t kInWorld = 0, kAgent = 1;  // collision.idl; another node's car is an agent by its stream, with the id 0
+constexpr std::uint32_t kInWorld = 0,
+                        kAgent = 1;  // collision.idl; another node's car is an agent by its stream, with the id 0
 
 // The same of another node's car, which turns as well.
 dynamics::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
@@ -47,7 +48,8 @@ dynamics::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
                   Eigen::AngleAxisd(static_cast<double>(agent.pitch_rad()), Eigen::Vector3d::UnitY()) *
                   Eigen::AngleAxisd(static_cast<double>(agent.roll_rad()), Eigen::Vector3d::UnitX());
   obstacle.v_WO_W = agent.speed_mps() * (obstacle.q_WO * Eigen::Vector3d::UnitX());
-  obstacle.centre_W = Eigen::Vector3d(agent.position_x_m(), agent.position_y_m(), agent.position_z_m()) + late_s * obstacle.v_WO_W + obstacle.q_WO * box.centre_B;
+  obstacle.centre_W = Eigen::Vector3d(agent.position_x_m(), agent.position_y_m(), agent.position_z_m()) +
+                      late_s * obstacle.v_WO_W + obstacle.q_WO * box.centre_B;
   obstacle.half_m = box.half_m;
   return obstacle;
 }
@@ -57,7 +59,8 @@ dynamics::Obstacle BoxOf(const msg::TrafficAgent& agent, double late_s) {
 Collisions::Collisions(const dynamics::VehicleDimensions& dimensions, ObstacleMap world)
     : world_(std::move(world)), space_(dimensions, {}), reach_m_(dynamics::BoxOf(dimensions, {}).reach_m()) {}
 
-base::Status Collisions::SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Status Collisions::SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox,
+                                    const lockstep::StepInfo& step) {
   if (!inbox.Has(idl::topics::kTrafficState)) return {};
   for (const lockstep::Sample& sample : inbox.All(idl::topics::kTrafficState)) {
     Said& said = said_[sample.source()];
@@ -68,7 +71,8 @@ base::Status Collisions::SeeTraffic(const dynamics::VehicleState& car, const loc
     }
     const double late_s = static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9;
     for (const msg::TrafficAgent& agent : said.state.agents()) {
-      const double around = reach_m_ + static_cast<double>(agent.length_m()) + static_cast<double>(agent.width_m()) + std::fabs(agent.speed_mps()) * late_s;
+      const double around = reach_m_ + static_cast<double>(agent.length_m()) + static_cast<double>(agent.width_m()) +
+                            std::fabs(agent.speed_mps()) * late_s;
       if (std::hypot(agent.position_x_m() - car.p_WB_W.x(), agent.position_y_m() - car.p_WB_W.y()) > around) continue;
       obstacles_.push_back(BoxOf(agent, late_s));
       partners_.push_back({kAgent, sample.source(), agent.id()});
@@ -77,12 +81,14 @@ base::Status Collisions::SeeTraffic(const dynamics::VehicleState& car, const loc
   return {};
 }
 
-base::Status Collisions::SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Status Collisions::SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox,
+                                 const lockstep::StepInfo& step) {
   if (!inbox.Has(idl::topics::kVehicleState)) return {};
   for (const lockstep::Sample& sample : inbox.All(idl::topics::kVehicleState)) {
     const auto state = idl::Decode<msg::VehicleState>(*sample.payload);
     if (!state) return state.error();
-    const dynamics::Obstacle box = BoxOf(state.value(), static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9);
+    const dynamics::Obstacle box =
+        BoxOf(state.value(), static_cast<double>(step.time_ns - sample.header.time_ns) * 1e-9);
     if ((box.centre_W - car.p_WB_W).norm() > reach_m_ + box.half_m.norm()) continue;
     obstacles_.push_back(box);
     partners_.push_back({kAgent, sample.source(), 0});
@@ -120,7 +126,8 @@ msg::Collision Collisions::EventOf(const dynamics::Impact& impact, double dt_s) 
   return out;
 }
 
-base::Result<Collisions::Touched> Collisions::Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step) {
+base::Result<Collisions::Touched> Collisions::Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox,
+                                                   const lockstep::StepInfo& step) {
   obstacles_.clear();
   partners_.clear();
   if (auto status = SeeTraffic(car, inbox, step); !status) return status.error();

@@ -14,8 +14,9 @@
 
 namespace rodeira::nodes {
 
-// What a car hits: the agents of traffic and the other cars that its node sees, and what stands in the world. Of what it returns everything follows from the
-// car's state, the inbox and which partners the step before touched; only these are its state.
+// What a car hits: the agents of traffic and the other cars that its node sees, and what stands in the world. Of what
+// it returns everything follows from the car's state, the inbox and which partners the step before touched; only these
+// are its state.
 class Collisions {
  public:
   Collisions(const dynamics::VehicleDimensions& dimensions, ObstacleMap world);
@@ -25,7 +26,8 @@ class Collisions {
     msg::Collisions event;  // the same as impulses over that step
   };
   // For the step that begins. Agents are where their last published speed has carried them since.
-  base::Result<Touched> Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  base::Result<Touched> Find(const dynamics::VehicleState& car, const lockstep::Inbox& inbox,
+                             const lockstep::StepInfo& step);
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -36,7 +38,9 @@ class Collisions {
     std::uint32_t source = 0;
     std::uint32_t id = 0;
 
-    std::uint64_t key() const { return (static_cast<std::uint64_t>(kind) << 63) | (static_cast<std::uint64_t>(source) << 32) | id; }
+    std::uint64_t key() const {
+      return (static_cast<std::uint64_t>(kind) << 63) | (static_cast<std::uint64_t>(source) << 32) | id;
+    }
   };
 
   // What a stream of traffic has said last, read once.
@@ -45,7 +49,8 @@ class Collisions {
     msg::TrafficState state;
   };
 
-  base::Status SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
+  base::Status SeeTraffic(const dynamics::VehicleState& car, const lockstep::Inbox& inbox,
+                          const lockstep::StepInfo& step);
   base::Status SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
   void SeeWorld(const dynamics::VehicleState& car);
   msg::Collision EventOf(const dynamics::Impact& impact, double dt_s) const;

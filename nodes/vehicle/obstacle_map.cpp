@@ -10,14 +10,14 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kCell_m = 16.0;
-constexpr double kLow_m = 0.3;      // what is lower is driven over
-constexpr double kBelow_m = 1.0;    // of the ground: what stands on it is founded
+constexpr double kLow_m = 0.3;    // what is lower is driven over
+constexpr double kBelow_m = 1.0;  // of the ground: what stands on it is founded
 constexpr double kTall_m = 2.0;
-constexpr double kHangs_m = 2.0;    // over the ground: that does not stand on it
+constexpr double kHangs_m = 2.0;  // over the ground: that does not stand on it
 constexpr double kTrunk_m = 0.3;
-constexpr double kPiece_m = 10.0;   // of a rail, at most
-constexpr double kChord_m = 0.02;   // between a piece and the bend that it stands for
-constexpr double kEdge_m = 0.2;     // thickness of an outline's walls
+constexpr double kPiece_m = 10.0;  // of a rail, at most
+constexpr double kChord_m = 0.02;  // between a piece and the bend that it stands for
+constexpr double kEdge_m = 0.2;    // thickness of an outline's walls
 
 bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) {
   return std::any_of(words.begin(), words.end(), [&](const char* each) { return word == each; });
@@ -26,11 +26,14 @@ bool IsOneOf(const std::string& word, std::initializer_list<const char*> words) 
 bool IsTree(const network::Object& object) { return object.type == "tree" || object.subtype == "tree"; }
 
 bool GivesWay(const network::Object& object) {
-  return IsOneOf(object.subtype, {"bush", "post", "permanentDelineator"}) || IsOneOf(object.type, {"bush", "vegetation", "guide-post"});
+  return IsOneOf(object.subtype, {"bush", "post", "permanentDelineator"}) ||
+         IsOneOf(object.type, {"bush", "vegetation", "guide-post"});
 }
 
 // It is a body even where the file does not say how high it is.
-bool IsBody(const network::Object& object) { return IsOneOf(object.type, {"pole", "rail-pole", "barrier", "building", "obstacle", "streetLamp"}); }
+bool IsBody(const network::Object& object) {
+  return IsOneOf(object.type, {"pole", "rail-pole", "barrier", "building", "obstacle", "streetLamp"});
+}
 
 // SUELO's height beside the road, the road's own where that is not known.
 Vector3d OnGround(const road::World& world, const Vector3d& on_road) {
@@ -52,7 +55,8 @@ ObstacleMap::ObstacleMap(const road::World& world, double reach_m) : reach_m_(re
 }
 
 void ObstacleMap::AddThing(const road::World& world, const network::Placed& placed) {
-  AddBody(placed, OnGround(world, placed.foot_W) + placed.z_offset_m * Vector3d::UnitZ(), &world.network()->roads()[placed.road]);
+  AddBody(placed, OnGround(world, placed.foot_W) + placed.z_offset_m * Vector3d::UnitZ(),
+          &world.network()->roads()[placed.road]);
 }
 
 // On SUELO's highest ground.
@@ -94,7 +98,8 @@ void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, c
       height = std::max(height, corner.height_m);
       const Eigen::Vector2d local = turned * Eigen::Vector2d(corner.first_m, corner.second_m);
       feet.push_back(corner.local || road == nullptr ? Vector3d(foot + Vector3d(local.x(), local.y(), corner.dz_m))
-                                                     : Vector3d(road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ()));
+                                                     : Vector3d(road->Surface(corner.first_m, corner.second_m).p_W +
+                                                                corner.dz_m * Vector3d::UnitZ()));
     }
     if (height < kLow_m || !stands) continue;
     for (std::size_t i = 0; i + 1 < feet.size(); ++i) AddWall(object.id, feet[i], feet[i + 1], kEdge_m, height);
@@ -102,20 +107,27 @@ void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, c
   }
   if (!object.outlines.empty() || (placed.height_m < kLow_m && !IsBody(object))) return;
   const bool house = object.type == "building";
-  const auto usual = [&](double said, double otherwise) { return said > 0.0 ? said : placed.radius_m > 0.0 ? 2.0 * placed.radius_m : otherwise; };
+  const auto usual = [&](double said, double otherwise) {
+    return said > 0.0 ? said : placed.radius_m > 0.0 ? 2.0 * placed.radius_m : otherwise;
+  };
   AddBox(object.id, foot, placed.heading_rad,
-         {usual(placed.length_m, house ? 12.0 : 0.12), usual(placed.width_m, house ? 9.0 : 0.12), std::max(placed.height_m, kLow_m)}, stands);
+         {usual(placed.length_m, house ? 12.0 : 0.12), usual(placed.width_m, house ? 9.0 : 0.12),
+          std::max(placed.height_m, kLow_m)},
+         stands);
 }
 
 // Each of its bars is a box along it, seen from above, between its heights: what hangs high is passed under.
 void ObstacleMap::AddSkeleton(const network::Placed& placed, const Vector3d& foot, const network::Road* road) {
   const Eigen::Rotation2Dd turned(placed.heading_rad);
   const auto at = [&](const network::SkeletonPoint& point) -> Vector3d {
-    if (!point.local && road != nullptr) return road->Surface(point.first_m, point.second_m).p_W + point.dz_m * Vector3d::UnitZ();
+    if (!point.local && road != nullptr)
+      return road->Surface(point.first_m, point.second_m).p_W + point.dz_m * Vector3d::UnitZ();
     const Eigen::Vector2d local = turned * Eigen::Vector2d(point.first_m, point.second_m);
     return foot + Vector3d(local.x(), local.y(), point.dz_m);
   };
-  const auto half = [](const network::SkeletonPoint& point) { return std::max(point.radius_m, 0.5 * std::max(point.width_m, point.length_m)); };
+  const auto half = [](const network::SkeletonPoint& point) {
+    return std::max(point.radius_m, 0.5 * std::max(point.width_m, point.length_m));
+  };
   for (const network::SkeletonLine& line : placed.object->skeleton) {
     for (std::size_t i = 1; i < line.size(); ++i) {
       const Vector3d from = at(line[i - 1]), to = at(line[i]), way = to - from;
@@ -127,7 +139,8 @@ void ObstacleMap::AddSkeleton(const network::Placed& placed, const Vector3d& foo
       const double high = std::max(from.z(), to.z()) + (upright ? 0.0 : thick) - low.z();
       const double ground = foot.z() - placed.z_offset_m;
       const bool stands = low.z() - ground < kHangs_m;
-      if (low.z() + high - ground >= kLow_m) AddBox(placed.object->id, low, heading, {way.head<2>().norm() + 2.0 * thick, 2.0 * thick, high}, stands);
+      if (low.z() + high - ground >= kLow_m)
+        AddBox(placed.object->id, low, heading, {way.head<2>().norm() + 2.0 * thick, 2.0 * thick, high}, stands);
     }
   }
 }
@@ -146,9 +159,11 @@ void ObstacleMap::AddRun(const road::World& world, const network::PlacedRun& run
   for (int i = 0; i <= pieces; ++i) {
     const double share = static_cast<double>(i) / pieces;
     const auto mix = [share](double a, double b) { return a + share * (b - a); };
-    const Vector3d foot = OnGround(world, run.At(road, share).p_W) + mix(run.z_start_m, run.z_end_m) * Vector3d::UnitZ();
+    const Vector3d foot =
+        OnGround(world, run.At(road, share).p_W) + mix(run.z_start_m, run.z_end_m) * Vector3d::UnitZ();
     const double width = mix(run.width_start_m, run.width_end_m), height = mix(run.height_start_m, run.height_end_m);
-    if (i > 0 && (height >= kLow_m || IsBody(*run.object))) AddWall(run.object->id, last, foot, width > 0.0 ? width : 0.3, height);
+    if (i > 0 && (height >= kLow_m || IsBody(*run.object)))
+      AddWall(run.object->id, last, foot, width > 0.0 ? width : 0.3, height);
     last = foot;
   }
 }
@@ -166,19 +181,23 @@ void ObstacleMap::AddTube(const network::TubePiece& piece) {
     AddWall(piece.structure->id, beside(0, wall_m), beside(1, wall_m), network::kTubeWall_m, height);
     for (const std::size_t end : {0, 1}) {
       if (!piece.portal[end]) continue;
-      const Vector3d middle = beside(end, 0.5 * network::kPortalWing_m), along = (edge[end] - edge[1 - end]).normalized();  // out of the tunnel
+      const Vector3d middle = beside(end, 0.5 * network::kPortalWing_m),
+                     along = (edge[end] - edge[1 - end]).normalized();  // out of the tunnel
       AddWall(piece.structure->id, middle, middle + network::kPortalDeep_m * along, network::kPortalWing_m, height);
     }
   }
 }
 
-void ObstacleMap::AddWall(const std::string& name, const Vector3d& from_W, const Vector3d& to_W, double width_m, double height_m) {
+void ObstacleMap::AddWall(const std::string& name, const Vector3d& from_W, const Vector3d& to_W, double width_m,
+                          double height_m) {
   const Vector3d way = to_W - from_W;
   const double length = way.head<2>().norm();
-  if (length > 0.0) AddBox(name, 0.5 * (from_W + to_W), std::atan2(way.y(), way.x()), {length, width_m, height_m}, true);
+  if (length > 0.0)
+    AddBox(name, 0.5 * (from_W + to_W), std::atan2(way.y(), way.x()), {length, width_m, height_m}, true);
 }
 
-void ObstacleMap::AddBox(const std::string& name, const Vector3d& foot_W, double heading_rad, const Vector3d& size_m, bool stands) {
+void ObstacleMap::AddBox(const std::string& name, const Vector3d& foot_W, double heading_rad, const Vector3d& size_m,
+                         bool stands) {
   const double low = stands ? -kBelow_m : 0.0, high = stands ? std::max(size_m.z(), kTall_m) : size_m.z();
   dynamics::Obstacle box;
   box.id = obstacles_.size();
@@ -186,9 +205,11 @@ void ObstacleMap::AddBox(const std::string& name, const Vector3d& foot_W, double
   box.q_WO = Eigen::AngleAxisd(heading_rad, Vector3d::UnitZ());
   box.half_m = 0.5 * Vector3d(size_m.x(), size_m.y(), high - low);
   const double around = box.half_m.head<2>().norm() + reach_m_;
-  const Cell first = CellAt(box.centre_W.x() - around, box.centre_W.y() - around), last = CellAt(box.centre_W.x() + around, box.centre_W.y() + around);
+  const Cell first = CellAt(box.centre_W.x() - around, box.centre_W.y() - around),
+             last = CellAt(box.centre_W.x() + around, box.centre_W.y() + around);
   for (std::int64_t i = first.first; i <= last.first; ++i) {
-    for (std::int64_t j = first.second; j <= last.second; ++j) cells_[{i, j}].push_back(static_cast<std::uint32_t>(obstacles_.size()));
+    for (std::int64_t j = first.second; j <= last.second; ++j)
+      cells_[{i, j}].push_back(static_cast<std::uint32_t>(obstacles_.size()));
   }
   obstacles_.push_back(box);
   names_.push_back(name);

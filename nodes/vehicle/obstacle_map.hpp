@@ -8,17 +8,17 @@
 #include <utility>
 #include <vector>
 
+#include "common/vehicle/dynamics/collision_space.hpp"
 #include "common/world/network/placing.hpp"
 #include "common/world/network/tubes.hpp"
 #include "common/world/road/world.hpp"
-#include "common/vehicle/dynamics/collision_space.hpp"
 
 namespace rodeira::nodes {
 
-// What stands in a world and stops a car, as boxes: barriers, walls and rails, poles and lamps, trunks of trees, buildings, obstacles, the walls and
-// portals of tunnels.
-// Bushes, delineators, signs and all that is lower than 0.3 m are driven over. What stands on the ground reaches from 1 m below it to at
-// least 2 m above, so that no car is lifted over a rail. A pure function of the world.
+// What stands in a world and stops a car, as boxes: barriers, walls and rails, poles and lamps, trunks of trees,
+// buildings, obstacles, the walls and portals of tunnels. Bushes, delineators, signs and all that is lower than 0.3 m
+// are driven over. What stands on the ground reaches from 1 m below it to at least 2 m above, so that no car is lifted
+// over a rail. A pure function of the world.
 class ObstacleMap {
  public:
   ObstacleMap() = default;  // nothing stands anywhere
@@ -45,8 +45,10 @@ class ObstacleMap {
   // A thing whose foot is known; what stands at no road has no outline.
   void AddBody(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   // A wall of this width between two feet.
-  void AddWall(const std::string& name, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double width_m, double height_m);
-  void AddBox(const std::string& name, const Eigen::Vector3d& foot_W, double heading_rad, const Eigen::Vector3d& size_m, bool stands);
+  void AddWall(const std::string& name, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double width_m,
+               double height_m);
+  void AddBox(const std::string& name, const Eigen::Vector3d& foot_W, double heading_rad, const Eigen::Vector3d& size_m,
+              bool stands);
 
   double reach_m_ = 0.0;
   std::vector<dynamics::Obstacle> obstacles_;

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "common/core/geometry/angle.hpp"
-#include "common/world/road/world.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/world/road/world.hpp"
 #include "common/world/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
@@ -26,9 +26,16 @@ namespace topics = idl::topics;
 class VehicleNode final : public lockstep::Node {
  public:
   // `own`: null where the ground is asked for elsewhere.
-  VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<dynamics::VehicleModel> model, const dynamics::InitialCondition& initial, std::unique_ptr<ground::Ground> own,
-              ground::Ground& ground, std::optional<Collisions> collisions)
-      : name_(std::move(name)), state_source_(state_source), model_(std::move(model)), initial_(initial), own_ground_(std::move(own)), ground_(ground), collisions_(std::move(collisions)) {}
+  VehicleNode(std::string name, lockstep::SourceIndex state_source, std::unique_ptr<dynamics::VehicleModel> model,
+              const dynamics::InitialCondition& initial, std::unique_ptr<ground::Ground> own, ground::Ground& ground,
+              std::optional<Collisions> collisions)
+      : name_(std::move(name)),
+        state_source_(state_source),
+        model_(std::move(model)),
+        initial_(initial),
+        own_ground_(std::move(own)),
+        ground_(ground),
+        collisions_(std::move(collisions)) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     if (auto status = model_->Initialise(initial_, ground_); !status) return status;  // INI
@@ -59,7 +66,8 @@ class VehicleNode final : public lockstep::Node {
   }
 
   base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
-    const auto newest = std::find_if(published.rbegin(), published.rend(), [&](const lockstep::Sample& sample) { return sample.source() == state_source_; });
+    const auto newest = std::find_if(published.rbegin(), published.rend(),
+                                     [&](const lockstep::Sample& sample) { return sample.source() == state_source_; });
     if (newest == published.rend()) return base::WrongInput("no published state of the car was found");
     const auto state = idl::Decode<msg::VehicleState>(*newest->payload);
     if (!state) return state.error();
@@ -77,7 +85,8 @@ class VehicleNode final : public lockstep::Node {
   bool can_save() const override { return model_->can_save(); }
 
  private:
-  // Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand is told; then it stays as it is.
+  // Where a scenario places this car, INI there: at rest, in equilibrium. A place where it cannot stand is told; then
+  // it stays as it is.
   base::Status Obey(const lockstep::Inbox& inbox) {
     if (!inbox.Has(topics::kScenarioEvents)) return {};
     for (const lockstep::Sample& sample : inbox.All(topics::kScenarioEvents)) {
@@ -86,7 +95,9 @@ class VehicleNode final : public lockstep::Node {
       for (const msg::ScenarioEvent& event : events.value().events()) {
         if (event.name() != scenario::kVehiclePlace) continue;
         const auto place = scenario::ParsePlace(event.argument());
-        if (!place) return base::WrongInput(place.error().message, fmt::format("event '{}' at step {}", event.name(), sample.valid()));
+        if (!place)
+          return base::WrongInput(place.error().message,
+                                  fmt::format("event '{}' at step {}", event.name(), sample.valid()));
         if (place.value().vehicle == name_) Place(place.value(), event.value());
       }
     }
@@ -113,19 +124,26 @@ class VehicleNode final : public lockstep::Node {
   std::unique_ptr<dynamics::VehicleModel> model_;
   dynamics::InitialCondition initial_;
   std::unique_ptr<ground::Ground> own_ground_;
-  weather::WetGround ground_;  // of the newest weather: no state of its own
+  weather::WetGround ground_;             // of the newest weather: no state of its own
   std::optional<Collisions> collisions_;  // nothing: the car touches nobody
 };
 
-// The world that the road server has too: what its files answer in this process are the server's bits. `without`: the key that does
-// without them.
-base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeContext& context, const launch::WorldSummary& summary, const char* without) {
+// The world that the road server has too: what its files answer in this process are the server's bits. `without`: the
+// key that does without them.
+base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeContext& context,
+                                                          const launch::WorldSummary& summary, const char* without) {
   const std::filesystem::path& file = context.launch().world();
   auto world = road::World::Load(file);
-  if (!world) return base::Error{world.error().code, fmt::format("{} (without the world's files: '{}')", world.error().message, without), world.error().context};
+  if (!world)
+    return base::Error{world.error().code,
+                       fmt::format("{} (without the world's files: '{}')", world.error().message, without),
+                       world.error().context};
   if (world.value()->content_hash() != summary.content_hash) {
-    return base::WrongInput(fmt::format("the world's content hash is {} here and {} where the road server is; give both the same files, or '{}'",
-                                        base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), without), file.string());
+    return base::WrongInput(
+        fmt::format(
+            "the world's content hash is {} here and {} where the road server is; give both the same files, or '{}'",
+            base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), without),
+        file.string());
   }
   return world;
 }
@@ -155,13 +173,18 @@ Settings Read(const config::Map& config) {
   return settings;
 }
 
-std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::VehicleModel& model, const road::World* world, const std::string& node) {
+std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::VehicleModel& model,
+                                       const road::World* world, const std::string& node) {
   if (hits == "none") return std::nullopt;
   if (!model.can_be_pushed()) {
-    fmt::print(stderr, "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not move the car\n", node);
+    fmt::print(stderr,
+               "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not "
+               "move the car\n",
+               node);
   }
   const dynamics::VehicleDimensions& dimensions = model.dimensions();
-  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, dynamics::BoxOf(dimensions, {}).reach_m()) : ObstacleMap();
+  ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, dynamics::BoxOf(dimensions, {}).reach_m())
+                                                      : ObstacleMap();
   return std::make_optional<Collisions>(dimensions, std::move(map));
 }
 
@@ -183,15 +206,17 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   const bool own_ground = !settings.asks && !context.ground_is_here();
   std::shared_ptr<const road::World> world;
   if (own_ground || (settings.hits == "all" && !context.launch().world().empty())) {
-    auto made = OwnWorld(context, summary.value(), own_ground ? "ground: remote, collisions: traffic" : "collisions: traffic");
+    auto made =
+        OwnWorld(context, summary.value(), own_ground ? "ground: remote, collisions: traffic" : "collisions: traffic");
     if (!made) return made.error();
     world = std::move(made).value();
   }
   std::unique_ptr<ground::Ground> own = own_ground ? world->MakeGround() : nullptr;
   ground::Ground& ground = own != nullptr ? *own : context.Ground();
   std::optional<Collisions> collisions = CollisionsOf(settings.hits, *model.value(), world.get(), context.spec().name);
-  return std::unique_ptr<lockstep::Node>(std::make_unique<VehicleNode>(context.spec().name, context.spec().outputs.front(), std::move(model).value(), settings.initial,
-                                                                       std::move(own), ground, std::move(collisions)));
+  return std::unique_ptr<lockstep::Node>(
+      std::make_unique<VehicleNode>(context.spec().name, context.spec().outputs.front(), std::move(model).value(),
+                                    settings.initial, std::move(own), ground, std::move(collisions)));
 }
 
 }  // namespace rodeira::nodes

@@ -6,8 +6,9 @@
 
 namespace rodeira::nodes {
 
-// A vehicle: controls in, state and what it hits out, SUELO once a step. Configuration: `vehicle` (a vehicle file), `start` (x_m, y_m,
-// heading_deg, speed_mps; default: the world's start at rest), `ground` (local, remote), `collisions` (all, traffic, none).
+// A vehicle: controls in, state and what it hits out, SUELO once a step. Configuration: `vehicle` (a vehicle file),
+// `start` (x_m, y_m, heading_deg, speed_mps; default: the world's start at rest), `ground` (local, remote),
+// `collisions` (all, traffic, none).
 base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContext& context);
 
 }  // namespace rodeira::nodes

@@ -17,8 +17,8 @@ msg::Vector3 Vector(const Eigen::Vector3d& v) {
 
 float Single(double value) { return static_cast<float>(value); }
 
-// As an instrument would show it: rounded to 16 significant bits, 1.6e-5 of the value at most. Bits below are noise, which no compression
-// finds: a recording is a fifth smaller without them.
+// As an instrument would show it: rounded to 16 significant bits, 1.6e-5 of the value at most. Bits below are noise,
+// which no compression finds: a recording is a fifth smaller without them.
 float Measured(double value) {
   const float single = Single(value);
   if (!std::isfinite(single)) return single;
@@ -80,7 +80,8 @@ dynamics::VehicleState FromWire(const msg::VehicleState& in) {
   out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
   out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
   out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
-  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(), in.angular_velocity_b_radps().z()};
+  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(),
+                in.angular_velocity_b_radps().z()};
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.engine_speed_radps = in.engine_speed_radps();
   out.gear = in.gear();

@@ -8,10 +8,10 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "nodes/view/visual_database/find_built.hpp"
 #include "nodes/view/run_connection/from_wire.hpp"
-#include "nodes/view/window/stage.hpp"
 #include "nodes/view/view_settings.hpp"
+#include "nodes/view/visual_database/find_built.hpp"
+#include "nodes/view/window/stage.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -25,19 +25,24 @@ base::Result<std::vector<scenario::Event>> EventsOf(const base::Bytes& payload) 
   const auto message = idl::Decode<msg::ScenarioEvents>(payload);
   if (!message) return message.error();
   std::vector<scenario::Event> events;
-  for (const msg::ScenarioEvent& event : message.value().events()) events.push_back({event.name(), event.argument(), event.value()});
+  for (const msg::ScenarioEvent& event : message.value().events())
+    events.push_back({event.name(), event.argument(), event.value()});
   return events;
 }
 
 class ViewNode final : public lockstep::Node {
  public:
-  ViewNode(const lockstep::Roster& roster, std::string name, nodes::ViewSettings settings, std::unique_ptr<nodes::Stage> stage)
+  ViewNode(const lockstep::Roster& roster, std::string name, nodes::ViewSettings settings,
+           std::unique_ptr<nodes::Stage> stage)
       : roster_(roster), name_(std::move(name)), settings_(std::move(settings)), stage_(std::move(stage)) {}
 
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
 
-  // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must be written.
-  base::Status Settle() override { return stage_ == nullptr || settings_.frame_steps.empty() ? base::Status() : stage_->Drain(); }
+  // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must
+  // be written.
+  base::Status Settle() override {
+    return stage_ == nullptr || settings_.frame_steps.empty() ? base::Status() : stage_->Drain();
+  }
 
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
@@ -57,8 +62,10 @@ class ViewNode final : public lockstep::Node {
     }
     const auto missed = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), last_step);
     if (complete && missed != settings_.frame_steps.end()) {
-      fmt::print(stderr, "rodeira: node '{}': the run ended at step {}, before {} of the frames asked for (the first of them is of step {})\n", name_, last_step,
-                 settings_.frame_steps.end() - missed, *missed);
+      fmt::print(stderr,
+                 "rodeira: node '{}': the run ended at step {}, before {} of the frames asked for (the first of them "
+                 "is of step {})\n",
+                 name_, last_step, settings_.frame_steps.end() - missed, *missed);
     }
     return {};
   }
@@ -68,7 +75,8 @@ class ViewNode final : public lockstep::Node {
     out.Put("sources", static_cast<std::uint32_t>(newest_.size()));
     for (const auto& [source, payload] : newest_) {
       out.Put("source", source);
-      out.Put("payload", std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(payload->data()), payload->size()));
+      out.Put("payload",
+              std::span<const std::uint8_t>(reinterpret_cast<const std::uint8_t*>(payload->data()), payload->size()));
     }
   }
 
@@ -91,13 +99,15 @@ class ViewNode final : public lockstep::Node {
   // Takes the samples in their order and orders the frames of steps in (after, through] on the way.
   base::Status Take(const lockstep::Inbox& inbox, lockstep::Step after, lockstep::Step through) {
     std::vector<const Sample*> samples;
-    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kTrafficDetails, topics::kSignalsState, topics::kWeatherState}) {
+    for (const std::string_view topic : {topics::kVehicleState, topics::kTrafficState, topics::kTrafficDetails,
+                                         topics::kSignalsState, topics::kWeatherState}) {
       if (!inbox.Has(topic)) continue;
       for (const Sample& sample : inbox.All(topic)) {
         if (nodes::SaysSomething(topic, *sample.payload)) samples.push_back(&sample);
       }
     }
-    std::stable_sort(samples.begin(), samples.end(), [](const Sample* a, const Sample* b) { return a->valid() < b->valid(); });
+    std::stable_sort(samples.begin(), samples.end(),
+                     [](const Sample* a, const Sample* b) { return a->valid() < b->valid(); });
     auto next = samples.begin();
     const auto take_through = [&](lockstep::Step step) {
       for (; next != samples.end() && (*next)->valid() <= step; ++next) newest_[(*next)->source()] = (*next)->payload;
@@ -126,7 +136,8 @@ class ViewNode final : public lockstep::Node {
   base::Status WriteFrame(lockstep::Step step) {
     auto moment = nodes::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
-    return stage_->Order(nodes::PictureOf(settings_, std::move(moment).value()), settings_.folder / nodes::FrameName(step));
+    return stage_->Order(nodes::PictureOf(settings_, std::move(moment).value()),
+                         settings_.folder / nodes::FrameName(step));
   }
 
   const lockstep::Roster& roster_;
@@ -151,10 +162,10 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
     return nodes::ReadWorld{std::move(world).value(), std::move(built.folder)};
   };
   auto stage = nodes::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
-                                 settings.value().can_ask ? context.RequestsSender() : nullptr);
+                                  settings.value().can_ask ? context.RequestsSender() : nullptr);
   if (!stage) return stage.error();
-  return std::unique_ptr<lockstep::Node>(
-      std::make_unique<ViewNode>(context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));
+  return std::unique_ptr<lockstep::Node>(std::make_unique<ViewNode>(
+      context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));
 }
 
 }  // namespace rodeira::nodes

@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "common/core/base/suggest.hpp"
+#include "common/runtime/launch/lab.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
-#include "common/runtime/launch/lab.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::nodes {
@@ -25,28 +25,36 @@ std::vector<lockstep::SourceIndex> CarSources(const lockstep::NodeSpec& view) {
   return {};
 }
 
-void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map, ViewSettings& settings) {
+void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map,
+                  ViewSettings& settings) {
   if (!map.Has("follow")) return;
   const auto followed = FindFollowed(roster, CarSources(view), map.Text("follow"));
-  if (followed) settings.followed = followed.value();
-  else map.Problem("follow", followed.error().message);
+  if (followed)
+    settings.followed = followed.value();
+  else
+    map.Problem("follow", followed.error().message);
 }
 
-void ReadPaints(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map, ViewSettings& settings) {
+void ReadPaints(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map,
+                ViewSettings& settings) {
   const auto cars = CarSources(view);
   for (const std::string& name : map.Keys()) {
     const auto car = FindFollowed(roster, cars, name);
     const auto paint = PaintOf(map.Text(name));
-    if (!car) map.Problem(name, car.error().message);
-    else if (!paint) map.Problem(name, paint.error().message);
-    else settings.paints[cars[car.value()]] = paint.value();
+    if (!car)
+      map.Problem(name, car.error().message);
+    else if (!paint)
+      map.Problem(name, paint.error().message);
+    else
+      settings.paints[cars[car.value()]] = paint.value();
   }
 }
 
 void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettings& settings) {
   if (!map.Has("screen")) return;
   const std::string name = map.Text("screen");
-  if (launch.lab().empty()) return map.Problem("screen", "'screen' names one of a laboratory, but the launch file names no 'lab'");
+  if (launch.lab().empty())
+    return map.Problem("screen", "'screen' names one of a laboratory, but the launch file names no 'lab'");
   const auto lab = launch::Lab::Load(launch.lab());
   if (!lab) return map.Problem("screen", lab.error().Text());
   const auto screen = lab.value().Screen(name);
@@ -63,20 +71,26 @@ void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettin
 
 // A film instead of single pictures.
 void ReadFilm(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
-  const double fps = frames.Number("fps", {0.01, kMostFps}), from_s = frames.Number("from_s", {0.0, 1e6}, 0.0), to_s = frames.Number("to_s", {0.0, 1e6});
+  const double fps = frames.Number("fps", {0.01, kMostFps}), from_s = frames.Number("from_s", {0.0, 1e6}, 0.0),
+               to_s = frames.Number("to_s", {0.0, 1e6});
   auto steps = FilmSteps(context.roster(), CarSources(context.spec()), fps, from_s, to_s);
-  if (steps) settings.frame_steps = std::move(steps).value();
-  else frames.Problem("fps", steps.error().message);
+  if (steps)
+    settings.frame_steps = std::move(steps).value();
+  else
+    frames.Problem("fps", steps.error().message);
 }
 
 void ReadTimes(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
   for (const double time_s : frames.Numbers("times_s", {0.0, 1e9})) {
     const auto step = FrameStep(context.roster(), CarSources(context.spec()), time_s);
-    if (step) settings.frame_steps.push_back(step.value());
-    else frames.Problem("times_s", step.error().message);
+    if (step)
+      settings.frame_steps.push_back(step.value());
+    else
+      frames.Problem("times_s", step.error().message);
   }
   std::sort(settings.frame_steps.begin(), settings.frame_steps.end());
-  settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()), settings.frame_steps.end());
+  settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()),
+                             settings.frame_steps.end());
 }
 
 // Buttons of the wheel that a launch file names by its file, or of those that may drive where it names none.
@@ -87,13 +101,19 @@ void ReadWheelButtons(const launch::Launch& launch, const launch::LaunchNode& no
     return settings.camera_buttons.push_back({"", kPadCameraButton});
   }
   const auto wheel = input_devices::PeekWheel((launch.path().parent_path() / *file).lexically_normal(),
-                                      [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
-  const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)] : std::optional<input_devices::ButtonUse>();
+                                              [&](const std::string& device) {
+                                                return node.config->Peek({"config", "devices", device});
+                                              });
+  const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)]
+                          : std::optional<input_devices::ButtonUse>();
   if (use) settings.camera_buttons.push_back({wheel->devices[use->device].guid, static_cast<int>(use->button)});
 }
 
 bool Drives(const input_devices::KeyboardSettings& keyboard, int mouse_button) {
-  const auto holds = [&](const std::vector<input_devices::Key>& keys) { return std::find(keys.begin(), keys.end(), input_devices::kMouse + static_cast<input_devices::Key>(mouse_button)) != keys.end(); };
+  const auto holds = [&](const std::vector<input_devices::Key>& keys) {
+    return std::find(keys.begin(), keys.end(), input_devices::kMouse + static_cast<input_devices::Key>(mouse_button)) !=
+           keys.end();
+  };
   return std::any_of(std::begin(keyboard.keys), std::end(keyboard.keys), holds);
 }
 
@@ -114,7 +134,8 @@ void ReadDriving(const launch::Launch& launch, ViewSettings& settings) {
     if (source == "joystick") ReadWheelButtons(launch, node, settings);
     if (source == "gamepad") settings.camera_buttons.push_back({"", kPadCameraButton});
     const auto file = node.config->Peek({"config", "keyboard"}), wheel = node.config->Peek({"config", "wheel"});
-    const bool falls_back = source == "joystick" && file && (!wheel || *wheel == "~");  // keys drive where no wheel is found
+    const bool falls_back =
+        source == "joystick" && file && (!wheel || *wheel == "~");  // keys drive where no wheel is found
     if (source != "keyboard" && !falls_back) continue;
     settings.drives = true;
     if (!file) continue;
@@ -130,8 +151,10 @@ void ReadMirrors(const config::Map& map, ViewSettings& settings) {
   const config::List names = map.Items("mirrors");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string name = names.Text(i);
-    if (const auto mirror = scene::MirrorOf(name)) settings.mirrors[static_cast<std::size_t>(*mirror)] = true;
-    else names.Problem(i, fmt::format("'{}' is no mirror{}", name, base::DidYouMean(name, {"left", "inside", "right"})));
+    if (const auto mirror = scene::MirrorOf(name))
+      settings.mirrors[static_cast<std::size_t>(*mirror)] = true;
+    else
+      names.Problem(i, fmt::format("'{}' is no mirror{}", name, base::DidYouMean(name, {"left", "inside", "right"})));
   }
 }
 
@@ -140,7 +163,8 @@ CarStart ReadStart(const launch::LaunchNode& vehicle) {
   const auto number = [&](const char* key) -> std::optional<double> {
     const auto text = vehicle.config->Peek({"config", "start", key});
     double value = 0.0;
-    if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{}) return std::nullopt;
+    if (!text || std::from_chars(text->data(), text->data() + text->size(), value).ec != std::errc{})
+      return std::nullopt;
     return value;
   };
   return {number("x_m"), number("y_m"), number("heading_deg")};
@@ -153,15 +177,20 @@ ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& 
   settings.height_px = static_cast<int>(map.Integer("height_px", 64, 4320, 720));
   const auto cameras = scene::CameraNames();
   ReadScreen(launch, map, settings);
-  settings.camera = scene::CameraOf(map.Choice("camera", {cameras.begin(), cameras.end()}, settings.screen ? "driver" : "chase")).value_or(scene::CameraKind::kChase);
-  if (map.Has("quality")) settings.quality = QualityOf(map.Choice("quality", {QualityNames().begin(), QualityNames().end()}, "medium"));
+  settings.camera =
+      scene::CameraOf(map.Choice("camera", {cameras.begin(), cameras.end()}, settings.screen ? "driver" : "chase"))
+          .value_or(scene::CameraKind::kChase);
+  if (map.Has("quality"))
+    settings.quality = QualityOf(map.Choice("quality", {QualityNames().begin(), QualityNames().end()}, "medium"));
   if (map.Has("frame_log")) settings.frame_log = map.Path("frame_log");
   if (map.Has("car_model")) settings.car_model = map.Path("car_model");
   settings.headset = map.Flag("headset", false);
   settings.full_screen = map.Flag("full_screen", false);
   settings.display = static_cast<int>(map.Integer("display", 0, 15, 0));
   const std::string window = map.Choice("window", {"auto", "always", "never"}, "auto");
-  settings.window = window == "always" ? WindowWish::kAlways : window == "never" ? WindowWish::kNever : WindowWish::kAuto;
+  settings.window = window == "always"  ? WindowWish::kAlways
+                    : window == "never" ? WindowWish::kNever
+                                        : WindowWish::kAuto;
   settings.instruments = map.Flag("instruments", true);
   settings.sound = map.Flag("sound", true);
   settings.volume = map.Number("volume", {0.0, 1.0}, settings.volume);
@@ -187,8 +216,10 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
   ViewSettings settings = ReadWindow(context.launch(), context.spec(), map);
   if (map.Has("frames")) {
     const config::Map frames = map.Child("frames");
-    if (frames.Has("fps")) ReadFilm(context, frames, settings);
-    else ReadTimes(context, frames, settings);
+    if (frames.Has("fps"))
+      ReadFilm(context, frames, settings);
+    else
+      ReadTimes(context, frames, settings);
     settings.folder = frames.Path("folder");
     if (auto status = context.launch().file().Finish(); !status) return status.error();
     if (auto status = PrepareFolder(settings.folder); !status) frames.Problem("folder", status.error().message);
@@ -205,15 +236,18 @@ base::Result<ViewSettings> ReadWindowSettings(const launch::Launch& launch, lock
   return settings;
 }
 
-base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, const std::string& name) {
+base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars,
+                                       const std::string& name) {
   std::vector<std::string> names;
   for (const lockstep::SourceIndex source : cars) names.push_back(roster.node(roster.source(source).node).name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  return base::WrongInput(fmt::format("'{}' is no vehicle that this view is wired to{}", name, base::DidYouMean(name, names)));
+  return base::WrongInput(
+      fmt::format("'{}' is no vehicle that this view is wired to{}", name, base::DidYouMean(name, names)));
 }
 
-base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double time_s) {
+base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars,
+                                       double time_s) {
   const double base_step_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
   const double steps = time_s / base_step_s;
   const auto step = static_cast<lockstep::Step>(std::llround(steps));
@@ -223,19 +257,25 @@ base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std
   for (const lockstep::SourceIndex source : cars) {
     const lockstep::Step period = roster.source(source).period;
     if (step % period == 0) continue;
-    return base::WrongInput(fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected", time_s, roster.SourceName(source),
-                                        static_cast<double>(period) * base_step_s));
+    return base::WrongInput(fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected",
+                                        time_s, roster.SourceName(source), static_cast<double>(period) * base_step_s));
   }
   return step;
 }
 
-base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars, double fps, double from_s, double to_s) {
+base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& roster,
+                                                    const std::vector<lockstep::SourceIndex>& cars, double fps,
+                                                    double from_s, double to_s) {
   lockstep::Step grid = 1;
   for (const lockstep::SourceIndex source : cars) grid = std::lcm(grid, roster.source(source).period);
   const double grid_s = static_cast<double>(grid * roster.base_step_ns()) * 1e-9;
-  if (!(to_s >= from_s)) return base::WrongInput(fmt::format("a film from {} s to {} s was found; an end behind its beginning was expected", from_s, to_s));
+  if (!(to_s >= from_s))
+    return base::WrongInput(
+        fmt::format("a film from {} s to {} s was found; an end behind its beginning was expected", from_s, to_s));
   if (!(fps > 0.0 && fps * grid_s <= 1.0 + 1e-9)) {
-    return base::WrongInput(fmt::format("{} pictures a second were found; more than 0 and at most {:g} were expected, as many as all cars have samples", fps, 1.0 / grid_s));
+    return base::WrongInput(fmt::format(
+        "{} pictures a second were found; more than 0 and at most {:g} were expected, as many as all cars have samples",
+        fps, 1.0 / grid_s));
   }
   std::vector<lockstep::Step> steps;
   for (std::int64_t k = 0;; ++k) {
@@ -249,11 +289,14 @@ base::Status PrepareFolder(const std::filesystem::path& folder) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (!std::filesystem::is_directory(folder)) {
-    return base::WrongInput(fmt::format("'{}' is no folder, and none can be made ({})", folder.string(), problem ? problem.message() : "something else lies there"));
+    return base::WrongInput(fmt::format("'{}' is no folder, and none can be made ({})", folder.string(),
+                                        problem ? problem.message() : "something else lies there"));
   }
   std::string attempt = (folder / ".rodeira-XXXXXX").string();
   const int file = ::mkstemp(attempt.data());
-  if (file < 0) return base::WrongInput(fmt::format("'{}' cannot be written to ({})", folder.string(), std::error_code(errno, std::generic_category()).message()));
+  if (file < 0)
+    return base::WrongInput(fmt::format("'{}' cannot be written to ({})", folder.string(),
+                                        std::error_code(errno, std::generic_category()).message()));
   ::close(file);
   std::filesystem::remove(attempt, problem);
   return {};

@@ -48,7 +48,8 @@ std::string FirstParts(const fs::path& path, int count) {
   return parts.string();
 }
 
-// "common/core/base/hash.hpp" belongs to the group "common/core", "nodes/view/main.cpp" to "nodes/view", "idl/x.hpp" to "idl".
+// "common/core/base/hash.hpp" belongs to the group "common/core", "nodes/view/main.cpp" to "nodes/view", "idl/x.hpp" to
+// "idl".
 std::string GroupOf(const fs::path& relative) {
   const std::string top = FirstParts(relative, 1);
   return FirstParts(relative, top == "idl" || top == "launch" ? 1 : 2);
@@ -138,7 +139,8 @@ std::vector<std::string> OutOfOrder(const std::map<std::string, std::set<std::st
     for (const auto& [name, used] : uses) {
       if (done.contains(name)) continue;
       const std::string prefix = modules ? FirstParts(name, 2) + "/" : "";
-      const bool ready = std::all_of(used.begin(), used.end(), [&](const std::string& other) { return done.contains(prefix + other); });
+      const bool ready = std::all_of(used.begin(), used.end(),
+                                     [&](const std::string& other) { return done.contains(prefix + other); });
       if (ready) moved = done.insert(name).second || moved;
     }
   }
@@ -157,17 +159,21 @@ TEST(Architecture, DependenciesGoDownwardOnly) {
 
 TEST(Architecture, ForbiddenIncludeIsFound) {
   const fs::path root = fs::temp_directory_path() / ("rodeira-architecture-" + std::to_string(::getpid()));
-  for (const char* folder : {"common/core/base", "common/core/config", "common/core/new", "common/traffic", "nodes/clock"}) {
+  for (const char* folder :
+       {"common/core/base", "common/core/config", "common/core/new", "common/traffic", "nodes/clock"}) {
     fs::create_directories(root / folder);
   }
-  std::ofstream(root / "common/core/base/a.hpp") << "#include \"common/world/road/road.hpp\"\n#include \"common/core/config/b.hpp\"\n";
+  std::ofstream(root / "common/core/base/a.hpp")
+      << "#include \"common/world/road/road.hpp\"\n#include \"common/core/config/b.hpp\"\n";
   std::ofstream(root / "common/core/config/b.hpp") << "#include \"common/core/base/a.hpp\"\n";
   std::ofstream(root / "common/core/new/c.hpp") << "#include \"common/core/base/a.hpp\"\n";
   std::ofstream(root / "common/traffic/d.hpp") << "#include \"common/traffic/state/e.hpp\"\n";
-  std::ofstream(root / "nodes/clock/clock_node.cpp") << "#include \"common/core/base/a.hpp\"\n#include \"common/runtime/dds/bus.hpp\"\n";
+  std::ofstream(root / "nodes/clock/clock_node.cpp")
+      << "#include \"common/core/base/a.hpp\"\n#include \"common/runtime/dds/bus.hpp\"\n";
   std::ofstream(root / "nodes/clock/main.cpp") << "#include \"common/runtime/dds/bus.hpp\"\n";
-  const Layers layers{{{"common/core", {}}, {"common/traffic", {"common/core"}}, {"nodes/clock", {"common/core", "common/runtime"}}},
-                      {{"common/core/base", {}}, {"common/core/config", {"base"}}}};
+  const Layers layers{
+      {{"common/core", {}}, {"common/traffic", {"common/core"}}, {"nodes/clock", {"common/core", "common/runtime"}}},
+      {{"common/core/base", {}}, {"common/core/config", {"base"}}}};
   auto violations = Violations(root, layers);
   std::sort(violations.begin(), violations.end());
   EXPECT_EQ(violations, (std::vector<std::string>{
@@ -182,7 +188,9 @@ TEST(Architecture, ForbiddenIncludeIsFound) {
 TEST(Architecture, IncludeIsFoundWithAnySpacing) {
   EXPECT_EQ(IncludedBy("#include \"common/a.hpp\""), "common/a.hpp");
   EXPECT_EQ(IncludedBy(" \t# \tinclude  <fastdds/dds/core.hpp>  // why"), "fastdds/dds/core.hpp");
-  for (const char* line : {"", "#", "  // #include <a>", "#include", "#include \"open", "#define include <a>", "include <a>"}) EXPECT_EQ(IncludedBy(line), std::nullopt) << line;
+  for (const char* line :
+       {"", "#", "  // #include <a>", "#include", "#include \"open", "#define include <a>", "include <a>"})
+    EXPECT_EQ(IncludedBy(line), std::nullopt) << line;
 }
 
 TEST(Architecture, NothingDependsOnItself) {
@@ -204,11 +212,17 @@ TEST(Architecture, EveryNameOfTheTableIsAFolder) {
 
 TEST(Architecture, NoFileHoldsMergeConflictMarkers) {
   for (const char* top : {"cmake", "common", "configs", "docs", "idl", "launch", "nodes", "tests", "tools"}) {
-    for (auto entry = fs::recursive_directory_iterator(kRoot / top); entry != fs::recursive_directory_iterator(); ++entry) {
+    for (auto entry = fs::recursive_directory_iterator(kRoot / top); entry != fs::recursive_directory_iterator();
+         ++entry) {
       if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
       if (!entry->is_regular_file()) continue;
       std::ifstream in(entry->path());
-      for (std::string line; std::getline(in, line);) EXPECT_FALSE(line.starts_with("<<<<" "<<< ") || line.starts_with(">>>>" ">>> ")) << entry->path() << ": " << line;
+      for (std::string line; std::getline(in, line);)
+        EXPECT_FALSE(line.starts_with("<<<<"
+                                      "<<< ") ||
+                     line.starts_with(">>>>"
+                                      ">>> "))
+            << entry->path() << ": " << line;
     }
   }
 }
@@ -222,7 +236,8 @@ TEST(Architecture, OnlyTheDdsModuleIncludesFastDds) {
       std::ifstream in(entry.path());
       for (std::string line; std::getline(in, line);) {
         const std::string included = IncludedBy(line).value_or("");
-        EXPECT_FALSE(included.starts_with("fastdds/") || included.starts_with("fastrtps/")) << entry.path() << ": " << line;
+        EXPECT_FALSE(included.starts_with("fastdds/") || included.starts_with("fastrtps/"))
+            << entry.path() << ": " << line;
       }
     }
   }

@@ -1,5 +1,5 @@
-// Law L7: the same bits on every x86-64 processor. An emulator plays those that are not at hand: one of 2006 without AVX, one
-// with AVX2 and FMA, another maker's.
+// Law L7: the same bits on every x86-64 processor. An emulator plays those that are not at hand: one of 2006 without
+// AVX, one with AVX2 and FMA, another maker's.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,16 +16,19 @@ using system_test::Bin;
 using system_test::RunCommand;
 
 const std::string kEmulator = "/usr/bin/qemu-x86_64";
-// What a program sets itself before it begins again (common/core/base/mathematics.cpp); beginning again would leave the emulator.
+// What a program sets itself before it begins again (common/core/base/mathematics.cpp); beginning again would leave the
+// emulator.
 const std::string kFixed = "GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2";
 
 class Processors : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (::access(kEmulator.c_str(), X_OK) != 0) GTEST_SKIP() << "no emulator plays other processors here: " << kEmulator << " is missing (package qemu-user)";
+    if (::access(kEmulator.c_str(), X_OK) != 0)
+      GTEST_SKIP() << "no emulator plays other processors here: " << kEmulator << " is missing (package qemu-user)";
   }
   // On this processor where none is named.
-  static std::string OutputOf(const std::string& processor, const std::vector<std::string>& environment, const std::vector<std::string>& program) {
+  static std::string OutputOf(const std::string& processor, const std::vector<std::string>& environment,
+                              const std::vector<std::string>& program) {
     std::vector<std::string> command = environment;
     if (!processor.empty()) command.insert(command.end(), {kEmulator, "-cpu", processor});
     command.insert(command.end(), program.begin(), program.end());
@@ -34,8 +37,10 @@ class Processors : public ::testing::Test {
     return ended.out;
   }
   static std::string RunDigest(const std::string& processor, const std::string& model) {
-    return system_test::DigestIn(OutputOf(processor, {kFixed}, {Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"), "--in-process",
-                                                               "--no-record", "--for", "1", "--set", "vehicle.model=" + model}));
+    return system_test::DigestIn(
+        OutputOf(processor, {kFixed},
+                 {Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"), "--in-process", "--no-record",
+                  "--for", "1", "--set", "vehicle.model=" + model}));
   }
 };
 
@@ -43,7 +48,8 @@ TEST_F(Processors, ComputeTheSameRun) {
   for (const char* model : {"multibody", "ode"}) {
     const std::string here = RunDigest("", model);
     ASSERT_EQ(here.size(), 16u);
-    for (const char* processor : {"Conroe", "Haswell"}) EXPECT_EQ(RunDigest(processor, model), here) << model << " on " << processor;
+    for (const char* processor : {"Conroe", "Haswell"})
+      EXPECT_EQ(RunDigest(processor, model), here) << model << " on " << processor;
   }
   EXPECT_EQ(RunDigest("EPYC", "bicycle"), RunDigest("", "bicycle"));
 }

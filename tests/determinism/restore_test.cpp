@@ -33,7 +33,8 @@ void ExpectRestorable(const std::string& launch_file) {
   const auto launch = launch::Launch::Load(launch_file);
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   // Steps that are no round numbers, and no multiples of anybody's period.
-  const lockstep::Step every = 1500 + static_cast<lockstep::Step>(base::RandomBits({static_cast<std::uint64_t>(::getpid())}) % 997);
+  const lockstep::Step every =
+      1500 + static_cast<lockstep::Step>(base::RandomBits({static_cast<std::uint64_t>(::getpid())}) % 997);
   auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   lockstep::InProcessSettings settings;
@@ -47,8 +48,9 @@ void ExpectRestorable(const std::string& launch_file) {
   ASSERT_TRUE(whole.ok) << whole.fault;
   int resumed = 0;
   for (lockstep::Step step = every; step + 100 < kLast; step += every, ++resumed) {
-    const std::string command = BinaryDir() + "/bin/resume_run " + launch_file + " " + (folder / std::to_string(step)).string() + " " +
-                                std::to_string(step) + " " + std::to_string(kLast);
+    const std::string command = BinaryDir() + "/bin/resume_run " + launch_file + " " +
+                                (folder / std::to_string(step)).string() + " " + std::to_string(step) + " " +
+                                std::to_string(kLast);
     EXPECT_EQ(OutputOf(command), base::Hex(whole.digest)) << "from step " << step;
   }
   EXPECT_GE(resumed, 3);

@@ -11,8 +11,10 @@
 #include "tests/property/drawn_ground.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::filesystem::path file = std::filesystem::temp_directory_path() / ("rodeira-fuzz-" + std::to_string(::getpid()) + ".xodr");
-  std::ofstream(file, std::ios::binary | std::ios::trunc).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  static const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("rodeira-fuzz-" + std::to_string(::getpid()) + ".xodr");
+  std::ofstream(file, std::ios::binary | std::ios::trunc)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   const auto world = rodeira::road::World::Load(file);
   std::filesystem::remove(file);
   if (!world) return 0;

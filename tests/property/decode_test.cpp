@@ -1,5 +1,6 @@
-// The generic decoder against broken payloads of every topic and broken IDL texts: never a crash, never another value than
-// the generated code reads, always a sentence. RODEIRA_FUZZ_FILES sets how many are tried a topic, RODEIRA_FUZZ_FIRST the first.
+// The generic decoder against broken payloads of every topic and broken IDL texts: never a crash, never another value
+// than the generated code reads, always a sentence. RODEIRA_FUZZ_FILES sets how many are tried a topic,
+// RODEIRA_FUZZ_FIRST the first.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -23,20 +24,33 @@ using property::Setting;
 void Break(base::Bytes& bytes, Draw& draw) {
   if (bytes.empty()) return;
   const std::size_t at = draw.Below(bytes.size());
-  const std::uint32_t lengths[] = {0, 1, 2, 3, 4, 5, 7, 0x7F, 0xFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, static_cast<std::uint32_t>(bytes.size())};
+  const std::uint32_t lengths[] = {
+      0,    1,    2,      3,          4,          5,          7,
+      0x7F, 0xFF, 0xFFFF, 0x7FFFFFFF, 0x80000000, 0xFFFFFFFF, static_cast<std::uint32_t>(bytes.size())};
   const std::size_t aligned = at / 4 * 4;
   switch (draw.Below(7)) {
-    case 0: bytes[at] ^= static_cast<std::byte>(1u << draw.Below(8)); break;
-    case 1: bytes[at] = static_cast<std::byte>(draw.Bits()); break;
+    case 0:
+      bytes[at] ^= static_cast<std::byte>(1u << draw.Below(8));
+      break;
+    case 1:
+      bytes[at] = static_cast<std::byte>(draw.Bits());
+      break;
     case 2:
     case 3: {
       const std::uint32_t length = lengths[draw.Below(std::size(lengths))];
       if (aligned + 4 <= bytes.size()) std::memcpy(bytes.data() + aligned, &length, 4);
       break;
     }
-    case 4: bytes.resize(at); break;
-    case 5: bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), 1 + draw.Below(9), static_cast<std::byte>(draw.Bits())); break;
-    default: bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), at + 1 + draw.Below(9))));
+    case 4:
+      bytes.resize(at);
+      break;
+    case 5:
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(at), 1 + draw.Below(9),
+                   static_cast<std::byte>(draw.Bits()));
+      break;
+    default:
+      bytes.erase(bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                  bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), at + 1 + draw.Below(9))));
   }
 }
 
@@ -45,7 +59,8 @@ TEST(Decode, BrokenPayloadsGiveWhatTheGeneratedCodeReadsOrASentence) {
   const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 4000);
   ForEveryTopicType([&](auto tag, std::string_view name) {
     using Message = typename decltype(tag)::type;
-    const auto info = std::find_if(idl::Topics().begin(), idl::Topics().end(), [&](const auto& topic) { return topic.type == name; });
+    const auto info =
+        std::find_if(idl::Topics().begin(), idl::Topics().end(), [&](const auto& topic) { return topic.type == name; });
     const TypePtr type = ReadType(idl::IdlTextOf(info->subject), std::string(name)).value();
     std::size_t read = 0;
     std::size_t refused = 0;
@@ -76,7 +91,8 @@ TEST(Decode, BrokenPayloadsGiveWhatTheGeneratedCodeReadsOrASentence) {
       ASSERT_EQ(found.value().size(), expected.size()) << name << ", " << number;
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_EQ(found.value()[i].path, expected[i].path) << name << ", " << number;
-        ASSERT_TRUE(SameBits(found.value()[i].value, expected[i].value)) << name << ", " << number << ", " << expected[i].path;
+        ASSERT_TRUE(SameBits(found.value()[i].value, expected[i].value))
+            << name << ", " << number << ", " << expected[i].path;
       }
     }
     if (count < 1000) return;
@@ -87,7 +103,8 @@ TEST(Decode, BrokenPayloadsGiveWhatTheGeneratedCodeReadsOrASentence) {
 
 TEST(Decode, BrokenIdlTextsGiveATypeThatWorksOrASentence) {
   const std::string rich =
-      "module a { const long kN = 2; enum E { kA, kB }; @final struct I { @key long x[a::kN]; double y; }; typedef sequence<I, 3> L;\n"
+      "module a { const long kN = 2; enum E { kA, kB }; @final struct I { @key long x[a::kN]; double y; }; typedef "
+      "sequence<I, 3> L;\n"
       "struct O { I i; L l; string<5> s; sequence<octet> o; E e; boolean b; @unit(\"m\") short g[2][3]; }; };\n";
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
   const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 4000) * 3;

@@ -18,7 +18,8 @@ void ExpectSentence(const base::Error& error) {
   EXPECT_FALSE(error.message.empty());
   EXPECT_FALSE(error.context.empty()) << error.message;
   EXPECT_EQ(error.exit_status(), 2) << error.Text();
-  for (const char c : error.Text()) EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
+  for (const char c : error.Text())
+    EXPECT_FALSE((c >= 0 && c < 0x20) || c == 0x7F) << "a control character in: " << error.Text();
 }
 
 void Fuzz(const char* format, const std::vector<std::string>& good, const Read& read, const Change& change) {
@@ -39,8 +40,10 @@ void Fuzz(const char* format, const std::vector<std::string>& good, const Read& 
     ::alarm(kHangSeconds);
     const auto error = read(text);
     ::alarm(0);
-    if (error) ExpectSentence(*error);
-    else ++accepted;
+    if (error)
+      ExpectSentence(*error);
+    else
+      ++accepted;
     if (testing::Test::HasFailure()) FAIL() << g_last_words << text;
   }
   if (count < 1000) return;

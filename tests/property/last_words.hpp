@@ -24,7 +24,8 @@ inline void SayWhereItDies() {
 }
 
 inline void NowTrying(const std::string& format, std::size_t number) {
-  std::snprintf(g_last_words, sizeof(g_last_words), "%s %zu (RODEIRA_FUZZ_FIRST=%zu RODEIRA_FUZZ_FILES=1)\n", format.c_str(), number, number);
+  std::snprintf(g_last_words, sizeof(g_last_words), "%s %zu (RODEIRA_FUZZ_FIRST=%zu RODEIRA_FUZZ_FILES=1)\n",
+                format.c_str(), number, number);
 }
 
 }  // namespace rodeira::property

@@ -9,8 +9,8 @@ namespace {
 
 // A value of the file, and where it hangs.
 struct Part {
-  YAML::Node parent;  // a mapping or a sequence
-  YAML::Node key;     // of a mapping
+  YAML::Node parent;      // a mapping or a sequence
+  YAML::Node key;         // of a mapping
   std::size_t index = 0;  // of a sequence
   YAML::Node value;
 };
@@ -30,25 +30,39 @@ void List(const YAML::Node& node, std::vector<Part>& parts) {
 }
 
 void Put(Part& part, const YAML::Node& value) {
-  if (part.parent.IsMap()) part.parent[part.key.Scalar()] = value;
-  else part.parent[part.index] = value;
+  if (part.parent.IsMap())
+    part.parent[part.key.Scalar()] = value;
+  else
+    part.parent[part.index] = value;
 }
 
 // A value of another kind: what a person may have meant by it, or not.
 YAML::Node Wrapped(const Part& part, Draw& draw) {
   YAML::Node made;
   switch (draw.Below(6)) {
-    case 0: made.push_back(YAML::Clone(part.value)); break;
-    case 1: made["s_m"] = YAML::Clone(part.value); break;
-    case 2: made = YAML::Node(YAML::NodeType::Map); break;
-    case 3: made = YAML::Node(YAML::NodeType::Sequence); break;
-    case 4: made = std::string(EdgeNumber(draw)); break;
-    default: break;  // nothing
+    case 0:
+      made.push_back(YAML::Clone(part.value));
+      break;
+    case 1:
+      made["s_m"] = YAML::Clone(part.value);
+      break;
+    case 2:
+      made = YAML::Node(YAML::NodeType::Map);
+      break;
+    case 3:
+      made = YAML::Node(YAML::NodeType::Sequence);
+      break;
+    case 4:
+      made = std::string(EdgeNumber(draw));
+      break;
+    default:
+      break;  // nothing
   }
   return made;
 }
 
-// What is taken by yaml-cpp and comes out of it again; throws where the text is none, or the two places lie in one another.
+// What is taken by yaml-cpp and comes out of it again; throws where the text is none, or the two places lie in one
+// another.
 std::string Changed(const std::string& yaml, Draw& draw) {
   const YAML::Node root = YAML::Load(yaml);
   std::vector<Part> parts;
@@ -64,17 +78,23 @@ std::string Changed(const std::string& yaml, Draw& draw) {
   const YAML::Node value_a = YAML::Clone(a.value), value_b = YAML::Clone(b.value);
   switch (draw.Below(9)) {
     case 0:
-      if (a.parent.IsMap()) a.parent.remove(a.key.Scalar());
-      else a.parent.remove(a.index);
+      if (a.parent.IsMap())
+        a.parent.remove(a.key.Scalar());
+      else
+        a.parent.remove(a.index);
       break;
-    case 1: Put(a, value_b); break;
+    case 1:
+      Put(a, value_b);
+      break;
     case 2:
       Put(b, value_a);
       Put(a, value_b);
       break;
     case 3:
-      if (a.parent.IsSequence()) a.parent.push_back(value_a);
-      else if (b.parent.IsMap()) a.parent[b.key.Scalar()] = value_b;
+      if (a.parent.IsSequence())
+        a.parent.push_back(value_a);
+      else if (b.parent.IsMap())
+        a.parent[b.key.Scalar()] = value_b;
       break;
     case 4:
       if (!a.parent.IsMap() || !b.parent.IsMap()) break;
@@ -84,7 +104,9 @@ std::string Changed(const std::string& yaml, Draw& draw) {
     case 5:
       if (a.value.IsScalar() && b.value.IsScalar()) Put(a, value_b);
       break;
-    case 6: Put(a, Wrapped(a, draw)); break;
+    case 6:
+      Put(a, Wrapped(a, draw));
+      break;
     default:
       if (a.value.IsScalar()) Put(a, YAML::Node(std::string(EdgeNumber(draw))));
   }

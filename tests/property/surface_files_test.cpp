@@ -25,7 +25,8 @@ TEST(SurfaceFiles, OpenCrg) {
     made.road_keys = "REFERENCE_LINE_START_X = 3\nREFERENCE_LINE_START_Y = 4\nREFERENCE_LINE_START_S = 0.01\n";
     made.sections =
         "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nBORDER_SMOOTH_UBEG = 1\nREFLINE_CONTINUATION = 1\n$\n"
-        "$ROAD_CRG_MODS\nSCALE_LENGTH = 2\nSCALE_CURVATURE = 0.5\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = "
+        "$ROAD_CRG_MODS\nSCALE_LENGTH = 2\nSCALE_CURVATURE = 0.5\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = "
+        "0.5\nREFPOINT_X = "
         "7\n$\n";
     good.push_back(made.Text());
     made.sections.clear();
@@ -50,7 +51,8 @@ TEST(SurfaceFiles, OpenCrg) {
 }
 
 TEST(SurfaceFiles, Polylines) {
-  Fuzz("polyline", {"x_m,y_m,z_m\n0,0,0\n10,0,1\n10,10,2\n0,10.5,2\n-3.5,4e0,1\n", "# plan only\ny_m,x_m\n1,2\n\n3,2.5\n4,1\n"},
+  Fuzz("polyline",
+       {"x_m,y_m,z_m\n0,0,0\n10,0,1\n10,10,2\n0,10.5,2\n-3.5,4e0,1\n", "# plan only\ny_m,x_m\n1,2\n\n3,2.5\n4,1\n"},
        [](const std::string& text) -> std::optional<base::Error> {
          const auto line = geometry::ReadPolyline(text, "fuzz.csv");
          if (!line) return line.error();

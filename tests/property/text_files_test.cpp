@@ -1,36 +1,36 @@
-// Every reader of a text file that a person writes, against many seeded mutations of good files: what comes is the thing
-// itself, which then can be used, or one sentence (law L6); never a crash, never a hang. RODEIRA_FUZZ_FILES sets how many
-// texts a format is tried with, RODEIRA_FUZZ_FIRST with which number they begin.
+// Every reader of a text file that a person writes, against many seeded mutations of good files: what comes is the
+// thing itself, which then can be used, or one sentence (law L6); never a crash, never a hang. RODEIRA_FUZZ_FILES sets
+// how many texts a format is tried with, RODEIRA_FUZZ_FIRST with which number they begin.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <fstream>
+#include <functional>
 #include <optional>
 
 #include "common/core/base/files.hpp"
 #include "common/core/config/config.hpp"
 #include "common/driving/driver/autopilot.hpp"
-#include "common/vehicle/input_devices/keyboard_driver.hpp"
-#include "common/vehicle/input_devices/wheel_driver.hpp"
+#include "common/driving/scenario/scenario_file.hpp"
 #include "common/runtime/launch/lab.hpp"
 #include "common/runtime/launch/launch.hpp"
-#include "common/world/traffic_map/companion_text.hpp"
-#include "common/world/traffic_map/lane_map.hpp"
-#include "common/world/traffic_map/map_plot.hpp"
+#include "common/vehicle/dynamics/tir_file.hpp"
+#include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/multibody/mechanism.hpp"
 #include "common/world/opendrive/import.hpp"
 #include "common/world/road/world.hpp"
-#include "common/driving/scenario/scenario_file.hpp"
-#include "common/vehicle/dynamics/tir_file.hpp"
-#include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/world/traffic_map/companion_text.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/map_plot.hpp"
 #include "nodes/input/script_source.hpp"
-#include "tests/common/world/traffic_map/sample_map.hpp"
+#include "tests/common/vehicle/dynamics/test_ground.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/world/road/sample_world.hpp"
-#include "tests/common/vehicle/dynamics/test_ground.hpp"
+#include "tests/common/world/traffic_map/sample_map.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/tree.hpp"
 
@@ -85,22 +85,26 @@ void AskAll(const config::Map& map, int depth) {
 }
 
 TEST(TextFiles, AnyYaml) {
-  const std::string special = "a: &d [1, {e: f}]\nb: *d\nc: >\n  folded\n  text\nd: |-\n  x\ne: &x {f: 'g'}\nh: {<<: *x}\n? k\n: \"\\u00e9\"\n";
-  Fuzz("yaml", {GoodFile("launch/demo.yaml"), GoodFile("configs/vehicles/default.yaml"), special}, [](const std::string& text) -> std::optional<base::Error> {
-    auto file = config::File::Parse(text, "some.yaml");
-    if (!file) return file.error();
-    AskAll(file.value().root(), 4);
-    for (const base::Error& problem : file.value().Problems()) ExpectSentence(problem);
-    for (const char* key : {"a", "nodes.ego.period_s", "body.mass_kg", "nodes"}) {
-      if (const auto status = file.value().Override(key, "{a: [1, 2]}"); !status) ExpectSentence(status.error());
-    }
-    AskAll(file.value().root(), 4);
-    return std::nullopt;
-  });
+  const std::string special =
+      "a: &d [1, {e: f}]\nb: *d\nc: >\n  folded\n  text\nd: |-\n  x\ne: &x {f: 'g'}\nh: {<<: *x}\n? k\n: \"\\u00e9\"\n";
+  Fuzz("yaml", {GoodFile("launch/demo.yaml"), GoodFile("configs/vehicles/default.yaml"), special},
+       [](const std::string& text) -> std::optional<base::Error> {
+         auto file = config::File::Parse(text, "some.yaml");
+         if (!file) return file.error();
+         AskAll(file.value().root(), 4);
+         for (const base::Error& problem : file.value().Problems()) ExpectSentence(problem);
+         for (const char* key : {"a", "nodes.ego.period_s", "body.mass_kg", "nodes"}) {
+           if (const auto status = file.value().Override(key, "{a: [1, 2]}"); !status) ExpectSentence(status.error());
+         }
+         AskAll(file.value().root(), 4);
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, LaunchFiles) {
-  Fuzz("launch", {GoodFile("launch/demo.yaml"), GoodFile("launch/first_drive.yaml"), GoodFile("launch/empty.yaml"), GoodFile("tests/data/drive_without_recorder.yaml"), GoodFile("launch/keyboard.yaml")},
+  Fuzz("launch",
+       {GoodFile("launch/demo.yaml"), GoodFile("launch/first_drive.yaml"), GoodFile("launch/empty.yaml"),
+        GoodFile("tests/data/drive_without_recorder.yaml"), GoodFile("launch/keyboard.yaml")},
        [](const std::string& text) -> std::optional<base::Error> {
          const auto launch = launch::Launch::Parse(text, kRoot / "launch/fuzz.yaml");
          if (!launch) return launch.error();
@@ -113,24 +117,29 @@ TEST(TextFiles, LaunchFiles) {
 }
 
 TEST(TextFiles, Laboratories) {
-  const launch::Launch launch = launch::Launch::Parse("rodeira: launch/1\nnodes: {a: {kind: empty}}\n", "empty.yaml").value();
-  Fuzz("laboratory", {GoodFile("configs/labs/two_pcs.yaml"), GoodFile("configs/labs/three_pcs.yaml")}, [&launch](const std::string& text) -> std::optional<base::Error> {
-    const auto lab = launch::Lab::Parse(text, "fuzz.yaml");
-    if (!lab) return lab.error();
-    EXPECT_FALSE(lab.value().hosts().empty());
-    EXPECT_TRUE(lab.value().Host(lab.value().clock()).ok());
-    // What it says to the processes of a host must be a launch file's language, whatever stands in it.
-    for (const launch::LabHost& host : lab.value().hosts()) {
-      const auto told = launch::Launch::Parse(launch.text(), "empty.yaml", lab.value().For(host));
-      EXPECT_TRUE(told.ok()) << (told.ok() ? "" : told.error().Text());
-    }
-    return std::nullopt;
-  });
+  const launch::Launch launch =
+      launch::Launch::Parse("rodeira: launch/1\nnodes: {a: {kind: empty}}\n", "empty.yaml").value();
+  Fuzz("laboratory", {GoodFile("configs/labs/two_pcs.yaml"), GoodFile("configs/labs/three_pcs.yaml")},
+       [&launch](const std::string& text) -> std::optional<base::Error> {
+         const auto lab = launch::Lab::Parse(text, "fuzz.yaml");
+         if (!lab) return lab.error();
+         EXPECT_FALSE(lab.value().hosts().empty());
+         EXPECT_TRUE(lab.value().Host(lab.value().clock()).ok());
+         // What it says to the processes of a host must be a launch file's language, whatever stands in it.
+         for (const launch::LabHost& host : lab.value().hosts()) {
+           const auto told = launch::Launch::Parse(launch.text(), "empty.yaml", lab.value().For(host));
+           EXPECT_TRUE(told.ok()) << (told.ok() ? "" : told.error().Text());
+         }
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, TyreProperties) {
-  const std::string good = "[UNITS]\nLENGTH ='meter'\nANGLE = 'radians'\n[MODEL]\nFITTYP = 61 $version\n[VERTICAL]\nFNOMIN = 4000\n[LONGITUDINAL_COEFFICIENTS]\n"
-                           "PCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 2.1E1\n{x y}\n 1.0 2\n[LATERAL_COEFFICIENTS]\nPCY1=1.3\nPDY1 = 1.0\nPKY1 = -18\n! end\n";
+  const std::string good =
+      "[UNITS]\nLENGTH ='meter'\nANGLE = 'radians'\n[MODEL]\nFITTYP = 61 $version\n[VERTICAL]\nFNOMIN = "
+      "4000\n[LONGITUDINAL_COEFFICIENTS]\n"
+      "PCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 2.1E1\n{x y}\n 1.0 2\n[LATERAL_COEFFICIENTS]\nPCY1=1.3\nPDY1 = 1.0\nPKY1 = "
+      "-18\n! end\n";
   Fuzz("tyre", {good, good + "PHY3 = +.04\r\nFZMAX = 9e3"}, [](const std::string& text) -> std::optional<base::Error> {
     const auto tyre = dynamics::ParseTir(text, "fuzz.tir");
     if (!tyre) return tyre.error();
@@ -141,50 +150,57 @@ TEST(TextFiles, TyreProperties) {
 }
 
 TEST(TextFiles, Worlds) {
-  Fuzz("world", {road::kSample, road::kSample, GoodFile("configs/worlds/plane.yaml")}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto world = road::World::Parse(text, "fuzz.yaml");
-    if (!world) return world.error();
-    const auto ground = world.value()->MakeGround();
-    std::vector<ground::GroundQuery> queries;
-    for (const double x : {0.0, -50.25, 37.5, 1e6, -1e300}) queries.push_back({x, 0.3 * x, 0.0});
-    std::vector<ground::GroundPoint> points(queries.size());
-    ground->Query(queries, points);
-    for (const auto& point : points) EXPECT_TRUE(std::isfinite(point.z_m) || !point.inside);
-    return std::nullopt;
-  });
+  Fuzz("world", {road::kSample, road::kSample, GoodFile("configs/worlds/plane.yaml")},
+       [](const std::string& text) -> std::optional<base::Error> {
+         const auto world = road::World::Parse(text, "fuzz.yaml");
+         if (!world) return world.error();
+         const auto ground = world.value()->MakeGround();
+         std::vector<ground::GroundQuery> queries;
+         for (const double x : {0.0, -50.25, 37.5, 1e6, -1e300}) queries.push_back({x, 0.3 * x, 0.0});
+         std::vector<ground::GroundPoint> points(queries.size());
+         ground->Query(queries, points);
+         for (const auto& point : points) EXPECT_TRUE(std::isfinite(point.z_m) || !point.inside);
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Vehicles) {
   const OnDisk disk;
-  Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml"), GoodFile("configs/vehicles/prototype.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto loaded = dynamics::LoadVehicle(disk.Put(text));
-    if (!loaded) return loaded.error();
-    dynamics::VehicleModel& model = *loaded.value();
-    dynamics::HillGround ground(1, {});
-    dynamics::InitialCondition initial;
-    initial.speed_mps = 10.0;
-    if (!model.Initialise(initial, ground)) return std::nullopt;
-    dynamics::Controls controls;
-    controls.throttle = 0.5;
-    controls.steering_wheel_rad = 0.3;
-    for (int i = 0; i < 20; ++i) model.Step(controls, ground, 0.001);
-    return std::nullopt;
-  });
+  Fuzz("vehicle", {GoodFile("configs/vehicles/default.yaml"), GoodFile("configs/vehicles/prototype.yaml")},
+       [&disk](const std::string& text) -> std::optional<base::Error> {
+         const auto loaded = dynamics::LoadVehicle(disk.Put(text));
+         if (!loaded) return loaded.error();
+         dynamics::VehicleModel& model = *loaded.value();
+         dynamics::HillGround ground(1, {});
+         dynamics::InitialCondition initial;
+         initial.speed_mps = 10.0;
+         if (!model.Initialise(initial, ground)) return std::nullopt;
+         dynamics::Controls controls;
+         controls.throttle = 0.5;
+         controls.steering_wheel_rad = 0.3;
+         for (int i = 0; i < 20; ++i) model.Step(controls, ground, 0.001);
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Mechanisms) {
   const std::string forces =
-      "rodeira: mechanism/1\npoints: {O: {at_m: [0, 0, 0], fixed: true}, P: {at_m: [1, 0, 0], velocity_mps: [0, 1, 0]}}\n"
+      "rodeira: mechanism/1\npoints: {O: {at_m: [0, 0, 0], fixed: true}, P: {at_m: [1, 0, 0], velocity_mps: [0, 1, "
+      "0]}}\n"
       "vectors: {u: {direction: [1, 0, 0]}, v: {direction: [0, 1, 0]}, w: {direction: [0, 0, 1], fixed: true}}\n"
-      "bodies: {b: {points: [P], vectors: [u, v, w], mass_kg: 2, centre_m: [1, 0, 0.1], inertia_kgm2: [1, 1, 1, 0, 0, 0.1]}}\n"
-      "markers: {M: {body: b, at_m: [2, 0, 0]}}\nangles: {a: {of: [u], from: [world x], to: [world y], rate_radps: 2}}\n"
+      "bodies: {b: {points: [P], vectors: [u, v, w], mass_kg: 2, centre_m: [1, 0, 0.1], inertia_kgm2: [1, 1, 1, 0, 0, "
+      "0.1]}}\n"
+      "markers: {M: {body: b, at_m: [2, 0, 0]}}\nangles: {a: {of: [u], from: [world x], to: [world y], rate_radps: "
+      "2}}\n"
       "distances: {s: {points: [O, P]}}\nforces:\n"
-      "  f: {kind: spring, coordinate: s, spring_m_N: [[-1, -10], [1, 10]], damper_mps_N: [[-1, -5], [1, 3]], stops_m: [0.5, 2], stop_stiffness_Npm: 100}\n"
+      "  f: {kind: spring, coordinate: s, spring_m_N: [[-1, -10], [1, 10]], damper_mps_N: [[-1, -5], [1, 3]], stops_m: "
+      "[0.5, 2], stop_stiffness_Npm: 100}\n"
       "  t: {kind: torsion, coordinate: a, stiffness_Nmprad: 5, damping_Nmsprad: 0.1}\n"
       "  g: {kind: force, point: M, direction: [0, 1, 1], force_N: 3, sine: {amplitude: 2, frequency_Hz: 3}}\n"
       "  d: {kind: drag, point: M, drag_area_m2: 0.1}\noutputs: {x: M.x, v: M.vz, a: a.rate, f: force f, e: energy}\n";
-  Fuzz("mechanism", {GoodFile("configs/mechanisms/pendulum.yaml"), GoodFile("configs/mechanisms/four_bar_2.yaml"), GoodFile("configs/mechanisms/andrews.yaml"),
-                     GoodFile("configs/mechanisms/bricard.yaml"), forces},
+  Fuzz("mechanism",
+       {GoodFile("configs/mechanisms/pendulum.yaml"), GoodFile("configs/mechanisms/four_bar_2.yaml"),
+        GoodFile("configs/mechanisms/andrews.yaml"), GoodFile("configs/mechanisms/bricard.yaml"), forces},
        [](const std::string& text) -> std::optional<base::Error> {
          auto loaded = multibody::ParseMechanism(text, "fuzz.yaml");
          if (!loaded) return loaded.error();
@@ -203,19 +219,25 @@ TEST(TextFiles, OpenDrive) {
   in.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><spiral curvStart="0" curvEnd="0.01"/></geometry>
       <geometry s="40" x="39.53" y="6.62" hdg="0.3" length="60"><arc curvature="0.01"/></geometry>)";
   in.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
-  in.lateral = R"(<superelevation s="0" a="0.02" b="0.0001" c="0" d="0"/><shape s="0" t="-4" a="0" b="0.02" c="0" d="0"/><shape s="50" t="-4" a="0.1" b="0.01" c="0" d="0"/>)";
+  in.lateral =
+      R"(<superelevation s="0" a="0.02" b="0.0001" c="0" d="0"/><shape s="0" t="-4" a="0" b="0.02" c="0" d="0"/><shape s="50" t="-4" a="0.1" b="0.01" c="0" d="0"/>)";
   in.offset = R"(<laneOffset s="0" a="0" b="0.01" c="0" d="0"/>)";
-  in.left = R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="0.1" outer="0.1"/></lane>
+  in.left =
+      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="0.1" outer="0.1"/></lane>
       <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="broken" color="white" width="0.12"/></lane>)";
-  in.more = R"(<objects><object id="o" s="10" t="8" type="tree"/></objects><signals><signal id="s" s="90" t="-5" type="274" value="50"/></signals>)";
+  in.more =
+      R"(<objects><object id="o" s="10" t="8" type="tree"/></objects><signals><signal id="s" s="90" t="-5" type="274" value="50"/></signals>)";
   way.id = "7";
   way.attributes = "junction=\"9\"";
-  way.geometry = R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100"><paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
-  const std::string junction = R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/>
+  way.geometry =
+      R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100"><paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
+  const std::string junction =
+      R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/>
       <boundary><segment type="lane" roadId="7" boundaryLane="-1" sStart="begin" sEnd="end"/><segment type="lane" roadId="7" boundaryLane="1" sStart="end" sEnd="begin"/></boundary>
       <planView><geometry s="0" x="75" y="32" hdg="0.9" length="130"><line/></geometry></planView>
       <elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1" right="2"/><elevation center="1.5" left="1" right="2"/><elevation center="1" left="2" right="1"/></elevationGrid></junction>)";
-  Fuzz("xodr", {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
+  Fuzz("xodr",
+       {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
        [](const std::string& text) -> std::optional<base::Error> {
          opendrive::Tolerance loose;  // so that many mutated roads are driven on too
          loose.gap_m = 1e9;
@@ -243,120 +265,142 @@ TEST(TextFiles, OpenDrive) {
 
 TEST(TextFiles, Drivers) {
   const OnDisk disk;
-  Fuzz("driver", {GoodFile("configs/drivers/default.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto driver = driver::LoadDriver(disk.Put(text));
-    if (!driver) return driver.error();
-    return std::nullopt;
-  });
+  Fuzz("driver", {GoodFile("configs/drivers/default.yaml")},
+       [&disk](const std::string& text) -> std::optional<base::Error> {
+         const auto driver = driver::LoadDriver(disk.Put(text));
+         if (!driver) return driver.error();
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Keyboards) {
   const OnDisk disk;
-  Fuzz("keyboard", {GoodFile("configs/drivers/keyboard.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto settings = input_devices::LoadKeyboard(disk.Put(text));
-    if (!settings) return settings.error();
-    EXPECT_FALSE(input_devices::KeyboardHelp(settings.value()).empty());
-    input_devices::KeyboardDriver driver(settings.value());
-    input_devices::KeyboardInput all;
-    for (bool& held : all.held) held = true;
-    all.held[1] = false;
-    all.lever = {1, 3, 1, 2};
-    for (int i = 0; i < 20; ++i) {
-      const dynamics::Controls controls = driver.Step(all, 0.1);
-      EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad) && controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake <= 1.0);
-    }
-    return std::nullopt;
-  });
+  Fuzz("keyboard", {GoodFile("configs/drivers/keyboard.yaml")},
+       [&disk](const std::string& text) -> std::optional<base::Error> {
+         const auto settings = input_devices::LoadKeyboard(disk.Put(text));
+         if (!settings) return settings.error();
+         EXPECT_FALSE(input_devices::KeyboardHelp(settings.value()).empty());
+         input_devices::KeyboardDriver driver(settings.value());
+         input_devices::KeyboardInput all;
+         for (bool& held : all.held) held = true;
+         all.held[1] = false;
+         all.lever = {1, 3, 1, 2};
+         for (int i = 0; i < 20; ++i) {
+           const dynamics::Controls controls = driver.Step(all, 0.1);
+           EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad) && controls.throttle >= 0.0 &&
+                       controls.throttle <= 1.0 && controls.brake <= 1.0);
+         }
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Wheels) {
   const OnDisk disk;
   const std::string rich =
       "rodeira: wheel/1\ndevices:\n  rim: 030000006d0400004fc2000011010000\n  feet: 03000000b70400004fc2000011010000\n"
-      "steering: {device: rim, axis: 0, centre: 12, dead_zone: 0.01, exponent: 1.5, lock_deg: 540}\npedals: {device: feet, axis: 1, inverted: true}\n"
-      "clutch: {device: feet, axis: 2, min: 0, max: 255}\nbuttons:\n  starter: {device: rim, button: 3}\nlever:\n  reverse: {device: rim, button: 8}\n  1: {device: rim, button: 9}\n";
-  Fuzz("wheel", {GoodFile("configs/drivers/wheel.yaml"), rich}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto settings = input_devices::LoadWheel(disk.Put(text));
-    if (!settings) return settings.error();
-    input_devices::WheelDriver driver(settings.value());
-    std::vector<input_devices::DeviceReading> readings(settings.value().devices.size());
-    for (const double raw : {0.0, 32767.0, -32768.0, 100.0}) {
-      for (auto& reading : readings) reading = {true, std::vector<double>(3, raw), std::vector<std::uint8_t>(10, raw > 0.0)};
-      const dynamics::Controls controls = driver.Step(readings, 1);
-      EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
-      for (const double pedal : {controls.throttle, controls.brake, controls.clutch, controls.handbrake}) EXPECT_TRUE(pedal >= 0.0 && pedal <= 1.0) << pedal;
-    }
-    return std::nullopt;
-  });
+      "steering: {device: rim, axis: 0, centre: 12, dead_zone: 0.01, exponent: 1.5, lock_deg: 540}\npedals: {device: "
+      "feet, axis: 1, inverted: true}\n"
+      "clutch: {device: feet, axis: 2, min: 0, max: 255}\nbuttons:\n  starter: {device: rim, button: 3}\nlever:\n  "
+      "reverse: {device: rim, button: 8}\n  1: {device: rim, button: 9}\n";
+  Fuzz("wheel", {GoodFile("configs/drivers/wheel.yaml"), rich},
+       [&disk](const std::string& text) -> std::optional<base::Error> {
+         const auto settings = input_devices::LoadWheel(disk.Put(text));
+         if (!settings) return settings.error();
+         input_devices::WheelDriver driver(settings.value());
+         std::vector<input_devices::DeviceReading> readings(settings.value().devices.size());
+         for (const double raw : {0.0, 32767.0, -32768.0, 100.0}) {
+           for (auto& reading : readings)
+             reading = {true, std::vector<double>(3, raw), std::vector<std::uint8_t>(10, raw > 0.0)};
+           const dynamics::Controls controls = driver.Step(readings, 1);
+           EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
+           for (const double pedal : {controls.throttle, controls.brake, controls.clutch, controls.handbrake})
+             EXPECT_TRUE(pedal >= 0.0 && pedal <= 1.0) << pedal;
+         }
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, Scenarios) {
   const OnDisk disk;
-  Fuzz("scenario", {GoodFile("configs/scenarios/car_ahead_brakes.yaml")}, [&disk](const std::string& text) -> std::optional<base::Error> {
-    const auto scenario = scenario::LoadScenario(disk.Put(text), {1'000'000, 10, 10});
-    if (!scenario) return scenario.error();
-    std::int64_t before = 10;
-    for (const auto& event : scenario.value().scheduled) {
-      EXPECT_TRUE(event.step >= before && event.step % 10 == 0) << event.step;
-      EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
-      before = event.step;
-    }
-    return std::nullopt;
-  });
+  Fuzz("scenario", {GoodFile("configs/scenarios/car_ahead_brakes.yaml")},
+       [&disk](const std::string& text) -> std::optional<base::Error> {
+         const auto scenario = scenario::LoadScenario(disk.Put(text), {1'000'000, 10, 10});
+         if (!scenario) return scenario.error();
+         std::int64_t before = 10;
+         for (const auto& event : scenario.value().scheduled) {
+           EXPECT_TRUE(event.step >= before && event.step % 10 == 0) << event.step;
+           EXPECT_NE(scenario::FindEventKind(event.event.name), nullptr) << event.event.name;
+           before = event.step;
+         }
+         return std::nullopt;
+       });
 }
 
 // What is read comes back to the byte; what the check finds no error in can be driven along and drawn.
 TEST(TextFiles, Maps) {
-  Fuzz("motors", {traffic_map::Figure18(), traffic_map::AppendixA15(), traffic_map::GoodMap(), traffic_map::GoodMap(), GoodFile("configs/maps/roundabout.motors")}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto file = traffic_map::ParseMap(text, "fuzz.motors");
-    if (!file) return file.error();
-    EXPECT_EQ(traffic_map::WriteMap(file.value()), text);
-    bool errors = false;
-    for (const traffic_map::Finding& finding : traffic_map::CheckMap(file.value(), {})) {
-      errors = errors || finding.severity == traffic_map::Severity::kError;
-      EXPECT_FALSE(finding.Text().empty());
-      EXPECT_TRUE(finding.element == traffic_map::Element::kMap || finding.line > 0) << finding.Text();
-    }
-    const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
-    EXPECT_EQ(made.ok(), !errors);
-    if (!made) return std::nullopt;
-    for (const traffic_map::MapLane& lane : made.value().lanes) {
-      for (const double share : {0.0, 0.3, 1.0}) {
-        const traffic_map::LanePoint at = lane.shape.At(share * lane.shape.length_m());
-        EXPECT_TRUE(at.p_W.allFinite() && std::isfinite(at.width_m()) && std::isfinite(at.curvature_1pm));
-      }
-    }
-    EXPECT_FALSE(traffic_map::PlotMap(made.value()).empty());
-    return std::nullopt;
-  });
+  Fuzz("motors",
+       {traffic_map::Figure18(), traffic_map::AppendixA15(), traffic_map::GoodMap(), traffic_map::GoodMap(),
+        GoodFile("configs/maps/roundabout.motors")},
+       [](const std::string& text) -> std::optional<base::Error> {
+         const auto file = traffic_map::ParseMap(text, "fuzz.motors");
+         if (!file) return file.error();
+         EXPECT_EQ(traffic_map::WriteMap(file.value()), text);
+         bool errors = false;
+         for (const traffic_map::Finding& finding : traffic_map::CheckMap(file.value(), {})) {
+           errors = errors || finding.severity == traffic_map::Severity::kError;
+           EXPECT_FALSE(finding.Text().empty());
+           EXPECT_TRUE(finding.element == traffic_map::Element::kMap || finding.line > 0) << finding.Text();
+         }
+         const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+         EXPECT_EQ(made.ok(), !errors);
+         if (!made) return std::nullopt;
+         for (const traffic_map::MapLane& lane : made.value().lanes) {
+           for (const double share : {0.0, 0.3, 1.0}) {
+             const traffic_map::LanePoint at = lane.shape.At(share * lane.shape.length_m());
+             EXPECT_TRUE(at.p_W.allFinite() && std::isfinite(at.width_m()) && std::isfinite(at.curvature_1pm));
+           }
+         }
+         EXPECT_FALSE(traffic_map::PlotMap(made.value()).empty());
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, MapHeights) {
-  Fuzz("heights", {GoodFile("configs/maps/overpass.motors.yaml"), "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n",
-                   "# by hand\nrodeira: motors/1\nheights_m:\n  1: [0, 1, 2, 3]  # ramp\nlights:\n  - phases:\n      - {green: [1, 2], for_s: 20}\nsigns:\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - lane: 2\n    kind: stop\nflows_vehph:\n  1: 300\n"}, [](const std::string& text) -> std::optional<base::Error> {
-    const auto heights = traffic_map::ParseHeights(text, "fuzz.motors.yaml");
-    if (!heights) return heights.error();
-    for (const auto& one : heights.value().curves) EXPECT_EQ(heights.value().Of(one.curve), one.z_m);
-    // Unedited it keeps its bytes; edited it says what it should.
-    EXPECT_EQ(traffic_map::CompanionText(heights.value(), heights.value(), text), text);
-    traffic_map::Heights edited = heights.value();
-    edited.curves.clear();
-    edited.signs.push_back({7, traffic_map::SignKind::kGiveWay, 2.5, 0.0, 0});
-    const auto again = traffic_map::ParseHeights(traffic_map::CompanionText(edited, heights.value(), text), "again.motors.yaml");
-    EXPECT_TRUE(again.ok() && traffic_map::CompanionText(again.value()) == traffic_map::CompanionText(edited)) << text;
-    return std::nullopt;
-  });
+  Fuzz("heights",
+       {GoodFile("configs/maps/overpass.motors.yaml"),
+        "rodeira: motors/1\nheights_m: {1: [0, 1, 2, 3], -4: [0, 0, 0, 1]}\n",
+        "# by hand\nrodeira: motors/1\nheights_m:\n  1: [0, 1, 2, 3]  # ramp\nlights:\n  - phases:\n      - {green: "
+        "[1, 2], for_s: 20}\nsigns:\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - lane: 2\n    kind: "
+        "stop\nflows_vehph:\n  1: 300\n"},
+       [](const std::string& text) -> std::optional<base::Error> {
+         const auto heights = traffic_map::ParseHeights(text, "fuzz.motors.yaml");
+         if (!heights) return heights.error();
+         for (const auto& one : heights.value().curves) EXPECT_EQ(heights.value().Of(one.curve), one.z_m);
+         // Unedited it keeps its bytes; edited it says what it should.
+         EXPECT_EQ(traffic_map::CompanionText(heights.value(), heights.value(), text), text);
+         traffic_map::Heights edited = heights.value();
+         edited.curves.clear();
+         edited.signs.push_back({7, traffic_map::SignKind::kGiveWay, 2.5, 0.0, 0});
+         const auto again =
+             traffic_map::ParseHeights(traffic_map::CompanionText(edited, heights.value(), text), "again.motors.yaml");
+         EXPECT_TRUE(again.ok() && traffic_map::CompanionText(again.value()) == traffic_map::CompanionText(edited))
+             << text;
+         return std::nullopt;
+       });
 }
 
 TEST(TextFiles, InputScripts) {
-  Fuzz("script", {GoodFile("configs/scenarios/first_drive.csv"), "time_s,clutch,gear,manual,starter\n0,1,1,1,1\n0.5,0.5,1,1,0\n2,0,2,1,0\n"},
+  Fuzz("script",
+       {GoodFile("configs/scenarios/first_drive.csv"),
+        "time_s,clutch,gear,manual,starter\n0,1,1,1,1\n0.5,0.5,1,1,0\n2,0,2,1,0\n"},
        [](const std::string& text) -> std::optional<base::Error> {
          const auto script = nodes::Script::Parse(text, "fuzz.csv");
          if (!script) return script.error();
          for (const double t : {-1.0, 0.0, 0.3, 6.5, 1e7, 1e9}) {
            const dynamics::Controls controls = script.value().At(t);
            EXPECT_TRUE(std::isfinite(controls.steering_wheel_rad));
-           EXPECT_TRUE(controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake >= 0.0 && controls.brake <= 1.0);
+           EXPECT_TRUE(controls.throttle >= 0.0 && controls.throttle <= 1.0 && controls.brake >= 0.0 &&
+                       controls.brake <= 1.0);
          }
          return std::nullopt;
        });

@@ -1,5 +1,6 @@
-// What says who drives where: files of traffic, the companions of traffic maps with their lights, and scenarios, mutated by bytes and by structure
-// (tests/property/fuzz.hpp) and taken all the way: to traffic that drives, or to one sentence.
+// What says who drives where: files of traffic, the companions of traffic maps with their lights, and scenarios,
+// mutated by bytes and by structure (tests/property/fuzz.hpp) and taken all the way: to traffic that drives, or to one
+// sentence.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,12 +9,12 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
-#include "common/world/traffic_map/heights.hpp"
-#include "common/world/traffic_map/lane_map.hpp"
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/driving/scenario/scenario_file.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "common/world/traffic_map/heights.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/property/fuzz.hpp"
 #include "tests/property/mutate_structure.hpp"
@@ -100,7 +101,9 @@ std::optional<base::Error> ReadTraffic(const std::string& text) {
 
 TEST(TrafficFiles, ChangedByBytes) { Fuzz("traffic", {kDrivers, kFlows, kFlows}, ReadTraffic); }
 
-TEST(TrafficFiles, ChangedByStructure) { Fuzz("traffic, structure", {kDrivers, kFlows, kFlows}, ReadTraffic, MutateStructure); }
+TEST(TrafficFiles, ChangedByStructure) {
+  Fuzz("traffic, structure", {kDrivers, kFlows, kFlows}, ReadTraffic, MutateStructure);
+}
 
 // What each wrong word is answered, with the file and its line.
 TEST(TrafficFiles, WhatIsNotThereIsNamed) {
@@ -110,8 +113,11 @@ TEST(TrafficFiles, WhatIsNotThereIsNamed) {
   };
   EXPECT_NE(said("flows: [{lane: \"7:-1\", vehicles_per_h: 100}]\n").find("fuzz.yaml:2"), std::string::npos);
   EXPECT_NE(said("flows: [{lane: \"7:-1\", vehicles_per_h: 100}]\n").find("7"), std::string::npos);
-  EXPECT_NE(said("flows: [{lane: \"1:-1\", vehicles_per_h: 100, route: thruogh}]\nroutes: {through: [\"1\", \"2\"]}\n").find("through"), std::string::npos);
-  EXPECT_NE(said("routes: {no: [\"1\", \"9\"]}\nflows: [{lane: \"1:-1\", vehicles_per_h: 100, route: no}]\n").find("9"), std::string::npos);
+  EXPECT_NE(said("flows: [{lane: \"1:-1\", vehicles_per_h: 100, route: thruogh}]\nroutes: {through: [\"1\", \"2\"]}\n")
+                .find("through"),
+            std::string::npos);
+  EXPECT_NE(said("routes: {no: [\"1\", \"9\"]}\nflows: [{lane: \"1:-1\", vehicles_per_h: 100, route: no}]\n").find("9"),
+            std::string::npos);
   EXPECT_NE(said("lane_changes: {overtakign: true}\n").find("overtaking"), std::string::npos);
   EXPECT_NE(said("lane_changes: {overtaking_margin_s: 0}\n").find("overtaking_margin_s"), std::string::npos);
 }
@@ -126,23 +132,26 @@ TEST(TrafficFiles, LightsOfMaps) {
   ASSERT_TRUE(good.ok());
   int conflicts = 0;
   const std::string flows = good.value() + "flows_vehph:\n  1: 300\n";
-  Fuzz("lights", {good.value(), good.value(), flows}, [&](const std::string& text) -> std::optional<base::Error> {
-    std::ofstream(companion, std::ios::binary | std::ios::trunc) << text;
-    const auto heights = traffic_map::LoadHeightsOf(map);
-    if (!heights) return heights.error();
-    const auto network = traffic_map::LoadNetwork(map);
-    if (!network) return network.error();
-    traffic::TrafficSettings settings;
-    settings.vehicles = 6;
-    settings.demand.flows = traffic::DemandOf(heights.value(), companion).flows;
-    auto model = traffic::TrafficModel::Make(settings, network.value(), {});
-    if (!model) {
-      ++conflicts;
-      return model.error();
-    }
-    Drive(model.value());
-    return std::nullopt;
-  }, MutateStructure);
+  Fuzz(
+      "lights", {good.value(), good.value(), flows},
+      [&](const std::string& text) -> std::optional<base::Error> {
+        std::ofstream(companion, std::ios::binary | std::ios::trunc) << text;
+        const auto heights = traffic_map::LoadHeightsOf(map);
+        if (!heights) return heights.error();
+        const auto network = traffic_map::LoadNetwork(map);
+        if (!network) return network.error();
+        traffic::TrafficSettings settings;
+        settings.vehicles = 6;
+        settings.demand.flows = traffic::DemandOf(heights.value(), companion).flows;
+        auto model = traffic::TrafficModel::Make(settings, network.value(), {});
+        if (!model) {
+          ++conflicts;
+          return model.error();
+        }
+        Drive(model.value());
+        return std::nullopt;
+      },
+      MutateStructure);
   if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
     EXPECT_GT(conflicts, 0);
   }
@@ -150,24 +159,26 @@ TEST(TrafficFiles, LightsOfMaps) {
 
 // Maps: what can be made into lanes at all can be made into a network, and driven on.
 TEST(TrafficFiles, MapsChangedByBytes) {
-  const auto crossing = base::ReadText(kRoot / "configs/maps/crossing.motors"), roundabout = base::ReadText(kRoot / "configs/maps/roundabout.motors");
+  const auto crossing = base::ReadText(kRoot / "configs/maps/crossing.motors"),
+             roundabout = base::ReadText(kRoot / "configs/maps/roundabout.motors");
   ASSERT_TRUE(crossing.ok() && roundabout.ok());
   int driven = 0;
-  Fuzz("motors, driven", {crossing.value(), roundabout.value()}, [&](const std::string& text) -> std::optional<base::Error> {
-    const auto file = traffic_map::ParseMap(text, "fuzz.motors");
-    if (!file) return file.error();
-    const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
-    if (!made) return made.error();
-    const auto network = traffic_map::ToNetwork(made.value(), "fuzz.motors");
-    if (!network) return network.error();
-    traffic::TrafficSettings settings;
-    settings.vehicles = 6;
-    auto model = traffic::TrafficModel::Make(settings, network.value(), {});
-    if (!model) return model.error();
-    Drive(model.value());
-    driven += model.value().on_road() > 0 ? 1 : 0;
-    return std::nullopt;
-  });
+  Fuzz("motors, driven", {crossing.value(), roundabout.value()},
+       [&](const std::string& text) -> std::optional<base::Error> {
+         const auto file = traffic_map::ParseMap(text, "fuzz.motors");
+         if (!file) return file.error();
+         const auto made = traffic_map::MakeLaneMap(file.value(), {}, "fuzz.motors");
+         if (!made) return made.error();
+         const auto network = traffic_map::ToNetwork(made.value(), "fuzz.motors");
+         if (!network) return network.error();
+         traffic::TrafficSettings settings;
+         settings.vehicles = 6;
+         auto model = traffic::TrafficModel::Make(settings, network.value(), {});
+         if (!model) return model.error();
+         Drive(model.value());
+         driven += model.value().on_road() > 0 ? 1 : 0;
+         return std::nullopt;
+       });
   if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
     EXPECT_GT(driven, 100);
   }
@@ -176,35 +187,42 @@ TEST(TrafficFiles, MapsChangedByBytes) {
 TEST(TrafficFiles, ScenariosChangedByStructure) {
   const auto folder = base::TemporaryFolder::Make("scenario-fuzz");
   ASSERT_TRUE(folder.ok());
-  const auto good = base::ReadText(kRoot / "configs/scenarios/car_ahead_brakes.yaml"), rain = base::ReadText(kRoot / "configs/scenarios/rain_at_dusk.yaml");
+  const auto good = base::ReadText(kRoot / "configs/scenarios/car_ahead_brakes.yaml"),
+             rain = base::ReadText(kRoot / "configs/scenarios/rain_at_dusk.yaml");
   ASSERT_TRUE(good.ok() && rain.ok());
   const std::string scripted =
-      "rodeira: scenario/1\nevents:\n  - {at_s: 1, name: traffic.appear, agent: 4, at: {lane: \"1:-1\", s_m: 40}, speed_mps: 12}\n"
-      "  - {at_s: 1, name: traffic.appear, agent: 5, at: {lane: \"2:1\", s_m: 50}, speed_mps: 0}\n  - {at_s: 2, name: traffic.overtake, agent: ahead}\n"
+      "rodeira: scenario/1\nevents:\n  - {at_s: 1, name: traffic.appear, agent: 4, at: {lane: \"1:-1\", s_m: 40}, "
+      "speed_mps: 12}\n"
+      "  - {at_s: 1, name: traffic.appear, agent: 5, at: {lane: \"2:1\", s_m: 50}, speed_mps: 0}\n  - {at_s: 2, name: "
+      "traffic.overtake, agent: ahead}\n"
       "  - {at_s: 3, name: traffic.change_lane, agent: 4, side: left}\n";
   traffic::TrafficSettings settings;
   settings.vehicles = 4;
   settings.scripted = {traffic::VehicleKind::kCar, traffic::VehicleKind::kBus};
   const traffic::TrafficModel start = traffic::TrafficModel::Make(settings, TwoRoads(), {}).value();
   int appeared = 0;
-  Fuzz("scenario, structure", {good.value(), rain.value(), scripted}, [&](const std::string& text) -> std::optional<base::Error> {
-    const fs::path file = folder.value().path() / "fuzz.yaml";
-    std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
-    const auto scenario = scenario::LoadScenario(file, {1'000'000, 10, 10});
-    if (!scenario) return scenario.error();
-    std::optional<base::Error> refused;
-    traffic::TrafficModel model = start;
-    for (const auto& [step, event, place] : scenario.value().scheduled) {
-      EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
-      if (event.name != scenario::kTrafficAppear) continue;
-      const auto choice = scenario::ParseAgentOnLane(event.argument).value();
-      const auto told = model.LetAppear(choice.id, choice.at->road, choice.at->s_m, event.value);
-      if (!told) refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too
-      appeared += told && told.value() ? 1 : 0;
-    }
-    Drive(model);
-    return refused;
-  }, MutateStructure);
+  Fuzz(
+      "scenario, structure", {good.value(), rain.value(), scripted},
+      [&](const std::string& text) -> std::optional<base::Error> {
+        const fs::path file = folder.value().path() / "fuzz.yaml";
+        std::ofstream(file, std::ios::binary | std::ios::trunc) << text;
+        const auto scenario = scenario::LoadScenario(file, {1'000'000, 10, 10});
+        if (!scenario) return scenario.error();
+        std::optional<base::Error> refused;
+        traffic::TrafficModel model = start;
+        for (const auto& [step, event, place] : scenario.value().scheduled) {
+          EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
+          if (event.name != scenario::kTrafficAppear) continue;
+          const auto choice = scenario::ParseAgentOnLane(event.argument).value();
+          const auto told = model.LetAppear(choice.id, choice.at->road, choice.at->s_m, event.value);
+          if (!told)
+            refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too
+          appeared += told && told.value() ? 1 : 0;
+        }
+        Drive(model);
+        return refused;
+      },
+      MutateStructure);
   if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
     EXPECT_GT(appeared, 0);
   }

@@ -1,5 +1,5 @@
-// World files of version 2, mutated by bytes and by structure (tests/property/fuzz.hpp): what is taken is a world that answers
-// finite numbers, the same ones by index and without it; what is refused is a sentence.
+// World files of version 2, mutated by bytes and by structure (tests/property/fuzz.hpp): what is taken is a world that
+// answers finite numbers, the same ones by index and without it; what is refused is a sentence.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -137,7 +137,8 @@ void AskWorld(const road::World& world) {
   }
   if (const network::Standing* standing = world.standing()) {
     for (const auto& thing : standing->things) {
-      EXPECT_TRUE(thing.at_W.allFinite() && std::isfinite(thing.heading_rad) && thing.object < standing->objects.size());
+      EXPECT_TRUE(thing.at_W.allFinite() && std::isfinite(thing.heading_rad) &&
+                  thing.object < standing->objects.size());
       ask(thing.at_W.x(), thing.at_W.y());
     }
     for (const auto& run : standing->runs) EXPECT_GE(run.points_W.size(), 2u);
@@ -146,7 +147,9 @@ void AskWorld(const road::World& world) {
   std::vector<ground::GroundPoint> points(queries.size());
   ground->Query(queries, points);
   for (const auto& point : points) {
-    EXPECT_TRUE(!point.inside || (std::isfinite(point.z_m) && std::isfinite(point.normal_W.x()) && point.friction > 0.0)) << point.z_m;
+    EXPECT_TRUE(!point.inside ||
+                (std::isfinite(point.z_m) && std::isfinite(point.normal_W.x()) && point.friction > 0.0))
+        << point.z_m;
   }
   EXPECT_FALSE(road::DescribePoint(world, queries[0].x_m, queries[0].y_m).empty());
   if (roads == nullptr) return;
@@ -157,7 +160,8 @@ void AskWorld(const road::World& world) {
       EXPECT_LE(place->distance_m, slow->distance_m);
     }
   }
-  for (const network::LaneKey& key : roads->Lanes()) EXPECT_TRUE(roads->Centre(key, roads->Section(key).s_m).allFinite());
+  for (const network::LaneKey& key : roads->Lanes())
+    EXPECT_TRUE(roads->Centre(key, roads->Section(key).s_m).allFinite());
   const network::Furniture furniture = network::PlaceFurniture(*roads);
   for (const auto& thing : furniture.things) EXPECT_TRUE(thing.foot_W.allFinite());
 }
@@ -171,9 +175,11 @@ std::optional<base::Error> ReadWorld(const std::string& text) {
 
 TEST(WorldFiles, ChangedByBytes) { Fuzz("world of version 2", {kHills, kPlane, kIncluding, kBare}, ReadWorld); }
 
-// OpenDRIVE files as worlds: with measured surfaces (attached, attached0, genuine, global, and friction alone), signs and objects; what is taken is the world that is driven on.
+// OpenDRIVE files as worlds: with measured surfaces (attached, attached0, genuine, global, and friction alone), signs
+// and objects; what is taken is the world that is driven on.
 TEST(WorldFiles, OpenDriveOnDisk) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-world-property-" + std::to_string(::getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("rodeira-world-property-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   surface::MadeCrg made;
   made.rows = 201;
@@ -183,28 +189,37 @@ TEST(WorldFiles, OpenDriveOnDisk) {
   ASSERT_TRUE(base::WriteWhole(folder / "placed.crg", std::string_view(made.Text())).ok());
   const auto measured = [](const std::string& surfaces) {
     opendrive::RoadText road;
-    road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry><geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
-    road.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
-    road.more = "<surface>" + surfaces + R"(</surface><objects><object id="o" s="10" t="8" type="tree" height="6" radius="1"/><object id="b" s="30" t="6" type="barrier" length="1" width="0.2" height="1">
+    road.geometry =
+        R"(<geometry s="0" x="0" y="0" hdg="0.1" length="40"><line/></geometry><geometry s="40" x="39.8001666" y="3.9933367" hdg="0.1" length="60"><arc curvature="0.01"/></geometry>)";
+    road.elevation =
+        R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
+    road.more =
+        "<surface>" + surfaces +
+        R"(</surface><objects><object id="o" s="10" t="8" type="tree" height="6" radius="1"/><object id="b" s="30" t="6" type="barrier" length="1" width="0.2" height="1">
         <repeat s="30" length="40" distance="0" tStart="6" tEnd="7" heightStart="1" heightEnd="1" zOffsetStart="0" zOffsetEnd="0"/></object></objects>
         <signals><signal id="s" s="90" t="-5" dynamic="no" orientation="+" type="274" subtype="-1" value="50"/></signals>)";
     return opendrive::Document(road.Text());
   };
   const std::vector<std::string> good = {
-      measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/><CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
-      measured(R"(<CRG file="made.crg" sStart="60" sEnd="61.5" mode="genuine" tOffset="0.2" hOffset="0.01" zOffset="1"/>)"),
-      measured(R"(<CRG file="placed.crg" sStart="18" sEnd="60" mode="global" zOffset="1.4"/><CRG file="placed.crg" sStart="60" sEnd="90" mode="global" orientation="opposite" purpose="friction" zOffset="0.5"/>)"),
+      measured(
+          R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" zScale="0.5" sOffset="0.1"/><CRG file="made.crg" sStart="20" sEnd="21.5" mode="attached0" orientation="opposite"/>)"),
+      measured(
+          R"(<CRG file="made.crg" sStart="60" sEnd="61.5" mode="genuine" tOffset="0.2" hOffset="0.01" zOffset="1"/>)"),
+      measured(
+          R"(<CRG file="placed.crg" sStart="18" sEnd="60" mode="global" zOffset="1.4"/><CRG file="placed.crg" sStart="60" sEnd="90" mode="global" orientation="opposite" purpose="friction" zOffset="0.5"/>)"),
       measured(R"(<CRG file="made.crg" sStart="5" sEnd="6.5" mode="attached" purpose="friction" zOffset="0.5"/>)")};
   {
     // The good one of them that lies where it says itself, lies under its road.
     ASSERT_TRUE(base::WriteWhole(folder / "fuzz.xodr", std::string_view(good[2])).ok());
     const auto world = road::World::Load(folder / "fuzz.xodr");
     ASSERT_TRUE(world.ok()) << world.error().Text();
-    const double u = 10.0, v = 0.5, x = 20.0 + u * std::cos(0.1) - v * std::sin(0.1), y = 2.0 + u * std::sin(0.1) + v * std::cos(0.1);
+    const double u = 10.0, v = 0.5, x = 20.0 + u * std::cos(0.1) - v * std::sin(0.1),
+                 y = 2.0 + u * std::sin(0.1) + v * std::cos(0.1);
     EXPECT_NEAR(world.value()->At(x, y).z_m, 1.4 + 0.01 * std::sin(u) + 0.002 * v, 1e-4);
   }
   Fuzz("xodr as a world", good, [&](const std::string& text) -> std::optional<base::Error> {
-    if (const auto written = base::WriteWhole(folder / "fuzz.xodr", std::string_view(text)); !written.ok()) ADD_FAILURE() << written.error().Text();
+    if (const auto written = base::WriteWhole(folder / "fuzz.xodr", std::string_view(text)); !written.ok())
+      ADD_FAILURE() << written.error().Text();
     const auto world = road::World::Load(folder / "fuzz.xodr");
     if (!world) return world.error();
     AskWorld(*world.value());
@@ -213,9 +228,11 @@ TEST(WorldFiles, OpenDriveOnDisk) {
   std::filesystem::remove_all(folder);
 }
 
-// OpenCRG files, mutated, as they lie on a road: each mode, either way round, and as friction. What is taken answers finite numbers.
+// OpenCRG files, mutated, as they lie on a road: each mode, either way round, and as friction. What is taken answers
+// finite numbers.
 TEST(WorldFiles, MeasuredSurfacesOnARoad) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("rodeira-laid-property-" + std::to_string(::getpid()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("rodeira-laid-property-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
   opendrive::RoadText road;
   road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0.1" length="100"><arc curvature="0.002"/></geometry>)";
@@ -226,7 +243,9 @@ TEST(WorldFiles, MeasuredSurfacesOnARoad) {
     for (const char* orientation : {"same", "opposite"}) {
       // What lies where it says itself is asked all along the road.
       const bool global = std::string_view(mode) == "global";
-      surfaces += fmt::format("<CRG file=\"fuzz.crg\" sStart=\"{}\" sEnd=\"{}\" mode=\"{}\" orientation=\"{}\" zOffset=\"0.1\"/>", global ? 1.0 : s, global ? 99.0 : s + 8.0, mode, orientation);
+      surfaces += fmt::format(
+          "<CRG file=\"fuzz.crg\" sStart=\"{}\" sEnd=\"{}\" mode=\"{}\" orientation=\"{}\" zOffset=\"0.1\"/>",
+          global ? 1.0 : s, global ? 99.0 : s + 8.0, mode, orientation);
       s += 10.0;
     }
   }
@@ -241,13 +260,16 @@ TEST(WorldFiles, MeasuredSurfacesOnARoad) {
     made.heading = [](double u) { return 0.1 + 0.002 * u; };
     made.z = [](double u, double v) { return u > 6.0 && v > 1.5 ? std::nan("") : 0.01 * u + 0.002 * v; };
     made.road_keys = "REFERENCE_LINE_START_X = 70\nREFERENCE_LINE_START_Y = 10\nREFERENCE_LINE_START_PHI = 0.1\n";
-    made.sections = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nREFLINE_CONTINUATION = 1\n$\n$ROAD_CRG_MODS\nSCALE_LENGTH = 1.1\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = 72\n$\n";
+    made.sections =
+        "$ROAD_CRG_OPTS\nBORDER_MODE_U = 3\nBORDER_MODE_V = 4\nREFLINE_CONTINUATION = "
+        "1\n$\n$ROAD_CRG_MODS\nSCALE_LENGTH = 1.1\nGRID_NAN_MODE = 2\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_X = 72\n$\n";
     good.push_back(made.Text());
     made.sections.clear();
     good.push_back(made.Text());
   }
   Fuzz("OpenCRG on a road", good, [&](const std::string& text) -> std::optional<base::Error> {
-    if (const auto written = base::WriteWhole(folder / "fuzz.crg", std::string_view(text)); !written.ok()) ADD_FAILURE() << written.error().Text();
+    if (const auto written = base::WriteWhole(folder / "fuzz.crg", std::string_view(text)); !written.ok())
+      ADD_FAILURE() << written.error().Text();
     const auto world = road::World::Load(folder / "fuzz.xodr");
     if (!world) return world.error();
     const network::Road& on = world.value()->network()->roads()[0];
@@ -255,7 +277,9 @@ TEST(WorldFiles, MeasuredSurfacesOnARoad) {
       for (const double t : {-3.1, -0.4, 1.9}) {
         const Eigen::Vector3d p = on.Surface(at, t).p_W;
         const road::SurfacePoint ground = world.value()->At(p.x(), p.y());
-        EXPECT_TRUE(std::isfinite(ground.z_m) && std::isfinite(ground.slope_x) && std::isfinite(ground.slope_y) && ground.friction >= 0.0 && ground.friction <= 2.0) << at << " " << t;
+        EXPECT_TRUE(std::isfinite(ground.z_m) && std::isfinite(ground.slope_x) && std::isfinite(ground.slope_y) &&
+                    ground.friction >= 0.0 && ground.friction <= 2.0)
+            << at << " " << t;
       }
     }
     return std::nullopt;
@@ -263,7 +287,9 @@ TEST(WorldFiles, MeasuredSurfacesOnARoad) {
   std::filesystem::remove_all(folder);
 }
 
-TEST(WorldFiles, ChangedByStructure) { Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding, kBare}, ReadWorld, MutateStructure); }
+TEST(WorldFiles, ChangedByStructure) {
+  Fuzz("world of version 2, structure", {kHills, kPlane, kIncluding, kBare}, ReadWorld, MutateStructure);
+}
 
 }  // namespace
 }  // namespace rodeira::property

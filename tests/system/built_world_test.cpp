@@ -1,4 +1,5 @@
-// A run on what `rodeira world build` has written: the road server and the car take its logical database, the view its tiles.
+// A run on what `rodeira world build` has written: the road server and the car take its logical database, the view its
+// tiles.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -36,17 +37,22 @@ class BuiltWorld : public ::testing::Test {
  protected:
   BuiltWorld() {
     EXPECT_TRUE(base::WriteWhole(folder_.path() / "town.xodr", std::string_view(kRoad)).ok());
-    const Ended built = RunCommand({Bin("rodeira"), "world", "build", (folder_.path() / "town.xodr").string(), "-o", out_.string(), "--quiet"});
+    const Ended built = RunCommand(
+        {Bin("rodeira"), "world", "build", (folder_.path() / "town.xodr").string(), "-o", out_.string(), "--quiet"});
     EXPECT_EQ(built.status, 0) << built.out;
   }
   // A second of driving, looked at twice, on the world file of that name.
   Driven Drive(const std::string& world, const std::string& name) const {
     const std::string configs = SourceDir() + "/configs/";
     const fs::path launch = folder_.path() / (name + ".yaml");
-    const std::string text = "rodeira: launch/1\nname: built\nworld: " + world + "\nseed: 1\nduration_s: 1\nnodes:\n  road: {kind: road}\n" +
-                             "  driver: {kind: input, config: {source: autopilot, driver: " + configs + "drivers/default.yaml, vehicle: " + configs + "vehicles/default.yaml}}\n" +
-                             "  ego: {kind: vehicle, config: {vehicle: " + configs + "vehicles/default.yaml, ground: remote}}\n" +
-                             "  view: {kind: view, config: {width_px: 320, height_px: 180, window: never, frames: {times_s: [0.4, 0.8], folder: " + name + "}}}\n";
+    const std::string text =
+        "rodeira: launch/1\nname: built\nworld: " + world + "\nseed: 1\nduration_s: 1\nnodes:\n  road: {kind: road}\n" +
+        "  driver: {kind: input, config: {source: autopilot, driver: " + configs +
+        "drivers/default.yaml, vehicle: " + configs + "vehicles/default.yaml}}\n" +
+        "  ego: {kind: vehicle, config: {vehicle: " + configs + "vehicles/default.yaml, ground: remote}}\n" +
+        "  view: {kind: view, config: {width_px: 320, height_px: 180, window: never, frames: {times_s: [0.4, 0.8], "
+        "folder: " +
+        name + "}}}\n";
     EXPECT_TRUE(base::WriteWhole(launch, std::string_view(text)).ok());
     Driven driven{RunCommand({Bin("rodeira"), "run", launch.string(), "--pace", "max", "--no-record"}), "", {}};
     EXPECT_EQ(driven.ended.status, 0) << driven.ended.out;
@@ -62,7 +68,8 @@ class BuiltWorld : public ::testing::Test {
   void Put(const std::string& name, const std::string& bytes, bool listed) const {
     const fs::path manifest = out_ / "visual.txt";
     std::string text = base::ReadText(manifest).value();
-    const std::string before = base::Hex(base::Hash(base::ReadText(out_ / name).value())), after = base::Hex(base::Hash(bytes));
+    const std::string before = base::Hex(base::Hash(base::ReadText(out_ / name).value())),
+                      after = base::Hex(base::Hash(bytes));
     ASSERT_NE(text.find(before), std::string::npos);
     if (listed) text.replace(text.find(before), before.size(), after);
     ASSERT_TRUE(base::WriteWhole(out_ / name, std::string_view(bytes)).ok());
@@ -79,7 +86,8 @@ TEST_F(BuiltWorld, IsDrivenAndSeenAsTheWorldItIsMadeFrom) {
   EXPECT_EQ(built.digest, source.digest);
   EXPECT_EQ(built.frames, source.frames);
   EXPECT_EQ(built.ended.out.find("is not shown"), std::string::npos) << built.ended.out;
-  // The tiles are what is seen: with another one's content in the place of the one under the car the picture is another.
+  // The tiles are what is seen: with another one's content in the place of the one under the car the picture is
+  // another.
   const std::string own = base::ReadText(out_ / "tiles/0_0_0.osgb").value();
   Put("tiles/0_0_0.osgb", base::ReadText(out_ / "tiles/1_0_0.osgb").value(), true);
   const Driven exchanged = Drive("out/world.xodr", "exchanged");
@@ -88,7 +96,8 @@ TEST_F(BuiltWorld, IsDrivenAndSeenAsTheWorldItIsMadeFrom) {
   // A file that is not what was written is said, and the ground is built as without it.
   Put("tiles/0_0_0.osgb", own + "more", false);
   const Driven broken = Drive("out/world.xodr", "broken");
-  EXPECT_NE(broken.ended.out.find("its file 'tiles/0_0_0.osgb' is not as it was written"), std::string::npos) << broken.ended.out;
+  EXPECT_NE(broken.ended.out.find("its file 'tiles/0_0_0.osgb' is not as it was written"), std::string::npos)
+      << broken.ended.out;
   EXPECT_EQ(broken.digest, source.digest);
   EXPECT_EQ(broken.frames, source.frames);
 }

@@ -49,7 +49,8 @@ Started::Started(const std::vector<std::string>& command) {
     ::dup2(ends[1], STDERR_FILENO);
     ::setenv("XDG_DATA_HOME", data.path().c_str(), 0);
     std::size_t first = 0;
-    for (; first < command.size() && command[first].find('=') != std::string::npos && command[first][0] != '/'; ++first) {
+    for (; first < command.size() && command[first].find('=') != std::string::npos && command[first][0] != '/';
+         ++first) {
       ::putenv(const_cast<char*>(command[first].c_str()));
     }
     std::vector<char*> arguments;
@@ -115,7 +116,8 @@ std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& se
     words << in.rdbuf();  // which is no error where the process ends meanwhile
     std::string line = words.str();
     for (char& c : line) c = c == '\0' ? ' ' : c;
-    if (line.find(first) != std::string::npos && line.find(second) != std::string::npos) found.push_back(std::stoi(name));
+    if (line.find(first) != std::string::npos && line.find(second) != std::string::npos)
+      found.push_back(std::stoi(name));
   }
   return found;
 }

@@ -1,5 +1,5 @@
-// An operator at a whole run: pause, steps, paces, markers and stop from another process; what is recorded of it; and that
-// none of it changes a sample.
+// An operator at a whole run: pause, steps, paces, markers and stop from another process; what is recorded of it; and
+// that none of it changes a sample.
 #include <gtest/gtest.h>
 
 #include <mutex>
@@ -60,7 +60,8 @@ void ExpectAWallTimeForEveryStep(const std::string& recording, std::int64_t last
 }
 
 TEST_F(Control, WhatAnOperatorDoesChangesNoSampleAndIsRecorded) {
-  const std::vector<std::string> common{"--for", "1.5", "--meta", "participant=P07", "--meta", "note=a \"quoted\": text"};
+  const std::vector<std::string> common{"--for",           "1.5",    "--meta",
+                                        "participant=P07", "--meta", "note=a \"quoted\": text"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.end(), common.begin(), common.end());
     return more;
@@ -134,7 +135,8 @@ TEST_F(Control, StopEndsARunWellAtTheStepThatItSays) {
 }
 
 TEST_F(Control, AFaultIsInTheRecordingToo) {
-  const Ended ended = RunCommand(Run("faulty", {"--for", "1", "--record", Path("faulty.mcap"), "--set", "nodes.b.config.fail_at_step=200"}));
+  const Ended ended = RunCommand(
+      Run("faulty", {"--for", "1", "--record", Path("faulty.mcap"), "--set", "nodes.b.config.fail_at_step=200"}));
   EXPECT_EQ(ended.status, 1) << ended.out;
   const auto remarks = MessagesOf<msg::Remark>(Path("faulty.mcap"), idl::topics::kRemarks);
   ASSERT_EQ(remarks.size(), 2u);
@@ -148,11 +150,12 @@ TEST_F(Control, ExternalRecordersAreTriggeredAtStartMarkersAndEnd) {
   std::vector<msg::Trigger> heard;
   auto participant = dds::Participant::Open({kDomain, "eeg", "an EEG", launch::Transport::kSharedMemory, {}});
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
-  auto reader = participant.value()->MakeReader(idl::topics::kTrigger, dds::Delivery::kHistory, [&](base::Bytes&& bytes) {
-    const auto trigger = idl::Decode<msg::Trigger>(bytes);
-    const std::lock_guard lock(mutex);
-    if (trigger) heard.push_back(trigger.value());
-  });
+  auto reader =
+      participant.value()->MakeReader(idl::topics::kTrigger, dds::Delivery::kHistory, [&](base::Bytes&& bytes) {
+        const auto trigger = idl::Decode<msg::Trigger>(bytes);
+        const std::lock_guard lock(mutex);
+        if (trigger) heard.push_back(trigger.value());
+      });
   ASSERT_TRUE(reader.ok());
   Started run(Run("eeg", {"--for", "1000", "--no-record", "--pace", "real", "--domain", std::to_string(kDomain)}));
   (void)Begun("eeg");
@@ -202,9 +205,11 @@ TEST_F(Control, WithoutARunWithSeveralAndNonsenseAreSentences) {
   for (const std::string wrong : {"participant", "=x", "a.b=c", "a b=c"}) {
     const Ended ended = RunCommand(Run("meta", {"--meta", wrong, "--record", Path("never.mcap")}));
     EXPECT_EQ(ended.status, 2) << ended.out;
-    EXPECT_NE(ended.out.find("--meta: '" + wrong + "' was found; KEY=VALUE was expected"), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find("--meta: '" + wrong + "' was found; KEY=VALUE was expected"), std::string::npos)
+        << ended.out;
   }
-  EXPECT_NE(RunCommand(Run("meta", {"--meta", "a=b", "--no-record"})).out.find("--meta: nothing is recorded"), std::string::npos);
+  EXPECT_NE(RunCommand(Run("meta", {"--meta", "a=b", "--no-record"})).out.find("--meta: nothing is recorded"),
+            std::string::npos);
 }
 
 }  // namespace

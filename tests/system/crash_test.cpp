@@ -1,4 +1,5 @@
-// Whole runs in which the car hits something: it is stopped, the event is recorded, and the run is computed again to the bit.
+// Whole runs in which the car hits something: it is stopped, the event is recorded, and the run is computed again to
+// the bit.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -49,7 +50,8 @@ class Crash : public ::testing::Test {
     }
     return story;
   }
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-crash-" + std::to_string(::getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-crash-" + std::to_string(::getpid()));
 };
 
 TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
@@ -69,7 +71,8 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   const double momentum = model.value()->dimensions().mass_kg * story.speed_before_mps;
   EXPECT_LT(story.impulse_x_Ns, -0.98 * momentum);
   const auto states = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState);
-  for (const auto& state : states) ASSERT_LT(state.position_w_m().x(), 294.0) << "it is in the house at step " << state.header().step();
+  for (const auto& state : states)
+    ASSERT_LT(state.position_w_m().x(), 294.0) << "it is in the house at step " << state.header().step();
   const Ended verified = RunCommand({Bin("rodeira"), "replay", recording, "--verify"});
   EXPECT_EQ(verified.status, 0) << verified.out;
   EXPECT_NE(verified.out.find("identical"), std::string::npos) << verified.out;
@@ -78,7 +81,8 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
 TEST_F(Crash, WithEveryModel) {
   for (const std::string model : {"multibody", "ode"}) {
     const std::string recording = Path(model + ".mcap");
-    const Ended run = Run("crash_wall.yaml", {"--for", "10", "--in-process", "--set", "vehicle.model=" + model, "--record", recording});
+    const Ended run = Run("crash_wall.yaml",
+                          {"--for", "10", "--in-process", "--set", "vehicle.model=" + model, "--record", recording});
     ASSERT_EQ(run.status, 0) << run.out;
     const Story story = StoryOf(recording);
     ASSERT_TRUE(story.first.has_value()) << model;
@@ -138,7 +142,8 @@ TEST_F(Crash, IntoTheCarOfAnotherNode) {
 
 TEST_F(Crash, NobodyIsTouchedWhereCollisionsAreOff) {
   const std::string recording = Path("none.mcap");
-  const Ended run = Run("crash_wall.yaml", {"--for", "10", "--in-process", "--set", "nodes.ego.config.collisions=none", "--record", recording});
+  const Ended run = Run("crash_wall.yaml", {"--for", "10", "--in-process", "--set", "nodes.ego.config.collisions=none",
+                                            "--record", recording});
   ASSERT_EQ(run.status, 0) << run.out;
   EXPECT_FALSE(StoryOf(recording).first.has_value());
   EXPECT_GT(MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState).back().position_w_m().x(), 300.0);

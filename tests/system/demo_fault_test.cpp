@@ -1,5 +1,5 @@
-// Each process of the demo killed and stopped in turn while it drives: named within a second, status 1, nobody left, and
-// the recording readable.
+// Each process of the demo killed and stopped in turn while it drives: named within a second, status 1, nobody left,
+// and the recording readable.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "idl/topics.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 
@@ -39,14 +39,16 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   const auto& [node, signal] = GetParam();
   const std::string run_name = "demo-fault-" + node + std::to_string(signal);
   const std::string recording = (folder_.path() / "cut.mcap").string();
-  Started run({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--for", "1000", "--pace", "real", "--run", run_name, "--record", recording, "--set",
+  Started run({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--for", "1000", "--pace", "real", "--run",
+               run_name, "--record", recording, "--set",
                "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string()});
   ASSERT_TRUE(WaitForBytes(recording, 50'000, 60s));
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], signal);
   const std::string who = node == "clock" ? "the clock" : "node '" + node + "'";
-  const auto took = run.WaitFor(who + (signal == SIGKILL ? " was killed by signal 9" : " was stopped by signal 19"), 10s);
+  const auto took =
+      run.WaitFor(who + (signal == SIGKILL ? " was killed by signal 9" : " was stopped by signal 19"), 10s);
   const Ended ended = run.Wait(20s);
   EXPECT_GE(took, 0ms) << ended.out;
   EXPECT_LE(took, 1000ms) << ended.out;
@@ -68,7 +70,8 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   const std::int64_t last = std::stoll(end.value()->entries.at("last_step"));
   std::map<std::pair<std::string, std::uint32_t>, std::int64_t> newest;
   for (const Recorded& sample : SamplesOf(recording)) {
-    if (sample.topic != idl::topics::kSnapshot) newest[{sample.topic, sample.source}] = sample.step;  // they are a second apart
+    if (sample.topic != idl::topics::kSnapshot)
+      newest[{sample.topic, sample.source}] = sample.step;  // they are a second apart
   }
   EXPECT_EQ(newest.size(), 6u) << "controls, the car and what it touches, traffic, its details and its lights";
   for (const auto& [stream, step] : newest) {
@@ -82,7 +85,10 @@ std::string NameOf(const ::testing::TestParamInfo<DemoFault::ParamType>& of) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EachNode, DemoFault,
-                         ::testing::Combine(::testing::Values("clock", "road", "driver", "ego", "traffic", "recorder", "view"), ::testing::Values(SIGKILL, SIGSTOP)), NameOf);
+                         ::testing::Combine(::testing::Values("clock", "road", "driver", "ego", "traffic", "recorder",
+                                                              "view"),
+                                            ::testing::Values(SIGKILL, SIGSTOP)),
+                         NameOf);
 
 }  // namespace
 }  // namespace rodeira::system_test

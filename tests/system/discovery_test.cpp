@@ -1,5 +1,5 @@
-// How the processes of one PC find each other, and what is wrong about it or about a laboratory file: no step depends on
-// the first, the second is one sentence and status 2.
+// How the processes of one PC find each other, and what is wrong about it or about a laboratory file: no step depends
+// on the first, the second is one sentence and status 2.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -31,7 +31,8 @@ Ended Empty(std::vector<std::string> more) {
 TEST(Discovery, OverUdpEveryKindGivesTheDigestOfSharedMemory) {
   const std::string digest = DigestIn(Empty({}).out);
   ASSERT_EQ(digest.size(), 16u);
-  for (const char* kind : {"{kind: multicast}", "{kind: peers, addresses: [127.0.0.1]}", "{kind: server, address: 127.0.0.1, port: 11899}"}) {
+  for (const char* kind : {"{kind: multicast}", "{kind: peers, addresses: [127.0.0.1]}",
+                           "{kind: server, address: 127.0.0.1, port: 11899}"}) {
     const Ended ended = Empty({"--set", "transport=udp", "--set", std::string("discovery=") + kind});
     EXPECT_EQ(ended.status, 0) << kind << ended.out;
     EXPECT_EQ(DigestIn(ended.out), digest) << kind << ended.out;
@@ -41,7 +42,8 @@ TEST(Discovery, OverUdpEveryKindGivesTheDigestOfSharedMemory) {
 // Of itself Fast DDS looks for the first four participants of a peer.
 TEST(Discovery, ByPeersTenNodesMeet) {
   const cli::TemporaryFolder folder;
-  std::string text = "rodeira: launch/1\ntransport: udp\ndiscovery: {kind: peers, addresses: [127.0.0.1]}\nduration_s: 0.1\nnodes:\n";
+  std::string text =
+      "rodeira: launch/1\ntransport: udp\ndiscovery: {kind: peers, addresses: [127.0.0.1]}\nduration_s: 0.1\nnodes:\n";
   for (int i = 0; i < 10; ++i) text += "  n" + std::to_string(i) + ": {kind: empty}\n";
   const Ended ended = RunCommand({Bin("rodeira"), "run", folder.Write("ten.yaml", text).string()});
   EXPECT_EQ(ended.status, 0) << ended.out;
@@ -71,9 +73,14 @@ TEST(Discovery, AServersPortInUseIsOneSentence) {
   const cli::TemporaryFolder folder;
   const auto before = cli::SharedMemoryFiles();
   const std::string recording = (folder.path() / "never.mcap").string();
-  const Ended ended = Empty({"--set", "transport=udp", "--set", "discovery={kind: server, address: 127.0.0.1, port: " + port.number() + "}", "--run", "taken", "--record", recording});
+  const Ended ended = Empty({"--set", "transport=udp", "--set",
+                             "discovery={kind: server, address: 127.0.0.1, port: " + port.number() + "}", "--run",
+                             "taken", "--record", recording});
   EXPECT_EQ(ended.status, 2) << ended.out;
-  EXPECT_EQ(ended.out, "rodeira: run 'taken': UDP port " + port.number() + " of the discovery server is in use by another program; end that one, or name another 'discovery.port'\n");
+  EXPECT_EQ(
+      ended.out,
+      "rodeira: run 'taken': UDP port " + port.number() +
+          " of the discovery server is in use by another program; end that one, or name another 'discovery.port'\n");
   EXPECT_TRUE(ProcessesWith("--run taken").empty());
   EXPECT_FALSE(std::filesystem::exists(recording));
   for (const std::string& file : cli::SharedMemoryFiles()) EXPECT_TRUE(before.contains(file)) << file << " was left";
@@ -91,25 +98,41 @@ class LabRefusal : public ::testing::Test {
     return ended.out;
   }
   const cli::TemporaryFolder folder_;
-  const std::string lab_ = folder_.Write("rig.yaml", "rodeira: lab/1\ndomain: 5\nhosts: {left: {address: 127.0.0.1}, right: {address: 203.0.113.7}}\n").string();
+  const std::string lab_ =
+      folder_
+          .Write("rig.yaml",
+                 "rodeira: lab/1\ndomain: 5\nhosts: {left: {address: 127.0.0.1}, right: {address: 203.0.113.7}}\n")
+          .string();
 };
 
 TEST_F(LabRefusal, Hosts) {
-  EXPECT_THAT(Of({"--lab", lab_, "--host", "lefft"}), HasSubstr("rig.yaml: there is no host 'lefft'; did you mean 'left'?"));
-  EXPECT_THAT(Of({"--lab", lab_, "--host", "right", "--set", "nodes.a.host=right"}), HasSubstr("host 'right' has the address 203.0.113.7, which this PC does not have"));
-  EXPECT_THAT(Of({"--lab", lab_, "--host", "left", "--set", "nodes.a.host=rigth"}), HasSubstr("node 'a' belongs to host 'rigth', which is not in " + lab_ + "; did you mean 'right'?"));
-  const std::string other = folder_.Write("other.yaml", "rodeira: lab/1\ndomain: 5\nhosts: {right: {address: 203.0.113.7}, left: {address: 127.0.0.1}}\n").string();
+  EXPECT_THAT(Of({"--lab", lab_, "--host", "lefft"}),
+              HasSubstr("rig.yaml: there is no host 'lefft'; did you mean 'left'?"));
+  EXPECT_THAT(Of({"--lab", lab_, "--host", "right", "--set", "nodes.a.host=right"}),
+              HasSubstr("host 'right' has the address 203.0.113.7, which this PC does not have"));
+  EXPECT_THAT(Of({"--lab", lab_, "--host", "left", "--set", "nodes.a.host=rigth"}),
+              HasSubstr("node 'a' belongs to host 'rigth', which is not in " + lab_ + "; did you mean 'right'?"));
+  const std::string other =
+      folder_
+          .Write("other.yaml",
+                 "rodeira: lab/1\ndomain: 5\nhosts: {right: {address: 203.0.113.7}, left: {address: 127.0.0.1}}\n")
+          .string();
   EXPECT_THAT(Of({"--lab", other, "--host", "left"}), HasSubstr("no node belongs to host 'left'"));
-  EXPECT_THAT(Of({"--lab", other, "--host", "left", "--for", "1"}), HasSubstr("--for: it belongs to the clock's host, 'right'"));
-  EXPECT_THAT(Of({"--lab", other, "--host", "left", "--pace", "real"}), HasSubstr("--pace: it belongs to the clock's host, 'right'"));
+  EXPECT_THAT(Of({"--lab", other, "--host", "left", "--for", "1"}),
+              HasSubstr("--for: it belongs to the clock's host, 'right'"));
+  EXPECT_THAT(Of({"--lab", other, "--host", "left", "--pace", "real"}),
+              HasSubstr("--pace: it belongs to the clock's host, 'right'"));
 }
 
 TEST_F(LabRefusal, Options) {
   EXPECT_THAT(Of({"--host", "left"}), HasSubstr("--host: no laboratory file says where the hosts are"));
   EXPECT_THAT(Of({"--lab", lab_}), HasSubstr("--lab: which PC is this? --host NAME was expected"));
   EXPECT_THAT(Of({"--lab", "/no/lab.yaml", "--host", "left"}), HasSubstr("/no/lab.yaml: there is no such file"));
-  EXPECT_THAT(Of({"--lab", folder_.Write("b.yaml", "rodeira: lab/1\ndomain: 5\nhosts: [left\n").string(), "--host", "left"}), HasSubstr("this is no YAML"));
-  EXPECT_THAT(Of({"--lab", lab_, "--host", "left", "--in-process"}), HasSubstr("--in-process: a run in one process has one host"));
+  EXPECT_THAT(
+      Of({"--lab", folder_.Write("b.yaml", "rodeira: lab/1\ndomain: 5\nhosts: [left\n").string(), "--host", "left"}),
+      HasSubstr("this is no YAML"));
+  EXPECT_THAT(Of({"--lab", lab_, "--host", "left", "--in-process"}),
+              HasSubstr("--in-process: a run in one process has one host"));
 }
 
 // --- left-overs of dead runs ---
@@ -119,9 +142,11 @@ class DeadRun : public ::testing::Test {
   // A node on its own, killed: its files stay. Their names.
   static std::set<std::string> Die() {
     const auto before = cli::SharedMemoryFiles();
-    Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "dead", "--domain", "77", "--node", "a"});
+    Started node(
+        {Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "dead", "--domain", "77", "--node", "a"});
     const auto until = std::chrono::steady_clock::now() + 10s;
-    while (cli::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    while (cli::SharedMemoryFiles().size() < before.size() + 4 && std::chrono::steady_clock::now() < until)
+      ::usleep(5000);
     std::this_thread::sleep_for(300ms);
     ::kill(node.pid(), SIGKILL);
     node.Wait(5s);
@@ -132,9 +157,11 @@ class DeadRun : public ::testing::Test {
 };
 
 TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
-  Started living({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "living"});
+  Started living(
+      {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "living"});
   const auto until = std::chrono::steady_clock::now() + 20s;
-  while (ProcessesWith("--run living", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+  while (ProcessesWith("--run living", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until)
+    ::usleep(5000);
   std::this_thread::sleep_for(1s);
   const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);
@@ -165,13 +192,17 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << ended.out;
 }
 
-// In a container with the same /dev/shm nobody sees the processes outside; what they have locked is theirs all the same.
+// In a container with the same /dev/shm nobody sees the processes outside; what they have locked is theirs all the
+// same.
 TEST_F(DeadRun, ALivingRunOutsideTheContainerIsLeftAlone) {
   const std::vector<std::string> inside{"/usr/bin/unshare", "--pid", "--fork", "--mount-proc"};
-  if (::geteuid() != 0 || RunCommand({inside[0], inside[1], inside[2], inside[3], "/bin/true"}).status != 0) GTEST_SKIP() << "no namespace of processes can be made here";
-  Started living({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "outside"});
+  if (::geteuid() != 0 || RunCommand({inside[0], inside[1], inside[2], inside[3], "/bin/true"}).status != 0)
+    GTEST_SKIP() << "no namespace of processes can be made here";
+  Started living(
+      {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "1000", "--pace", "real", "--run", "outside"});
   const auto until = std::chrono::steady_clock::now() + 20s;
-  while (ProcessesWith("--run outside", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+  while (ProcessesWith("--run outside", "bin/rodeira-").size() < 5 && std::chrono::steady_clock::now() < until)
+    ::usleep(5000);
   std::this_thread::sleep_for(1s);
   const auto alive = cli::SharedMemoryFiles();
   ASSERT_GT(alive.size(), 5u);

@@ -31,7 +31,8 @@ class Drive : public ::testing::Test {
     more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("first_drive.yaml")});
     return more;
   }
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-drive-" + std::to_string(::getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-drive-" + std::to_string(::getpid()));
 };
 
 std::string Bytes(const std::string& path) {
@@ -53,7 +54,8 @@ TEST_F(Drive, RecordsTheSameSamplesEveryTimeAndInOneProcessToo) {
 }
 
 TEST_F(Drive, WithoutANameTheRecordingGoesToTheDataFolderWhichIsMade) {
-  const auto run = RunCommand({"XDG_DATA_HOME=" + Path("fresh"), Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "0.1"});
+  const auto run = RunCommand(
+      {"XDG_DATA_HOME=" + Path("fresh"), Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--for", "0.1"});
   ASSERT_EQ(run.status, 0) << run.out;
   int recordings = 0;
   for (const auto& entry : std::filesystem::directory_iterator(Path("fresh") + "/rodeira")) {
@@ -68,7 +70,10 @@ TEST_F(Drive, ARecorderThatCannotWriteFailsTheRun) {
   for (int i = 0; i < 10; ++i) {
     const auto run = RunCommand(Command({"--for", "0.05", "--record", Path("no/such/folder/a.mcap")}));
     ASSERT_NE(run.status, 0) << run.out;
-    EXPECT_NE(run.out.find("node 'recorder' failed at step 0: " + Path("no/such/folder/a.mcap") + ": the recording cannot be created"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("node 'recorder' failed at step 0: " + Path("no/such/folder/a.mcap") +
+                           ": the recording cannot be created"),
+              std::string::npos)
+        << run.out;
   }
 }
 
@@ -81,7 +86,8 @@ TEST_F(Drive, TheRecordingHoldsEverySampleOnceAndTheCarHasDriven) {
   const auto channels = reader.value().ChannelsOf(idl::topics::kVehicleState);
   ASSERT_EQ(channels.size(), 1u);
   EXPECT_EQ(reader.value().statistics().messages_by_channel.at(channels[0]), 8001u);
-  EXPECT_EQ(reader.value().statistics().messages_by_channel.at(reader.value().ChannelsOf(idl::topics::kControls)[0]), 801u);
+  EXPECT_EQ(reader.value().statistics().messages_by_channel.at(reader.value().ChannelsOf(idl::topics::kControls)[0]),
+            801u);
   record::Query query;
   query.channels = std::set<record::ChannelId>{channels[0]};
   auto cursor = reader.value().Messages(query);
@@ -123,7 +129,8 @@ TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
   EXPECT_NE(digest({"--seed", "6"}), first);
 }
 
-// A world file of version 2, whose roads are a network: autopilot, traffic and car drive on it, as processes and in one.
+// A world file of version 2, whose roads are a network: autopilot, traffic and car drive on it, as processes and in
+// one.
 TEST_F(Drive, AutopilotAndTrafficDriveOnHaste) {
   const auto run = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("haste.yaml"), "--headless", "--for", "20"});
@@ -146,8 +153,8 @@ TEST_F(Drive, AutopilotAndTrafficDriveOnHaste) {
 TEST_F(Drive, TheGroundIsTheSameHereAndThere) {
   const auto samples = [&](const std::string& ground, std::int64_t& asked) {
     const std::string file = Path(ground + ".mcap");
-    const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/n222_traffic.yaml", "--for", "5", "--record", file,
-                                    "--set", "nodes.ego.config.ground=" + ground});
+    const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/n222_traffic.yaml", "--for", "5",
+                                    "--record", file, "--set", "nodes.ego.config.ground=" + ground});
     EXPECT_EQ(ended.status, 0) << ended.out;
     const auto line = ended.out.find("\nego ");
     EXPECT_NE(line, std::string::npos) << ended.out;
@@ -196,8 +203,8 @@ TEST_F(Drive, OfAKilledCarTheRecordingIsClosedProperly) {
 }
 
 TEST_F(Drive, AStoppedRoadServerIsNamedAndNotTheCarThatWaitsForIt) {
-  Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("x.mcap"), "--run", "stopped-road",
-                       "--set", "nodes.ego.config.ground=remote"}));
+  Started run(Command({"--for", "1000", "--pace", "real", "--record", Path("x.mcap"), "--run", "stopped-road", "--set",
+                       "nodes.ego.config.ground=remote"}));
   std::this_thread::sleep_for(2000ms);
   for (const pid_t victim : ProcessesWith("--run stopped-road", "--node road")) ::kill(victim, SIGSTOP);
   EXPECT_GE(run.WaitFor("node 'road' was stopped", 2s), 0ms);
@@ -213,19 +220,24 @@ TEST_F(Drive, WrongFilesAreRefusedInOneSentence) {
     EXPECT_FALSE(std::filesystem::exists(Path("never.mcap")) && std::filesystem::file_size(Path("never.mcap")) == 0);
     std::filesystem::remove(Path("never.mcap"));
   };
-  const auto write = [this](const std::string& name, const std::string& text) { EXPECT_TRUE(base::WriteWhole(Path(name), std::string_view(text)).ok()); };
+  const auto write = [this](const std::string& name, const std::string& text) {
+    EXPECT_TRUE(base::WriteWhole(Path(name), std::string_view(text)).ok());
+  };
   refuses({"--set", "world=/no/world.yaml"}, "/no/world.yaml: there is no such file");
   write("world.yaml", "rodeira: world/1\nname: x\nground: {kind: plane, z_cm: 5}\n");
-  refuses({"--set", "world=" + Path("world.yaml")}, "world.yaml:3: unknown key 'ground.z_cm'; the unit is part of the name: 'z_m'");
+  refuses({"--set", "world=" + Path("world.yaml")},
+          "world.yaml:3: unknown key 'ground.z_cm'; the unit is part of the name: 'z_m'");
   refuses({"--set", "nodes.ego.config.vehicle=/no/car.yaml"}, "/no/car.yaml: there is no such file");
   auto car = base::ReadText(SourceDir() + "/configs/vehicles/default.yaml").value();
   car.replace(car.find("model: bicycle"), 14, "model: bycicle");
   write("car.yaml", car);
   refuses({"--set", "nodes.ego.config.vehicle=" + Path("car.yaml")}, "did you mean 'bicycle'?");
   write("script.csv", "time_s,throtle\n0,1\n");
-  refuses({"--set", "nodes.driver.config.script=" + Path("script.csv")}, "script.csv:1: unknown column 'throtle'; did you mean 'throttle'?");
+  refuses({"--set", "nodes.driver.config.script=" + Path("script.csv")},
+          "script.csv:1: unknown column 'throtle'; did you mean 'throttle'?");
   write("script.csv", "time_s,throttle\n0,1\n1,1.5\n");
-  refuses({"--set", "nodes.driver.config.script=" + Path("script.csv")}, "script.csv:3: 'throttle' is '1.5'; a number from 0 to 1 was expected");
+  refuses({"--set", "nodes.driver.config.script=" + Path("script.csv")},
+          "script.csv:3: 'throttle' is '1.5'; a number from 0 to 1 was expected");
   refuses({"--set", "nodes.driver.config.source=scirpt"}, "did you mean 'script'?");
 }
 
@@ -246,11 +258,13 @@ TEST_F(Drive, AFullDiskStopsTheRunWithASentence) {
 // MCAP's reference reader and the IDL parser that robotics viewers use.
 TEST_F(Drive, TheReferenceReaderDecodesEveryTopic) {
   const std::string npm = SourceDir() + "/tests/record-npm";
-  if (!std::filesystem::exists(npm + "/node_modules")) GTEST_SKIP() << "npm's packages are not installed (npm ci in tests/record-npm)";
+  if (!std::filesystem::exists(npm + "/node_modules"))
+    GTEST_SKIP() << "npm's packages are not installed (npm ci in tests/record-npm)";
   ASSERT_EQ(RunCommand(Command({"--for", "2", "--record", Path("npm.mcap")})).status, 0);
   const Ended check = RunCommand({"/usr/bin/env", "node", npm + "/check.mjs", Path("npm.mcap")});
   EXPECT_EQ(check.status, 0) << check.out;
-  EXPECT_NE(check.out.find("rodeira/vehicle_state (rodeira::msg::VehicleState): 2001 messages"), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("rodeira/vehicle_state (rodeira::msg::VehicleState): 2001 messages"), std::string::npos)
+      << check.out;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What only shows with time or by chance: the recorder killed at any instant, and a long run of many processes. The counts
-// are small here and large in `tests/run --endurance`.
+// What only shows with time or by chance: the recorder killed at any instant, and a long run of many processes. The
+// counts are small here and large in `tests/run --endurance`.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -42,23 +42,40 @@ double NumberBehind(const std::string& text, const std::string& word) {
 
 class RecorderKilled : public Endurance {
  protected:
-  static constexpr std::uintmax_t kFirstSecondBytes = 100'000;  // what is embedded has 20 kB, the first chunk more than these
+  static constexpr std::uintmax_t kFirstSecondBytes =
+      100'000;                                      // what is embedded has 20 kB, the first chunk more than these
   static constexpr const char* kSimulated = "120";  // seconds: at the pace below ten, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
-    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", kSimulated, "--record", recording, "--pace", "12",
-            "--set", "limits.silence_s=30", "--set", "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
+    return {Bin("rodeira"),
+            "run",
+            kLaunch,
+            "--run",
+            run,
+            "--for",
+            kSimulated,
+            "--record",
+            recording,
+            "--pace",
+            "12",
+            "--set",
+            "limits.silence_s=30",
+            "--set",
+            "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
   }
   // Waits until the recorder's process is there, or until the first second lies in its file.
   static pid_t Find(const std::string& name, const std::string& recording, bool driving) {
     std::error_code none;
     for (int i = 0; i < 10'000; ++i, ::usleep(2000)) {
-      if (driving && (!std::filesystem::exists(recording, none) || std::filesystem::file_size(recording, none) < kFirstSecondBytes)) continue;
+      if (driving && (!std::filesystem::exists(recording, none) ||
+                      std::filesystem::file_size(recording, none) < kFirstSecondBytes))
+        continue;
       const auto found = ProcessesWith("--run " + name, "/rodeira-recorder");
       if (found.size() == 1) return found.front();
     }
     return -1;
   }
-  // What is left is a prefix of the undisturbed recording, at most a second short of where the run ended; and it is said.
+  // What is left is a prefix of the undisturbed recording, at most a second short of where the run ended; and it is
+  // said.
   void ExpectAlmostAll(const std::string& recording, const Ended& ended) {
     const Ended info = RunCommand({Bin("rodeira"), "info", recording});
     EXPECT_EQ(info.status, 1) << info.out;
@@ -69,16 +86,19 @@ class RecorderKilled : public Endurance {
     EXPECT_EQ(RunCommand({Bin("rodeira"), "info", repaired}).status, 0);
     const auto samples = SamplesOf(repaired);
     ASSERT_LE(samples.size(), calm_.size());
-    EXPECT_EQ(FirstDifference(samples, {calm_.begin(), calm_.begin() + static_cast<std::ptrdiff_t>(samples.size())}), "");
+    EXPECT_EQ(FirstDifference(samples, {calm_.begin(), calm_.begin() + static_cast<std::ptrdiff_t>(samples.size())}),
+              "");
     const double reached_s = NumberBehind(ended.out, "simulated ");
     if (reached_s <= 0.0) return;  // killed before the first step
     std::int64_t last = -1;
-    for (const Recorded& sample : samples) last = std::max(last, sample.topic == idl::topics::kVehicleState ? sample.step : -1);
+    for (const Recorded& sample : samples)
+      last = std::max(last, sample.topic == idl::topics::kVehicleState ? sample.step : -1);
     const double lost_s = reached_s - static_cast<double>(last) * 1e-3;
     EXPECT_LE(lost_s, 1.0) << repair.out << ended.out;
     fmt::print("{:.3f} s of {:.3f} s lost\n", lost_s, reached_s);
     worst_s_ = std::max(worst_s_, lost_s);
-    EXPECT_THAT(ended.out, HasSubstr(fmt::format("holds {:.3f} s of {:.3f} s", std::max(0.0, static_cast<double>(last) * 1e-3), reached_s)));
+    EXPECT_THAT(ended.out, HasSubstr(fmt::format("holds {:.3f} s of {:.3f} s",
+                                                 std::max(0.0, static_cast<double>(last) * 1e-3), reached_s)));
     EXPECT_THAT(ended.out, HasSubstr("rodeira repair " + recording));
   }
   const std::string kLaunch = SourceDir() + "/tests/data/n222_traffic.yaml";
@@ -93,7 +113,8 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
   SCOPED_TRACE(fmt::format("RODEIRA_RECORDER_KILLS_SEED={}", seed));
   fmt::print("RODEIRA_RECORDER_KILLS_SEED={}\n", seed);
   std::mt19937_64 lot(seed);
-  const Ended calm = RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", kSimulated, "--record", File("calm.mcap")});
+  const Ended calm =
+      RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", kSimulated, "--record", File("calm.mcap")});
   ASSERT_EQ(calm.status, 0) << calm.out;
   calm_ = SamplesOf(File("calm.mcap"));
   ASSERT_GT(calm_.size(), 10'000u);
@@ -102,7 +123,8 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
     const std::string recording = File(name + ".mcap");
     const bool driving = i % 8 != 0;
     const std::chrono::milliseconds wait(lot() % (driving ? 2000 : 500));
-    SCOPED_TRACE(fmt::format("kill {}, {} ms after {}", i, wait.count(), driving ? "the first second" : "the recorder's start"));
+    SCOPED_TRACE(
+        fmt::format("kill {}, {} ms after {}", i, wait.count(), driving ? "the first second" : "the recorder's start"));
     Started run(Command(name, recording));
     const pid_t victim = Find(name, recording, driving);
     if (victim < 0) FAIL() << "there is no recorder to kill: " << run.Wait(1s).out;
@@ -121,19 +143,21 @@ TEST_F(RecorderKilled, AtAnyInstantCostsAtMostASimulatedSecondAndItIsSaid) {
 
 // --- many steps ---
 
-// Resident memory of a process that is no page of a file, kB: what can leak. Pages of programs and libraries come in whenever
-// they are first used, as where another run of this machine is heard of.
+// Resident memory of a process that is no page of a file, kB: what can leak. Pages of programs and libraries come in
+// whenever they are first used, as where another run of this machine is heard of.
 std::int64_t ResidentOf(pid_t pid) {
   std::int64_t resident_kb = 0;
   std::ifstream in(fmt::format("/proc/{}/status", pid));
   for (std::string line; std::getline(in, line);) {
-    if (line.starts_with("RssAnon:") || line.starts_with("RssShmem:")) resident_kb += std::strtoll(line.c_str() + line.find(':') + 1, nullptr, 10);
+    if (line.starts_with("RssAnon:") || line.starts_with("RssShmem:"))
+      resident_kb += std::strtoll(line.c_str() + line.find(':') + 1, nullptr, 10);
   }
   return resident_kb;
 }
 
 // Each process' memory, again and again until the run has ended.
-std::map<pid_t, std::vector<std::int64_t>> Watch(Started& run, const std::string& name, std::chrono::milliseconds every, pid_t& clock) {
+std::map<pid_t, std::vector<std::int64_t>> Watch(Started& run, const std::string& name, std::chrono::milliseconds every,
+                                                 pid_t& clock) {
   std::map<pid_t, std::vector<std::int64_t>> memory;
   while (run.WaitFor("simulated ", every) < 0ms) {
     for (const pid_t pid : ProcessesWith("--run " + name, "/rodeira-clock")) clock = pid;
@@ -163,7 +187,8 @@ TEST_F(Endurance, ALongRunOfEightNodesSkipsNoStepAndItsMemoryIsFlat) {
   const Ended ended = run.Wait(30s);
   ASSERT_EQ(ended.status, 0) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("faults  none"));
-  for (int node = 0; node < 8; ++node) EXPECT_EQ(NumberBehind(ended.out, fmt::format("\nn{} ", node)), static_cast<double>(steps + 1)) << ended.out;
+  for (int node = 0; node < 8; ++node)
+    EXPECT_EQ(NumberBehind(ended.out, fmt::format("\nn{} ", node)), static_cast<double>(steps + 1)) << ended.out;
   Started alone({Bin("rodeira"), "run", launch, "--no-record", "--for", seconds, "--in-process"});
   const Ended in_process = alone.Wait(std::chrono::milliseconds(60'000 + steps));
   EXPECT_EQ(DigestIn(ended.out), DigestIn(in_process.out)) << in_process.out;

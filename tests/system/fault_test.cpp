@@ -19,7 +19,8 @@ using namespace std::chrono_literals;
 // Runs at real pace, sends `signal` to one process once the run drives, and expects its name within a second.
 void ExpectNamed(const std::string& node, int signal, const std::string& expected) {
   const std::string run_name = "fault-" + node + std::to_string(signal);
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", run_name});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
+               "--run", run_name});
   std::this_thread::sleep_for(1500ms);
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);
@@ -38,13 +39,15 @@ TEST(Fault, AKilledClockIsNamedWithinASecond) { ExpectNamed("clock", SIGKILL, "t
 TEST(Fault, AStoppedClockIsNamedWithinASecond) { ExpectNamed("clock", SIGSTOP, "the clock was stopped by signal 19"); }
 
 TEST(Fault, AHangingNodeIsNamedByItsDeadline) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.b.config.hang_at_step=200"});
+  Started run(
+      {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.b.config.hang_at_step=200"});
   EXPECT_GE(run.WaitFor("node 'b' has been computing step 200 for", 10s), 0ms);
   EXPECT_EQ(run.Wait(10s).status, 1);
 }
 
 TEST(Fault, AFailingNodeIsNamedWithItsReason) {
-  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.d.config.fail_at_step=300"});
+  const Ended ended = RunCommand(
+      {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.d.config.fail_at_step=300"});
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.out.find("node 'd' failed at step 300: told to fail here"), std::string::npos) << ended.out;
 }
@@ -53,9 +56,11 @@ TEST(Fault, AFailingNodeIsNamedWithItsReason) {
 TEST(Fault, TheClockItselfNotesASilentNode) {
   std::vector<std::unique_ptr<Started>> nodes;
   for (const char* node : {"a", "b", "c", "d"}) {
-    nodes.push_back(std::make_unique<Started>(std::vector<std::string>{Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--node", node}));
+    nodes.push_back(std::make_unique<Started>(std::vector<std::string>{
+        Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--node", node}));
   }
-  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--pace", "real", "--for", "1000"});
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "silent", "--pace", "real",
+                 "--for", "1000"});
   ASSERT_GE(clock.WaitFor("progress", 10s), 0ms);
   ::kill(nodes[1]->pid(), SIGKILL);
   const auto took = clock.WaitFor("fault node 'b' has said nothing for", 5s);
@@ -66,9 +71,11 @@ TEST(Fault, TheClockItselfNotesASilentNode) {
 }
 
 TEST(Fault, ASecondClockIsRefused) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "two-clocks", "--domain", "7"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
+               "--run", "two-clocks", "--domain", "7"});
   std::this_thread::sleep_for(1000ms);
-  const Ended second = RunCommand({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "two-clocks", "--domain", "7"});
+  const Ended second =
+      RunCommand({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "two-clocks", "--domain", "7"});
   EXPECT_EQ(second.status, 2) << second.out;
   EXPECT_NE(second.out.find("run 'two-clocks' in domain 7 has a clock already"), std::string::npos) << second.out;
   ::kill(run.pid(), SIGINT);
@@ -78,7 +85,8 @@ TEST(Fault, ASecondClockIsRefused) {
 // A process of another build, machine or launch file is refused, with both values.
 void ExpectRefused(const std::string& environment, const std::vector<std::string>& more, const std::string& what) {
   Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "refused"});
-  std::vector<std::string> command{Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"};
+  std::vector<std::string> command{
+      Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"};
   if (!environment.empty()) command.insert(command.begin(), environment);
   command.insert(command.end(), more.begin(), more.end());
   Started node(command);
@@ -98,9 +106,11 @@ TEST(Fault, AnotherWorldIsRefused) {
   const auto folder = std::filesystem::temp_directory_path() / fmt::format("rodeira-worlds-{}", ::getpid());
   std::string world = base::ReadText(source + "/tests/data/straight.yaml").value();
   const std::string vehicle = source + "/configs/vehicles/default.yaml";
-  const std::string launch = "rodeira: launch/1\nworld: world.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: script, script: " +
-                             source + "/tests/data/standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: " + vehicle +
-                             "}}\n  traffic: {kind: traffic, config: {vehicles: 2}}\n";
+  const std::string launch =
+      "rodeira: launch/1\nworld: world.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: "
+      "script, script: " +
+      source + "/tests/data/standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: " + vehicle +
+      "}}\n  traffic: {kind: traffic, config: {vehicles: 2}}\n";
   for (const char* pc : {"one", "two"}) {
     std::filesystem::create_directories(folder / pc);
     ASSERT_TRUE(base::WriteWhole(folder / pc / "launch.yaml", std::string_view(launch)).ok());
@@ -124,8 +134,10 @@ TEST(Fault, AnotherWorldIsRefused) {
 }
 
 TEST(Fault, WhoIsMissingIsSaid) {
-  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});
-  Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1", "--node", "a"});
+  Started clock(
+      {Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});
+  Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set",
+                "limits.start_s=1", "--node", "a"});
   const Ended ended = clock.Wait(20s);
   EXPECT_EQ(ended.status, 1);
   EXPECT_NE(ended.out.find("after 1 s these are still missing: 'a', 'b', 'c', 'd'"), std::string::npos) << ended.out;

@@ -19,7 +19,8 @@ namespace {
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// What stands between the first line that is `fence` and the next line of three strokes, from `at` on, which then lies behind it.
+// What stands between the first line that is `fence` and the next line of three strokes, from `at` on, which then lies
+// behind it.
 std::string BlockOf(const std::string& document, const std::string& fence, std::size_t& at) {
   const std::size_t from = document.find(fence + "\n", at);
   EXPECT_NE(from, std::string::npos) << fence;
@@ -40,12 +41,14 @@ class FirstRoad : public ::testing::Test {
     sentence_ = BlockOf(document, "\n```", at);
     folder_.Write("first_road.yaml", world_);
     // As in the project's folder.
-    for (const char* name : {"launch", "configs"}) fs::create_directory_symlink(fs::path(SourceDir()) / name, folder_.path() / name);
+    for (const char* name : {"launch", "configs"})
+      fs::create_directory_symlink(fs::path(SourceDir()) / name, folder_.path() / name);
     fs::create_directories(folder_.path() / "build");
     fs::create_directory_symlink(fs::path(Bin("rodeira")).parent_path(), folder_.path() / "build/bin");
   }
   Ended Do(const std::string& line) const {
-    return RunCommand({"/usr/bin/env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "sh", "-c", "cd " + folder_.path().string() + " && " + line});
+    return RunCommand({"/usr/bin/env", "-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "sh", "-c",
+                       "cd " + folder_.path().string() + " && " + line});
   }
   // The document's line that says this.
   std::string Line(const std::string& part) const {
@@ -85,7 +88,8 @@ TEST_F(FirstRoad, IsCheckedDrawnAskedAndBuilt) {
 TEST_F(FirstRoad, IsDrivenByTheAutopilotAmongCars) {
   const Ended driven = Do(Line("launch/haste.yaml") + " --record drive.mcap");
   ASSERT_EQ(driven.status, 0) << driven.out;
-  const auto states = MessagesOf<msg::VehicleState>((folder_.path() / "drive.mcap").string(), idl::topics::kVehicleState);
+  const auto states =
+      MessagesOf<msg::VehicleState>((folder_.path() / "drive.mcap").string(), idl::topics::kVehicleState);
   ASSERT_GT(states.size(), 1000u);
   const auto& last = states.back();
   EXPECT_GT(last.header().time_ns(), 19'900'000'000);

@@ -22,10 +22,12 @@ namespace {
 using namespace std::chrono_literals;
 
 // Four empty nodes, all to all; 2000 steps.
-constexpr const char* kFour = "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
-                              "c: {kind: empty, host: right}, d: {kind: empty}}\n";
-constexpr const char* kFourOnThree = "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
-                                     "c: {kind: empty, host: third}, d: {kind: empty}}\n";
+constexpr const char* kFour =
+    "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+    "c: {kind: empty, host: right}, d: {kind: empty}}\n";
+constexpr const char* kFourOnThree =
+    "rodeira: launch/1\nduration_s: 2\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+    "c: {kind: empty, host: third}, d: {kind: empty}}\n";
 const Weather kNoMulticast{0.0, 0us, false};
 const Weather kBad{0.05, 2000us, false};
 
@@ -41,7 +43,9 @@ class Hosts : public ::testing::Test {
     more.insert(more.begin(), {Bin("rodeira"), "run", launch_, "--lab", lab_, "--host", Rig::Name(host)});
     return rig_->On(host, more);
   }
-  std::unique_ptr<Started> Start(int host, const std::vector<std::string>& more = {}) const { return std::make_unique<Started>(Command(host, more)); }
+  std::unique_ptr<Started> Start(int host, const std::vector<std::string>& more = {}) const {
+    return std::make_unique<Started>(Command(host, more));
+  }
   std::string DigestOfOneHost() const {
     // In a laboratory nobody adds a recorder that the launch file does not have.
     std::vector<std::string> command{Bin("rodeira"), "run", launch_, "--in-process"};
@@ -71,7 +75,8 @@ class Hosts : public ::testing::Test {
   // Until all processes are there and drive.
   static bool WaitUntilItDrives() {
     const auto until = std::chrono::steady_clock::now() + 30s;
-    while (ProcessesWith("--run rig", "bin/rodeira-empty").size() < 4 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    while (ProcessesWith("--run rig", "bin/rodeira-empty").size() < 4 && std::chrono::steady_clock::now() < until)
+      ::usleep(5000);
     std::this_thread::sleep_for(1s);
     return ProcessesWith("--run rig", "bin/rodeira-empty").size() == 4;
   }
@@ -119,9 +124,13 @@ TEST_F(Hosts, ThreeByAServerInBadWeather) {
 TEST_F(Hosts, ADriveInBadWeatherIsRecordedTheSame) {
   const std::string root = SourceDir();
   Make(2, kBad, "{kind: server}",
-       "rodeira: launch/1\nname: drive\nworld: " + root + "/configs/worlds/plane.yaml\nduration_s: 2\nnodes:\n  road: {kind: road}\n"
-       "  driver: {kind: input, config: {source: script, script: " + root + "/configs/scenarios/first_drive.csv}}\n"
-       "  ego: {kind: vehicle, host: right, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n  recorder: {kind: recorder}\n");
+       "rodeira: launch/1\nname: drive\nworld: " + root +
+           "/configs/worlds/plane.yaml\nduration_s: 2\nnodes:\n  road: {kind: road}\n"
+           "  driver: {kind: input, config: {source: script, script: " +
+           root +
+           "/configs/scenarios/first_drive.csv}}\n"
+           "  ego: {kind: vehicle, host: right, config: {vehicle: " +
+           root + "/configs/vehicles/default.yaml}}\n  recorder: {kind: recorder}\n");
   if (!rig_->problem().empty()) return;
   const std::string one = (folder_.path() / "one.mcap").string(), two = (folder_.path() / "two.mcap").string();
   const Ended alone = RunCommand({Bin("rodeira"), "run", launch_, "--in-process", "--record", one});
@@ -144,20 +153,30 @@ TEST_F(Hosts, ADriveInBadWeatherIsRecordedTheSame) {
 // Two screens of one seat, each drawn by a PC of its own: at each step the pictures of one PC alone, byte for byte.
 TEST_F(Hosts, ScreensOnTwoPcsShowTheStepsOfOne) {
   const std::string root = SourceDir();
-  const auto launch = [&](const std::string& lab, const std::string& left, const std::string& right, const std::string& folder) {
+  const auto launch = [&](const std::string& lab, const std::string& left, const std::string& right,
+                          const std::string& folder) {
     const auto view = [&](const std::string& screen, const std::string& host) {
-      return "  " + screen + ": {kind: view" + host + ", config: {screen: " + screen + ", window: never, quality: low, mirrors: [], width_px: 320, height_px: 180, frames: {times_s: [0.5, 1.5], folder: " +
+      return "  " + screen + ": {kind: view" + host + ", config: {screen: " + screen +
+             ", window: never, quality: low, mirrors: [], width_px: 320, height_px: 180, frames: {times_s: [0.5, 1.5], "
+             "folder: " +
              (folder_.path() / folder / screen).string() + "}}}\n";
     };
-    return "rodeira: launch/1\nname: seat\nlab: " + lab + "\nworld: " + root + "/configs/worlds/n222.yaml\nduration_s: 1.6\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: autopilot, driver: " + root +
-           "/configs/drivers/default.yaml, vehicle: " + root + "/configs/vehicles/default.yaml}}\n  ego: {kind: vehicle, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n" +
-           view("centre", left) + view("side", right);
+    return "rodeira: launch/1\nname: seat\nlab: " + lab + "\nworld: " + root +
+           "/configs/worlds/n222.yaml\nduration_s: 1.6\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: "
+           "{source: autopilot, driver: " +
+           root + "/configs/drivers/default.yaml, vehicle: " + root +
+           "/configs/vehicles/default.yaml}}\n  ego: {kind: vehicle, config: {vehicle: " + root +
+           "/configs/vehicles/default.yaml}}\n" + view("centre", left) + view("side", right);
   };
-  const std::string screens = "screens:\n  centre: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: 0, eye_height_cm: 22}\n"
-                              "  side: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: -53.66, eye_height_cm: 22}\n";
+  const std::string screens =
+      "screens:\n  centre: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: 0, eye_height_cm: 22}\n"
+      "  side: {width_cm: 70.8, height_cm: 39.8, distance_cm: 70, angle_deg: -53.66, eye_height_cm: 22}\n";
   Make(2, Weather{}, "{kind: peers}\n" + screens, launch("lab.yaml", ", host: left", ", host: right", "two"));
   if (!rig_->problem().empty()) return;
-  (void)folder_.Write("one_lab.yaml", "rodeira: lab/1\ndomain: 8\nrun: seat\ntransport: shared_memory\nhosts: {here: {address: 127.0.0.1}}\n" + screens);
+  (void)folder_.Write(
+      "one_lab.yaml",
+      "rodeira: lab/1\ndomain: 8\nrun: seat\ntransport: shared_memory\nhosts: {here: {address: 127.0.0.1}}\n" +
+          screens);
   const std::string one = folder_.Write("one.yaml", launch("one_lab.yaml", "", "", "one")).string();
   const Ended alone = RunCommand({Bin("rodeira"), "run", one, "--no-record", "--quiet"});
   if (alone.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << alone.out;
@@ -169,7 +188,8 @@ TEST_F(Hosts, ScreensOnTwoPcsShowTheStepsOfOne) {
   std::set<base::Digest> different;
   for (const char* screen : {"centre", "side"}) {
     for (const char* picture : {"step_000000500.png", "step_000001500.png"}) {
-      const auto of_one = base::ReadBytes(folder_.path() / "one" / screen / picture), of_two = base::ReadBytes(folder_.path() / "two" / screen / picture);
+      const auto of_one = base::ReadBytes(folder_.path() / "one" / screen / picture),
+                 of_two = base::ReadBytes(folder_.path() / "two" / screen / picture);
       ASSERT_TRUE(of_one.ok() && of_two.ok()) << screen << " " << picture;
       EXPECT_EQ(base::Hash(of_one.value()), base::Hash(of_two.value())) << screen << " " << picture;
       different.insert(base::Hash(of_one.value()));
@@ -236,7 +256,8 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsNamedOnBothWithinASecond) {
 
 TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
   Make(2, kNoMulticast, "{kind: peers}",
-       "rodeira: launch/1\nrecovery: restart\nduration_s: 8\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, host: right}, "
+       "rodeira: launch/1\nrecovery: restart\nduration_s: 8\nnodes: {a: {kind: empty, host: left}, b: {kind: empty, "
+       "host: right}, "
        "c: {kind: empty, host: right}, d: {kind: empty}, recorder: {kind: recorder, host: left}}\n");
   if (!rig_->problem().empty()) return;
   const std::string one = (folder_.path() / "one.mcap").string(), two = (folder_.path() / "two.mcap").string();
@@ -250,7 +271,8 @@ TEST_F(Hosts, ANodeKilledOnTheSecondPcIsStartedAgainThere) {
   const Ended here = left->Wait(60s), there = right->Wait(10s);
   ASSERT_EQ(here.status, 0) << here.out;
   EXPECT_EQ(there.status, 0) << there.out;
-  EXPECT_NE(here.out.find("again   node 'c' was killed by signal 9 (Killed) (host 'right')"), std::string::npos) << here.out;
+  EXPECT_NE(here.out.find("again   node 'c' was killed by signal 9 (Killed) (host 'right')"), std::string::npos)
+      << here.out;
   EXPECT_NE(there.out.find("it is started again"), std::string::npos) << there.out;
   EXPECT_EQ(DigestIn(here.out), DigestIn(alone.out)) << here.out;
   EXPECT_EQ(DigestIn(there.out), DigestIn(alone.out)) << there.out;
@@ -268,7 +290,9 @@ TEST_F(Hosts, APulledCableEndsBoth) {
   const Ended here = left->Wait(15s), there = right->Wait(15s);
   EXPECT_EQ(here.status, 1) << here.out;
   EXPECT_EQ(there.status, 1) << there.out;
-  EXPECT_NE(there.out.find("the clock has said nothing for 3.0 s: it was killed, stopped or cut off"), std::string::npos) << there.out;
+  EXPECT_NE(there.out.find("the clock has said nothing for 3.0 s: it was killed, stopped or cut off"),
+            std::string::npos)
+      << there.out;
   ExpectNobodyLeft();
 }
 
@@ -279,7 +303,9 @@ TEST_F(Hosts, WrongInputOfANodeOnTheSecondPcIsStatusTwoOnBoth) {
   const auto left = Start(0, wrong), right = Start(1, wrong);
   for (const Ended& ended : {left->Wait(60s), right->Wait(60s)}) {
     EXPECT_EQ(ended.status, 2) << ended.out;
-    EXPECT_NE(ended.out.find("unknown key 'nodes.b.config.fail_at_stp'; did you mean 'fail_at_step'?"), std::string::npos) << ended.out;
+    EXPECT_NE(ended.out.find("unknown key 'nodes.b.config.fail_at_stp'; did you mean 'fail_at_step'?"),
+              std::string::npos)
+        << ended.out;
   }
   ExpectNobodyLeft();
 }
@@ -314,7 +340,8 @@ TEST_F(Hosts, APcStartedTwiceBeforeTheClockIsRefusedToo) {
   const auto right = Start(1), again = Start(1);
   std::this_thread::sleep_for(2s);
   const Ended left = Start(0)->Wait(60s), one = right->Wait(10s), two = again->Wait(10s);
-  if (left.status == 0) {  // the processes of one of them were all there before any of the other: so that one has come too late
+  if (left.status ==
+      0) {  // the processes of one of them were all there before any of the other: so that one has come too late
     const Ended& late = one.status == 0 ? two : one;
     EXPECT_EQ(one.status + two.status, 2) << one.out << two.out;
     EXPECT_NE(late.out.find("run 'rig' in domain 9: it is under way already"), std::string::npos) << late.out;
@@ -335,8 +362,20 @@ TEST_F(Hosts, ObserversThatJoinLateDieOrAreSlowChangeNoStep) {
   if (!rig_->problem().empty()) return;
   const std::string digest = DigestOfOneHost();
   const auto observer = [&](int host, std::vector<std::string> words) {
-    std::vector<std::string> more{Bin("rodeira-test-observer"), "--launch", launch_, "--run", "rig", "--domain", "9", "--node", "observer", "--set", "transport=udp", "--set",
-                                  "discovery={kind: server, address: " + Rig::Address(0) + ", interface: " + Rig::Address(host) + "}"};
+    std::vector<std::string> more{
+        Bin("rodeira-test-observer"),
+        "--launch",
+        launch_,
+        "--run",
+        "rig",
+        "--domain",
+        "9",
+        "--node",
+        "observer",
+        "--set",
+        "transport=udp",
+        "--set",
+        "discovery={kind: server, address: " + Rig::Address(0) + ", interface: " + Rig::Address(host) + "}"};
     more = rig_->On(host, more);
     words.insert(words.end(), more.begin(), more.end());
     return std::make_unique<Started>(words);

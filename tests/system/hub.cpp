@@ -77,7 +77,8 @@ Hub::~Hub() {
 
 void Hub::Open(const std::string& netns, const std::vector<std::string>& interfaces) {
   const int space = ::open(("/run/netns/" + netns).c_str(), O_RDONLY | O_CLOEXEC);
-  if (space < 0 || ::setns(space, CLONE_NEWNET) != 0) problem_ = std::string("no thread can enter a network namespace: ") + std::strerror(errno);
+  if (space < 0 || ::setns(space, CLONE_NEWNET) != 0)
+    problem_ = std::string("no thread can enter a network namespace: ") + std::strerror(errno);
   if (space >= 0) ::close(space);
   if (!problem_.empty()) return;
   for (const std::string& interface : interfaces) {
@@ -96,11 +97,14 @@ void Hub::Repeat(const Weather& weather) {
     std::vector<pollfd> polled;
     for (const int socket : sockets_) polled.push_back({socket, POLLIN, 0});
     std::chrono::nanoseconds limit = std::chrono::milliseconds(20);
-    if (!waiting.empty()) limit = std::clamp<std::chrono::nanoseconds>(waiting.top().due - WallClock::now(), std::chrono::nanoseconds(0), limit);
+    if (!waiting.empty())
+      limit = std::clamp<std::chrono::nanoseconds>(waiting.top().due - WallClock::now(), std::chrono::nanoseconds(0),
+                                                   limit);
     const timespec patience{0, limit.count()};
     ::ppoll(polled.data(), polled.size(), &patience, nullptr);
     for (const int from : sockets_) {
-      for (ssize_t size = ::recv(from, buffer, sizeof(buffer), 0); size > 0; size = ::recv(from, buffer, sizeof(buffer), 0)) {
+      for (ssize_t size = ::recv(from, buffer, sizeof(buffer), 0); size > 0;
+           size = ::recv(from, buffer, sizeof(buffer), 0)) {
         if (size < static_cast<ssize_t>(sizeof(FrameHeader) + ETH_HLEN)) continue;
         if (!weather.multicast && IsMulticast(buffer + sizeof(FrameHeader))) {
           ++multicast_refused_;
@@ -112,7 +116,8 @@ void Hub::Repeat(const Weather& weather) {
             ++lost_;
             continue;
           }
-          const std::chrono::nanoseconds late(static_cast<std::int64_t>(share(lot) * 1e3 * static_cast<double>(weather.jitter.count())));
+          const std::chrono::nanoseconds late(
+              static_cast<std::int64_t>(share(lot) * 1e3 * static_cast<double>(weather.jitter.count())));
           waiting.push({WallClock::now() + late, ++number, to, std::vector<char>(buffer, buffer + size)});
         }
       }

@@ -11,13 +11,13 @@ namespace rodeira::system_test {
 
 // What the network between the PCs does to a frame. The default does nothing.
 struct Weather {
-  double loss = 0.0;                     // share of frames that never arrive
-  std::chrono::microseconds jitter{0};   // each comes late by 0 to this much, so later ones overtake it
-  bool multicast = true;                 // false: no multicast frame arrives (broadcast does: ARP)
+  double loss = 0.0;                    // share of frames that never arrive
+  std::chrono::microseconds jitter{0};  // each comes late by 0 to this much, so later ones overtake it
+  bool multicast = true;                // false: no multicast frame arrives (broadcast does: ARP)
 };
 
-// A hub that repeats every frame of one interface on all others, in the weather given; in a thread of its own. The kernel's
-// netem would do the same where it is there.
+// A hub that repeats every frame of one interface on all others, in the weather given; in a thread of its own. The
+// kernel's netem would do the same where it is there.
 class Hub {
  public:
   // The interfaces must be in the named network namespace.

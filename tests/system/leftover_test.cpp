@@ -22,14 +22,16 @@ class Leftover : public ::testing::Test {
   Leftover() : before_(cli::SharedMemoryFiles()) {}
 
   std::vector<std::string> Demo(const std::string& run_name, std::vector<std::string> more) const {
-    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", run_name, "--record", (folder_.path() / "a.mcap").string(), "--set",
+    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", run_name,
+                               "--record", (folder_.path() / "a.mcap").string(), "--set",
                                "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string()});
     return more;
   }
   // The clock and six nodes.
   static void WaitUntilAllAreThere(const std::string& run_name) {
     const auto until = std::chrono::steady_clock::now() + 30s;
-    while (ProcessesWith("--run " + run_name, "bin/rodeira-").size() < 7 && std::chrono::steady_clock::now() < until) ::usleep(5000);
+    while (ProcessesWith("--run " + run_name, "bin/rodeira-").size() < 7 && std::chrono::steady_clock::now() < until)
+      ::usleep(5000);
     ASSERT_EQ(ProcessesWith("--run " + run_name, "bin/rodeira-").size(), 7u);
   }
   // Files of DDS in /dev/shm that were not there before.

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/core/base/files.hpp"
+#include "common/data/record/mcap_reader.hpp"
+#include "common/driving/scenario/request.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_keys.hpp"
 #include "common/runtime/dds/remote_requests.hpp"
-#include "common/data/record/mcap_reader.hpp"
-#include "common/driving/scenario/request.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -32,15 +32,16 @@ class Live : public ::testing::Test {
   Live() {
     std::filesystem::create_directories(folder_);
     const std::string root = SourceDir();
-    const std::string text = "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n" +
-                             "  driver: {kind: input, config: {source: keyboard, keyboard: " + root +
-                             "/configs/drivers/keyboard.yaml}}\n" + "  ego: {kind: vehicle, config: {vehicle: " + root +
-                             "/configs/vehicles/default.yaml}}\n";
+    const std::string text =
+        "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n" +
+        "  driver: {kind: input, config: {source: keyboard, keyboard: " + root + "/configs/drivers/keyboard.yaml}}\n" +
+        "  ego: {kind: vehicle, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n";
     EXPECT_TRUE(base::WriteWhole(Path("live.yaml"), std::string_view(text)).ok());
   }
   ~Live() override { std::filesystem::remove_all(folder_); }
   std::string Path(const std::string& name) const { return (folder_ / name).string(); }
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-live-" + std::to_string(::getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-live-" + std::to_string(::getpid()));
 };
 
 template <class Message>
@@ -61,8 +62,8 @@ std::vector<Message> Recorded(const std::string& file, std::string_view topic) {
 }
 
 TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
-  Started run({Bin("rodeira"), "run", Path("live.yaml"), "--for", "7", "--pace", "real", "--record", Path("live.mcap"), "--run",
-               "live-keys", "--domain", std::to_string(kDomain)});
+  Started run({Bin("rodeira"), "run", Path("live.yaml"), "--for", "7", "--pace", "real", "--record", Path("live.mcap"),
+               "--run", "live-keys", "--domain", std::to_string(kDomain)});
   auto participant = dds::Participant::Open({kDomain, "live-keys", "a window", launch::Transport::kSharedMemory, {}});
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
   auto window = dds::OpenKeysSender(*participant.value());
@@ -109,22 +110,25 @@ TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   EXPECT_NE(verified.out.find("identical: 7000 steps, "), std::string::npos) << verified.out;
 }
 
-// Said by a window in another process, again and again: the event is recorded once, the car stands there, and the recording is computed
-// again to the bit.
+// Said by a window in another process, again and again: the event is recorded once, the car stands there, and the
+// recording is computed again to the bit.
 TEST_F(Live, WhatAWindowAsksForBecomesARecordedEvent) {
   std::string text = base::ReadText(Path("live.yaml")).value();
   text += "  story: {kind: scenario, config: {requests: true}}\n";
   ASSERT_TRUE(base::WriteWhole(Path("asked.yaml"), std::string_view(text)).ok());
-  Started run({Bin("rodeira"), "run", Path("asked.yaml"), "--for", "4", "--pace", "real", "--record", Path("asked.mcap"), "--run", "live-requests", "--domain",
-               std::to_string(kDomain)});
-  auto participant = dds::Participant::Open({kDomain, "live-requests", "a window", launch::Transport::kSharedMemory, {}});
+  Started run({Bin("rodeira"), "run", Path("asked.yaml"), "--for", "4", "--pace", "real", "--record",
+               Path("asked.mcap"), "--run", "live-requests", "--domain", std::to_string(kDomain)});
+  auto participant =
+      dds::Participant::Open({kDomain, "live-requests", "a window", launch::Transport::kSharedMemory, {}});
   ASSERT_TRUE(participant.ok()) << participant.error().Text();
   auto window = dds::OpenRequestsSender(*participant.value());
   ASSERT_TRUE(window.ok()) << window.error().Text();
-  const scenario::Request place = scenario::PlaceRequest({"ego", 61.25, -40.5, std::nullopt}, 135.0), rain = scenario::WeatherRequest("rain", 1.0);
+  const scenario::Request place = scenario::PlaceRequest({"ego", 61.25, -40.5, std::nullopt}, 135.0),
+                          rain = scenario::WeatherRequest("rain", 1.0);
   const auto until = std::chrono::steady_clock::now() + 4s;
   while (std::chrono::steady_clock::now() < until) {
-    window.value()->Say({{1, place.name, place.argument, place.x_m, place.y_m, place.value}, {2, rain.name, rain.argument, rain.x_m, rain.y_m, rain.value}});
+    window.value()->Say({{1, place.name, place.argument, place.x_m, place.y_m, place.value},
+                         {2, rain.name, rain.argument, rain.x_m, rain.y_m, rain.value}});
     std::this_thread::sleep_for(50ms);
   }
   const Ended ended = run.Wait(30s);
@@ -159,26 +163,33 @@ TEST_F(Live, NobodyTouchesAKeyAndTwoRunsAreEqual) {
 }
 
 TEST_F(Live, AMissingWheelIsOneSentenceAndStatusTwo) {
-  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--set", "nodes.driver.config.wheel=../configs/drivers/wheel.yaml", "--headless",
-                                  "--record", Path("never.mcap"), "--for", "1"});
+  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--set",
+                                  "nodes.driver.config.wheel=../configs/drivers/wheel.yaml", "--headless", "--record",
+                                  Path("never.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(
-      ended.out.find("configs/drivers/wheel.yaml:7: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
+      ended.out.find(
+          "configs/drivers/wheel.yaml:7: device 'wheel' with GUID 00000000000000000000000000000000 is not there; "),
       std::string::npos)
       << ended.out;
 }
 
 // The command as the documents say it, on a PC where nothing is plugged in.
 TEST_F(Live, TheWheelsLaunchFileDrivesByKeysWithoutAWheel) {
-  if (RunCommand({Bin("rodeira"), "joysticks"}).out.find("no device is connected") == std::string::npos) GTEST_SKIP() << "a device is plugged in, which would drive";
-  const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("keys.mcap"), "--for", "1"});
+  if (RunCommand({Bin("rodeira"), "joysticks"}).out.find("no device is connected") == std::string::npos)
+    GTEST_SKIP() << "a device is plugged in, which would drive";
+  const Ended ended = RunCommand(
+      {Bin("rodeira"), "run", LaunchFile("wheel.yaml"), "--headless", "--record", Path("keys.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 0) << ended.out;
-  EXPECT_NE(ended.out.find("node 'driver': no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is connected); the windows' keys drive"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("node 'driver': no wheel that was set up (`rodeira input setup`) and no game pad is there "
+                           "(no device is connected); the windows' keys drive"),
+            std::string::npos)
+      << ended.out;
 }
 
 TEST_F(Live, DrivingByKeysNeedsAWindow) {
-  const Ended ended = RunCommand({"DISPLAY=:987", "WAYLAND_DISPLAY=nowhere", Bin("rodeira"), "run", LaunchFile("keyboard.yaml"),
-                                  "--record", Path("never.mcap"), "--for", "1"});
+  const Ended ended = RunCommand({"DISPLAY=:987", "WAYLAND_DISPLAY=nowhere", Bin("rodeira"), "run",
+                                  LaunchFile("keyboard.yaml"), "--record", Path("never.mcap"), "--for", "1"});
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(ended.out.find("a window is wanted"), std::string::npos) << ended.out;
 }

@@ -1,5 +1,5 @@
-// Looks on at a run (law L5): reads its grants, reports and samples, best effort, and counts them. SLOW_MS: how long each
-// of its callbacks takes.
+// Looks on at a run (law L5): reads its grants, reports and samples, best effort, and counts them. SLOW_MS: how long
+// each of its callbacks takes.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
   const std::chrono::milliseconds pause(slow == nullptr ? 0 : std::atoi(slow));
   std::atomic<int> heard = 0;
   std::vector<std::unique_ptr<dds::Reader>> readers;
-  for (const std::string_view topic : {idl::topics::kGrant, idl::topics::kReport, idl::topics::kPulse, idl::topics::kVehicleState}) {
+  for (const std::string_view topic :
+       {idl::topics::kGrant, idl::topics::kReport, idl::topics::kPulse, idl::topics::kVehicleState}) {
     auto reader = participant.value()->MakeReader(topic, dds::Delivery::kObserve, [&](base::Bytes&&) {
       std::this_thread::sleep_for(pause);
       ++heard;

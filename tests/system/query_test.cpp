@@ -65,7 +65,8 @@ TEST(Query, OnARealElevationFileItIsTheOraclesPoint) {
   const fs::path crater = kRoot / "../shared/data/road/bt/crater_0513.bt";
   if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
   const cli::TemporaryFolder folder;
-  const auto world = folder.Write("crater.yaml", "rodeira: world/1\nname: crater\nterrain: {file: " + fs::weakly_canonical(crater).string() + ", surface: soil}\n");
+  const auto world = folder.Write("crater.yaml", "rodeira: world/1\nname: crater\nterrain: {file: " +
+                                                     fs::weakly_canonical(crater).string() + ", surface: soil}\n");
   const std::string answer = Query(world.string(), 566300, 4754000);
   EXPECT_EQ(Value(answer, "inside"), "true");
   EXPECT_NEAR(PointOf(answer).z_m, 2123.4310516, 1e-6);
@@ -101,7 +102,8 @@ TEST(Query, OutsideTheWorldItSaysSo) {
 class Ground : public ::testing::Test {
  protected:
   // Drives a launch file in separate processes or one and gives the car's states.
-  std::vector<msg::VehicleState> Drive(const std::string& launch, const std::string& for_s, std::vector<std::string> more = {}) const {
+  std::vector<msg::VehicleState> Drive(const std::string& launch, const std::string& for_s,
+                                       std::vector<std::string> more = {}) const {
     const std::string recording = (folder_.path() / "drive.mcap").string();
     more.insert(more.begin(), {Bin("rodeira"), "run", launch, "--for", for_s, "--record", recording});
     const Ended ended = RunCommand(more);
@@ -117,11 +119,13 @@ Eigen::Vector3d ContactOf(const msg::VehicleState& car, std::size_t wheel) {
   const auto& q = car.attitude_wb();
   const auto& p = car.position_w_m();
   const auto& c = car.wheels()[wheel].contact_b_m();
-  return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()) * Eigen::Vector3f(c.x(), c.y(), c.z()).cast<double>() + Eigen::Vector3d(p.x(), p.y(), p.z());
+  return Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()) * Eigen::Vector3f(c.x(), c.y(), c.z()).cast<double>() +
+         Eigen::Vector3d(p.x(), p.y(), p.z());
 }
 
 TEST_F(Ground, TheWheelsStandOnTheCrossfallOfTheRoad) {
-  const auto states = Drive((kRoot / "tests/data/n222_traffic.yaml").string(), "0.1", {"--set", "nodes.traffic.config.vehicles=0"});
+  const auto states =
+      Drive((kRoot / "tests/data/n222_traffic.yaml").string(), "0.1", {"--set", "nodes.traffic.config.vehicles=0"});
   ASSERT_EQ(states.size(), 101u);
   const double heading = 20.0 * std::numbers::pi / 180.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -149,15 +153,22 @@ std::size_t AskersIn(const std::string& table) {
   return askers;
 }
 
-// Four cars, each a process that asks the one road server for the ground under its wheels at every step, get what each finds in one process for
-// itself: no question is answered with another asker's points.
+// Four cars, each a process that asks the one road server for the ground under its wheels at every step, get what each
+// finds in one process for itself: no question is answered with another asker's points.
 TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
   std::string launch = "rodeira: launch/1\nworld: " + kN222 + "\nseed: 3\nnodes:\n  road: {kind: road}\n";
-  const std::string standing = (kRoot / "tests/data/full_throttle.csv").string(), car = (kRoot / "configs/vehicles/default.yaml").string();
-  const std::vector<Eigen::Vector2d> starts = {{-1989, -543}, {-1895, -512}, {-1850, -560}, {-1700, -300}};  // on the road, and in the hills beside it
+  const std::string standing = (kRoot / "tests/data/full_throttle.csv").string(),
+                    car = (kRoot / "configs/vehicles/default.yaml").string();
+  const std::vector<Eigen::Vector2d> starts = {
+      {-1989, -543}, {-1895, -512}, {-1850, -560}, {-1700, -300}};  // on the road, and in the hills beside it
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    launch += fmt::format("  driver{0}: {{kind: input, inputs: {{vehicle_state: [car{0}]}}, config: {{source: script, script: {1}}}}}\n", i, standing);
-    launch += fmt::format("  car{0}: {{kind: vehicle, inputs: {{controls: [driver{0}]}}, config: {{vehicle: {1}, ground: remote, start: {{x_m: {2}, y_m: {3}, heading_deg: 20}}}}}}\n", i, car, starts[i].x(), starts[i].y());
+    launch += fmt::format(
+        "  driver{0}: {{kind: input, inputs: {{vehicle_state: [car{0}]}}, config: {{source: script, script: {1}}}}}\n",
+        i, standing);
+    launch += fmt::format(
+        "  car{0}: {{kind: vehicle, inputs: {{controls: [driver{0}]}}, config: {{vehicle: {1}, ground: remote, start: "
+        "{{x_m: {2}, y_m: {3}, heading_deg: 20}}}}}}\n",
+        i, car, starts[i].x(), starts[i].y());
   }
   launch += "  recorder: {kind: recorder}\n";
   const auto file = folder_.Write("four.yaml", launch);
@@ -177,7 +188,8 @@ TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
   // And it is each car's own ground.
   std::set<double> heights;
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    const auto states = MessagesOf<msg::VehicleState>((folder_.path() / "apart.mcap").string(), idl::topics::kVehicleState, fmt::format("car{}", i));
+    const auto states = MessagesOf<msg::VehicleState>((folder_.path() / "apart.mcap").string(),
+                                                      idl::topics::kVehicleState, fmt::format("car{}", i));
     ASSERT_EQ(states.size(), 1001u);
     const Eigen::Vector3d c = ContactOf(states.front(), 0);
     EXPECT_NEAR(PointOf(Query(kN222, c.x(), c.y())).z_m, c.z(), 1e-6) << i;
@@ -188,10 +200,14 @@ TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
 
 // A terrain of 100 m × 100 m whose eastern edge a car drives over.
 TEST_F(Ground, BeyondTheTerrainsEdgeTheFlagIsClear) {
-  const auto world = folder_.Write("small.yaml",
-                                   "rodeira: world/1\nname: small\nterrain:\n  surface: asphalt\n  generate: {seed: 1, columns: 11, rows: 11, spacing_m: 10, west_m: 0, "
-                                   "south_m: 0, relief: [{wavelength_m: 50, amplitude_m: 0}]}\nstart: {x_m: 60, y_m: 50}\n");
-  const auto states = Drive(LaunchFile("first_drive.yaml"), "4", {"--in-process", "--set", "world=" + world.string(), "--set", "nodes.ego.config.start={speed_mps: 20}"});
+  const auto world =
+      folder_.Write("small.yaml",
+                    "rodeira: world/1\nname: small\nterrain:\n  surface: asphalt\n  generate: {seed: 1, columns: 11, "
+                    "rows: 11, spacing_m: 10, west_m: 0, "
+                    "south_m: 0, relief: [{wavelength_m: 50, amplitude_m: 0}]}\nstart: {x_m: 60, y_m: 50}\n");
+  const auto states =
+      Drive(LaunchFile("first_drive.yaml"), "4",
+            {"--in-process", "--set", "world=" + world.string(), "--set", "nodes.ego.config.start={speed_mps: 20}"});
   ASSERT_EQ(states.size(), 4001u);
   bool left = false;
   for (const auto& state : states) {

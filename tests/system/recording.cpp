@@ -33,7 +33,8 @@ std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Re
   const auto text = [](const std::vector<Recorded>& samples, std::size_t at) -> std::string {
     if (at >= samples.size()) return "nothing";
     const Recorded& s = samples[at];
-    return fmt::format("{} of source {} at step {} (payload {}, state {})", s.topic, s.source, s.step, base::Hex(s.payload), base::Hex(s.state));
+    return fmt::format("{} of source {} at step {} (payload {}, state {})", s.topic, s.source, s.step,
+                       base::Hex(s.payload), base::Hex(s.state));
   };
   for (std::size_t i = 0; i < a.size() || i < b.size(); ++i) {
     if (i < a.size() && i < b.size() && a[i] == b[i]) continue;

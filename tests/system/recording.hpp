@@ -23,8 +23,8 @@ struct Recorded {
   bool operator==(const Recorded&) const = default;
 };
 
-// Every sample of the lockstep in the file's order, which is what makes two recordings identical: wall times and remarks
-// are passed over. None where the file cannot be read whole.
+// Every sample of the lockstep in the file's order, which is what makes two recordings identical: wall times and
+// remarks are passed over. None where the file cannot be read whole.
 std::vector<Recorded> SamplesOf(const std::string& recording);
 // Where two runs part: node, step, topic and both digests. Empty where they never do.
 std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Recorded>& b);
@@ -38,7 +38,8 @@ std::vector<Message> MessagesOf(const std::string& recording, std::string_view t
   record::Query query;
   query.channels.emplace();
   for (const record::ChannelId channel : reader.value().ChannelsOf(topic)) {
-    if (source.empty() || reader.value().channels().at(channel).metadata.at("source") == source) query.channels->insert(channel);
+    if (source.empty() || reader.value().channels().at(channel).metadata.at("source") == source)
+      query.channels->insert(channel);
   }
   auto cursor = reader.value().Messages(query);
   for (;;) {

@@ -1,4 +1,5 @@
-// What becomes of a run: recorded unless told otherwise, asked by `info`, written as tables by `export`, mended by `repair`.
+// What becomes of a run: recorded unless told otherwise, asked by `info`, written as tables by `export`, mended by
+// `repair`.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,7 +37,8 @@ class Recordings : public ::testing::Test {
   std::vector<fs::path> Recorded() const {
     std::vector<fs::path> files;
     std::error_code problem;
-    for (const auto& entry : fs::directory_iterator(folder_.path() / "data/rodeira", problem)) files.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder_.path() / "data/rodeira", problem))
+      files.push_back(entry.path());
     return files;
   }
   Ended Ask(std::vector<std::string> words) const {
@@ -110,7 +112,8 @@ TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
     ASSERT_EQ(std::strtod(cells[4].c_str(), nullptr), states[rows].position_w_m().y());
   }
   EXPECT_EQ(rows, states.size());
-  for (const char* name : {"tables/wall.csv", "tables/remarks.csv"}) {  // what the clock says is no sample, and has a source all the same
+  for (const char* name :
+       {"tables/wall.csv", "tables/remarks.csv"}) {  // what the clock says is no sample, and has a source all the same
     const std::string clocks = base::ReadText(Path(name)).value();
     EXPECT_THAT(clocks, HasSubstr(",clock,"));
     EXPECT_THAT(clocks, testing::Not(HasSubstr("channel")));
@@ -122,11 +125,13 @@ TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
 
 TEST_F(Recordings, AnExportOntoAFullDiskIsOneSentenceAndLeavesNothing) {
   ASSERT_EQ(Run({LaunchFile("first_drive.yaml"), "--for", "1", "--record", Path("a.mcap")}).status, 0);
-  const std::string command = "ulimit -f 64; exec " + Bin("rodeira") + " export --csv " + Path("tables") + " " + Path("a.mcap");
+  const std::string command =
+      "ulimit -f 64; exec " + Bin("rodeira") + " export --csv " + Path("tables") + " " + Path("a.mcap");
   const Ended done = RunCommand({"/bin/bash", "-c", command});
   EXPECT_EQ(done.status, 1) << done.out;
   EXPECT_THAT(done.out, HasSubstr("vehicle_state.csv: the table cannot be written: File too large"));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1) << "the recording alone";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1)
+      << "the recording alone";
 }
 
 TEST_F(Recordings, ACutFileIsNamedExportedAndMended) {
@@ -165,7 +170,8 @@ TEST_F(Recordings, AMissingSampleIsNamed) {
   for (const auto& [id, channel] : reader.value().channels()) {
     const auto& schema = reader.value().schemas().at(channel.schema);
     const auto schema_id = writer.value().AddSchema(schema.name, schema.encoding, schema.text);
-    ids[id] = writer.value().AddChannel(channel.topic, schema_id.value(), channel.message_encoding, channel.metadata).value();
+    ids[id] =
+        writer.value().AddChannel(channel.topic, schema_id.value(), channel.message_encoding, channel.metadata).value();
   }
   auto cursor = reader.value().Messages();
   for (;;) {
@@ -194,7 +200,8 @@ TEST_F(Recordings, WhatIsNoRecordingIsRefused) {
 }
 
 TEST_F(Recordings, ADiskThatIsFullStopsTheRunAndTheFileIsReadable) {
-  const std::string words = " run " + LaunchFile("first_drive.yaml") + " --for 20 --in-process --record " + Path("a.mcap");
+  const std::string words =
+      " run " + LaunchFile("first_drive.yaml") + " --for 20 --in-process --record " + Path("a.mcap");
   const std::string command = "ulimit -f 400; exec " + Bin("rodeira") + words;
   const Ended run = RunCommand({"/bin/bash", "-c", command});
   EXPECT_EQ(run.status, 1) << run.out;
@@ -204,9 +211,11 @@ TEST_F(Recordings, ADiskThatIsFullStopsTheRunAndTheFileIsReadable) {
   EXPECT_GT(SamplesOf(Path("b.mcap")).size(), 100u);
 }
 
-// A disk that takes 1 MiB a second, by a pipe: the run waits for it, no sample is lost, and the bytes are those of a fast one.
+// A disk that takes 1 MiB a second, by a pipe: the run waits for it, no sample is lost, and the bytes are those of a
+// fast one.
 TEST_F(Recordings, ASlowDiskSlowsTime) {
-  const std::vector<std::string> drive = {LaunchFile("first_drive.yaml"), "--for", "4", "--set", "limits.step_s=30", "--set", "limits.silence_s=30"};
+  const std::vector<std::string> drive = {
+      LaunchFile("first_drive.yaml"), "--for", "4", "--set", "limits.step_s=30", "--set", "limits.silence_s=30"};
   const auto with = [&drive](const std::vector<std::string>& more) {
     auto words = drive;
     words.insert(words.end(), more.begin(), more.end());

@@ -31,7 +31,8 @@ std::vector<pid_t> ProcessesOf(const std::string& run, const std::string& part) 
   return ProcessesWith("--run " + run, part == "clock" ? "/rodeira-clock" : "--node " + part);
 }
 
-// The process, once it lives and is let alone for a moment: a signal between fork and exec would hit nothing of interest.
+// The process, once it lives and is let alone for a moment: a signal between fork and exec would hit nothing of
+// interest.
 pid_t Find(const std::string& run, const std::string& part) {
   for (int i = 0; i < 1000; ++i) {
     const auto found = ProcessesOf(run, part);
@@ -45,14 +46,16 @@ pid_t Find(const std::string& run, const std::string& part) {
 void WaitForGrowth(const std::string& recording) {
   std::error_code problem;
   const auto before = std::filesystem::file_size(recording, problem);
-  for (int i = 0; i < 2000 && (std::filesystem::file_size(recording, problem) == before || problem); ++i) ::usleep(5000);
+  for (int i = 0; i < 2000 && (std::filesystem::file_size(recording, problem) == before || problem); ++i)
+    ::usleep(5000);
 }
 
 // Until a recording is closed, without a pause: what its recorder does then takes microseconds.
 void AwaitItsMark(const std::string& recording) {
   const auto until = std::chrono::steady_clock::now() + 30s;
   int file = -1;
-  for (; file < 0 && std::chrono::steady_clock::now() < until; ::usleep(1000)) file = ::open(recording.c_str(), O_RDONLY | O_CLOEXEC);
+  for (; file < 0 && std::chrono::steady_clock::now() < until; ::usleep(1000))
+    file = ::open(recording.c_str(), O_RDONLY | O_CLOEXEC);
   char mark[8] = {};
   for (unsigned i = 0; file >= 0 && (i % 1000 != 0 || std::chrono::steady_clock::now() < until); ++i) {
     const off_t size = ::lseek(file, 0, SEEK_END);
@@ -65,11 +68,25 @@ class Recovery : public ::testing::Test {
  protected:
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
   // At a pace: a fast machine's run would be over before anybody was killed.
-  std::vector<std::string> Command(const std::string& run, const std::string& recording, const std::string& seconds, const std::string& policy) const {
-    return {Bin("rodeira"), "run", kLaunch, "--run", run, "--for", seconds, "--record", recording, "--pace", "5", "--set", "recovery=" + policy};
+  std::vector<std::string> Command(const std::string& run, const std::string& recording, const std::string& seconds,
+                                   const std::string& policy) const {
+    return {Bin("rodeira"),
+            "run",
+            kLaunch,
+            "--run",
+            run,
+            "--for",
+            seconds,
+            "--record",
+            recording,
+            "--pace",
+            "5",
+            "--set",
+            "recovery=" + policy};
   }
   void Undisturbed(const std::string& seconds) {
-    const Ended calm = RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", seconds, "--record", File("calm.mcap")});
+    const Ended calm =
+        RunCommand({Bin("rodeira"), "run", kLaunch, "--in-process", "--for", seconds, "--record", File("calm.mcap")});
     ASSERT_EQ(calm.status, 0) << calm.out;
     digest_ = DigestIn(calm.out);
     samples_ = SamplesOf(File("calm.mcap"));
@@ -107,7 +124,8 @@ TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
       if (lot() % 3 != 0) WaitForGrowth(recording);
       std::this_thread::sleep_for(std::chrono::milliseconds(200 + lot() % 1500));
       const std::string& part = kParts[static_cast<std::size_t>(done) % kParts.size()];
-      const pid_t victim = ProcessesOf(run_name, "recorder").empty() && ProcessesOf(run_name, "ego").empty() ? -1 : Find(run_name, part);
+      const pid_t victim =
+          ProcessesOf(run_name, "recorder").empty() && ProcessesOf(run_name, "ego").empty() ? -1 : Find(run_name, part);
       if (victim < 0) break;  // the run is over
       const int signal = lot() % 3 == 0 ? SIGSTOP : SIGKILL;
       ::kill(victim, signal);
@@ -179,7 +197,8 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   EXPECT_GT(lost_at, 0);
 }
 
-// It may die before anybody has heard of it: in its first moment, while it looks for other clocks, while the nodes start.
+// It may die before anybody has heard of it: in its first moment, while it looks for other clocks, while the nodes
+// start.
 TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
   Undisturbed("2");
   for (const auto after : {0ms, 100ms, 350ms, 600ms}) {
@@ -200,11 +219,31 @@ TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
 // It writes its pictures again, as an undisturbed one does.
 TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   const auto command = [&](const std::string& name) {
-    return std::vector<std::string>{Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", name, "--for", "20", "--pace", "5", "--record", File(name + ".mcap"),
-                                    "--set", "recovery=restart", "--set", "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=96",
-                                    "--set", "nodes.view.config.frames.times_s=[1, 7, 13, 19]", "--set", "nodes.view.config.frames.folder=" + File(name)};
+    return std::vector<std::string>{Bin("rodeira"),
+                                    "run",
+                                    LaunchFile("demo.yaml"),
+                                    "--headless",
+                                    "--run",
+                                    name,
+                                    "--for",
+                                    "20",
+                                    "--pace",
+                                    "5",
+                                    "--record",
+                                    File(name + ".mcap"),
+                                    "--set",
+                                    "recovery=restart",
+                                    "--set",
+                                    "nodes.view.config.width_px=160",
+                                    "--set",
+                                    "nodes.view.config.height_px=96",
+                                    "--set",
+                                    "nodes.view.config.frames.times_s=[1, 7, 13, 19]",
+                                    "--set",
+                                    "nodes.view.config.frames.folder=" + File(name)};
   };
-  const std::string calm = "view-calm-" + std::to_string(::getpid()), struck = "view-struck-" + std::to_string(::getpid());
+  const std::string calm = "view-calm-" + std::to_string(::getpid()),
+                    struck = "view-struck-" + std::to_string(::getpid());
   const Ended undisturbed = RunCommand(command(calm));
   ASSERT_EQ(undisturbed.status, 0) << undisturbed.out;
   digest_ = DigestIn(undisturbed.out);
@@ -216,7 +255,10 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
     const pid_t view = Find(struck, "view");
     ASSERT_GT(view, 0);
     ::kill(view, signal);
-    ASSERT_GE(run.WaitFor(signal == SIGKILL ? "node 'view' was killed by signal 9" : "node 'view' was stopped by signal 19", 20s), 0ms);
+    ASSERT_GE(
+        run.WaitFor(signal == SIGKILL ? "node 'view' was killed by signal 9" : "node 'view' was stopped by signal 19",
+                    20s),
+        0ms);
   }
   ExpectUndisturbed(run.Wait(120s), File(struck + ".mcap"));
   std::size_t pictures = 0;
@@ -260,7 +302,8 @@ TEST_F(Recovery, ARecorderThatDiesOnItsLastWordLosesNothing) {
     (void)::kill(recorder, SIGKILL);
     const Ended ended = run.Wait(60s);
     ExpectUndisturbed(ended, recording);
-    if (HasFailure() || ended.out.find("'recorder' was killed by signal 9") != std::string::npos) return;  // else it was faster
+    if (HasFailure() || ended.out.find("'recorder' was killed by signal 9") != std::string::npos)
+      return;  // else it was faster
   }
   GTEST_SKIP() << "the recorder was gone before it could be killed, eight times";
 }
@@ -279,7 +322,8 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
   std::this_thread::sleep_for(2s);  // longer than any limit of silence
   const Ended state = RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "state"});
   EXPECT_EQ(state.status, 0) << state.out;
-  EXPECT_NE(state.out.find("it stands: node 'ego' was stopped by signal 19"), std::string::npos) << "the end of the chain of waiting is named: " << state.out;
+  EXPECT_NE(state.out.find("it stands: node 'ego' was stopped by signal 19"), std::string::npos)
+      << "the end of the chain of waiting is named: " << state.out;
   ::kill(ego, SIGCONT);
   std::this_thread::sleep_for(500ms);
   // Dead, it needs a person's word.
@@ -301,11 +345,15 @@ TEST_F(Recovery, PauseWaitsForAPersonWithoutALimit) {
 // What was granted before a node began again is no time that the run owes: it goes on from there at its pace.
 TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
   const std::string run_name = "recovery-pace-" + std::to_string(::getpid());
-  const auto launch = folder_.Write("empty.yaml", "rodeira: launch/1\nrecovery: pause\nnodes:\n  a: {kind: empty}\n  b: {kind: empty}\n  recorder: {kind: recorder}\n");
-  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "8", "--pace", "real", "--record", File("pace.mcap")});
+  const auto launch = folder_.Write("empty.yaml",
+                                    "rodeira: launch/1\nrecovery: pause\nnodes:\n  a: {kind: empty}\n  b: {kind: "
+                                    "empty}\n  recorder: {kind: recorder}\n");
+  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "8", "--pace", "real", "--record",
+               File("pace.mcap")});
   ASSERT_TRUE(Runs(run_name));
   std::this_thread::sleep_for(4s);
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"pause"}, {"step", "10"}, {"resume"}, {"restart", "a"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"pause"}, {"step", "10"}, {"resume"}, {"restart", "a"}}) {
     std::vector<std::string> command{Bin("rodeira"), "ctl", "--run", run_name};
     command.insert(command.end(), words.begin(), words.end());
     const Ended done = RunCommand(command);
@@ -354,7 +402,8 @@ TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
   (void)RunCommand({Bin("rodeira"), "ctl", "--run", run_name, "stop"});
   const Ended ended = run.Wait(20s);
   EXPECT_EQ(ended.status, 1) << ended.out;
-  EXPECT_NE(ended.out.find("stopped while the run waited: node 'traffic' was killed by signal 9"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("stopped while the run waited: node 'traffic' was killed by signal 9"), std::string::npos)
+      << ended.out;
   const Ended info = RunCommand({Bin("rodeira"), "info", File("stop.mcap")});
   EXPECT_NE(info.out.find("no gaps; the run was broken off at step "), std::string::npos) << info.out;
 }
@@ -377,10 +426,13 @@ TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
 
 // Its other life computes what it has said already: whoever kept that notices, and the node is named, not who noticed.
 TEST_F(Recovery, WhoReadsAClockIsFoundOutWhenItIsStartedAgain) {
-  const auto launch = folder_.Write("broken.yaml", "rodeira: launch/1\nrecovery: restart\nnodes:\n  a: {kind: empty}\n  b: {kind: empty, config: {broken: clock}}\n"
-                                                   "  recorder: {kind: recorder}\n");
+  const auto launch = folder_.Write(
+      "broken.yaml",
+      "rodeira: launch/1\nrecovery: restart\nnodes:\n  a: {kind: empty}\n  b: {kind: empty, config: {broken: clock}}\n"
+      "  recorder: {kind: recorder}\n");
   const std::string run_name = "recovery-broken-" + std::to_string(::getpid());
-  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "60", "--pace", "real", "--record", File("broken.mcap")});
+  Started run({Bin("rodeira"), "run", launch.string(), "--run", run_name, "--for", "60", "--pace", "real", "--record",
+               File("broken.mcap")});
   ASSERT_TRUE(Runs(run_name));
   std::this_thread::sleep_for(1500ms);
   const pid_t broken = Find(run_name, "b");
@@ -402,10 +454,12 @@ TEST_F(Recovery, WhatCannotBeIsRefused) {
     return ended.out;
   };
   const std::string without = refused({"--no-record", "--set", "recovery=restart"});
-  EXPECT_NE(without.find("can be started again only where there is a recorder, but there is none"), std::string::npos) << without;
+  EXPECT_NE(without.find("can be started again only where there is a recorder, but there is none"), std::string::npos)
+      << without;
   const std::string unknown = refused({"--set", "recovery=restrat"});
   EXPECT_NE(unknown.find("restart"), std::string::npos) << unknown;
-  const std::string live = refused({"--set", "nodes.driver.config.source=keyboard", "--set", "nodes.driver.recovery=restart"});
+  const std::string live =
+      refused({"--set", "nodes.driver.config.source=keyboard", "--set", "nodes.driver.recovery=restart"});
   EXPECT_NE(live.find("driven by a person"), std::string::npos) << live;
 }
 

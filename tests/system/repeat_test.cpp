@@ -1,5 +1,6 @@
-// The demo's scenario again and again, every node a process of its own, beside programs that leave it no processor: every
-// sample, every digest and every frame is the same. RODEIRA_REPEAT_FOR sets how many seconds are driven (2 otherwise).
+// The demo's scenario again and again, every node a process of its own, beside programs that leave it no processor:
+// every sample, every digest and every frame is the same. RODEIRA_REPEAT_FOR sets how many seconds are driven (2
+// otherwise).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -33,8 +34,10 @@ class Repeat : public ::testing::Test {
   Left Drive(const std::string& name, std::vector<std::string> more) const {
     const auto folder = folder_.path() / name;
     const std::string recording = (folder_.path() / (name + ".mcap")).string();
-    std::vector<std::string> command{Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--for", Seconds(), "--record", recording};
-    command.insert(command.end(), {"--set", "nodes.view.config.frames.folder=" + folder.string(), "--set", "nodes.view.config.frames.times_s=[0.5, 2]"});
+    std::vector<std::string> command{
+        Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--for", Seconds(), "--record", recording};
+    command.insert(command.end(), {"--set", "nodes.view.config.frames.folder=" + folder.string(), "--set",
+                                   "nodes.view.config.frames.times_s=[0.5, 2]"});
     command.insert(command.end(), more.begin(), more.end());
     const Ended ended = RunCommand(command);
     EXPECT_EQ(ended.status, 0) << ended.out;
@@ -58,7 +61,8 @@ TEST_F(Repeat, TenRunsOfTheDemoUnderLoadAndOneInOneProcessAreTheSame) {
     EXPECT_EQ(other.frames, first.frames) << which;
   };
   for (unsigned i = 1; i < 10; ++i) {
-    const CpuLoad load((1 + i % 2) * std::thread::hardware_concurrency());  // as many as there are processors, and twice that
+    const CpuLoad load((1 + i % 2) *
+                       std::thread::hardware_concurrency());  // as many as there are processors, and twice that
     expect_same(Drive(std::to_string(i), {}), "run " + std::to_string(i) + " under load");
   }
   expect_same(Drive("one_process", {"--in-process"}), "in one process");

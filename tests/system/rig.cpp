@@ -47,7 +47,9 @@ Rig::Rig(int hosts, const Weather& weather) : ip_(FindIp()) {
     ports.push_back("port" + std::to_string(host));
     if (!Ip({"netns", "add", space})) return;
     spaces_.push_back(space);
-    if (!Ip({"link", "add", "name", ports.back(), "netns", hub, "type", "veth", "peer", "name", "eth0", "netns", space})) return;
+    if (!Ip({"link", "add", "name", ports.back(), "netns", hub, "type", "veth", "peer", "name", "eth0", "netns",
+             space}))
+      return;
     if (!Ip({"-n", hub, "link", "set", ports.back(), "up"})) return;
     if (!Ip({"-n", space, "address", "add", Address(host) + "/24", "dev", "eth0"})) return;
     if (!Ip({"-n", space, "link", "set", "lo", "up"}) || !Ip({"-n", space, "link", "set", "eth0", "up"})) return;
@@ -79,7 +81,9 @@ std::vector<std::string> Rig::On(int host, std::vector<std::string> command) con
   return command;
 }
 
-std::string Rig::Name(int host) { return std::vector<std::string>{"left", "right", "third"}.at(static_cast<std::size_t>(host)); }
+std::string Rig::Name(int host) {
+  return std::vector<std::string>{"left", "right", "third"}.at(static_cast<std::size_t>(host));
+}
 
 std::string Rig::Laboratory(int hosts, const std::string& discovery) {
   std::string text = "rodeira: lab/1\ndomain: 9\nrun: rig\ndiscovery: " + discovery + "\nhosts:\n";

@@ -8,8 +8,8 @@
 
 namespace rodeira::system_test {
 
-// Several PCs on one: a network namespace each, with one interface eth0 that hangs on a hub. They share /dev/shm, so what
-// is to go over the network must be told so (transport: udp). Made and removed by the test itself.
+// Several PCs on one: a network namespace each, with one interface eth0 that hangs on a hub. They share /dev/shm, so
+// what is to go over the network must be told so (transport: udp). Made and removed by the test itself.
 class Rig {
  public:
   Rig(int hosts, const Weather& weather);

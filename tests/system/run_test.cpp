@@ -16,7 +16,8 @@ using namespace std::chrono_literals;
 
 std::set<std::string> SharedMemory() {
   std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm")) names.insert(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
+    names.insert(entry.path().filename().string());
   return names;
 }
 
@@ -35,16 +36,25 @@ TEST(Run, TheSameDigestAtEveryRunUnderLoadOverUdpAndInOneProcess) {
   EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record"}).out), digest);
   busy = false;
   load.join();
-  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--in-process"}).out), digest);
-  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "transport=udp"}).out), digest);
-  EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--seed", "2"}).out), digest);
+  EXPECT_EQ(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--in-process"}).out),
+            digest);
+  EXPECT_EQ(
+      DigestIn(
+          RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "transport=udp"}).out),
+      digest);
+  EXPECT_NE(DigestIn(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--seed", "2"}).out),
+            digest);
 }
 
 TEST(Run, ANodeThatCannotSaveItsStateSaysSo) {
-  const std::vector<std::string> command{Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--set", "nodes.c.config.saves=false"};
+  const std::vector<std::string> command{Bin("rodeira"), "run",   LaunchFile("empty.yaml"),    "--no-record", "--for",
+                                         "0.5",          "--set", "nodes.c.config.saves=false"};
   const auto processes = RunCommand(command);
   EXPECT_EQ(processes.status, 0) << processes.out;
-  EXPECT_NE(processes.out.find("state   node 'c' cannot save its state: replayed from the first step, and not to be started again\n"), std::string::npos) << processes.out;
+  EXPECT_NE(processes.out.find(
+                "state   node 'c' cannot save its state: replayed from the first step, and not to be started again\n"),
+            std::string::npos)
+      << processes.out;
   EXPECT_EQ(processes.out.find("node 'b' cannot"), std::string::npos) << processes.out;
   auto in_process = command;
   in_process.push_back("--in-process");
@@ -56,13 +66,15 @@ TEST(Run, ANodeThatCannotSaveItsStateSaysSo) {
 TEST(Run, RealPaceTakesRealTime) {
   // Not a measurement: a bound from below, which load can only raise.
   const auto begin = std::chrono::steady_clock::now();
-  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--pace", "real"});
+  const auto run =
+      RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.5", "--pace", "real"});
   EXPECT_EQ(run.status, 0) << run.out;
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 500ms);
 }
 
 TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "ctrlc"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
+               "--run", "ctrlc"});
   std::this_thread::sleep_for(1500ms);
   ::kill(run.pid(), SIGINT);
   const Ended ended = run.Wait(10s);
@@ -73,7 +85,10 @@ TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
 
 TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
   const auto before = SharedMemory();
-  ASSERT_EQ(RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.1", "--run", "tidy"}).status, 0);
+  ASSERT_EQ(
+      RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.1", "--run", "tidy"})
+          .status,
+      0);
   auto left = SharedMemory();  // what others leave or clear away meanwhile is theirs
   for (const auto& name : before) left.erase(name);
   EXPECT_EQ(left, std::set<std::string>());
@@ -81,7 +96,8 @@ TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
 }
 
 TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real", "--run", "orphans"});
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
+               "--run", "orphans"});
   std::this_thread::sleep_for(1500ms);
   ASSERT_EQ(ProcessesWith("--run orphans", "/rodeira-").size(), 5u);
   ::kill(run.pid(), SIGKILL);
@@ -98,10 +114,14 @@ TEST(Run, WrongInputIsOneSentenceAndStatusTwo) {
     EXPECT_NE(ended.out.find(text), std::string::npos) << ended.out;
   };
   refuses({"/no/such.yaml"}, "/no/such.yaml: there is no such file");
-  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.kind=emtpy"}, "'nodes.a.kind' is 'emtpy'; did you mean 'empty'?");
-  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.config.fail_at_stp=3"}, "unknown key 'nodes.a.config.fail_at_stp'; did you mean 'fail_at_step'?");
-  refuses({LaunchFile("empty.yaml"), "--pace", "fast"}, "--pace: 'fast' was found; max, real or a positive number was expected");
-  refuses({LaunchFile("empty.yaml"), "--for", "-3"}, "--for: '-3' was found; a positive number of seconds was expected");
+  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.kind=emtpy"},
+          "'nodes.a.kind' is 'emtpy'; did you mean 'empty'?");
+  refuses({LaunchFile("empty.yaml"), "--set", "nodes.a.config.fail_at_stp=3"},
+          "unknown key 'nodes.a.config.fail_at_stp'; did you mean 'fail_at_step'?");
+  refuses({LaunchFile("empty.yaml"), "--pace", "fast"},
+          "--pace: 'fast' was found; max, real or a positive number was expected");
+  refuses({LaunchFile("empty.yaml"), "--for", "-3"},
+          "--for: '-3' was found; a positive number of seconds was expected");
   refuses({LaunchFile("empty.yaml"), "--set", "seed"}, "KEY=VALUE was expected");
 }
 

@@ -24,7 +24,8 @@ class ScenarioRun : public ::testing::Test {
     more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("car_ahead.yaml")});
     return RunCommand(more);
   }
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-story-" + std::to_string(::getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-story-" + std::to_string(::getpid()));
 };
 
 TEST_F(ScenarioRun, IsRecordedAtItsStepsAndTheSameHoweverItRuns) {
@@ -46,25 +47,29 @@ TEST_F(ScenarioRun, IsRecordedAtItsStepsAndTheSameHoweverItRuns) {
     if (!message.value()) break;
     ++samples;
     const auto sample = idl::Decode<msg::ScenarioEvents>(message.value()->data).value();
-    for (const auto& event : sample.events()) events[sample.header().step()] += event.name() + " " + event.argument() + ";";
+    for (const auto& event : sample.events())
+      events[sample.header().step()] += event.name() + " " + event.argument() + ";";
   }
   EXPECT_EQ(samples, 801u) << "one a period, empty ones too";
   EXPECT_EQ(events, (std::map<std::int64_t, std::string>{{1000, "mark instruction: follow the car in front;"},
                                                          {6000, "traffic.speed ahead;"}}));
 }
 
-// From the sample of 1 s on the road is wet: the tyres' friction is that share of what it was, at the vehicle's next step; the view
-// draws it, a replay computes it again, and tables have it.
+// From the sample of 1 s on the road is wet: the tyres' friction is that share of what it was, at the vehicle's next
+// step; the view draws it, a replay computes it again, and tables have it.
 TEST_F(ScenarioRun, TheWeatherIsRecordedAndFeltAtItsStep) {
-  const std::string text = "rodeira: scenario/1\nweather:\n  - {clouds: 0.5}\n  - {at_s: 1, wetness: 1, rain_mmph: 20}\n";
+  const std::string text =
+      "rodeira: scenario/1\nweather:\n  - {clouds: 0.5}\n  - {at_s: 1, wetness: 1, rain_mmph: 20}\n";
   ASSERT_TRUE(base::WriteWhole(Path("rain.yaml"), std::string_view(text)).ok());
-  const Ended run = RunCommand({Bin("rodeira"), "run", LaunchFile("rain.yaml"), "--for", "2", "--set", "nodes.story.config.scenario=" + Path("rain.yaml"), "--set",
+  const Ended run = RunCommand({Bin("rodeira"), "run", LaunchFile("rain.yaml"), "--for", "2", "--set",
+                                "nodes.story.config.scenario=" + Path("rain.yaml"), "--set",
                                 "nodes.view.config.window=never", "--record", Path("rain.mcap")});
   ASSERT_EQ(run.status, 0) << run.out;
   const auto reader = record::McapReader::Open(Path("rain.mcap"));
   ASSERT_TRUE(reader.ok()) << reader.error().Text();
   record::Query query;
-  const record::ChannelId weather = reader.value().ChannelsOf(idl::topics::kWeatherState).at(0), car = reader.value().ChannelsOf(idl::topics::kVehicleState).at(0);
+  const record::ChannelId weather = reader.value().ChannelsOf(idl::topics::kWeatherState).at(0),
+                          car = reader.value().ChannelsOf(idl::topics::kVehicleState).at(0);
   query.channels = std::set<record::ChannelId>{weather, car};
   auto cursor = reader.value().Messages(query);
   std::map<std::int64_t, double> wetness, friction;
@@ -96,10 +101,12 @@ TEST_F(ScenarioRun, TheWeatherIsRecordedAndFeltAtItsStep) {
 TEST_F(ScenarioRun, AWrongFileIsOneSentenceAndStatusTwo) {
   const std::string text = "rodeira: scenario/1\nevents:\n  - {at_s: 2.0005, name: mark, text: x}\n";
   ASSERT_TRUE(base::WriteWhole(Path("story.yaml"), std::string_view(text)).ok());
-  const Ended ended = Run({"--set", "nodes.story.config.scenario=" + Path("story.yaml"), "--record", Path("never.mcap")});
+  const Ended ended =
+      Run({"--set", "nodes.story.config.scenario=" + Path("story.yaml"), "--record", Path("never.mcap")});
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(
-      ended.out.find("story.yaml:3: 'at_s' is 2.0005; a multiple of the scenario's period of 0.01 s was expected, 2 or 2.01"),
+      ended.out.find(
+          "story.yaml:3: 'at_s' is 2.0005; a multiple of the scenario's period of 0.01 s was expected, 2 or 2.01"),
       std::string::npos)
       << ended.out;
 }

@@ -1,4 +1,5 @@
-// A person's session, by mouse and keyboard in real windows on a virtual display: from the start window to a picture and a recording.
+// A person's session, by mouse and keyboard in real windows on a virtual display: from the start window to a picture
+// and a recording.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -60,7 +61,8 @@ Recorded ReadRecorded(const fs::path& file) {
   auto cursor = reader.value().Messages();
   for (auto next = cursor.Next(); next.ok() && next.value(); next = cursor.Next()) {
     const std::string& topic = reader.value().channels().at(next.value()->channel).topic;
-    if (topic == idl::topics::kVehicleState) recorded.driven_m = idl::Decode<msg::VehicleState>(next.value()->data).value().odometer_m();
+    if (topic == idl::topics::kVehicleState)
+      recorded.driven_m = idl::Decode<msg::VehicleState>(next.value()->data).value().odometer_m();
     if (topic != idl::topics::kScenarioEvents) continue;
     const auto sample = idl::Decode<msg::ScenarioEvents>(next.value()->data).value();
     for (const msg::ScenarioEvent& event : sample.events()) recorded.placed += event.name() == "vehicle.place" ? 1 : 0;
@@ -70,12 +72,14 @@ Recorded ReadRecorded(const fs::path& file) {
 
 constexpr int kWidth = 1280, kHeight = 720;  // of the run's window
 
-// How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/overlays/instruments), is as it was behind glass of
-// the panel's colour, 0.05 of green, that lets 0.45 through: all of it but its letters, which are less than a quarter.
+// How much of the lower left corner, where a chosen vehicle's panel stands (nodes/view/overlays/instruments), is as it
+// was behind glass of the panel's colour, 0.05 of green, that lets 0.45 through: all of it but its letters, which are
+// less than a quarter.
 double BehindGlass(const nodes::Image& before, const nodes::Image& after) {
   int behind = 0, all = 0;
   for (int y = kHeight - 130; y < kHeight - 25; ++y) {
-    for (int x = 25; x < 410; ++x, ++all) behind += std::abs(after.At(x, y)[1] - (0.45 * before.At(x, y)[1] + 0.55 * 0.05 * 255.0)) < 4.0 ? 1 : 0;
+    for (int x = 25; x < 410; ++x, ++all)
+      behind += std::abs(after.At(x, y)[1] - (0.45 * before.At(x, y)[1] + 0.55 * 0.05 * 255.0)) < 4.0 ? 1 : 0;
   }
   return static_cast<double>(behind) / all;
 }
@@ -84,7 +88,8 @@ double BehindGlass(const nodes::Image& before, const nodes::Image& after) {
 bool HasLegend(const nodes::Image& image) {
   constexpr int kBar = 157;
   const std::uint8_t *red = image.At(32, kBar), *yellow = image.At(208, kBar), *green = image.At(384, kBar);
-  return red[0] > 150 && red[1] < 90 && red[2] < 90 && yellow[0] > 150 && yellow[1] > 150 && yellow[2] < 90 && green[0] < 90 && green[1] > 120 && green[2] < 90;
+  return red[0] > 150 && red[1] < 90 && red[2] < 90 && yellow[0] > 150 && yellow[1] > 150 && yellow[2] < 90 &&
+         green[0] < 90 && green[1] > 120 && green[2] < 90;
 }
 
 class Session : public ::testing::Test {
@@ -92,8 +97,9 @@ class Session : public ::testing::Test {
   void SetUp() override {
     if (!Has("Xvfb") || !Has("xdotool")) GTEST_SKIP() << "the packages xvfb and xdotool are not there";
     const fs::path number = folder_.path() / "display";
-    server_ = std::make_unique<Started>(
-        std::vector<std::string>{"/bin/sh", "-c", "exec Xvfb -noreset -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
+    server_ = std::make_unique<Started>(std::vector<std::string>{
+        "/bin/sh", "-c",
+        "exec Xvfb -noreset -displayfd 3 -screen 0 1280x1024x24 3>" + number.string() + " 2>/dev/null"});
     ASSERT_TRUE(Until(20s, [&] {
       const auto text = base::ReadText(number);
       if (!text || text.value().find('\n') == std::string::npos) return false;
@@ -168,7 +174,10 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   const auto becomes = [&](const std::string& state) {
     return Until(60s, [&] {
       Do({"key", "space"});
-      return Until(5s, [&] { return RunCommand({runtime, "/usr/bin/env", Bin("rodeira"), "ctl", "state"}).out.find(state) != std::string::npos; });
+      return Until(5s, [&] {
+        return RunCommand({runtime, "/usr/bin/env", Bin("rodeira"), "ctl", "state"}).out.find(state) !=
+               std::string::npos;
+      });
     });
   };
   EXPECT_TRUE(becomes("paused at "));
@@ -176,11 +185,14 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
   const auto picture = [&]() -> nodes::Image {
     const auto before = FilesOn(pictures, ".png");
     Do({"key", "F12"});
-    EXPECT_TRUE(Until(60s, [&] { return whole_pictures() > static_cast<std::ptrdiff_t>(before.size()); })) << "a picture";
+    EXPECT_TRUE(Until(60s, [&] { return whole_pictures() > static_cast<std::ptrdiff_t>(before.size()); }))
+        << "a picture";
     for (const fs::path& file : FilesOn(pictures, ".png")) {
       if (std::find(before.begin(), before.end(), file) != before.end()) continue;
       // For people, where they ask for it.
-      if (const char* kept = std::getenv("RODEIRA_PICTURES")) fs::copy_file(file, fs::path(kept) / ("session_" + std::to_string(before.size()) + ".png"), fs::copy_options::overwrite_existing);
+      if (const char* kept = std::getenv("RODEIRA_PICTURES"))
+        fs::copy_file(file, fs::path(kept) / ("session_" + std::to_string(before.size()) + ".png"),
+                      fs::copy_options::overwrite_existing);
       return nodes::ReadPng(file);
     }
     return {};
@@ -193,13 +205,16 @@ TEST_F(Session, FromTheStartWindowToAPictureAndARecordingThatReplays) {
     std::this_thread::sleep_for(1s);
     return picture();
   };
-  const auto click = [&](int y_px) { return [this, y_px] { Click(kScreenWidth / 2, (kScreenHeight - kHeight) / 2 + y_px); }; };
+  const auto click = [&](int y_px) {
+    return [this, y_px] { Click(kScreenWidth / 2, (kScreenHeight - kHeight) / 2 + y_px); };
+  };
   const auto key = [&](const char* name) { return [this, name] { Do({"key", name}); }; };
   constexpr int kOwnCar = 470, kSky = 20;  // of the camera behind the car
   const nodes::Image clicked = after(click(kOwnCar));
   EXPECT_GT(BehindGlass(plain, clicked), 0.75) << "the panel of the car that was clicked on";
   EXPECT_LT(BehindGlass(plain, plain), 0.05);
-  EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 3 * kWidth * 200, clicked.rgb.begin())) << "and nothing else above it";
+  EXPECT_TRUE(std::equal(plain.rgb.begin(), plain.rgb.begin() + 3 * kWidth * 200, clicked.rgb.begin()))
+      << "and nothing else above it";
   EXPECT_EQ(after(click(kSky)).rgb, plain.rgb) << "nobody is chosen";
   const nodes::Image next = after(key("Tab")), followed = after(click(kSky));
   EXPECT_GT(BehindGlass(followed, next), 0.75) << "the panel of the vehicle that was chosen by the key";

@@ -1,5 +1,5 @@
-// Who stands in a lane is not touched: the driver's car stopped, its followers stop behind it; the queue blocks the lane,
-// and the autopilot stops behind the queue. Read from the recording of a whole run.
+// Who stands in a lane is not touched: the driver's car stopped, its followers stop behind it; the queue blocks the
+// lane, and the autopilot stops behind the queue. Read from the recording of a whole run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,17 +29,21 @@ double Double(float value) { return static_cast<double>(value); }
 Box BoxOf(const msg::VehicleState& car) {
   const double x = car.position_w_m().x(), y = car.position_w_m().y();
   const double front = x + Double(car.front_m());
-  return {front - Double(car.length_m()), front, y - 0.5 * Double(car.width_m()), y + 0.5 * Double(car.width_m()), car.velocity_w_mps().x()};
+  return {front - Double(car.length_m()), front, y - 0.5 * Double(car.width_m()), y + 0.5 * Double(car.width_m()),
+          car.velocity_w_mps().x()};
 }
 Box BoxOf(const msg::TrafficAgent& agent) {
   const double x = agent.position_x_m(), y = agent.position_y_m();
-  return {x - 0.5 * Double(agent.length_m()), x + 0.5 * Double(agent.length_m()), y - 0.5 * Double(agent.width_m()), y + 0.5 * Double(agent.width_m()),
-          agent.speed_mps() * std::cos(Double(agent.heading_rad()))};
+  return {x - 0.5 * Double(agent.length_m()), x + 0.5 * Double(agent.length_m()), y - 0.5 * Double(agent.width_m()),
+          y + 0.5 * Double(agent.width_m()), agent.speed_mps() * std::cos(Double(agent.heading_rad()))};
 }
-bool Touch(const Box& a, const Box& b) { return a.rear_m < b.front_m && b.rear_m < a.front_m && a.right_m < b.left_m && b.right_m < a.left_m; }
+bool Touch(const Box& a, const Box& b) {
+  return a.rear_m < b.front_m && b.rear_m < a.front_m && a.right_m < b.left_m && b.right_m < a.left_m;
+}
 
 // Everybody at one time: the wreck, the autopilot's car, the agents.
-std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleState& ego, const msg::TrafficState& traffic) {
+std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleState& ego,
+                           const msg::TrafficState& traffic) {
   std::vector<Box> boxes{BoxOf(wreck), BoxOf(ego)};
   for (const auto& agent : traffic.agents()) boxes.push_back(BoxOf(agent));
   return boxes;
@@ -48,7 +52,8 @@ std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleSta
 TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
   const cli::TemporaryFolder folder;
   const std::string recording = (folder.path() / "blocked.mcap").string();
-  const Ended ended = RunCommand({Bin("rodeira"), "run", SourceDir() + "/tests/data/blocked_lane.yaml", "--in-process", "--record", recording});
+  const Ended ended = RunCommand(
+      {Bin("rodeira"), "run", SourceDir() + "/tests/data/blocked_lane.yaml", "--in-process", "--record", recording});
   ASSERT_EQ(ended.status, 0) << ended.out;
   const auto wreck = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState, "wreck");
   const auto ego = MessagesOf<msg::VehicleState>(recording, idl::topics::kVehicleState, "ego");
@@ -61,7 +66,8 @@ TEST(Stopping, ABlockedLaneStopsTrafficAndAutopilotWithoutATouch) {
   for (std::size_t k = 0; k < traffic.size(); ++k) {
     const auto all = Everybody(wreck[10 * k], ego[10 * k], traffic[k]);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(Touch(all[i], all[j])) << i << " and " << j << " at step " << 10 * k;
+      for (std::size_t j = 0; j < i; ++j)
+        ASSERT_FALSE(Touch(all[i], all[j])) << i << " and " << j << " at step " << 10 * k;
     }
     ASSERT_NEAR(all[0].front_m, 700.0 + Double(wreck[0].front_m()), 0.1) << "the wreck stands";
     fastest = std::max(fastest, all[1].speed_mps);

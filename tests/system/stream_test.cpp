@@ -1,5 +1,5 @@
-// One launch file, ten runs: in one process, message by message in a drawn order with losses, as processes beside programs
-// that leave them no processor, and on two PCs whose network delays and overtakes. One stream of digests.
+// One launch file, ten runs: in one process, message by message in a drawn order with losses, as processes beside
+// programs that leave them no processor, and on two PCs whose network delays and overtakes. One stream of digests.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -26,16 +26,19 @@ namespace {
 using namespace std::chrono_literals;
 
 // Four nodes, all to all, at three rates.
-constexpr const char* kLaunch = "rodeira: launch/1\nnodes:\n  a: {kind: empty, host: left}\n  b: {kind: empty, host: right, period_s: 0.002}\n"
-                                "  c: {kind: empty, host: right, period_s: 0.003}\n  d: {kind: empty}\n  recorder: {kind: recorder}\n"
-                                "limits: {silence_s: 30, step_s: 30}\n";  // a machine under load, for a long time
+constexpr const char* kLaunch =
+    "rodeira: launch/1\nnodes:\n  a: {kind: empty, host: left}\n  b: {kind: empty, host: right, period_s: 0.002}\n"
+    "  c: {kind: empty, host: right, period_s: 0.003}\n  d: {kind: empty}\n  recorder: {kind: recorder}\n"
+    "limits: {silence_s: 30, step_s: 30}\n";  // a machine under load, for a long time
 
 bool Earlier(const Recorded& a, const Recorded& b) { return std::tie(a.step, a.source) < std::tie(b.step, b.source); }
 
 // RODEIRA_STREAM_STEPS says how many steps; RODEIRA_STREAM_SEED repeats the drawn orders.
 class Streams : public ::testing::Test {
  protected:
-  Streams() : steps_(static_cast<lockstep::Step>(Setting("RODEIRA_STREAM_STEPS", 1000))), seed_(Setting("RODEIRA_STREAM_SEED", std::random_device()())) {
+  Streams()
+      : steps_(static_cast<lockstep::Step>(Setting("RODEIRA_STREAM_STEPS", 1000))),
+        seed_(Setting("RODEIRA_STREAM_SEED", std::random_device()())) {
     fmt::print("RODEIRA_STREAM_SEED={}\n", seed_);
   }
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -68,7 +71,9 @@ class Streams : public ::testing::Test {
     const auto launch = launch::Launch::Load(launch_);
     ASSERT_TRUE(launch.ok()) << launch.error().Text();
     const auto& roster = launch.value().roster();
-    auto nodes = cli::LocalNodes::Make(launch.value(), [&](lockstep::NodeIndex n) { return roster.node(n).is_sink() ? replay::MakeNullSink() : nullptr; });
+    auto nodes = cli::LocalNodes::Make(launch.value(), [&](lockstep::NodeIndex n) {
+      return roster.node(n).is_sink() ? replay::MakeNullSink() : nullptr;
+    });
     ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
     std::vector<Recorded> samples;
     lockstep::InProcessSettings settings;
@@ -76,7 +81,8 @@ class Streams : public ::testing::Test {
     settings.loss = 0.05;
     settings.on_sample = [&](const lockstep::Sample& sample) {
       const auto& source = roster.source(sample.source());
-      samples.push_back({source.topic, sample.source(), sample.valid(), base::Hash(*sample.payload), sample.header.state_digest});
+      samples.push_back(
+          {source.topic, sample.source(), sample.valid(), base::Hash(*sample.payload), sample.header.state_digest});
     };
     const auto outcome = lockstep::RunShuffled(roster, nodes.value().nodes(), settings, seed);
     ASSERT_TRUE(outcome.ok) << outcome.fault;
@@ -89,7 +95,9 @@ class Streams : public ::testing::Test {
     if (!rig.problem().empty()) GTEST_SKIP() << rig.problem();
     const std::string lab = folder_.Write("lab.yaml", Rig::Laboratory(2, "{kind: peers}")).string();
     const std::string recording = File("two.mcap");
-    const auto command = [&](int host) { return std::vector<std::string>{Bin("rodeira"), "run", launch_, "--lab", lab, "--host", Rig::Name(host)}; };
+    const auto command = [&](int host) {
+      return std::vector<std::string>{Bin("rodeira"), "run", launch_, "--lab", lab, "--host", Rig::Name(host)};
+    };
     auto recorded = command(0);
     recorded.insert(recorded.end(), {"--record", recording, "--for", Seconds()});
     Started left(rig.On(0, recorded)), right(rig.On(1, command(1)));

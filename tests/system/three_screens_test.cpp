@@ -20,8 +20,10 @@ namespace fs = std::filesystem;
 constexpr int kWidth = 320, kHeight = 180;
 
 std::string View(const std::string& screen) {
-  return "  " + screen + ": {kind: view, config: {screen: " + screen + ", window: never, instruments: false, mirrors: [], quality: low, width_px: 320, height_px: 180, frames: {times_s: [2, 5], folder: " + screen +
-         "}}}\n";
+  return "  " + screen + ": {kind: view, config: {screen: " + screen +
+         ", window: never, instruments: false, mirrors: [], quality: low, width_px: 320, height_px: 180, frames: "
+         "{times_s: [2, 5], folder: " +
+         screen + "}}}\n";
 }
 
 // How far the colours at one picture's right edge are from those at the left edge of the next, 0 to 255.
@@ -33,19 +35,28 @@ double Seam(const nodes::Image& left, const nodes::Image& right) {
   return sum / (3.0 * kHeight);
 }
 
-// Every view writes the frames of the same steps, and at each step what one screen shows goes on in the next: not so with another step's.
+// Every view writes the frames of the same steps, and at each step what one screen shows goes on in the next: not so
+// with another step's.
 TEST(ThreeScreens, OfARunShowTheSameSteps) {
   const auto folder = base::TemporaryFolder::Make("screens").value();
   const fs::path configs = fs::path(SourceDir()) / "configs", file = folder.path() / "screens.yaml";
-  ASSERT_TRUE(base::WriteWhole(file, "rodeira: launch/1\nname: screens\nlab: " + (configs / "labs/three_screens.yaml").string() + "\nworld: " + (configs / "worlds/n222.yaml").string() +
-                                         "\nseed: 1\nduration_s: 5.1\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: autopilot, driver: " +
-                                         (configs / "drivers/default.yaml").string() + ", vehicle: " + (configs / "vehicles/default.yaml").string() +
-                                         "}}\n  ego: {kind: vehicle, config: {vehicle: " + (configs / "vehicles/default.yaml").string() + "}}\n" + View("left") + View("centre") + View("right"))
-                  .ok());
+  ASSERT_TRUE(
+      base::WriteWhole(
+          file, "rodeira: launch/1\nname: screens\nlab: " + (configs / "labs/three_screens.yaml").string() +
+                    "\nworld: " + (configs / "worlds/n222.yaml").string() +
+                    "\nseed: 1\nduration_s: 5.1\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: "
+                    "{source: autopilot, driver: " +
+                    (configs / "drivers/default.yaml").string() +
+                    ", vehicle: " + (configs / "vehicles/default.yaml").string() +
+                    "}}\n  ego: {kind: vehicle, config: {vehicle: " + (configs / "vehicles/default.yaml").string() +
+                    "}}\n" + View("left") + View("centre") + View("right"))
+          .ok());
   const Ended run = RunCommand({Bin("rodeira"), "run", file.string(), "--pace", "max", "--no-record", "--quiet"});
   if (run.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << run.out;
   ASSERT_EQ(run.status, 0) << run.out;
-  const auto picture = [&](const char* screen, const char* step) { return nodes::ReadPng(folder.path() / screen / ("step_00000" + std::string(step) + ".png")); };
+  const auto picture = [&](const char* screen, const char* step) {
+    return nodes::ReadPng(folder.path() / screen / ("step_00000" + std::string(step) + ".png"));
+  };
   for (const auto& [step, other] : {std::pair("2000", "5000"), std::pair("5000", "2000")}) {
     const nodes::Image left = picture("left", step), centre = picture("centre", step), right = picture("right", step);
     ASSERT_EQ(std::pair(centre.width_px, centre.height_px), std::pair(kWidth, kHeight));

@@ -23,7 +23,8 @@ class FmuRun : public ::testing::Test {
  protected:
   std::vector<std::string> Command(const std::string& parameters, std::vector<std::string> more) const {
     folder_.Pack();
-    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--set", "nodes.ego.config.vehicle=" + folder_.WriteCar(parameters).string()});
+    more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--set",
+                               "nodes.ego.config.vehicle=" + folder_.WriteCar(parameters).string()});
     return more;
   }
   fmi::FmuFolder folder_;
@@ -71,7 +72,8 @@ TEST_F(FmuRun, OneThatCrashesAtOnceIsRefused) {
   folder_.Pack({{"{rodeira-test-car}", "{crashes}"}});
   const Ended run = RunCommand(command);
   EXPECT_EQ(run.status, 2) << run.out;
-  EXPECT_THAT(run.out, HasSubstr("car.fmu: its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
+  EXPECT_THAT(run.out,
+              HasSubstr("car.fmu: its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
 }
 
 TEST_F(FmuRun, WhatIsNoFmuIsRefused) {
@@ -82,19 +84,37 @@ TEST_F(FmuRun, WhatIsNoFmuIsRefused) {
   EXPECT_THAT(run.out, HasSubstr("car.fmu: this is no FMU: a ZIP archive was expected"));
 }
 
-// The demo (autopilot, traffic, recorder, the view) with any model: a word in the command line, and for a laboratory's car its file.
+// The demo (autopilot, traffic, recorder, the view) with any model: a word in the command line, and for a laboratory's
+// car its file.
 TEST_F(FmuRun, TheDemoDrivesWithEachModel) {
   folder_.Pack();
   const std::string fmu = folder_.WriteCar().string();
-  const std::vector<std::vector<std::string>> cars = {{"vehicle.model=bicycle"}, {"vehicle.model=multibody"}, {"vehicle.model=ode"},
-                                                      {"nodes.ego.config.vehicle=" + fmu, "nodes.driver.config.vehicle=" + fmu}};
+  const std::vector<std::vector<std::string>> cars = {
+      {"vehicle.model=bicycle"},
+      {"vehicle.model=multibody"},
+      {"vehicle.model=ode"},
+      {"nodes.ego.config.vehicle=" + fmu, "nodes.driver.config.vehicle=" + fmu}};
   for (const auto& settings : cars) {
     SCOPED_TRACE(settings.front());
     const std::string recording = (folder_.path() / "demo.mcap").string();
     const auto frames = folder_.path() / "frames";
-    std::vector<std::string> command = {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--pace", "max", "--for", "3", "--record", recording,
-                                        "--set", "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=90",
-                                        "--set", "nodes.view.config.frames.times_s=[1, 3]", "--set", "nodes.view.config.frames.folder=" + frames.string()};
+    std::vector<std::string> command = {Bin("rodeira"),
+                                        "run",
+                                        LaunchFile("demo.yaml"),
+                                        "--pace",
+                                        "max",
+                                        "--for",
+                                        "3",
+                                        "--record",
+                                        recording,
+                                        "--set",
+                                        "nodes.view.config.width_px=160",
+                                        "--set",
+                                        "nodes.view.config.height_px=90",
+                                        "--set",
+                                        "nodes.view.config.frames.times_s=[1, 3]",
+                                        "--set",
+                                        "nodes.view.config.frames.folder=" + frames.string()};
     for (const std::string& setting : settings) command.insert(command.end(), {"--set", setting});
     const Ended run = RunCommand(command);
     ASSERT_EQ(run.status, 0) << run.out;

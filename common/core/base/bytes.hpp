@@ -19,8 +19,7 @@ static_assert(sizeof(double) == 8 && sizeof(float) == 4);
 class ByteWriter {
  public:
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  void Put(T value) {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) void Put(T value) {
     const std::size_t at = bytes_.size();
     bytes_.resize(at + sizeof(T));
     std::memcpy(bytes_.data() + at, &value, sizeof(T));
@@ -46,8 +45,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <class T>
-    requires(std::is_arithmetic_v<T> || std::is_enum_v<T>)
-  T Get() {
+  requires(std::is_arithmetic_v<T> || std::is_enum_v<T>) T Get() {
     T value{};
     if (!Require(sizeof(T))) return value;
     if constexpr (std::is_same_v<T, bool>) {

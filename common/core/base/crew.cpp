@@ -42,7 +42,8 @@ struct Crew::Parts {
 Crew::Crew(unsigned threads) : parts_(std::make_unique<Parts>()) {
   RODEIRA_ASSERT(threads >= 1);
   const std::scoped_lock lock(parts_->mutex);  // nobody looks at `others` before it is whole
-  for (std::size_t part = 1; part < threads; ++part) parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
+  for (std::size_t part = 1; part < threads; ++part)
+    parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
 }
 
 Crew::~Crew() {
@@ -70,8 +71,10 @@ void Crew::Share(std::size_t count, const std::function<void(std::size_t, std::s
 }
 
 void Share(Crew* crew, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
-  if (crew != nullptr) crew->Share(count, work);
-  else work(0, count);
+  if (crew != nullptr)
+    crew->Share(count, work);
+  else
+    work(0, count);
 }
 
 }  // namespace rodeira::base

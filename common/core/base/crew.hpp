@@ -6,8 +6,8 @@
 
 namespace rodeira::base {
 
-// Threads that wait for work to share: much of it, again and again. Which of them does what changes no result where no part
-// reads what another one writes.
+// Threads that wait for work to share: much of it, again and again. Which of them does what changes no result where no
+// part reads what another one writes.
 class Crew {
  public:
   // The caller is one of them; 1: nobody else.
@@ -17,7 +17,8 @@ class Crew {
   Crew& operator=(const Crew&) = delete;
 
   unsigned threads() const;
-  // work(begin, end) for parts that make up [0, count), at the same time; comes back when all are done. One caller at a time.
+  // work(begin, end) for parts that make up [0, count), at the same time; comes back when all are done. One caller at a
+  // time.
   void Share(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work);
 
  private:

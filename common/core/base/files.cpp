@@ -27,7 +27,9 @@ Result<Buffer> ReadStream(std::ifstream& in, const std::filesystem::path& path, 
     buffer.resize(held + kChunk);
     in.read(reinterpret_cast<char*>(buffer.data() + held), kChunk);
     buffer.resize(held + static_cast<std::size_t>(in.gcount()));
-    if (buffer.size() > limit_bytes) return WrongInput(fmt::format("more than the {} bytes that were expected at most came", limit_bytes), path.string());
+    if (buffer.size() > limit_bytes)
+      return WrongInput(fmt::format("more than the {} bytes that were expected at most came", limit_bytes),
+                        path.string());
   }
   if (in.bad()) return Failed("the file cannot be read to its end", path.string());
   return buffer;

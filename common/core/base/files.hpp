@@ -10,7 +10,8 @@
 
 namespace rodeira::base {
 
-// The whole file, or what comes through a pipe until it is closed. Wrong input where it is missing, is a folder, or is larger than `limit_bytes`.
+// The whole file, or what comes through a pipe until it is closed. Wrong input where it is missing, is a folder, or is
+// larger than `limit_bytes`.
 Result<std::string> ReadText(const std::filesystem::path& path, std::size_t limit_bytes = 64u << 20);
 Result<Bytes> ReadBytes(const std::filesystem::path& path, std::size_t limit_bytes = 1u << 30);
 

@@ -25,8 +25,8 @@ double Ask(double (*function)(double), double x) {
 
 Digest MathematicsDigest() {
   using Function = double (*)(double);
-  const Function functions[] = {std::sin,  std::cos,   std::tan,   std::asin,  std::acos, std::atan, std::exp,  std::exp2,
-                                std::log,  std::log10, std::log2,  std::sinh,  std::cosh, std::tanh, std::sqrt, std::cbrt};
+  const Function functions[] = {std::sin, std::cos,   std::tan,  std::asin, std::acos, std::atan, std::exp,  std::exp2,
+                                std::log, std::log10, std::log2, std::sinh, std::cosh, std::tanh, std::sqrt, std::cbrt};
   // With and without FMA at most one result in a thousand differs (measured over a million), so it takes tens of
   // thousands of them, at arguments without pattern, to be sure that a difference is seen.
   ByteWriter out;
@@ -57,7 +57,8 @@ bool MathematicsFixed() {
 void FixMathematics(char** argv) {
   if (MathematicsFixed()) return;
   const char* tunables = std::getenv("GLIBC_TUNABLES");
-  const std::string wanted = tunables == nullptr || *tunables == '\0' ? std::string(kTunables) : std::string(tunables) + ":" + kTunables;
+  const std::string wanted =
+      tunables == nullptr || *tunables == '\0' ? std::string(kTunables) : std::string(tunables) + ":" + kTunables;
   ::setenv("GLIBC_TUNABLES", wanted.c_str(), 1);
   ::execv("/proc/self/exe", argv);
   // Where /proc is not mounted the run goes on; the mathematics digest in the hello finds a machine that differs.

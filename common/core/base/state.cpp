@@ -27,8 +27,9 @@ bool StateReader::Expect(std::string_view name, FieldShape shape, FieldScalar sc
     return false;
   }
   if (found_shape != shape || found_scalar != scalar || found_size != size) {
-    Fail(name, fmt::format("another type (shape {}, scalar {}, {} bytes instead of {}, {}, {})", static_cast<int>(found_shape), static_cast<int>(found_scalar),
-                           found_size, static_cast<int>(shape), static_cast<int>(scalar), size));
+    Fail(name, fmt::format("another type (shape {}, scalar {}, {} bytes instead of {}, {}, {})",
+                           static_cast<int>(found_shape), static_cast<int>(found_scalar), found_size,
+                           static_cast<int>(shape), static_cast<int>(scalar), size));
     return false;
   }
   return true;
@@ -41,7 +42,8 @@ void StateReader::Fail(std::string_view name, std::string_view found) {
 Status StateReader::Finish() const {
   if (!problem_.empty()) return WrongInput(problem_);
   if (!in_.ok()) return WrongInput("the snapshot ends within a field");
-  if (in_.remaining() != 0) return WrongInput(fmt::format("{} bytes are left over after the last state field", in_.remaining()));
+  if (in_.remaining() != 0)
+    return WrongInput(fmt::format("{} bytes are left over after the last state field", in_.remaining()));
   return {};
 }
 

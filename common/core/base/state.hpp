@@ -56,7 +56,7 @@ class StateWriter {
   }
   // A part that saves itself: Save(StateWriter&) const.
   template <class Part>
-    requires requires(const Part& part, StateWriter& writer) { part.Save(writer); }
+  requires requires(const Part& part, StateWriter& writer) { part.Save(writer); }
   void Put(std::string_view name, const Part& part) {
     Name(name, FieldShape::kPart, FieldScalar::kNone, 0);
     part.Save(*this);
@@ -103,7 +103,7 @@ class StateReader {
     if (Expect(name, FieldShape::kText, FieldScalar::kNone, 1)) text = in_.GetString();
   }
   template <class Part>
-    requires requires(Part& part, StateReader& reader) { part.Restore(reader); }
+  requires requires(Part& part, StateReader& reader) { part.Restore(reader); }
   void Get(std::string_view name, Part& part) {
     if (Expect(name, FieldShape::kPart, FieldScalar::kNone, 0)) part.Restore(*this);
   }

@@ -27,7 +27,8 @@ std::optional<std::string> ScalarText(ByteReader& in, FieldScalar scalar, std::u
       if (size == 2) return text(in.Get<std::uint16_t>());
       if (size == 1) return text(static_cast<unsigned>(in.Get<std::uint8_t>()));
       break;
-    case FieldScalar::kNone: break;
+    case FieldScalar::kNone:
+      break;
   }
   return std::nullopt;
 }
@@ -61,14 +62,16 @@ Result<std::vector<StateField>> StateFields(std::span<const std::byte> state) {
         fields.push_back({list ? fmt::format("{}[{}]", path, i) : path, *value});
       }
     } else {
-      return WrongInput(fmt::format("state field '{}' has shape {}, which no snapshot has", path.substr(0, 64), static_cast<int>(shape)));
+      return WrongInput(fmt::format("state field '{}' has shape {}, which no snapshot has", path.substr(0, 64),
+                                    static_cast<int>(shape)));
     }
     if (!in.ok()) return cut();
   }
   return fields;
 }
 
-Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std::byte> first, std::span<const std::byte> second) {
+Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std::byte> first,
+                                                            std::span<const std::byte> second) {
   if (std::equal(first.begin(), first.end(), second.begin(), second.end())) return std::optional<StateDifference>();
   const auto a = StateFields(first);
   if (!a) return a.error();
@@ -78,8 +81,11 @@ Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std:
     const bool in_a = i < a.value().size();
     const bool in_b = i < b.value().size();
     if (in_a && in_b && a.value()[i] == b.value()[i]) continue;
-    if (in_a && in_b && a.value()[i].path == b.value()[i].path) return std::optional(StateDifference{a.value()[i].path, a.value()[i].value, b.value()[i].value});
-    return std::optional(StateDifference{in_a ? a.value()[i].path : b.value()[i].path, in_a ? a.value()[i].value : "absent", in_b && !in_a ? b.value()[i].value : "absent"});
+    if (in_a && in_b && a.value()[i].path == b.value()[i].path)
+      return std::optional(StateDifference{a.value()[i].path, a.value()[i].value, b.value()[i].value});
+    return std::optional(StateDifference{in_a ? a.value()[i].path : b.value()[i].path,
+                                         in_a ? a.value()[i].value : "absent",
+                                         in_b && !in_a ? b.value()[i].value : "absent"});
   }
   // The same texts of other bits: NaNs of another kind.
   return std::optional(StateDifference{"(a value that is no number)", "one pattern of bits", "another"});

@@ -23,11 +23,12 @@ Result<std::vector<StateField>> StateFields(std::span<const std::byte> state);
 
 struct StateDifference {
   std::string path;
-  std::string first;   // "absent" where the field is not there
+  std::string first;  // "absent" where the field is not there
   std::string second;
 };
 
 // The first field in which two snapshots differ; nothing where they are equal to the bit.
-Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std::byte> first, std::span<const std::byte> second);
+Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std::byte> first,
+                                                            std::span<const std::byte> second);
 
 }  // namespace rodeira::base

@@ -39,7 +39,8 @@ void Sweep(const fs::path& where, const std::string& start) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || name.size() != start.size() + kLetters) continue;
     struct stat status {};
-    if (::lstat(entry.path().c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != ::geteuid()) continue;
+    if (::lstat(entry.path().c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != ::geteuid())
+      continue;
     const int file = Lock(entry.path(), false);
     if (file < 0) continue;
     std::error_code ignored;
@@ -58,7 +59,8 @@ Result<TemporaryFolder> TemporaryFolder::Make(std::string_view what) {
   Sweep(where, start);
   for (;;) {
     std::string name = (where / start).string() + std::string(kLetters, 'X');
-    if (::mkdtemp(name.data()) == nullptr) return Failed(std::string("no temporary folder can be made: ") + std::strerror(errno), where.string());
+    if (::mkdtemp(name.data()) == nullptr)
+      return Failed(std::string("no temporary folder can be made: ") + std::strerror(errno), where.string());
     const int lock = Lock(name, true);
     if (lock >= 0 && IsThere(lock)) return TemporaryFolder(name, lock);
     if (lock < 0 && fs::exists(name, problem)) return TemporaryFolder(name, -1);  // a file system without locks

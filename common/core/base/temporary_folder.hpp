@@ -8,13 +8,15 @@
 
 namespace rodeira::base {
 
-// A folder of its own below the system's temporary one, removed with everything in it at the end. What a killed process has left there
-// is removed by the next one of this user that makes a folder for the same purpose: whoever lives keeps his folder locked.
+// A folder of its own below the system's temporary one, removed with everything in it at the end. What a killed process
+// has left there is removed by the next one of this user that makes a folder for the same purpose: whoever lives keeps
+// his folder locked.
 class TemporaryFolder {
  public:
   // Its name begins with "rodeira-WHAT-". Failed where none can be made.
   static Result<TemporaryFolder> Make(std::string_view what);
-  TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
+  TemporaryFolder(TemporaryFolder&& other) noexcept
+      : path_(std::exchange(other.path_, {})), lock_(std::exchange(other.lock_, -1)) {}
   TemporaryFolder& operator=(TemporaryFolder&&) = delete;
   ~TemporaryFolder();
   const std::filesystem::path& path() const { return path_; }

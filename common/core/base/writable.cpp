@@ -6,10 +6,12 @@ namespace rodeira::base {
 
 Status CheckWritable(const std::filesystem::path& path) {
   std::error_code problem;
-  if (std::filesystem::is_directory(path, problem)) return Failed("the file cannot be written: a folder has that name", path.string());
+  if (std::filesystem::is_directory(path, problem))
+    return Failed("the file cannot be written: a folder has that name", path.string());
   std::filesystem::path beside = path;
   beside += ".tried";
-  if (auto status = WriteWhole(beside, std::string_view()); !status) return Failed(status.error().message, path.string());
+  if (auto status = WriteWhole(beside, std::string_view()); !status)
+    return Failed(status.error().message, path.string());
   std::filesystem::remove(beside, problem);
   return {};
 }

@@ -6,7 +6,8 @@
 
 namespace rodeira::base {
 
-// Whether WriteWhole (files.hpp) can write there, which is tried, its folders made; failed where it cannot, or a folder has that name. Nothing else changes.
+// Whether WriteWhole (files.hpp) can write there, which is tried, its folders made; failed where it cannot, or a folder
+// has that name. Nothing else changes.
 Status CheckWritable(const std::filesystem::path& path);
 
 }  // namespace rodeira::base

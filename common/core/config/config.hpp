@@ -55,7 +55,7 @@ class Map {
 
   Map Child(std::string_view key) const;          // required
   Map OptionalChild(std::string_view key) const;  // empty where absent
-  List Items(std::string_view key) const;          // required sequence
+  List Items(std::string_view key) const;         // required sequence
   List OptionalItems(std::string_view key) const;
   // Marks a key as known without looking into it: somebody else reads what stands there.
   void LeaveToOthers(std::string_view key) const;

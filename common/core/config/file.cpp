@@ -15,11 +15,13 @@ constexpr std::size_t kSlip = 5;  // 's_m' is as near to 't_m' as any other
 // 'mass_kg' where 'mass_t' was given: the same quantity in another unit.
 bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
   static const std::set<std::string, std::less<>> kUnits = {
-      "m",  "cm", "mm", "km", "ft", "s",  "ms", "us",  "ns",  "min", "h",   "kg",  "g",  "t",  "n",  "kn",  "nm",  "rad",   "deg",
-      "mps", "kmh", "kmph", "kph", "mph", "mps2", "radps", "degps", "rpm", "hz", "w", "kw", "hp", "pa", "kpa", "bar", "pct", "percent", "m2", "kgm2"};
+      "m",     "cm",  "mm", "km", "ft",  "s",   "ms",  "us",  "ns",   "min", "h",       "kg",   "g",
+      "t",     "n",   "kn", "nm", "rad", "deg", "mps", "kmh", "kmph", "kph", "mph",     "mps2", "radps",
+      "degps", "rpm", "hz", "w",  "kw",  "hp",  "pa",  "kpa", "bar",  "pct", "percent", "m2",   "kgm2"};
   const auto cut_a = a.rfind('_');
   const auto cut_b = b.rfind('_');
-  if (cut_a == std::string::npos || cut_b == std::string::npos || a.substr(0, cut_a) != b.substr(0, cut_b)) return false;
+  if (cut_a == std::string::npos || cut_b == std::string::npos || a.substr(0, cut_a) != b.substr(0, cut_b))
+    return false;
   return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
 }
 
@@ -75,12 +77,16 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   auto context = std::make_shared<detail::Context>();
   context->path = name;
   context->text = std::string(text);
-  if (text.find('\0') != std::string_view::npos) return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
+  if (text.find('\0') != std::string_view::npos)
+    return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
   const auto root = LoadYaml(context->text, "this");
-  if (!root) return base::WrongInput(root.error().message, root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
+  if (!root)
+    return base::WrongInput(root.error().message,
+                            root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
   context->root.reset(root.value());
   if (!context->root.IsMap()) {
-    return base::WrongInput(fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
+    return base::WrongInput(
+        fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
   }
   return File(context);
 }
@@ -96,10 +102,14 @@ base::Status File::Override(std::string_view key, std::string_view value) {
     const std::size_t dot = key.find('.', from);
     const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
     if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
-    if (!at.IsMap() && !at.IsNull()) return base::WrongInput(fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
+    if (!at.IsMap() && !at.IsNull())
+      return base::WrongInput(
+          fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
     if (dot == std::string_view::npos) {
-      if (leaf.value().IsNull()) at.remove(part);
-      else at[part] = WithoutLines(leaf.value());
+      if (leaf.value().IsNull())
+        at.remove(part);
+      else
+        at[part] = WithoutLines(leaf.value());
       return {};
     }
     if (!Find(at, part).IsDefined()) at[part] = YAML::Node(YAML::NodeType::Map);
@@ -126,22 +136,28 @@ std::vector<base::Error> File::Problems() const {
         continue;
       }
       const std::string key = item.first.Scalar();
-      if (!seen.insert(key).second) all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
+      if (!seen.insert(key).second)
+        all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
       std::set<std::string, std::less<>> known = asked.keys;
       known.insert(asked.hoped.begin(), asked.hoped.end());
       known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
       const Meant meant = MeantBy(key, known);
-      // Where the mapping is wrong itself whoever reads it may have stopped before this key; only what is long enough to be a slip of the pen is told.
+      // Where the mapping is wrong itself whoever reads it may have stopped before this key; only what is long enough
+      // to be a slip of the pen is told.
       if (asked.wrong && (meant.key.empty() || key.size() < kSlip)) continue;
       const std::string missing = Sub(asked.path, meant.key);
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
-      (meant.key.empty() ? strange : misspelt).push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+      (meant.key.empty() ? strange : misspelt)
+          .push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
-  // What is misspelt comes before what is missing in its line, perhaps for that; what nobody asked for behind both, perhaps since something is missing.
+  // What is misspelt comes before what is missing in its line, perhaps for that; what nobody asked for behind both,
+  // perhaps since something is missing.
   for (auto& problem : misspelt) {
-    const auto missing = std::find_if(all.begin(), all.end(), [&](const auto& other) { return other.line == problem.line && !other.missing.empty(); });
+    const auto missing = std::find_if(all.begin(), all.end(), [&](const auto& other) {
+      return other.line == problem.line && !other.missing.empty();
+    });
     all.insert(missing, std::move(problem));
   }
   all.insert(all.end(), strange.begin(), strange.end());

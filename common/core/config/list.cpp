@@ -13,7 +13,9 @@ List::List(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::Yam
 
 std::size_t List::size() const { return node_->present ? node_->node.size() : 0; }
 
-std::string List::Place(std::size_t index) const { return PlaceOf(*context_, index < size() ? LineOf(node_->node[index]) : 0); }
+std::string List::Place(std::size_t index) const {
+  return PlaceOf(*context_, index < size() ? LineOf(node_->node[index]) : 0);
+}
 
 void List::Problem(std::size_t index, std::string message) const {
   context_->Add(index < size() ? LineOf(node_->node[index]) : 0, std::move(message));
@@ -24,8 +26,10 @@ Map List::At(std::size_t index) const {
   const YAML::Node found = node_->node[index];
   auto child = std::make_shared<detail::YamlNode>();
   child->present = found.IsMap();
-  if (child->present) child->node.reset(found);
-  else Problem(index, fmt::format("item {} of '{}' is {}; a mapping was expected", index + 1, path_, KindOf(found)));
+  if (child->present)
+    child->node.reset(found);
+  else
+    Problem(index, fmt::format("item {} of '{}' is {}; a mapping was expected", index + 1, path_, KindOf(found)));
   return Map(context_, child, fmt::format("{}[{}]", path_, index));
 }
 
@@ -34,7 +38,8 @@ double List::Number(std::size_t index, Range range) const {
   const YAML::Node found = node_->node[index];
   const auto value = found.IsScalar() ? ToNumber(found.Scalar()) : std::nullopt;
   if (!value || !(*value >= range.low && *value <= range.high)) {
-    Problem(index, fmt::format("item {} of '{}' is {}; a number {} was expected", index + 1, path_, KindOf(found), RangeText(range)));
+    Problem(index, fmt::format("item {} of '{}' is {}; a number {} was expected", index + 1, path_, KindOf(found),
+                               RangeText(range)));
   }
   return value.value_or(std::clamp(0.0, range.low, range.high));
 }
@@ -52,12 +57,14 @@ std::vector<double> List::Numbers(std::size_t index) const {
   const YAML::Node found = node_->node[index];
   std::vector<double> values;
   if (!found.IsSequence()) {
-    Problem(index, fmt::format("item {} of '{}' is {}; a list of numbers was expected", index + 1, path_, KindOf(found)));
+    Problem(index,
+            fmt::format("item {} of '{}' is {}; a list of numbers was expected", index + 1, path_, KindOf(found)));
     return values;
   }
   for (const auto& item : found) {
     const auto value = item.IsScalar() ? ToNumber(item.Scalar()) : std::nullopt;
-    if (!value) context_->Add(LineOf(item), fmt::format("'{}[{}]' holds {}; numbers were expected", path_, index, KindOf(item)));
+    if (!value)
+      context_->Add(LineOf(item), fmt::format("'{}[{}]' holds {}; numbers were expected", path_, index, KindOf(item)));
     values.push_back(value.value_or(0.0));
   }
   return values;

@@ -50,8 +50,10 @@ std::optional<T> Map::Scalar(std::string_view key, bool required, std::string_vi
   }
   std::optional<T> value;
   if (found.IsScalar()) {
-    if constexpr (std::is_same_v<T, double>) value = ToNumber(found.Scalar());
-    else if constexpr (std::is_same_v<T, std::int64_t>) value = ToInteger(found.Scalar());
+    if constexpr (std::is_same_v<T, double>)
+      value = ToNumber(found.Scalar());
+    else if constexpr (std::is_same_v<T, std::int64_t>)
+      value = ToInteger(found.Scalar());
     else if constexpr (std::is_same_v<T, bool>) {
       if (found.Scalar() == "true") value = true;
       if (found.Scalar() == "false") value = false;
@@ -87,7 +89,8 @@ std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t h
 std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t otherwise) const {
   const std::string expected = fmt::format("a whole number from {} to {}", low, high);
   const auto value = Scalar<std::int64_t>(key, false, expected);
-  if (value && (*value < low || *value > high)) Problem(key, fmt::format("'{}' is {}; {} was expected", Sub(path_, key), *value, expected));
+  if (value && (*value < low || *value > high))
+    Problem(key, fmt::format("'{}' is {}; {} was expected", Sub(path_, key), *value, expected));
   return std::clamp(value.value_or(otherwise), low, high);
 }
 
@@ -107,7 +110,8 @@ std::string Map::Choice(std::string_view key, const std::vector<std::string>& al
   }
   return Choice(key, allowed, allowed.front());
 }
-std::string Map::Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view otherwise) const {
+std::string Map::Choice(std::string_view key, const std::vector<std::string>& allowed,
+                        std::string_view otherwise) const {
   const auto value = Scalar<std::string>(key, false, "a word");
   if (!value) return std::string(otherwise);
   if (std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
@@ -138,7 +142,8 @@ Map Map::OptionalChild(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsMap();
-  if (found.IsDefined() && !present) Problem(key, fmt::format("'{}' is {}; a mapping was expected", Sub(path_, key), KindOf(found)));
+  if (found.IsDefined() && !present)
+    Problem(key, fmt::format("'{}' is {}; a mapping was expected", Sub(path_, key), KindOf(found)));
   auto child = std::make_shared<detail::YamlNode>();
   if (present) child->node.reset(found);
   child->present = present;
@@ -153,7 +158,8 @@ List Map::OptionalItems(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsSequence();
-  if (found.IsDefined() && !present) Problem(key, fmt::format("'{}' is {}; a list was expected", Sub(path_, key), KindOf(found)));
+  if (found.IsDefined() && !present)
+    Problem(key, fmt::format("'{}' is {}; a list was expected", Sub(path_, key), KindOf(found)));
   auto child = std::make_shared<detail::YamlNode>();
   if (present) child->node.reset(found);
   child->present = present;

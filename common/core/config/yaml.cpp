@@ -46,8 +46,11 @@ base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
   };
   try {
     return YAML::Load(text);
-  } catch (const YAML::DeepRecursion& problem) {  // the library's own bound: it descends a level of its stack with each level of the text
-    return failed(fmt::format("{} is nested too deeply: lists and mappings lie in one another, {} levels are too many", what, problem.depth()), problem.mark);
+  } catch (const YAML::DeepRecursion&
+               problem) {  // the library's own bound: it descends a level of its stack with each level of the text
+    return failed(fmt::format("{} is nested too deeply: lists and mappings lie in one another, {} levels are too many",
+                              what, problem.depth()),
+                  problem.mark);
   } catch (const YAML::Exception& problem) {
     return failed(fmt::format("{} is no YAML: {}", what, problem.msg), problem.mark);
   }
@@ -70,7 +73,9 @@ int LineOfKey(const YAML::Node& map, std::string_view key) {
   return LineOf(map);
 }
 
-std::string Sub(const std::string& path, std::string_view key) { return path.empty() ? std::string(key) : path + "." + std::string(key); }
+std::string Sub(const std::string& path, std::string_view key) {
+  return path.empty() ? std::string(key) : path + "." + std::string(key);
+}
 
 std::string RangeText(Range range) {
   const bool low = range.low > -std::numeric_limits<double>::max();

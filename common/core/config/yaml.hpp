@@ -42,11 +42,13 @@ struct Context {
     std::string path;
     std::set<std::string, std::less<>> keys;
     std::set<std::string, std::less<>> hoped;  // those that may stand there
-    bool wrong = false;  // something in it is, and perhaps the rest was not read for that
+    bool wrong = false;                        // something in it is, and perhaps the rest was not read for that
   };
   std::map<std::pair<int, std::string>, Asked> asked;
 
-  void Add(int line, std::string message, std::string missing = "") { problems.push_back({line, std::move(message), std::move(missing)}); }
+  void Add(int line, std::string message, std::string missing = "") {
+    problems.push_back({line, std::move(message), std::move(missing)});
+  }
 };
 
 }  // namespace detail

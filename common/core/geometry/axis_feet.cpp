@@ -17,7 +17,8 @@ bool AllWithin(const Numbers& numbers, std::size_t count, double bound) {
 }
 
 void OnLine(const AxisPanel& panel, AxisFeet& feet) {
-  const double x = panel.middle_W.x(), y = panel.middle_W.y(), ahead_x = panel.tangent_W.x(), ahead_y = panel.tangent_W.y();
+  const double x = panel.middle_W.x(), y = panel.middle_W.y(), ahead_x = panel.tangent_W.x(),
+               ahead_y = panel.tangent_W.y();
   for (std::size_t i = 0; i < feet.count; ++i) {
     const double away_x = feet.x_m[i] - x, away_y = feet.y_m[i] - y;
     feet.u_m[i] = away_x * ahead_x + away_y * ahead_y;
@@ -62,10 +63,12 @@ void OneByOne(const PlanAxis& axis, const AxisPanel& panel, AxisFeet& feet) {
 }  // namespace
 
 bool FindFeet(const PlanAxis& axis, const AxisPanel& panel, AxisFeet& feet) {
-  if (panel.kind == AxisPanel::Kind::kLine) OnLine(panel, feet);
+  if (panel.kind == AxisPanel::Kind::kLine)
+    OnLine(panel, feet);
   else if (panel.kind == AxisPanel::Kind::kArc) {
     if (!OnArc(panel, feet)) return false;
-  } else OneByOne(axis, panel, feet);
+  } else
+    OneByOne(axis, panel, feet);
   return AllWithin(feet.u_m, feet.count, panel.half_m);
 }
 

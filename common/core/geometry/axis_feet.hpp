@@ -13,12 +13,12 @@ struct AxisFeet {
   using Numbers = std::array<double, kMost>;
 
   std::size_t count = 0;
-  Numbers x_m, y_m;                                        // the points
-  Numbers u_m, t_m, tangent_x, tangent_y, curvature_1pm;   // as AxisFoot says them
+  Numbers x_m, y_m;                                       // the points
+  Numbers u_m, t_m, tangent_x, tangent_y, curvature_1pm;  // as AxisFoot says them
 };
 
-// Finds the feet, to the bit what PlanAxis::Foot says of each point. False, and then nothing is known, where one of them may lie at an
-// end of the panel, or not be finite.
+// Finds the feet, to the bit what PlanAxis::Foot says of each point. False, and then nothing is known, where one of
+// them may lie at an end of the panel, or not be finite.
 bool FindFeet(const PlanAxis& axis, const AxisPanel& panel, AxisFeet& feet);
 
 }  // namespace rodeira::geometry

@@ -22,8 +22,8 @@ Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& directio
   return {v.x() * direction.x() - v.y() * direction.y(), v.x() * direction.y() + v.y() * direction.x()};
 }
 
-constexpr double kFlat_m = 1e-9;       // where p is nowhere farther ahead or behind, all points are equally near
-constexpr double kShortest_m = 1e-9;   // of the intervals in which feet are told apart
+constexpr double kFlat_m = 1e-9;      // where p is nowhere farther ahead or behind, all points are equally near
+constexpr double kShortest_m = 1e-9;  // of the intervals in which feet are told apart
 
 // p as seen from the curve at u. `ahead_m`, f = (p - at) . tangent, is 0 at a foot and falls through it where the
 // distance has a minimum; `fall`, g = 1 - k t, is -f', for p at t to the left.
@@ -50,9 +50,12 @@ class Search {
  private:
   Seen At(double u) const {
     Seen seen;
-    if (u == -panel_.half_m) seen.at = panel_.begin_W, seen.tangent = panel_.begin_tangent_W;
-    else if (u == panel_.half_m) seen.at = panel_.end_W, seen.tangent = panel_.end_tangent_W;
-    else panel_.Point(u, seen.at, seen.tangent);
+    if (u == -panel_.half_m)
+      seen.at = panel_.begin_W, seen.tangent = panel_.begin_tangent_W;
+    else if (u == panel_.half_m)
+      seen.at = panel_.end_W, seen.tangent = panel_.end_tangent_W;
+    else
+      panel_.Point(u, seen.at, seen.tangent);
     const Eigen::Vector2d away = p_ - seen.at;
     seen.ahead_m = away.dot(seen.tangent);
     seen.left_m = seen.tangent.x() * away.y() - seen.tangent.y() * away.x();
@@ -87,7 +90,8 @@ class Search {
   }
 
   // On an interval of half length h about its middle m, by f' = -g, g' = k^2 f - k' t and t' = -k f:
-  //   |f| <= F = (|f_m| + h |g_m| + h^2 |k' t_m|) / (1 - h^2 (K^2 + |k'| K h)),   |g'| <= L = |k'| (|t_m| + K h F) + K^2 F
+  //   |f| <= F = (|f_m| + h |g_m| + h^2 |k' t_m|) / (1 - h^2 (K^2 + |k'| K h)),   |g'| <= L = |k'| (|t_m| + K h F) +
+  //   K^2 F
   // with the steepest curvature K. A panel's bounds on k h and k' h^2 keep the denominator above 0.9.
   void Within(double low, const Seen& at_low, double high, const Seen& at_high) {
     const double h = 0.5 * (high - low), middle = 0.5 * (low + high);
@@ -119,8 +123,10 @@ class Search {
 }  // namespace
 
 std::vector<ClothoidPanel> CutClothoid(const PlanPoint& start, double rate_1pm2, double length_m) {
-  const double steepest = std::max(std::fabs(start.curvature_1pm), std::fabs(start.curvature_1pm + rate_1pm2 * length_m));
-  const double per_metre = std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate_1pm2)) / kHalfTwist});
+  const double steepest =
+      std::max(std::fabs(start.curvature_1pm), std::fabs(start.curvature_1pm + rate_1pm2 * length_m));
+  const double per_metre =
+      std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate_1pm2)) / kHalfTwist});
   const double count = std::ceil(0.5 * length_m * per_metre);
   RODEIRA_ASSERT(count < 1e7);
   const double half = 0.5 * length_m / count;
@@ -138,8 +144,8 @@ std::vector<ClothoidPanel> CutClothoid(const PlanPoint& start, double rate_1pm2,
     std::complex<double> term = std::polar(1.0, panel.heading_rad);
     for (int n = 0; n < ClothoidPanel::kTerms; ++n) {
       panel.series_W[n] = Eigen::Vector2d(term.real(), term.imag()) / (n + 1);
-      const std::complex<double> next =
-          std::complex<double>(0.0, 1.0) * (panel.curvature_1pm * term + rate_1pm2 * before) / static_cast<double>(n + 1);
+      const std::complex<double> next = std::complex<double>(0.0, 1.0) *
+                                        (panel.curvature_1pm * term + rate_1pm2 * before) / static_cast<double>(n + 1);
       before = term;
       term = next;
     }
@@ -179,8 +185,10 @@ PanelFoot ClothoidPanel::Nearest(const Eigen::Vector2d& p_W) const {
   Search search(*this, p_W);
   const double steepest = std::fabs(curvature_1pm) + std::fabs(curvature_rate_1pm2) * half_m;
   // Near or beyond a centre of curvature the distance may have more than one minimum on the panel.
-  if (steepest * ((p_W - middle_W).norm() + half_m) < 0.9) search.One();
-  else search.Every();
+  if (steepest * ((p_W - middle_W).norm() + half_m) < 0.9)
+    search.One();
+  else
+    search.Every();
   return search.best();
 }
 

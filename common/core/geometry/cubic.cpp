@@ -19,8 +19,8 @@ bool CubicTable::zero() const {
 }
 
 std::size_t CubicTable::IndexBehind(double x) const {
-  const auto after =
-      std::upper_bound(records_.begin() + 2, records_.end(), x, [](double value, const Cubic& r) { return value < r.from; });
+  const auto after = std::upper_bound(records_.begin() + 2, records_.end(), x,
+                                      [](double value, const Cubic& r) { return value < r.from; });
   return static_cast<std::size_t>(after - records_.begin()) - 1;
 }
 

@@ -86,7 +86,8 @@ std::span<const std::uint32_t> NearGrid::Candidates(double x_m, double y_m) cons
   const double column = (x_m - origin_W_.x()) / cell_m_;
   const double row = (y_m - origin_W_.y()) / cell_m_;
   if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
-  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  const std::size_t cell =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   return std::span(pieces_).subspan(first_[cell], first_[cell + 1] - first_[cell]);
 }
 

@@ -17,8 +17,8 @@ PlanPoint ArcAt(const AxisPanel& panel, double u_m) {
   const double sine = std::sin(turned), cosine = std::cos(turned), half_sine = std::sin(0.5 * turned);
   const Eigen::Vector2d left = Left(panel.tangent_W);
   PlanPoint point;
-  point.p_W =
-      panel.middle_W + sine / panel.curvature_1pm * panel.tangent_W + 2.0 * half_sine * half_sine / panel.curvature_1pm * left;
+  point.p_W = panel.middle_W + sine / panel.curvature_1pm * panel.tangent_W +
+              2.0 * half_sine * half_sine / panel.curvature_1pm * left;
   point.tangent_W = cosine * panel.tangent_W + sine * left;
   point.heading_rad = panel.heading_rad + turned;
   point.curvature_1pm = panel.curvature_1pm;
@@ -40,10 +40,14 @@ PlanPoint PlanAxis::Evaluate(double s_m) const {
 
 PlanPoint PlanAxis::At(const AxisPanel& panel, double u_m) const {
   switch (panel.kind) {
-    case AxisPanel::Kind::kLine: return {panel.middle_W + u_m * panel.tangent_W, panel.tangent_W, panel.heading_rad, 0.0};
-    case AxisPanel::Kind::kArc: return ArcAt(panel, u_m);
-    case AxisPanel::Kind::kSeries: return series_[panel.detail].At(u_m);
-    case AxisPanel::Kind::kCubic: break;
+    case AxisPanel::Kind::kLine:
+      return {panel.middle_W + u_m * panel.tangent_W, panel.tangent_W, panel.heading_rad, 0.0};
+    case AxisPanel::Kind::kArc:
+      return ArcAt(panel, u_m);
+    case AxisPanel::Kind::kSeries:
+      return series_[panel.detail].At(u_m);
+    case AxisPanel::Kind::kCubic:
+      break;
   }
   const CubicPanel& cubic = cubics_[panel.detail];
   return CubicAt(cubic, panel.heading_rad, cubic.QAt(u_m));
@@ -57,9 +61,12 @@ AxisFoot PlanAxis::Foot(const AxisPanel& panel, const Eigen::Vector2d& p_W) cons
       const double u = std::clamp(along, -panel.half_m, panel.half_m);
       return {u, Cross(panel.tangent_W, away), along - u, At(panel, u)};
     }
-    case AxisPanel::Kind::kArc: return ArcFoot(panel, p_W);
-    case AxisPanel::Kind::kCubic: return CubicFoot(cubics_[panel.detail], panel, p_W);
-    case AxisPanel::Kind::kSeries: break;
+    case AxisPanel::Kind::kArc:
+      return ArcFoot(panel, p_W);
+    case AxisPanel::Kind::kCubic:
+      return CubicFoot(cubics_[panel.detail], panel, p_W);
+    case AxisPanel::Kind::kSeries:
+      break;
   }
   const ClothoidPanel& series = series_[panel.detail];
   const double u = series.Nearest(p_W).u_m;
@@ -74,7 +81,8 @@ AxisFoot PlanAxis::ArcFoot(const AxisPanel& panel, const Eigen::Vector2d& p_W) c
   const double along = away.dot(panel.tangent_W), aside = away.dot(left), k = panel.curvature_1pm;
   const double x = 1.0 - k * aside, y = k * along, h = std::sqrt(x * x + y * y);
   const double tangent_of_half = y / (h + x);
-  const double u = (std::fabs(tangent_of_half) <= kSmallTangent ? 2.0 * SmallArcTangent(tangent_of_half) : std::atan2(y, x)) / k;
+  const double u =
+      (std::fabs(tangent_of_half) <= kSmallTangent ? 2.0 * SmallArcTangent(tangent_of_half) : std::atan2(y, x)) / k;
   if (std::fabs(u) <= panel.half_m && h > 0.0) {
     AxisFoot foot{u, (2.0 * aside - k * (along * along + aside * aside)) / (1.0 + h), 0.0, {}};
     const double inverse = 1.0 / h;
@@ -91,15 +99,20 @@ AxisFoot PlanAxis::ArcFoot(const AxisPanel& panel, const Eigen::Vector2d& p_W) c
 
 double PlanAxis::Bulge(const AxisPanel& panel) const {
   switch (panel.kind) {
-    case AxisPanel::Kind::kLine: return 0.0;
-    case AxisPanel::Kind::kArc: return 0.5 * std::fabs(panel.curvature_1pm) * panel.half_m * panel.half_m;
-    case AxisPanel::Kind::kSeries: return series_[panel.detail].bulge_m;
-    case AxisPanel::Kind::kCubic: break;
+    case AxisPanel::Kind::kLine:
+      return 0.0;
+    case AxisPanel::Kind::kArc:
+      return 0.5 * std::fabs(panel.curvature_1pm) * panel.half_m * panel.half_m;
+    case AxisPanel::Kind::kSeries:
+      return series_[panel.detail].bulge_m;
+    case AxisPanel::Kind::kCubic:
+      break;
   }
   return cubics_[panel.detail].bulge_m;
 }
 
-void PlanAxis::CubicPanel::Point(double q, Eigen::Vector2d& p_W, Eigen::Vector2d& first, Eigen::Vector2d& second) const {
+void PlanAxis::CubicPanel::Point(double q, Eigen::Vector2d& p_W, Eigen::Vector2d& first,
+                                 Eigen::Vector2d& second) const {
   p_W = position_W[0] + q * (position_W[1] + q * (position_W[2] + q * position_W[3]));
   first = position_W[1] + q * (2.0 * position_W[2] + q * 3.0 * position_W[3]);
   second = 2.0 * position_W[2] + 6.0 * q * position_W[3];
@@ -203,8 +216,8 @@ PlanPoint PlanAxis::End(const PlanElement& element) {
   const Eigen::Vector2d first = slope(element.u) * ahead + slope(element.v) * Left(ahead);
   end.tangent_W = first.normalized();
   end.heading_rad = std::atan2(first.y(), first.x());
-  const Eigen::Vector2d second =
-      (2.0 * element.u[2] + 6.0 * p * element.u[3]) * ahead + (2.0 * element.v[2] + 6.0 * p * element.v[3]) * Left(ahead);
+  const Eigen::Vector2d second = (2.0 * element.u[2] + 6.0 * p * element.u[3]) * ahead +
+                                 (2.0 * element.v[2] + 6.0 * p * element.v[3]) * Left(ahead);
   end.curvature_1pm = Cross(first, second) / std::pow(first.norm(), 3);
   return end;
 }

@@ -53,8 +53,8 @@ struct AxisPanel {
   double end_s_m() const { return middle_s_m + half_m; }
 };
 
-// The foot of a point on a panel: the nearest point of the panel. t is positive to the left; beyond is how far the point
-// lies past the panel's end along it, negative before its beginning, 0 alongside.
+// The foot of a point on a panel: the nearest point of the panel. t is positive to the left; beyond is how far the
+// point lies past the panel's end along it, negative before its beginning, 0 alongside.
 struct AxisFoot {
   double u_m = 0.0;
   double t_m = 0.0;

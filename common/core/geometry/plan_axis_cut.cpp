@@ -43,7 +43,9 @@ double Adaptive(const PlanElement& element, double from, double to, double whole
 
 }  // namespace
 
-double CubicLength(const PlanElement& element, double to) { return Adaptive(element, 0.0, to, Rule(element, 0.0, to), 20); }
+double CubicLength(const PlanElement& element, double to) {
+  return Adaptive(element, 0.0, to, Rule(element, 0.0, to), 20);
+}
 
 double GraphEnd(const PlanElement& element) {
   double p = element.length_m;  // the curve is at least as long as its projection: too far at first
@@ -75,7 +77,8 @@ bool PlanAxis::CutClothoidElement(const PlanElement& element) {
                   element.heading_rad,
                   element.curvature_start_1pm};
   const double steepest = std::max(std::fabs(element.curvature_start_1pm), std::fabs(element.curvature_end_1pm));
-  const double per_metre = std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate)) / kHalfTurn_rad});
+  const double per_metre =
+      std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate)) / kHalfTurn_rad});
   if (!(element.length_m * per_metre < kMostPanels)) return false;  // NaN too
   AxisPanel panel;
   if (rate != 0.0) {
@@ -129,8 +132,8 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
     std::array<std::array<double, 4>, 2> local{};  // Taylor's series about p
     for (int axis = 0; axis < 2; ++axis) {
       const std::array<double, 4>& a = axis == 0 ? element.u : element.v;
-      local[axis] = {a[0] + p * (a[1] + p * (a[2] + p * a[3])), a[1] + p * (2.0 * a[2] + 3.0 * p * a[3]), a[2] + 3.0 * p * a[3],
-                     a[3]};
+      local[axis] = {a[0] + p * (a[1] + p * (a[2] + p * a[3])), a[1] + p * (2.0 * a[2] + 3.0 * p * a[3]),
+                     a[2] + 3.0 * p * a[3], a[3]};
     }
     for (int n = 0; n < 4; ++n) cubic.position_W[n] = local[0][n] * ahead + local[1][n] * left;
     cubic.position_W[0] += element.start_W;
@@ -156,10 +159,12 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
       cubic.half_q = half;
       series_length = cubic.UAt(half) - cubic.UAt(-half);
     }
-    const double bent = std::fabs(Cross(cubic.position_W[1], cubic.position_W[2])) * half / std::max(squared[0], 1e-300);
-    const bool fits = moving && std::fabs(series_length - stretch * length) <= 1e-12 * stretch * length && bent < 0.25 &&
-                      length < 2.0 * kHalfPanel_m &&
-                      std::fabs(speed[CubicPanel::kTerms - 1]) * std::pow(half, CubicPanel::kTerms - 1) < 1e-14 * speed[0];
+    const double bent =
+        std::fabs(Cross(cubic.position_W[1], cubic.position_W[2])) * half / std::max(squared[0], 1e-300);
+    const bool fits =
+        moving && std::fabs(series_length - stretch * length) <= 1e-12 * stretch * length && bent < 0.25 &&
+        length < 2.0 * kHalfPanel_m &&
+        std::fabs(speed[CubicPanel::kTerms - 1]) * std::pow(half, CubicPanel::kTerms - 1) < 1e-14 * speed[0];
     if (!fits) {
       if (depth == 0 || static_cast<double>(cubics_.size()) > kMostPanels) {
         sound = false;

@@ -65,7 +65,8 @@ class PlanCurve {
   void BuildTree();
   void BuildGrid();
   void Nearest(const Eigen::Vector2d& p, std::uint32_t panel, Best& best) const;
-  void NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end, Best& best) const;
+  void NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end,
+                     Best& best) const;
   Foot FootAt(const Eigen::Vector2d& p, const Best& best) const;
 
   std::vector<PlanPiece> pieces_;

@@ -54,10 +54,12 @@ bool PlanCurve::MayReach(double x_m, double y_m) const { return !grid_.Candidate
 
 void PlanCurve::Nearest(const Eigen::Vector2d& p, std::uint32_t index, Best& best) const {
   const PanelFoot foot = panels_[index].Nearest(p);
-  if (foot.squared_m2 < best.squared_m2 || (foot.squared_m2 == best.squared_m2 && index < best.panel)) best = {foot.squared_m2, index, foot.u_m};
+  if (foot.squared_m2 < best.squared_m2 || (foot.squared_m2 == best.squared_m2 && index < best.panel))
+    best = {foot.squared_m2, index, foot.u_m};
 }
 
-void PlanCurve::NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end, Best& best) const {
+void PlanCurve::NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::uint32_t begin, std::uint32_t end,
+                              Best& best) const {
   if (end - begin == 1) return Nearest(p, begin, best);
   const std::uint32_t middle = begin + (end - begin) / 2;
   const std::size_t left = node + 1;
@@ -70,8 +72,10 @@ void PlanCurve::NearestInTree(const Eigen::Vector2d& p, std::size_t node, std::u
   const auto visit_right = [&] {
     if (right_m2 <= best.squared_m2) NearestInTree(p, right, middle, end, best);
   };
-  if (left_m2 <= right_m2) visit_left(), visit_right();
-  else visit_right(), visit_left();
+  if (left_m2 <= right_m2)
+    visit_left(), visit_right();
+  else
+    visit_right(), visit_left();
 }
 
 Foot PlanCurve::FootAt(const Eigen::Vector2d& p, const Best& best) const {
@@ -84,7 +88,8 @@ Foot PlanCurve::FootAt(const Eigen::Vector2d& p, const Best& best) const {
   foot.distance_m = std::sqrt(best.squared_m2);
   const double along = foot.at.tangent_W.dot(away);
   if (best.panel == 0 && best.u_m == -panel.half_m) foot.s_m = 0.0, foot.beyond_m = std::min(along, 0.0);
-  if (best.panel + 1 == panels_.size() && best.u_m == panel.half_m) foot.s_m = length_m_, foot.beyond_m = std::max(along, 0.0);
+  if (best.panel + 1 == panels_.size() && best.u_m == panel.half_m)
+    foot.s_m = length_m_, foot.beyond_m = std::max(along, 0.0);
   return foot;
 }
 

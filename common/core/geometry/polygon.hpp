@@ -5,8 +5,8 @@
 
 namespace rodeira::geometry {
 
-// Whether p lies within a closed chain of corners, which does not cross itself. Of two polygons that share a side, a point on it lies in
-// exactly one.
+// Whether p lies within a closed chain of corners, which does not cross itself. Of two polygons that share a side, a
+// point on it lies in exactly one.
 bool InPolygon(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& p);
 
 }  // namespace rodeira::geometry

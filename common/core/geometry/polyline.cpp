@@ -17,7 +17,9 @@ double PlanDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return
 
 }  // namespace
 
-bool Polyline::closed() const { return points_W.size() >= 4 && PlanDistance(points_W.front(), points_W.back()) <= kClosed_m; }
+bool Polyline::closed() const {
+  return points_W.size() >= 4 && PlanDistance(points_W.front(), points_W.back()) <= kClosed_m;
+}
 
 std::vector<double> StationsOf(const Polyline& line) {
   std::vector<double> stations;
@@ -53,7 +55,8 @@ Polyline Reversed(Polyline line) {
   return line;
 }
 
-base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const std::string> names, const JoinRules& rules) {
+base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const std::string> names,
+                              const JoinRules& rules) {
   RODEIRA_ASSERT(!lines.empty() && lines.size() == names.size());
   Polyline joined = lines[0];
   for (std::size_t i = 1; i < lines.size(); ++i) {
@@ -66,13 +69,14 @@ base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const s
     const Polyline next = turned ? Reversed(lines[i]) : lines[i];
     const double gap = turned ? to_end : to_begin;
     if (gap > rules.within_m && !rules.bridge) {
-      return base::WrongInput(fmt::format("'{}' begins {:.6g} m from where '{}' ends; at most {} m were expected{}", names[i],
-                                          gap, names[i - 1], rules.within_m,
-                                          to_end <= rules.within_m ? " (its end lies there: --turn turns it round)" : ""));
+      return base::WrongInput(fmt::format(
+          "'{}' begins {:.6g} m from where '{}' ends; at most {} m were expected{}", names[i], gap, names[i - 1],
+          rules.within_m, to_end <= rules.within_m ? " (its end lies there: --turn turns it round)" : ""));
     }
     const bool same = gap <= rules.within_m || PlanDistance(next.points_W.front(), end) <= kSamePlace_m;
     for (std::size_t k = same ? 1 : 0; k < next.points_W.size(); ++k) {
-      if (PlanDistance(next.points_W[k], joined.points_W.back()) > kSamePlace_m) joined.points_W.push_back(next.points_W[k]);
+      if (PlanDistance(next.points_W[k], joined.points_W.back()) > kSamePlace_m)
+        joined.points_W.push_back(next.points_W[k]);
     }
   }
   return joined;

@@ -35,9 +35,10 @@ struct JoinRules {
   bool turn = false;       // a line whose end is nearer than its beginning is turned round
 };
 
-// The lines one after the other; where an end and the next beginning lie within `within_m`, the next line's point is left
-// out. Wrong input, naming both by `names`, where they lie farther apart; and where only some have heights.
-base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const std::string> names, const JoinRules& rules);
+// The lines one after the other; where an end and the next beginning lie within `within_m`, the next line's point is
+// left out. Wrong input, naming both by `names`, where they lie farther apart; and where only some have heights.
+base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const std::string> names,
+                              const JoinRules& rules);
 
 // Reads a CSV file: a line of column names x_m, y_m and, if there are heights, z_m, in any order; then a point a line.
 // Lines that are empty or begin with # are passed over. Wrong input, with file and line, for an unknown or missing

@@ -10,8 +10,8 @@ namespace {
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // The shares of two segments at which they meet; nothing where they do not, or are parallel.
-std::optional<std::pair<double, double>> Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c,
-                                              const Eigen::Vector2d& d) {
+std::optional<std::pair<double, double>> Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                              const Eigen::Vector2d& c, const Eigen::Vector2d& d) {
   const double area = Cross(b - a, d - c);
   if (area == 0.0) return std::nullopt;
   const double first = Cross(c - a, d - c) / area, second = Cross(c - a, b - a) / area;
@@ -39,8 +39,9 @@ std::vector<Crossing> CrossingsOf(const Polyline& line, std::span<const double> 
     const Eigen::Vector2d from = at(i).cwiseMin(at(i + 1)), to = at(i).cwiseMax(at(i + 1));
     spans.push_back({from[sweep], to[sweep], from[1 - sweep], to[1 - sweep], i});
   }
-  std::sort(spans.begin(), spans.end(),
-            [](const Span& a, const Span& b) { return a.begin != b.begin ? a.begin < b.begin : a.segment < b.segment; });
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+    return a.begin != b.begin ? a.begin < b.begin : a.segment < b.segment;
+  });
   std::vector<Crossing> crossings;
   std::vector<Span> open;  // those that the sweep has not passed yet
   for (const Span& span : spans) {

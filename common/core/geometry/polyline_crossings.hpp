@@ -13,9 +13,9 @@ struct Crossing {
   double second_m = 0.0;
 };
 
-// Where segments that are no neighbours cross or touch, by ascending stations. `stations` are told for the points: those of
-// the line itself, or of another one that has as many. By a sweep along its longer extent: about as long as sorting, unless
-// many segments lie side by side.
+// Where segments that are no neighbours cross or touch, by ascending stations. `stations` are told for the points:
+// those of the line itself, or of another one that has as many. By a sweep along its longer extent: about as long as
+// sorting, unless many segments lie side by side.
 std::vector<Crossing> CrossingsOf(const Polyline& line, std::span<const double> stations);
 
 }  // namespace rodeira::geometry

@@ -52,14 +52,17 @@ class CsvReader {
   }
 
  private:
-  base::Error Wrong(std::string_view message) const { return base::WrongInput(message, fmt::format("{}:{}", name_, line_)); }
+  base::Error Wrong(std::string_view message) const {
+    return base::WrongInput(message, fmt::format("{}:{}", name_, line_));
+  }
 
   base::Status Header(std::string_view line) {
     std::array<bool, 3> there{};
     for (const std::string_view cell : Cells(line)) {
       const auto known = std::find(kColumns.begin(), kColumns.end(), cell);
       if (known == kColumns.end()) {
-        return Wrong(fmt::format("column '{}' is unknown{}", cell.substr(0, 40), base::DidYouMean(cell.substr(0, 40), kColumns)));
+        return Wrong(fmt::format("column '{}' is unknown{}", cell.substr(0, 40),
+                                 base::DidYouMean(cell.substr(0, 40), kColumns)));
       }
       const auto axis = static_cast<std::size_t>(known - kColumns.begin());
       if (there[axis]) return Wrong(fmt::format("column '{}' is there twice", cell));
@@ -67,8 +70,9 @@ class CsvReader {
       columns_.push_back(axis);
     }
     if (!there[0] || !there[1]) {
-      return Wrong(fmt::format("column '{}' is missing; the first line names the columns x_m, y_m and, if there are heights, z_m",
-                               there[0] ? "y_m" : "x_m"));
+      return Wrong(fmt::format(
+          "column '{}' is missing; the first line names the columns x_m, y_m and, if there are heights, z_m",
+          there[0] ? "y_m" : "x_m"));
     }
     polyline_.has_z = there[2];
     return {};
@@ -85,13 +89,13 @@ class CsvReader {
       double& value = p[static_cast<Eigen::Index>(columns_[i])];
       const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
       if (problem != std::errc() || end != text.data() + text.size() || !(std::fabs(value) <= kFarthest_m)) {
-        return Wrong(
-            fmt::format("'{}' is '{}'; a number of at most 1e9 was expected", kColumns[columns_[i]], cells[i].substr(0, 40)));
+        return Wrong(fmt::format("'{}' is '{}'; a number of at most 1e9 was expected", kColumns[columns_[i]],
+                                 cells[i].substr(0, 40)));
       }
     }
     if (!line_of_.empty() && (p - polyline_.points_W.back()).head<2>().norm() <= kSamePlace_m) {
-      return Wrong(fmt::format("the point ({}, {}) is that of line {}; no direction leads from one to the other", p.x(), p.y(),
-                               line_of_.back()));
+      return Wrong(fmt::format("the point ({}, {}) is that of line {}; no direction leads from one to the other", p.x(),
+                               p.y(), line_of_.back()));
     }
     polyline_.points_W.push_back(p);
     line_of_.push_back(line_);
@@ -107,7 +111,9 @@ class CsvReader {
 
 }  // namespace
 
-base::Result<Polyline> ReadPolyline(std::string_view text, const std::string& name) { return CsvReader(name).Read(text); }
+base::Result<Polyline> ReadPolyline(std::string_view text, const std::string& name) {
+  return CsvReader(name).Read(text);
+}
 
 std::string PolylineCsv(const Polyline& line) {
   std::string text = line.has_z ? "x_m,y_m,z_m\n" : "x_m,y_m\n";

@@ -11,15 +11,15 @@
 namespace rodeira::geometry {
 namespace {
 
-
 Eigen::Vector2d LeftOf(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
 
 // The node's vector, between a segment that arrives and one that leaves, both unit.
 Eigen::Vector2d MitreVector(const Eigen::Vector2d& arriving, const Eigen::Vector2d& leaving, Mitre mitre) {
-  // Towards the next node and towards the one before; where the line hardly turns that difference is mostly rounding, and the
-  // sum of both perpendiculars has the same direction.
+  // Towards the next node and towards the one before; where the line hardly turns that difference is mostly rounding,
+  // and the sum of both perpendiculars has the same direction.
   const bool turns_much = arriving.dot(leaving) < 0.0;
-  Eigen::Vector2d along_mitre = turns_much ? Eigen::Vector2d(leaving - arriving) : Eigen::Vector2d(LeftOf(arriving) + LeftOf(leaving));
+  Eigen::Vector2d along_mitre =
+      turns_much ? Eigen::Vector2d(leaving - arriving) : Eigen::Vector2d(LeftOf(arriving) + LeftOf(leaving));
   const Eigen::Vector2d perpendicular = LeftOf(leaving);
   along_mitre.normalize();
   if (along_mitre.dot(LeftOf(arriving) + LeftOf(leaving)) < 0.0) along_mitre = -along_mitre;
@@ -68,7 +68,8 @@ std::vector<OffsetFault> Folds(const Polyline& line, const Polyline& offset) {
 std::vector<Eigen::Vector2d> MitreVectors(const Polyline& line, Mitre mitre) {
   const std::vector<Eigen::Vector2d> directions = Directions(line);
   std::vector<Eigen::Vector2d> vectors = {LeftOf(directions.front())};
-  for (std::size_t i = 1; i < directions.size(); ++i) vectors.push_back(MitreVector(directions[i - 1], directions[i], mitre));
+  for (std::size_t i = 1; i < directions.size(); ++i)
+    vectors.push_back(MitreVector(directions[i - 1], directions[i], mitre));
   vectors.push_back(LeftOf(directions.back()));
   if (line.closed()) vectors.front() = vectors.back() = MitreVector(directions.back(), directions.front(), mitre);
   return vectors;
@@ -88,23 +89,28 @@ OffsetLine Offset(const Polyline& line, double left_m, Mitre mitre) {
       return std::fabs(old.first_m - crossing.first_m) <= near && std::fabs(old.second_m - crossing.second_m) <= near;
     });
     const bool of_a_cusp = std::any_of(offset.faults.begin(), offset.faults.end(), [&](const OffsetFault& fault) {
-      return fault.kind != OffsetFault::Kind::kCrossing && crossing.first_m <= fault.to_m && crossing.second_m >= fault.from_m;
+      return fault.kind != OffsetFault::Kind::kCrossing && crossing.first_m <= fault.to_m &&
+             crossing.second_m >= fault.from_m;
     });
-    if (!known && !of_a_cusp) offset.faults.push_back({OffsetFault::Kind::kCrossing, crossing.first_m, crossing.second_m});
+    if (!known && !of_a_cusp)
+      offset.faults.push_back({OffsetFault::Kind::kCrossing, crossing.first_m, crossing.second_m});
   }
   return offset;
 }
 
 std::string FaultText(const OffsetFault& fault, double left_m) {
-  const std::string by = fmt::format("the offset by {:.6g} m to the {}", std::fabs(left_m), left_m > 0.0 ? "left" : "right");
+  const std::string by =
+      fmt::format("the offset by {:.6g} m to the {}", std::fabs(left_m), left_m > 0.0 ? "left" : "right");
   switch (fault.kind) {
     case OffsetFault::Kind::kCusp:
-      return fmt::format("{} folds between stations {:.3f} m and {:.3f} m, where the line bends more sharply than it is offset",
-                         by, fault.from_m, fault.to_m);
+      return fmt::format(
+          "{} folds between stations {:.3f} m and {:.3f} m, where the line bends more sharply than it is offset", by,
+          fault.from_m, fault.to_m);
     case OffsetFault::Kind::kCrossing:
       return fmt::format("{} crosses itself: stations {:.3f} m and {:.3f} m come to lie at one place", by, fault.from_m,
                          fault.to_m);
-    case OffsetFault::Kind::kSharp: break;
+    case OffsetFault::Kind::kSharp:
+      break;
   }
   return fmt::format("the line turns back by more than 160 degrees at station {:.3f} m; no mitre keeps its width there",
                      fault.from_m);

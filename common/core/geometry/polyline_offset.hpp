@@ -14,9 +14,9 @@ enum class Mitre {
   kKeepLength,  // the distance itself: bends become narrower (the DriS simulator's rule)
 };
 
-// Where each node goes for an offset of 1 m to the left, in plan: the unit vectors from the node towards both neighbours
-// are added; the sum lies along the mitre, and is turned where it points to the right. Where the segments are collinear
-// the perpendicular is used, at the ends that of the first and last segment. A closed line has no ends.
+// Where each node goes for an offset of 1 m to the left, in plan: the unit vectors from the node towards both
+// neighbours are added; the sum lies along the mitre, and is turned where it points to the right. Where the segments
+// are collinear the perpendicular is used, at the ends that of the first and last segment. A closed line has no ends.
 // The sharpest turn that is kept wide is kSharpest_rad; beyond it a node moves as far as there.
 std::vector<Eigen::Vector2d> MitreVectors(const Polyline& line, Mitre mitre);
 inline constexpr double kSharpest_rad = 2.8;  // 160 degrees

@@ -4,8 +4,8 @@
 
 namespace rodeira::geometry {
 
-// Sine and cosine by their power series, to the last bit or the one before it, for |x| <= kSmallAngle: a few products, which the library's are not,
-// and the same ones for many numbers at once.
+// Sine and cosine by their power series, to the last bit or the one before it, for |x| <= kSmallAngle: a few products,
+// which the library's are not, and the same ones for many numbers at once.
 inline constexpr double kSmallAngle = 0.3;
 inline double SmallSine(double x) {
   const double q = x * x, q2 = q * q;

@@ -2,8 +2,8 @@
 
 namespace rodeira::geometry {
 
-// An arc tangent by its power series, to the last bit or the one before it, for |x| <= kSmallTangent: a panel of an arc turns by half a
-// radian at most.
+// An arc tangent by its power series, to the last bit or the one before it, for |x| <= kSmallTangent: a panel of an arc
+// turns by half a radian at most.
 inline constexpr double kSmallTangent = 0.13;
 inline double SmallArcTangent(double x) {
   const double q = x * x, q2 = q * q;

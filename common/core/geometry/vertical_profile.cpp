@@ -21,7 +21,8 @@ VerticalProfile::VerticalProfile(std::vector<GradePoint> points) : points_(std::
     const double next = grade_after(i);
     const double half = 0.5 * points_[i].parabola_m;
     if (half > 0.0) {
-      stretches_.push_back({points_[i].s_m - half, points_[i].z_m - half * grade, grade, (next - grade) / (2.0 * half)});
+      stretches_.push_back(
+          {points_[i].s_m - half, points_[i].z_m - half * grade, grade, (next - grade) / (2.0 * half)});
     }
     stretches_.push_back({points_[i].s_m + half, points_[i].z_m + half * next, next, 0.0});
     grade = next;
@@ -33,8 +34,8 @@ ProfilePoint VerticalProfile::Evaluate(double s_m) const {
                                       [](double s, const Stretch& stretch) { return s < stretch.from_s_m; });
   const Stretch& stretch = *(after - 1);
   const double u = s_m - stretch.from_s_m;
-  return {stretch.z_m + (stretch.grade + 0.5 * stretch.curvature_1pm * u) * u, stretch.grade + stretch.curvature_1pm * u,
-          stretch.curvature_1pm};
+  return {stretch.z_m + (stretch.grade + 0.5 * stretch.curvature_1pm * u) * u,
+          stretch.grade + stretch.curvature_1pm * u, stretch.curvature_1pm};
 }
 
 }  // namespace rodeira::geometry

@@ -10,23 +10,33 @@ namespace {
 constexpr double kSameLayer_m = 1e-6;
 
 // Of a row or a column, from the patch's middle.
-double Away(double size_m, int index, int count) { return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0; }
+double Away(double size_m, int index, int count) {
+  return count > 1 ? size_m * (static_cast<double>(index) / (count - 1) - 0.5) : 0.0;
+}
 
 GroundQuery PointOf(const GroundPatch& patch, const Eigen::Vector2d& ahead, double forward_m, double left_m) {
-  return {patch.x_m + ahead.x() * forward_m - ahead.y() * left_m, patch.y_m + ahead.y() * forward_m + ahead.x() * left_m, patch.z_hint_m};
+  return {patch.x_m + ahead.x() * forward_m - ahead.y() * left_m,
+          patch.y_m + ahead.y() * forward_m + ahead.x() * left_m, patch.z_hint_m};
 }
 
 }  // namespace
 
 std::string_view SurfaceName(Surface surface) {
   switch (surface) {
-    case Surface::kOutside: return "outside";
-    case Surface::kAsphalt: return "asphalt";
-    case Surface::kConcrete: return "concrete";
-    case Surface::kGravel: return "gravel";
-    case Surface::kGrass: return "grass";
-    case Surface::kSoil: return "soil";
-    case Surface::kRoadMark: return "road_mark";
+    case Surface::kOutside:
+      return "outside";
+    case Surface::kAsphalt:
+      return "asphalt";
+    case Surface::kConcrete:
+      return "concrete";
+    case Surface::kGravel:
+      return "gravel";
+    case Surface::kGrass:
+      return "grass";
+    case Surface::kSoil:
+      return "soil";
+    case Surface::kRoadMark:
+      return "road_mark";
   }
   return "unknown";
 }
@@ -39,7 +49,8 @@ GroundPoint Ground::At(double x_m, double y_m, double z_hint_m) {
 }
 
 GroundQuery PatchPoint(const GroundPatch& patch, int row, int column) {
-  return PointOf(patch, {std::cos(patch.heading_rad), std::sin(patch.heading_rad)}, Away(patch.length_m, row, patch.along), Away(patch.width_m, column, patch.across));
+  return PointOf(patch, {std::cos(patch.heading_rad), std::sin(patch.heading_rad)},
+                 Away(patch.length_m, row, patch.along), Away(patch.width_m, column, patch.across));
 }
 
 void Ground::Patch(const GroundPatch& patch, std::span<GroundPoint> points) {
@@ -73,7 +84,8 @@ void PlaneGround::Query(std::span<const GroundQuery> queries, std::span<GroundPo
   RODEIRA_ASSERT(queries.size() == points.size());
   const Eigen::Vector3d normal = Eigen::Vector3d(-slope_x_, -slope_y_, 1.0).normalized();
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const double z = origin_.z() + slope_x_ * (queries[i].x_m - origin_.x()) + slope_y_ * (queries[i].y_m - origin_.y());
+    const double z =
+        origin_.z() + slope_x_ * (queries[i].x_m - origin_.x()) + slope_y_ * (queries[i].y_m - origin_.y());
     points[i] = {z, normal, friction_, surface_, true};
   }
 }

@@ -43,8 +43,8 @@ struct GroundPoint {
   bool inside = false;
 };
 
-// A rectangle of points lying in the plane, as a tyre's contact needs it: `along` rows from the rear to the front, each of
-// `across` points from the right to the left, spread evenly with the outermost on the edges (one: in the middle).
+// A rectangle of points lying in the plane, as a tyre's contact needs it: `along` rows from the rear to the front, each
+// of `across` points from the right to the left, spread evenly with the outermost on the edges (one: in the middle).
 struct GroundPatch {
   double x_m = 0.0;  // of its middle
   double y_m = 0.0;
@@ -80,7 +80,8 @@ GroundQuery PatchPoint(const GroundPatch& patch, int row, int column);
 class PlaneGround final : public Ground {
  public:
   PlaneGround() = default;
-  PlaneGround(Eigen::Vector3d origin, double slope_x, double slope_y, double friction = 1.0, Surface surface = Surface::kAsphalt);
+  PlaneGround(Eigen::Vector3d origin, double slope_x, double slope_y, double friction = 1.0,
+              Surface surface = Surface::kAsphalt);
   void Query(std::span<const GroundQuery> queries, std::span<GroundPoint> points) override;
 
  private:

@@ -87,21 +87,25 @@ std::string ToSvg(const Table& table, const std::string& title) {
   for (std::size_t k = 0; k < diagrams; ++k) {
     const int top = kTop + static_cast<int>(k) * (kHeight + kGap);
     const Extent extent = ExtentOf(table, k + 1);
-    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#bbb'/>\n", kLeft, top, kWidth, kHeight);
+    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#bbb'/>\n", kLeft, top, kWidth,
+                       kHeight);
     svg += fmt::format("<text x='{}' y='{}' fill='#1f5f8b'>{}</text>\n", kLeft, top - 4, Escaped(table.names[k + 1]));
     svg += fmt::format(
-        "<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.5g}</text>\n",
+        "<text x='{0}' y='{1}' text-anchor='end'>{2:.5g}</text><text x='{0}' y='{3}' "
+        "text-anchor='end'>{4:.5g}</text>\n",
         kLeft - 6, top + 10, extent.high, top + kHeight, extent.low);
     const double tick = to > from ? TickOf(to - from) : 1.0;
     for (long n = std::lround(std::ceil(from / tick - 1e-9)); static_cast<double>(n) * tick <= to + 1e-9 * tick; ++n) {
       const double x = kLeft + (to > from ? kWidth * (static_cast<double>(n) * tick - from) / (to - from) : 0.0);
       svg += fmt::format("<line x1='{0:.1f}' y1='{1}' x2='{0:.1f}' y2='{2}' stroke='#eee'/>\n", x, top, top + kHeight);
       if (k + 1 == diagrams)
-        svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:.6g}</text>\n", x, top + kHeight + 14, static_cast<double>(n) * tick);
+        svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{:.6g}</text>\n", x, top + kHeight + 14,
+                           static_cast<double>(n) * tick);
     }
     AddLine(table, k + 1, top, extent, svg);
   }
-  svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>{}</text>\n</svg>\n", kLeft - 6, height - 20 + 8, Escaped(table.names[0]));
+  svg += fmt::format("<text x='{}' y='{}' text-anchor='end'>{}</text>\n</svg>\n", kLeft - 6, height - 20 + 8,
+                     Escaped(table.names[0]));
   return svg;
 }
 

@@ -72,7 +72,8 @@ bool Triangulation::FixFirst(std::uint32_t& a, std::uint32_t b) {
     const std::int64_t to_right = TurnAt(a, b, right), to_left = TurnAt(a, b, left);
     for (const auto& [turn, corner] : {std::pair(to_right, right), std::pair(to_left, left)}) {
       const GridPoint o = points_[a], p = points_[b], q = points_[corner];
-      const bool ahead = static_cast<std::int64_t>(p.x - o.x) * (q.x - o.x) + static_cast<std::int64_t>(p.y - o.y) * (q.y - o.y) > 0;
+      const bool ahead =
+          static_cast<std::int64_t>(p.x - o.x) * (q.x - o.x) + static_cast<std::int64_t>(p.y - o.y) * (q.y - o.y) > 0;
       if (turn == 0 && ahead) {
         fix(SideBetween(a, corner));
         a = corner;
@@ -83,8 +84,9 @@ bool Triangulation::FixFirst(std::uint32_t& a, std::uint32_t b) {
     std::uint32_t next = t.across[forward ? (k + 2) % 3 : k];
     if (next == kNone && forward) {
       forward = false;
-      next = triangles_[at_[a]].across[static_cast<std::size_t>(std::find(triangles_[at_[a]].corner.begin(), triangles_[at_[a]].corner.end(), a) -
-                                                                triangles_[at_[a]].corner.begin())];
+      next = triangles_[at_[a]].across[static_cast<std::size_t>(
+          std::find(triangles_[at_[a]].corner.begin(), triangles_[at_[a]].corner.end(), a) -
+          triangles_[at_[a]].corner.begin())];
     }
     RODEIRA_ASSERT(next != kNone && (!forward || next != at_[a]));
     at = next;
@@ -137,8 +139,10 @@ bool Triangulation::Force(std::uint32_t a, std::uint32_t b, std::vector<std::arr
     Flip(side);
     const bool ends = c == a || c == b || d == a || d == b;
     const std::int64_t to_c = TurnAt(a, b, c), to_d = TurnAt(a, b, d);
-    if (!ends && ((to_c > 0 && to_d < 0) || (to_c < 0 && to_d > 0))) open.push_back({c, d});
-    else fresh.push_back({c, d});
+    if (!ends && ((to_c > 0 && to_d < 0) || (to_c < 0 && to_d > 0)))
+      open.push_back({c, d});
+    else
+      fresh.push_back({c, d});
   }
   // The side itself must stay while its surroundings become Delaunay's again.
   const Side done = SideBetween(a, b);

@@ -19,10 +19,12 @@ GEOSGeometry* ToGeos(GEOSContextHandle_t geos, const GridLine& line) {
     xy.insert(xy.end(), {x, y});
   }
   if (xy.size() < 4) return nullptr;
-  return GEOSGeom_createLineString_r(geos, GEOSCoordSeq_copyFromBuffer_r(geos, xy.data(), static_cast<unsigned>(xy.size() / 2), 0, 0));
+  return GEOSGeom_createLineString_r(
+      geos, GEOSCoordSeq_copyFromBuffer_r(geos, xy.data(), static_cast<unsigned>(xy.size() / 2), 0, 0));
 }
 
-// The same segments in fewer lines, each of which goes on in another one for as long as one ends there: GEOS draws random numbers for every line.
+// The same segments in fewer lines, each of which goes on in another one for as long as one ends there: GEOS draws
+// random numbers for every line.
 std::vector<GridLine> Joined(std::span<const GridLine> lines) {
   std::map<GridPoint, std::vector<std::size_t>> ending;
   for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -36,8 +38,10 @@ std::vector<GridLine> Joined(std::span<const GridLine> lines) {
       if (here.empty()) return;
       const GridLine& next = lines[here.back()];
       used[here.back()] = true;
-      if (next.front() == line.back()) line.insert(line.end(), next.begin() + 1, next.end());
-      else line.insert(line.end(), next.rbegin() + 1, next.rend());
+      if (next.front() == line.back())
+        line.insert(line.end(), next.begin() + 1, next.end());
+      else
+        line.insert(line.end(), next.rbegin() + 1, next.rend());
     }
   };
   std::vector<GridLine> joined;
@@ -76,10 +80,12 @@ std::vector<GridSegment> Node(std::span<const GridLine> lines) {
   }
   std::vector<GridSegment> segments;
   if (!parts.empty()) {
-    GEOSGeometry* all = GEOSGeom_createCollection_r(geos, GEOS_MULTILINESTRING, parts.data(), static_cast<unsigned>(parts.size()));
+    GEOSGeometry* all =
+        GEOSGeom_createCollection_r(geos, GEOS_MULTILINESTRING, parts.data(), static_cast<unsigned>(parts.size()));
     GEOSGeometry* noded = GEOSUnaryUnionPrec_r(geos, all, 1.0);
     RODEIRA_ASSERT(noded != nullptr);
-    for (int i = 0; i < GEOSGetNumGeometries_r(geos, noded); ++i) AddSegments(geos, GEOSGetGeometryN_r(geos, noded, i), segments);
+    for (int i = 0; i < GEOSGetNumGeometries_r(geos, noded); ++i)
+      AddSegments(geos, GEOSGetGeometryN_r(geos, noded, i), segments);
     GEOSGeom_destroy_r(geos, noded);
     GEOSGeom_destroy_r(geos, all);
   }

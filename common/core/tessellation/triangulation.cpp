@@ -15,8 +15,8 @@ Triangulation::Triangulation(std::int32_t size) {
   triangles_[1] = {{0, 2, 3}, {0, kNone, kNone}, {}};
 }
 
-void Triangulation::Set(std::uint32_t triangle, std::array<std::uint32_t, 3> corner, std::array<std::uint32_t, 3> across,
-                        std::array<bool, 3> fixed) {
+void Triangulation::Set(std::uint32_t triangle, std::array<std::uint32_t, 3> corner,
+                        std::array<std::uint32_t, 3> across, std::array<bool, 3> fixed) {
   triangles_[triangle] = {corner, across, fixed};
   for (const std::uint32_t c : corner) at_[c] = triangle;
 }
@@ -38,7 +38,8 @@ Triangulation::Side Triangulation::Opposite(Side side) const {
   if (beyond == kNone) return {};
   for (int k = 0; k < 3; ++k) {
     if (triangles_[beyond].across[static_cast<std::size_t>(k)] == side.triangle &&
-        triangles_[beyond].corner[static_cast<std::size_t>(k)] == triangles_[side.triangle].corner[static_cast<std::size_t>((side.k + 1) % 3)])
+        triangles_[beyond].corner[static_cast<std::size_t>(k)] ==
+            triangles_[side.triangle].corner[static_cast<std::size_t>((side.k + 1) % 3)])
       return {beyond, k};
   }
   RODEIRA_ASSERT(false);
@@ -52,7 +53,8 @@ std::uint32_t Triangulation::Find(GridPoint p) const {
     std::uint32_t next = kNone;
     for (std::size_t k = 0; k < 3 && next == kNone; ++k) {
       const std::size_t side = (k + steps) % 3;  // a walk that always tried the same side first could go in circles
-      if (triangle.across[side] != kNone && Turn(points_[triangle.corner[side]], points_[triangle.corner[(side + 1) % 3]], p) < 0)
+      if (triangle.across[side] != kNone &&
+          Turn(points_[triangle.corner[side]], points_[triangle.corner[(side + 1) % 3]], p) < 0)
         next = triangle.across[side];
     }
     if (next == kNone) return last_ = at;
@@ -60,7 +62,8 @@ std::uint32_t Triangulation::Find(GridPoint p) const {
   }
   for (at = 0; at < triangles_.size(); ++at) {
     const Triangle& t = triangles_[at];
-    if (Turn(points_[t.corner[0]], points_[t.corner[1]], p) >= 0 && Turn(points_[t.corner[1]], points_[t.corner[2]], p) >= 0 &&
+    if (Turn(points_[t.corner[0]], points_[t.corner[1]], p) >= 0 &&
+        Turn(points_[t.corner[1]], points_[t.corner[2]], p) >= 0 &&
         Turn(points_[t.corner[2]], points_[t.corner[0]], p) >= 0)
       return last_ = at;
   }
@@ -105,10 +108,14 @@ std::uint32_t Triangulation::PutIn(std::uint32_t at, GridPoint p) {
   at_.push_back(kNone);
   int on = -1;
   for (int k = 0; k < 3; ++k) {
-    if (Turn(points_[triangle.corner[static_cast<std::size_t>(k)]], points_[triangle.corner[static_cast<std::size_t>((k + 1) % 3)]], p) == 0) on = k;
+    if (Turn(points_[triangle.corner[static_cast<std::size_t>(k)]],
+             points_[triangle.corner[static_cast<std::size_t>((k + 1) % 3)]], p) == 0)
+      on = k;
   }
-  if (on < 0) SplitTriangle(at, number);
-  else SplitSide({at, on}, number);
+  if (on < 0)
+    SplitTriangle(at, number);
+  else
+    SplitSide({at, on}, number);
   Settle();
   return number;
 }
@@ -120,7 +127,8 @@ void Triangulation::SplitTriangle(std::uint32_t triangle, std::uint32_t p) {
   cut_from_.resize(triangles_.size(), triangle);
   const std::array<std::uint32_t, 3> parts = {triangle, first, first + 1};
   for (std::size_t k = 0; k < 3; ++k) {
-    Set(parts[k], {t.corner[k], t.corner[(k + 1) % 3], p}, {t.across[k], parts[(k + 1) % 3], parts[(k + 2) % 3]}, {t.fixed[k], false, false});
+    Set(parts[k], {t.corner[k], t.corner[(k + 1) % 3], p}, {t.across[k], parts[(k + 1) % 3], parts[(k + 2) % 3]},
+        {t.fixed[k], false, false});
     if (k > 0) Meet(t.across[k], triangle, parts[k]);
     stack_.push_back({parts[k], 0});
   }

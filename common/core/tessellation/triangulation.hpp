@@ -17,8 +17,9 @@ class Triangulation {
 
   // Side k goes from corner k to corner k + 1.
   struct Triangle {
-    std::array<std::uint32_t, 3> corner{};                     // counter-clockwise
-    std::array<std::uint32_t, 3> across{kNone, kNone, kNone};  // the triangle beyond each side; kNone: the square's edge
+    std::array<std::uint32_t, 3> corner{};  // counter-clockwise
+    std::array<std::uint32_t, 3> across{kNone, kNone,
+                                        kNone};  // the triangle beyond each side; kNone: the square's edge
     std::array<bool, 3> fixed{};
   };
 
@@ -31,8 +32,8 @@ class Triangulation {
   std::uint32_t Insert(GridPoint p);
   // The same triangles; the point is sought from one of them on, near which it should lie.
   std::uint32_t Insert(GridPoint p, std::uint32_t near);
-  // A side from a to b that stays, in pieces where points lie on it. False where it would cross another fixed side: then
-  // a part of it is missing.
+  // A side from a to b that stays, in pieces where points lie on it. False where it would cross another fixed side:
+  // then a part of it is missing.
   bool Fix(std::uint32_t a, std::uint32_t b);
   // The side from a to b, where it is one, need not stay any longer.
   void Release(std::uint32_t a, std::uint32_t b);
@@ -48,11 +49,14 @@ class Triangulation {
     std::uint32_t triangle = kNone;
     int k = 0;
   };
-  std::int64_t TurnAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const { return Turn(points_[a], points_[b], points_[c]); }
+  std::int64_t TurnAt(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return Turn(points_[a], points_[b], points_[c]);
+  }
   // The triangle that holds p within, sought from another one on; kNone where it lies on a side, or was not found soon.
   std::uint32_t FindWithin(GridPoint p, std::uint32_t near) const;
   std::uint32_t PutIn(std::uint32_t triangle, GridPoint p);
-  void Set(std::uint32_t triangle, std::array<std::uint32_t, 3> corner, std::array<std::uint32_t, 3> across, std::array<bool, 3> fixed);
+  void Set(std::uint32_t triangle, std::array<std::uint32_t, 3> corner, std::array<std::uint32_t, 3> across,
+           std::array<bool, 3> fixed);
   void Meet(std::uint32_t beyond, std::uint32_t before, std::uint32_t now);
   void SplitTriangle(std::uint32_t triangle, std::uint32_t p);
   void SplitSide(Side side, std::uint32_t p);
@@ -68,7 +72,7 @@ class Triangulation {
   std::vector<GridPoint> points_;
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> cut_from_;  // by triangle
-  std::vector<std::uint32_t> at_;  // a triangle at each point
+  std::vector<std::uint32_t> at_;        // a triangle at each point
   std::vector<Side> stack_;
   mutable std::uint32_t last_ = 0;
 };

@@ -19,7 +19,8 @@ constexpr std::size_t kBufferBytes = 1u << 20;
 
 base::Result<CsvFile> CsvFile::Create(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) return base::Failed(fmt::format("the table cannot be created: {}", std::strerror(errno)), path.string());
+  if (file < 0)
+    return base::Failed(fmt::format("the table cannot be created: {}", std::strerror(errno)), path.string());
   return CsvFile(file, path);
 }
 
@@ -63,7 +64,8 @@ void AppendCell(std::string_view text, std::string& out) { out += base::CsvCell(
 
 void AppendSeconds(std::int64_t time_ns, std::string& out) {
   constexpr std::uint64_t kSecond = 1'000'000'000;
-  const std::uint64_t size = time_ns < 0 ? 0 - static_cast<std::uint64_t>(time_ns) : static_cast<std::uint64_t>(time_ns);
+  const std::uint64_t size =
+      time_ns < 0 ? 0 - static_cast<std::uint64_t>(time_ns) : static_cast<std::uint64_t>(time_ns);
   if (time_ns < 0) out += '-';
   fmt::format_to(std::back_inserter(out), "{}", size / kSecond);
   if (size % kSecond == 0) return;

@@ -46,19 +46,22 @@ class Workplace {
   base::Status Begin() {
     std::error_code problem;
     if (fs::exists(fs::symlink_status(target_, problem))) {
-      return base::WrongInput("the folder for the tables is there already; another name was expected", target_.string());
+      return base::WrongInput("the folder for the tables is there already; another name was expected",
+                              target_.string());
     }
     const fs::path beside = target_.string() + fmt::format(".{}.part", ::getpid());
     if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), problem);
     if (!fs::create_directory(beside, problem)) {
-      return base::Failed(fmt::format("the folder for the tables cannot be made: {}", problem.message()), target_.string());
+      return base::Failed(fmt::format("the folder for the tables cannot be made: {}", problem.message()),
+                          target_.string());
     }
     path_ = beside;
     return {};
   }
   base::Status Finish() {
     if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
-      const std::string what = fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
+      const std::string what =
+          fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
       return base::Failed(what, target_.string());
     }
     path_.clear();
@@ -178,7 +181,8 @@ class Exporter {
 
   void LeaveOut(const std::string& topic, const char* why) {
     std::string sentence = fmt::format("{}: {}", topic, why);
-    if (std::ranges::find(report_.left_out, sentence) == report_.left_out.end()) report_.left_out.push_back(std::move(sentence));
+    if (std::ranges::find(report_.left_out, sentence) == report_.left_out.end())
+      report_.left_out.push_back(std::move(sentence));
   }
 
   const record::McapReader& reader_;
@@ -193,7 +197,8 @@ class Exporter {
 
 }  // namespace
 
-base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder, const ExportProgress& progress) {
+base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder,
+                                     const ExportProgress& progress) {
   fs::path plain = folder.lexically_normal();  // "tables/" names the folder "tables"
   if (!plain.has_filename()) plain = plain.parent_path();
   return Exporter(reader, plain, progress).Run();

@@ -17,7 +17,8 @@ bool IsOctets(const Type& type) {
 void FindRows(const Type& type, const std::string& path, std::vector<std::string>& found) {
   if (found.size() > 1) return;
   if (type.kind == Kind::kStruct) {
-    for (const auto& member : type.members) FindRows(*member.type, path.empty() ? member.name : path + "." + member.name, found);
+    for (const auto& member : type.members)
+      FindRows(*member.type, path.empty() ? member.name : path + "." + member.name, found);
   } else if (type.kind == Kind::kSequence && type.element->kind == Kind::kStruct) {
     found.push_back(path);
   } else if (type.kind == Kind::kArray && type.depth > 1) {
@@ -51,7 +52,8 @@ class Builder {
     for (const auto& member : type.members) {
       const std::string inner = path.empty() ? member.name : path + "." + member.name;
       // Rodeira's types end on four bytes that are always 0.
-      const bool filler = type.name.starts_with("rodeira::msg::") && member.name == "end" && member.type->kind == Kind::kUint32;
+      const bool filler =
+          type.name.starts_with("rodeira::msg::") && member.name == "end" && member.type->kind == Kind::kUint32;
       const bool header = path.empty() && layout_.has_header && &member == &type.members.front();
       const bool good = filler ? Put(Use::kDropped, inner) : header ? Header() : Add(*member.type, inner, in_rows);
       if (!good) return false;

@@ -9,15 +9,19 @@
 
 namespace rodeira::csv {
 
-// How the messages of a type become rows of a table (docs/formats.md). One value of a message after the other goes to the
-// slots in their order, over and over for the elements of the sequence that makes the rows.
+// How the messages of a type become rows of a table (docs/formats.md). One value of a message after the other goes to
+// the slots in their order, over and over for the elements of the sequence that makes the rows.
 struct Slot {
   enum class Use {
-    kCell,    // one value
+    kCell,     // one value
     kRowCell,  // one value of each element of the row sequence
-    kList,    // a sequence, all of it in one cell
+    kList,     // a sequence, all of it in one cell
     kRowList,  // the same within the elements of the row sequence
-    kStep, kTime, kSource, kIncarnation, kDigest,  // of the header of a sample
+    kStep,
+    kTime,
+    kSource,
+    kIncarnation,
+    kDigest,   // of the header of a sample
     kDropped,  // "end"
   };
   Use use = Use::kCell;

@@ -89,12 +89,19 @@ void TableWriter::OnValue(const decode::Path& path, Value value) {
   if (list_depth_ > 0) return AddToList(path, value);
   const Use use = layout_.slots[slot_].use;
   switch (use) {
-    case Use::kStep: step_ = std::get<std::int64_t>(value); break;
-    case Use::kTime: time_ns_ = std::get<std::int64_t>(value); break;
-    case Use::kDigest: digest_ = std::get<std::uint64_t>(value); break;
+    case Use::kStep:
+      step_ = std::get<std::int64_t>(value);
+      break;
+    case Use::kTime:
+      time_ns_ = std::get<std::int64_t>(value);
+      break;
+    case Use::kDigest:
+      digest_ = std::get<std::uint64_t>(value);
+      break;
     case Use::kSource:
     case Use::kIncarnation:
-    case Use::kDropped: break;
+    case Use::kDropped:
+      break;
     default: {
       std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
       cells += ',';

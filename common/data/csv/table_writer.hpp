@@ -20,8 +20,8 @@ class TableWriter final : private decode::Visitor {
 
   // time_s, step, source, the values, state_digest.
   void PutHeaderLine();
-  // Appends the message's rows; `log_time_ns` and `source` (a name) stand for what a message without a header does not say.
-  // Wrong input where the payload is no such message: then no row of it is written.
+  // Appends the message's rows; `log_time_ns` and `source` (a name) stand for what a message without a header does not
+  // say. Wrong input where the payload is no such message: then no row of it is written.
   base::Status Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source);
   base::Status Close() { return file_.Close(); }
 
@@ -46,10 +46,10 @@ class TableWriter final : private decode::Visitor {
 
   // Of the message that is being read:
   std::size_t slot_ = 0;
-  std::size_t row_slot_ = 0;       // the first of the row sequence
-  std::size_t row_slots_ = 0;      // how many there are; 0 without one
+  std::size_t row_slot_ = 0;   // the first of the row sequence
+  std::size_t row_slots_ = 0;  // how many there are; 0 without one
   bool in_rows_ = false;
-  std::size_t list_depth_ = 0;     // length of the path of the sequence that fills one cell; 0: none
+  std::size_t list_depth_ = 0;  // length of the path of the sequence that fills one cell; 0: none
   std::size_t lists_open_ = 0;
   std::string list_;
   std::int64_t step_ = 0;

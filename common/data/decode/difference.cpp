@@ -60,7 +60,8 @@ Difference OfOctets(const std::string& path, const base::Bytes& a, const base::B
 
 }  // namespace
 
-std::optional<Difference> FirstDifference(const Type& type, std::span<const std::byte> a, std::span<const std::byte> b) {
+std::optional<Difference> FirstDifference(const Type& type, std::span<const std::byte> a,
+                                          std::span<const std::byte> b) {
   const auto differs = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
   if (differs.first == a.end() && differs.second == b.end()) return std::nullopt;
   const auto byte = static_cast<std::size_t>(differs.first - a.begin());

@@ -18,15 +18,17 @@ constexpr std::uint64_t kMostElements = std::uint64_t{1} << 32;  // of an array 
 
 // Words that begin or name what is not read here.
 const std::set<std::string, std::less<>> kNotRead = {
-    "union", "map", "bitmask", "bitset", "interface", "valuetype", "wstring", "wchar", "fixed", "any",
-    "Object", "native", "exception", "switch", "typeid", "import"};
+    "union", "map", "bitmask", "bitset", "interface", "valuetype", "wstring", "wchar",
+    "fixed", "any", "Object",  "native", "exception", "switch",    "typeid",  "import"};
 // Annotations that change what lies in a payload.
-const std::set<std::string, std::less<>> kOtherEncoding = {"mutable", "optional", "value", "bit_bound", "extensibility"};
+const std::set<std::string, std::less<>> kOtherEncoding = {"mutable", "optional", "value", "bit_bound",
+                                                           "extensibility"};
 
 const std::map<std::string, Kind, std::less<>> kPlainNames = {
-    {"boolean", Kind::kBool},  {"char", Kind::kChar},     {"octet", Kind::kOctet}, {"short", Kind::kInt16}, {"float", Kind::kFloat},
-    {"double", Kind::kDouble}, {"int8", Kind::kInt8},     {"uint8", Kind::kUint8}, {"int16", Kind::kInt16}, {"uint16", Kind::kUint16},
-    {"int32", Kind::kInt32},   {"uint32", Kind::kUint32}, {"int64", Kind::kInt64}, {"uint64", Kind::kUint64},
+    {"boolean", Kind::kBool}, {"char", Kind::kChar},     {"octet", Kind::kOctet}, {"short", Kind::kInt16},
+    {"float", Kind::kFloat},  {"double", Kind::kDouble}, {"int8", Kind::kInt8},   {"uint8", Kind::kUint8},
+    {"int16", Kind::kInt16},  {"uint16", Kind::kUint16}, {"int32", Kind::kInt32}, {"uint32", Kind::kUint32},
+    {"int64", Kind::kInt64},  {"uint64", Kind::kUint64},
 };
 
 }  // namespace
@@ -209,7 +211,8 @@ class IdlParser {
     if (found == result_.types_.end()) {
       std::vector<std::string> known;
       for (const auto& [full, unused] : result_.types_) known.push_back(full);
-      return Refuse(fmt::format("the type '{}' is not defined before this line{}", name, base::DidYouMean(name, known)));
+      return Refuse(
+          fmt::format("the type '{}' is not defined before this line{}", name, base::DidYouMean(name, known)));
     }
     type = found->second;
     return true;
@@ -225,7 +228,8 @@ class IdlParser {
       const std::string name = ScopedName();
       if (name.empty()) return false;
       const auto found = Lookup(constants_, name);
-      if (found == constants_.end()) return Refuse(fmt::format("'{}' is no whole number that is defined before this line", name));
+      if (found == constants_.end())
+        return Refuse(fmt::format("'{}' is no whole number that is defined before this line", name));
       length = found->second;
     }
     const bool fits = length > 0 && length <= kMostElements;
@@ -234,7 +238,8 @@ class IdlParser {
 
   static bool ToNumber(const std::string& text, std::uint64_t& number) {
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
-    return problem == std::errc() && end == text.data() + text.size() && (text.size() == 1 || text[0] != '0');  // 010 is octal
+    return problem == std::errc() && end == text.data() + text.size() &&
+           (text.size() == 1 || text[0] != '0');  // 010 is octal
   }
 
   // "a::b" with "::" before it where it counts from the root; empty where it is refused.
@@ -275,7 +280,8 @@ class IdlParser {
     while (IsSign("@")) {
       Skip();
       const std::string& name = Now().text;
-      if (kOtherEncoding.contains(name)) return Refuse(fmt::format("'@{}' is not read: it makes another encoding", name));
+      if (kOtherEncoding.contains(name))
+        return Refuse(fmt::format("'@{}' is not read: it makes another encoding", name));
       if (ScopedName().empty()) return false;
       if (!IsSign("(")) continue;
       int open = 0;
@@ -313,7 +319,7 @@ class IdlParser {
 
   std::vector<Token> tokens_;  // the last one is the end
   std::size_t at_ = 0;
-  std::string scope_;          // "a::b::"
+  std::string scope_;  // "a::b::"
   std::map<std::string, std::uint64_t> constants_;
   IdlTypes result_;
   std::optional<base::Error> error_;
@@ -330,7 +336,8 @@ base::Result<TypePtr> IdlTypes::Find(const std::string& name) const {
   if (found != types_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [full, unused] : types_) known.push_back(full);
-  return base::WrongInput(fmt::format("the type '{}' is not in its IDL text{}", name, base::DidYouMean(name, known)), place_);
+  return base::WrongInput(fmt::format("the type '{}' is not in its IDL text{}", name, base::DidYouMean(name, known)),
+                          place_);
 }
 
 base::Result<TypePtr> ReadType(std::string_view idl, const std::string& name) {

@@ -47,7 +47,8 @@ class Tokeniser {
   bool Take() {
     const char c = text_[at_];
     if (IsLetter(c)) return TakeWhile(Token::Kind::kName, [](char d) { return IsLetter(d) || IsDigit(d); });
-    if (IsDigit(c)) return TakeWhile(Token::Kind::kNumber, [](char d) { return IsLetter(d) || IsDigit(d) || d == '.'; });
+    if (IsDigit(c))
+      return TakeWhile(Token::Kind::kNumber, [](char d) { return IsLetter(d) || IsDigit(d) || d == '.'; });
     if (c == '"' || c == '\'') return TakeQuoted(c);
     if (c == '#') return Refuse("a preprocessor line was found; the text must be complete in itself");
     if (text_.substr(at_).starts_with("::")) return Put(Token::Kind::kSign, 2);
@@ -98,6 +99,8 @@ class Tokeniser {
 
 }  // namespace
 
-base::Result<std::vector<Token>> Tokenise(std::string_view text, std::string_view place) { return Tokeniser(text, place).Run(); }
+base::Result<std::vector<Token>> Tokenise(std::string_view text, std::string_view place) {
+  return Tokeniser(text, place).Run();
+}
 
 }  // namespace rodeira::decode

@@ -16,8 +16,8 @@ struct Token {
   int line = 1;
 };
 
-// The words of an IDL text without its comments; the last one is kEnd. Wrong input ("PLACE:LINE: …") where a comment or a
-// text does not end, at preprocessor lines, and at characters that IDL does not use.
+// The words of an IDL text without its comments; the last one is kEnd. Wrong input ("PLACE:LINE: …") where a comment or
+// a text does not end, at preprocessor lines, and at characters that IDL does not use.
 base::Result<std::vector<Token>> Tokenise(std::string_view text, std::string_view place);
 
 }  // namespace rodeira::decode

@@ -20,17 +20,22 @@ std::uint64_t PlainBytes(Kind kind) {
     case Kind::kChar:
     case Kind::kOctet:
     case Kind::kInt8:
-    case Kind::kUint8: return 1;
+    case Kind::kUint8:
+      return 1;
     case Kind::kInt16:
-    case Kind::kUint16: return 2;
+    case Kind::kUint16:
+      return 2;
     case Kind::kInt32:
     case Kind::kUint32:
     case Kind::kFloat:
-    case Kind::kEnum: return 4;
+    case Kind::kEnum:
+      return 4;
     case Kind::kInt64:
     case Kind::kUint64:
-    case Kind::kDouble: return 8;
-    default: break;
+    case Kind::kDouble:
+      return 8;
+    default:
+      break;
   }
   RODEIRA_ASSERT(false);
   return 0;

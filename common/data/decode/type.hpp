@@ -9,8 +9,20 @@
 namespace rodeira::decode {
 
 enum class Kind {
-  kBool, kChar, kOctet, kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kInt64, kUint64, kFloat, kDouble,
-  kEnum,      // four bytes, unsigned
+  kBool,
+  kChar,
+  kOctet,
+  kInt8,
+  kUint8,
+  kInt16,
+  kUint16,
+  kInt32,
+  kUint32,
+  kInt64,
+  kUint64,
+  kFloat,
+  kDouble,
+  kEnum,  // four bytes, unsigned
   kString,
   kSequence,
   kArray,

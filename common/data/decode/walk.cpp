@@ -36,10 +36,14 @@ class Walker {
           path_.pop_back();
         }
         return true;
-      case Kind::kArray: return Elements(*type.element, type.length);
-      case Kind::kSequence: return Sequence(type);
-      case Kind::kString: return String(type);
-      default: return Plain(type.kind);
+      case Kind::kArray:
+        return Elements(*type.element, type.length);
+      case Kind::kSequence:
+        return Sequence(type);
+      case Kind::kString:
+        return String(type);
+      default:
+        return Plain(type.kind);
     }
   }
 
@@ -50,8 +54,8 @@ class Walker {
       return Refuse(fmt::format("a sequence of {} elements was found, at most {} were expected", length, type.bound));
     }
     if (length > (bytes_.size() - at_) / type.element->least_bytes) {
-      return Refuse(fmt::format("a sequence of {} elements was found, but only {} bytes are left", length,
-                                bytes_.size() - at_));
+      return Refuse(
+          fmt::format("a sequence of {} elements was found, but only {} bytes are left", length, bytes_.size() - at_));
     }
     if (type.element->kind == Kind::kOctet) return Elements(*type.element, length);
     visitor_.OnSequence(path_, length);
@@ -76,7 +80,8 @@ class Walker {
     return true;
   }
 
-  // The length counts a terminating zero. As Fast-CDR reads: without one all bytes are text, and a length of 0 is no text.
+  // The length counts a terminating zero. As Fast-CDR reads: without one all bytes are text, and a length of 0 is no
+  // text.
   bool String(const Type& type) {
     std::uint32_t length = 0;
     if (!Get(length) || !Holds(length)) return false;
@@ -101,18 +106,29 @@ class Walker {
       }
       case Kind::kChar:
       case Kind::kOctet:
-      case Kind::kUint8: return Number<std::uint8_t, std::uint64_t>();
-      case Kind::kInt8: return Number<std::int8_t, std::int64_t>();
-      case Kind::kInt16: return Number<std::int16_t, std::int64_t>();
-      case Kind::kUint16: return Number<std::uint16_t, std::uint64_t>();
-      case Kind::kInt32: return Number<std::int32_t, std::int64_t>();
+      case Kind::kUint8:
+        return Number<std::uint8_t, std::uint64_t>();
+      case Kind::kInt8:
+        return Number<std::int8_t, std::int64_t>();
+      case Kind::kInt16:
+        return Number<std::int16_t, std::int64_t>();
+      case Kind::kUint16:
+        return Number<std::uint16_t, std::uint64_t>();
+      case Kind::kInt32:
+        return Number<std::int32_t, std::int64_t>();
       case Kind::kEnum:
-      case Kind::kUint32: return Number<std::uint32_t, std::uint64_t>();
-      case Kind::kInt64: return Number<std::int64_t, std::int64_t>();
-      case Kind::kUint64: return Number<std::uint64_t, std::uint64_t>();
-      case Kind::kFloat: return Number<float, float>();
-      case Kind::kDouble: return Number<double, double>();
-      default: break;
+      case Kind::kUint32:
+        return Number<std::uint32_t, std::uint64_t>();
+      case Kind::kInt64:
+        return Number<std::int64_t, std::int64_t>();
+      case Kind::kUint64:
+        return Number<std::uint64_t, std::uint64_t>();
+      case Kind::kFloat:
+        return Number<float, float>();
+      case Kind::kDouble:
+        return Number<double, double>();
+      default:
+        break;
     }
     RODEIRA_ASSERT(false);
     return false;
@@ -142,7 +158,8 @@ class Walker {
 
   bool Holds(std::uint64_t size) {
     if (size <= bytes_.size() - at_) return true;
-    return Refuse(fmt::format("the message ends after {} bytes, where at least {} more were expected", bytes_.size() - at_, size));
+    return Refuse(fmt::format("the message ends after {} bytes, where at least {} more were expected",
+                              bytes_.size() - at_, size));
   }
   bool Refuse(const std::string& what) {
     error_ = Fault(what);
@@ -184,7 +201,8 @@ std::string Text(const Path& path) {
 
 base::Status Walk(const Type& type, std::span<const std::byte> payload, Visitor& visitor) {
   if (payload.size() < kEncapsulation) {
-    return base::WrongInput(fmt::format("the message has {} bytes, the four of its encapsulation were expected", payload.size()));
+    return base::WrongInput(
+        fmt::format("the message has {} bytes, the four of its encapsulation were expected", payload.size()));
   }
   const auto first = std::to_integer<unsigned>(payload[0]);
   const auto second = std::to_integer<unsigned>(payload[1]);

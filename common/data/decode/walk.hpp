@@ -31,8 +31,8 @@ class Visitor {
 };
 
 // Goes through a payload (CDR version 1 with its four encapsulation bytes, little- or big-endian) by its type.
-// Wrong input, naming path and byte, where the bytes are no such message; the values before that have been visited. Up to
-// three bytes behind the last value are a transport's padding and are passed over.
+// Wrong input, naming path and byte, where the bytes are no such message; the values before that have been visited. Up
+// to three bytes behind the last value are a transport's padding and are passed over.
 base::Status Walk(const Type& type, std::span<const std::byte> payload, Visitor& visitor);
 
 struct Entry {

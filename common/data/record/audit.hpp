@@ -45,7 +45,7 @@ class StepAudit {
     std::uint64_t count = 0;
     std::uint64_t first = 0;
     std::uint64_t last = 0;
-    std::map<std::uint64_t, std::uint64_t> distances;  // distance → how often
+    std::map<std::uint64_t, std::uint64_t> distances;        // distance → how often
     std::map<std::uint64_t, std::vector<StepGap>> examples;  // distance → its first hundred places
   };
   std::map<Key, Track> tracks_;

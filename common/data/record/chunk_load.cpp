@@ -11,14 +11,12 @@ namespace {
 
 base::Result<base::Bytes> Uncompress(const ChunkHead& head) {
   if (head.uncompressed_bytes > kMaxRecordBytes) {
-    return base::WrongInput(
-        fmt::format("its records are said to have {} bytes, at most {} were expected", head.uncompressed_bytes,
-                    kMaxRecordBytes));
+    return base::WrongInput(fmt::format("its records are said to have {} bytes, at most {} were expected",
+                                        head.uncompressed_bytes, kMaxRecordBytes));
   }
   if (head.compression == "zstd") return ZstdDecompress(head.records, head.uncompressed_bytes);
   if (!head.compression.empty()) {
-    return base::WrongInput(
-        fmt::format("its compression is '{:.16}', none or 'zstd' was expected", head.compression));
+    return base::WrongInput(fmt::format("its compression is '{:.16}', none or 'zstd' was expected", head.compression));
   }
   if (head.records.size() != head.uncompressed_bytes) {
     return base::WrongInput(
@@ -58,9 +56,9 @@ base::Status List(Chunk& chunk, Definitions& found) {
 
 base::Status CheckTimes(const Chunk& chunk) {
   if (chunk.entries.empty()) return {};
-  const auto [first, last] = std::minmax_element(
-      chunk.entries.begin(), chunk.entries.end(),
-      [](const Chunk::Entry& a, const Chunk::Entry& b) { return a.log_time_ns < b.log_time_ns; });
+  const auto [first, last] =
+      std::minmax_element(chunk.entries.begin(), chunk.entries.end(),
+                          [](const Chunk::Entry& a, const Chunk::Entry& b) { return a.log_time_ns < b.log_time_ns; });
   if (first->log_time_ns == chunk.head.first_log_time_ns && last->log_time_ns == chunk.head.last_log_time_ns) return {};
   return base::WrongInput("its messages have other times than it says");
 }
@@ -75,7 +73,8 @@ base::Status Definitions::Add(const Schema& schema) {
 
 base::Status Definitions::Add(const Channel& channel) {
   if (channel.schema != 0 && !schemas.contains(channel.schema)) {
-    return base::WrongInput(fmt::format("channel {} names schema {}, which is not defined", channel.id, channel.schema));
+    return base::WrongInput(
+        fmt::format("channel {} names schema {}, which is not defined", channel.id, channel.schema));
   }
   const auto [place, added] = channels.emplace(channel.id, channel);
   if (added || place->second == channel) return {};
@@ -96,8 +95,8 @@ base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, 
     return base::WrongInput(fmt::format("a record of {} bytes begins there, {} are left", length, room));
   }
   if (length > kMaxRecordBytes) {
-    return base::WrongInput(fmt::format("a record of {} bytes begins there, at most {} were expected", length,
-                                        kMaxRecordBytes));
+    return base::WrongInput(
+        fmt::format("a record of {} bytes begins there, at most {} were expected", length, kMaxRecordBytes));
   }
   auto bytes = source.Read(offset, kHeadBytes + length);
   if (!bytes) return bytes.error();

@@ -30,7 +30,7 @@ struct Contents {
   Header header;
   Definitions definitions;
   Statistics statistics;
-  std::vector<ChunkInfo> chunks;            // these three in file order
+  std::vector<ChunkInfo> chunks;  // these three in file order
   std::vector<MetadataInfo> metadata;
   std::vector<AttachmentInfo> attachments;
 };

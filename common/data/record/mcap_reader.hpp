@@ -18,16 +18,16 @@
 namespace rodeira::record {
 
 struct ReaderSettings {
-  bool scan = false;                              // read from the start even where the summary is whole
+  bool scan = false;                                    // read from the start even where the summary is whole
   std::uint64_t memory_bytes = std::uint64_t{1} << 30;  // chunks held at a time, uncompressed: beyond, an Error
 };
 
 // How a file was opened, and what of it is gone.
 struct Condition {
-  bool by_summary = false;        // false: scanned from the start
-  bool whole = false;             // the file ends as it should and nothing is damaged, as far as was looked
+  bool by_summary = false;  // false: scanned from the start
+  bool whole = false;       // the file ends as it should and nothing is damaged, as far as was looked
   std::uint64_t file_bytes = 0;
-  std::uint64_t good_bytes = 0;   // bytes from the start that were accepted
+  std::uint64_t good_bytes = 0;       // bytes from the start that were accepted
   std::vector<std::string> findings;  // sentences: why the summary was not used, what was lost
 };
 
@@ -38,10 +38,10 @@ struct ChunkInfo {
   std::uint64_t last_log_time_ns = 0;
   std::uint64_t compressed_bytes = 0;
   std::uint64_t uncompressed_bytes = 0;
-  std::string compression;                          // "", "zstd"
+  std::string compression;                           // "", "zstd"
   std::map<ChannelId, std::uint64_t> index_offsets;  // of the MessageIndex records
-  std::uint64_t index_bytes = 0;                    // of all of them
-  std::optional<std::set<ChannelId>> channels;      // those with messages in it, where that is known
+  std::uint64_t index_bytes = 0;                     // of all of them
+  std::optional<std::set<ChannelId>> channels;       // those with messages in it, where that is known
 };
 
 struct MetadataInfo {
@@ -64,7 +64,7 @@ struct AttachmentInfo {
 struct Query {
   std::uint64_t from_ns = 0;
   std::uint64_t through_ns = std::numeric_limits<std::uint64_t>::max();
-  std::optional<std::set<ChannelId>> channels;  // none: all
+  std::optional<std::set<ChannelId>> channels;                   // none: all
   enum class Order { kLogTime, kFile } order = Order::kLogTime;  // equal log times come in file order
 };
 
@@ -127,7 +127,8 @@ class McapReader {
   base::Result<std::optional<Attachment>> FindAttachment(std::string_view name) const;  // the last of that name
 
   MessageCursor Messages(Query query = {}) const;
-  // One of chunks(), alone: nothing else of the file is read. Wrong input where it is damaged (it says which times are lost).
+  // One of chunks(), alone: nothing else of the file is read. Wrong input where it is damaged (it says which times are
+  // lost).
   base::Result<ChunkMessages> ReadChunk(const ChunkInfo& info) const;
 
   // Reads everything and compares: each checksum, each index with what it points to, the statistics with the messages.

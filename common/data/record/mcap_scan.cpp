@@ -28,9 +28,9 @@ class Scanner {
 
   const Source& source_;
   Scan scan_;
-  std::uint64_t at_ = 0;       // offset of the record that is looked at
-  std::uint32_t crc_ = 0;      // of all bytes before it
-  bool after_chunk_ = false;   // only a chunk and its indexes may be followed by an index
+  std::uint64_t at_ = 0;                        // offset of the record that is looked at
+  std::uint32_t crc_ = 0;                       // of all bytes before it
+  bool after_chunk_ = false;                    // only a chunk and its indexes may be followed by an index
   std::map<ChannelId, IndexEntries> expected_;  // the last chunk's message indexes, as they should be
 };
 
@@ -95,9 +95,10 @@ Status Scanner::TakeDataEnd(const FileRecord& record) {
   const auto crc = ParseDataEnd(record.content());
   if (!crc) return WrongInput("the mark of the data's end is damaged");
   if (*crc != 0 && *crc != crc_) {
-    Find(fmt::format("the checksum of all data is {:08x}, {:08x} was expected: something outside of the chunks "
-                     "(header, metadata, an index) has changed",
-                     crc_, *crc));
+    Find(
+        fmt::format("the checksum of all data is {:08x}, {:08x} was expected: something outside of the chunks "
+                    "(header, metadata, an index) has changed",
+                    crc_, *crc));
   }
   scan_.ended = true;
   return {};
@@ -137,8 +138,8 @@ Status Scanner::Take(const FileRecord& record) {
       return WrongInput("a message outside of a chunk lies there, which is not supported");
     default:
       if (static_cast<std::uint8_t>(record.opcode) >= 0x80) return {};  // somebody's private record
-      return WrongInput(fmt::format("a record of kind {} lies there, which does not belong there",
-                                    static_cast<int>(record.opcode)));
+      return WrongInput(
+          fmt::format("a record of kind {} lies there, which does not belong there", static_cast<int>(record.opcode)));
   }
 }
 
@@ -185,9 +186,12 @@ Status CheckMark(const Source& source) {
   if (!mark) return mark.error();
   if (std::ranges::equal(mark.value(), MagicBytes())) return {};
   constexpr std::size_t kVersionAt = 5;
-  if (mark.value().size() == kMagic.size() && std::ranges::equal(std::span(mark.value()).first(kVersionAt), MagicBytes().first(kVersionAt))) {
-    return WrongInput(fmt::format("a recording of MCAP's version {} was found, version {} was expected", std::string(1, static_cast<char>(mark.value()[kVersionAt])),
-                                  static_cast<char>(kMagic[kVersionAt])), source.name());
+  if (mark.value().size() == kMagic.size() &&
+      std::ranges::equal(std::span(mark.value()).first(kVersionAt), MagicBytes().first(kVersionAt))) {
+    return WrongInput(
+        fmt::format("a recording of MCAP's version {} was found, version {} was expected",
+                    std::string(1, static_cast<char>(mark.value()[kVersionAt])), static_cast<char>(kMagic[kVersionAt])),
+        source.name());
   }
   return WrongInput("this is no MCAP recording: it does not begin with MCAP's mark", source.name());
 }

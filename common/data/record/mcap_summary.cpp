@@ -14,8 +14,8 @@ using base::WrongInput;
 
 struct Ending {
   Footer footer;
-  std::uint64_t data_end = 0;    // offset of the DataEnd record
-  std::uint64_t footer_at = 0;   // offset of the Footer record
+  std::uint64_t data_end = 0;   // offset of the DataEnd record
+  std::uint64_t footer_at = 0;  // offset of the Footer record
 };
 
 base::Result<Ending> ReadEnding(const Source& source) {
@@ -34,8 +34,8 @@ base::Result<Ending> ReadEnding(const Source& source) {
   if (!footer) return WrongInput("its footer is damaged");
   if (footer->summary_start == 0) return WrongInput("it was written without a summary");
   if (footer->summary_start < kMagic.size() + kDataEndBytes || footer->summary_start > ending.footer_at) {
-    return WrongInput(fmt::format("its footer says that the summary begins at byte {}, which cannot be",
-                                  footer->summary_start));
+    return WrongInput(
+        fmt::format("its footer says that the summary begins at byte {}, which cannot be", footer->summary_start));
   }
   if (ending.footer_at - footer->summary_start > kMaxRecordBytes) return WrongInput("its summary is too large");
   ending.footer = *footer;

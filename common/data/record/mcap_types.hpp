@@ -11,7 +11,7 @@
 // What an MCAP file holds (https://mcap.dev/spec). All times are nanoseconds, here of simulated time.
 namespace rodeira::record {
 
-using SchemaId = std::uint16_t;   // 0 means "no schema"
+using SchemaId = std::uint16_t;  // 0 means "no schema"
 using ChannelId = std::uint16_t;
 using TextMap = std::map<std::string, std::string>;
 

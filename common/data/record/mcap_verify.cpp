@@ -22,8 +22,8 @@ void CompareLists(const std::vector<Info>& said, const std::vector<Info>& found,
     if (said[i].offset == found[i].offset && said[i].record_bytes == found[i].record_bytes && same(said[i], found[i])) {
       continue;
     }
-    findings.push_back(fmt::format("byte {}: what the summary says of the {} differs from what lies there",
-                                   found[i].offset, what));
+    findings.push_back(
+        fmt::format("byte {}: what the summary says of the {} differs from what lies there", found[i].offset, what));
     return;
   }
 }
@@ -51,8 +51,9 @@ void Compare(const Contents& said, const Contents& found, Findings& findings) {
   }
   CompareLists(said.chunks, found.chunks, "chunks", SameChunk, findings);
   CompareLists(said.attachments, found.attachments, "attachments", SameAttachment, findings);
-  CompareLists(said.metadata, found.metadata, "metadata records",
-               [](const MetadataInfo& a, const MetadataInfo& b) { return a.name == b.name; }, findings);
+  CompareLists(
+      said.metadata, found.metadata, "metadata records",
+      [](const MetadataInfo& a, const MetadataInfo& b) { return a.name == b.name; }, findings);
 }
 
 }  // namespace

@@ -40,16 +40,18 @@ class McapWriter {
   // Creates the file and writes its header.
   static base::Result<McapWriter> Open(const std::filesystem::path& path, const WriterSettings& settings = {});
   static base::Result<McapWriter> Open(std::unique_ptr<Sink> sink, const WriterSettings& settings = {});
-  // Goes on with a recording whose writer has died, also after it was closed: behind its last whole chunk, which is handed in with
-  // those before it as far as tail.span_ns of log time reach; what lay behind (a torn chunk, closing metadata, the summary) is cut off.
-  // Nothing where it has no whole chunk yet. Wrong input where the file is no recording or was written by another program, Failed
-  // where what can be read of it ends before `least_end_ns`: it is left as it is then.
+  // Goes on with a recording whose writer has died, also after it was closed: behind its last whole chunk, which is
+  // handed in with those before it as far as tail.span_ns of log time reach; what lay behind (a torn chunk, closing
+  // metadata, the summary) is cut off. Nothing where it has no whole chunk yet. Wrong input where the file is no
+  // recording or was written by another program, Failed where what can be read of it ends before `least_end_ns`: it is
+  // left as it is then.
   struct Tail {
     std::uint64_t span_ns = 0;
-    std::uint64_t least_end_ns = 0;  // log time; 0: anything will do
+    std::uint64_t least_end_ns = 0;                                          // log time; 0: anything will do
     std::function<base::Status(const Channel&, const Message&)> on_message;  // in file order
   };
-  static base::Result<std::optional<McapWriter>> GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail);
+  static base::Result<std::optional<McapWriter>> GoOn(const std::filesystem::path& path, const WriterSettings& settings,
+                                                      const Tail& tail);
   McapWriter(McapWriter&&) noexcept;
   McapWriter& operator=(McapWriter&&) noexcept;
   // Closes the file where Close() was not called; an error is lost then.

@@ -175,7 +175,8 @@ base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink
   settings.chunk_bytes = 64u << 20;  // the source's chunks stay as they are
   settings.profile = contents.header.profile;
   settings.library = contents.header.library;
-  const bool compressed = std::ranges::any_of(contents.chunks, [](const ChunkInfo& c) { return !c.compression.empty(); });
+  const bool compressed =
+      std::ranges::any_of(contents.chunks, [](const ChunkInfo& c) { return !c.compression.empty(); });
   settings.compression = compressed ? Compression::kZstd : Compression::kNone;
   auto writer = McapWriter::Open(std::move(sink), settings);
   if (!writer) return writer.error();
@@ -201,13 +202,14 @@ base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink
 std::string RepairReport::Text() const {
   std::string text = was_whole ? "the recording was whole\n" : "";
   for (const std::string& loss : losses) text += loss + "\n";
-  text += fmt::format("kept: {} messages of {} channels in {} chunks, {} attachments, {} metadata records", kept.messages,
-                      kept.channels, kept.chunks, kept.attachments, kept.metadata);
+  text += fmt::format("kept: {} messages of {} channels in {} chunks, {} attachments, {} metadata records",
+                      kept.messages, kept.channels, kept.chunks, kept.attachments, kept.metadata);
   if (kept.messages > 0) text += fmt::format("; up to {}", Seconds(kept.last_log_time_ns));
   return text + "\n";
 }
 
-base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target, RepairEnd* end) {
+base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target,
+                                  RepairEnd* end) {
   auto opened = OpenFileSource(source);
   if (!opened) return opened.error();
   std::error_code problem;

@@ -28,7 +28,8 @@ struct RepairReport {
 // The name of the metadata record that a repaired file carries (not written where the source was whole).
 inline constexpr const char* kRepairMetadata = "rodeira.repair";
 
-// Whoever knows what the messages mean, and so at which of them a repaired recording ends: one metadata record is written anew.
+// Whoever knows what the messages mean, and so at which of them a repaired recording ends: one metadata record is
+// written anew.
 class RepairEnd {
  public:
   virtual ~RepairEnd() = default;
@@ -44,7 +45,8 @@ class RepairEnd {
 // existing target is refused. Where the summary is whole, only damaged chunks are left out; otherwise everything behind
 // the first damage is. A source that was whole gives the same messages in the same order and chunks.
 // `end` may be null, and is not asked where the source was whole.
-base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target, RepairEnd* end = nullptr);
+base::Result<RepairReport> Repair(const std::filesystem::path& source, const std::filesystem::path& target,
+                                  RepairEnd* end = nullptr);
 
 // The same from memory to memory.
 base::Result<RepairReport> RepairBytes(base::Bytes source, base::Bytes* target, RepairEnd* end = nullptr);

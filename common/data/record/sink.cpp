@@ -95,7 +95,8 @@ base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::pa
   if (file < 0) return CannotOpen(path, errno);
   auto sink = std::make_unique<FileSink>(file, path.string());
   if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
-  if (::ftruncate(file, static_cast<off_t>(size)) != 0 || ::lseek(file, 0, SEEK_END) < 0) return CannotOpen(path, errno);
+  if (::ftruncate(file, static_cast<off_t>(size)) != 0 || ::lseek(file, 0, SEEK_END) < 0)
+    return CannotOpen(path, errno);
   return std::unique_ptr<Sink>(std::move(sink));
 }
 
@@ -104,7 +105,8 @@ base::Status MemorySink::Append(std::span<const std::byte> bytes) {
   const auto fits = bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(room, bytes.size())));
   into_->insert(into_->end(), fits.begin(), fits.end());
   if (fits.size() < bytes.size()) {
-    return base::Failed(fmt::format("the recording cannot be written: the room of {} bytes is full", capacity_), name());
+    return base::Failed(fmt::format("the recording cannot be written: the room of {} bytes is full", capacity_),
+                        name());
   }
   return {};
 }

@@ -24,7 +24,8 @@ class FileSource final : public Source {
       const ssize_t got = ::pread(file_, into.data(), into.size(), static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) {
-        return base::Failed(fmt::format("the file cannot be read at byte {}: {}", offset, std::strerror(errno)), name());
+        return base::Failed(fmt::format("the file cannot be read at byte {}: {}", offset, std::strerror(errno)),
+                            name());
       }
       if (got == 0) return base::Failed(fmt::format("the file became shorter than {} bytes meanwhile", size()), name());
       offset += static_cast<std::uint64_t>(got);

@@ -50,7 +50,8 @@ base::Status HandInTail(const Source& source, const Contents& contents, const Mc
       const auto record = RecordAt(chunk.value().records, entry.offset);
       const auto message = record ? ParseMessage(record->content) : std::nullopt;
       RODEIRA_ASSERT(message.has_value());  // LoadChunk found all of them whole
-      if (auto status = tail.on_message(contents.definitions.channels.at(message->channel), *message); !status) return status;
+      if (auto status = tail.on_message(contents.definitions.channels.at(message->channel), *message); !status)
+        return status;
     }
   }
   return {};
@@ -58,7 +59,8 @@ base::Status HandInTail(const Source& source, const Contents& contents, const Mc
 
 }  // namespace
 
-base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::path& path, const WriterSettings& settings, const Tail& tail) {
+base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::path& path,
+                                                         const WriterSettings& settings, const Tail& tail) {
   std::unique_ptr<Sink> sink;
   std::unique_ptr<Source> source;
   Scan scan;
@@ -71,8 +73,10 @@ base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::
     scan = std::move(scanned).value();
     const ChunkInfo* last = LastWhole(scan);
     if (const std::uint64_t end_ns = last == nullptr ? 0 : last->last_log_time_ns; end_ns < tail.least_end_ns) {
-      return base::Failed(fmt::format("the recording can be read up to {} only, though it held more than {}: it was damaged meanwhile{}{}; it is left as it is",
-                                      Seconds(end_ns), Seconds(tail.least_end_ns), scan.findings.empty() ? "" : ", ", scan.findings.empty() ? "" : scan.findings.front()),
+      return base::Failed(fmt::format("the recording can be read up to {} only, though it held more than {}: it was "
+                                      "damaged meanwhile{}{}; it is left as it is",
+                                      Seconds(end_ns), Seconds(tail.least_end_ns), scan.findings.empty() ? "" : ", ",
+                                      scan.findings.empty() ? "" : scan.findings.front()),
                           path.string());
     }
     if (last == nullptr) return std::optional<McapWriter>();

@@ -66,8 +66,8 @@ base::Result<SchemaId> McapWriter::Work::AddSchema(std::string_view name, std::s
   }
   if (schemas_.size() == kMaxIds) return Refuse(fmt::format("there are more than {} schemas", kMaxIds));
   if (auto status = MakeRoom(name.size() + encoding.size() + text.size()); !status) return status.error();
-  schemas_.push_back({static_cast<SchemaId>(schemas_.size() + 1), std::string(name), std::string(encoding),
-                      std::string(text)});
+  schemas_.push_back(
+      {static_cast<SchemaId>(schemas_.size() + 1), std::string(name), std::string(encoding), std::string(text)});
   chunk_.Add(schemas_.back());
   ++statistics_.schemas;
   return schemas_.back().id;
@@ -144,7 +144,8 @@ Status McapWriter::Work::AddMetadata(std::string_view name, const TextMap& entri
 
 Status McapWriter::Work::AddAttachment(AttachmentInfo info, std::span<const std::byte> data) {
   if (failure_) return *failure_;
-  if (data.size() > kMaxRecordBytes - kMaxTextsBytes || info.name.size() + info.media_type.size() > kMaxTextsBytes / 2) {
+  if (data.size() > kMaxRecordBytes - kMaxTextsBytes ||
+      info.name.size() + info.media_type.size() > kMaxTextsBytes / 2) {
     return Refuse(fmt::format("the attachment '{:.64}' has {} bytes, at most {} were expected", info.name, data.size(),
                               kMaxRecordBytes - kMaxTextsBytes));
   }

@@ -18,11 +18,14 @@ double Cah(const IdmSettings& idm, double v, double gap_m, double leader_mps, do
 
 }  // namespace
 
-bool AccIsIdm(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps, double leader_mps2) {
-  return gap_m > 0.0 && IdmAcceleration(idm, speed_mps, desired_mps, gap_m, leader_mps) >= Cah(idm, std::max(0.0, speed_mps), gap_m, leader_mps, leader_mps2);
+bool AccIsIdm(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps,
+              double leader_mps2) {
+  return gap_m > 0.0 && IdmAcceleration(idm, speed_mps, desired_mps, gap_m, leader_mps) >=
+                            Cah(idm, std::max(0.0, speed_mps), gap_m, leader_mps, leader_mps2);
 }
 
-double AccAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps, double leader_mps2) {
+double AccAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps,
+                       double leader_mps2) {
   const double plain = IdmAcceleration(idm, speed_mps, desired_mps, gap_m, leader_mps);
   if (!(gap_m > 0.0)) return plain;
   const double cah = Cah(idm, std::max(0.0, speed_mps), gap_m, leader_mps, leader_mps2);

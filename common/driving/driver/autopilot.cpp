@@ -24,7 +24,8 @@ SpeedPlan::Allowed Autopilot::AllowedTo(const Way::Place& place, double speed_mp
   const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
   if (allowed.speed_mps > limit) allowed = {limit, 0.0};
   const double turned = std::fabs(geometry::WrapAngle(heading_rad - path_->At(place.d_m).heading_rad));
-  if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi) allowed = {std::min(allowed.speed_mps, settings_.slowly_mps), 0.0};
+  if (std::fabs(place.offset_m) > settings_.far_off_m || turned > 0.5 * geometry::kPi)
+    allowed = {std::min(allowed.speed_mps, settings_.slowly_mps), 0.0};
   return allowed;
 }
 
@@ -33,14 +34,17 @@ double Autopilot::WantedAcceleration(const DriverView& view, const Way::Place& p
   const double limit = settings_.speed_factor * path_->SpeedLimit_mps(place.d_m);
   const SpeedPlan::Allowed allowed = AllowedTo(place, speed, view.own.heading_rad());
   allowed_mps_ = allowed.speed_mps;
-  double wanted = std::min(settings_.idm.acceleration_mps2, allowed.slope_1ps * speed + (allowed_mps_ - speed) / settings_.tracking_s);
+  double wanted = std::min(settings_.idm.acceleration_mps2,
+                           allowed.slope_1ps * speed + (allowed_mps_ - speed) / settings_.tracking_s);
 
   const double front = place.d_m + view.dimensions.front_m;
   const double middle = 0.5 * (view.dimensions.front_m - view.dimensions.rear_m);
   const double half_width = 0.5 * view.dimensions.width_m + settings_.side_margin_m;
   leader_ = FindLeader(*path_, view.others, place.d_m + middle, front, half_width, settings_.range_m);
-  if (leader_) wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
-  if (const auto stop = light_stops_.Step(settings_.lights, view.lights, front, speed, settings_.anticipation_s)) wanted = std::min(wanted, *stop);
+  if (leader_)
+    wanted = std::min(wanted, IdmAcceleration(settings_.idm, speed, limit, leader_->gap_m, leader_->speed_mps));
+  if (const auto stop = light_stops_.Step(settings_.lights, view.lights, front, speed, settings_.anticipation_s))
+    wanted = std::min(wanted, *stop);
   return std::max(wanted, -settings_.idm.hardest_mps2);
 }
 
@@ -59,7 +63,8 @@ std::optional<Aim> Autopilot::AimOf(const CarMotion& car) const {
   const auto place = path_->Locate(car.p_WB_W.x(), car.p_WB_W.y(), car.p_WB_W.z());
   if (!place) return std::nullopt;
   const double sees_m = std::min(place->d_m + car.front_m + settings_.range_m, path_->length_m());
-  return Aim{AllowedTo(*place, car.speed_mps, car.heading_rad).speed_mps, TargetFrom(*place, 0.5 * car.wheelbase_m, car.speed_mps), path_->At(place->d_m).heading_rad,
+  return Aim{AllowedTo(*place, car.speed_mps, car.heading_rad).speed_mps,
+             TargetFrom(*place, 0.5 * car.wheelbase_m, car.speed_mps), path_->At(place->d_m).heading_rad,
              path_->Position(sees_m, 0.0).head<2>()};
 }
 
@@ -70,7 +75,8 @@ double Autopilot::SteeringWheel(const DriverView& view, const Way::Place& place,
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
   const Eigen::Vector2d rear_axle = view.own.p_WB_W.head<2>() - half_base * ahead;
   const Eigen::Vector2d target = TargetFrom(place, half_base, speed);
-  const double wheels = PursuitAngle(settings_.steering, rear_axle, heading, target, view.dimensions.wheelbase_m, speed);
+  const double wheels =
+      PursuitAngle(settings_.steering, rear_axle, heading, target, view.dimensions.wheelbase_m, speed);
   const double limit = view.dimensions.steering_wheel_limit_rad;
   const double wanted = std::clamp(wheels * view.dimensions.steering_ratio, -limit, limit);
   const double most = settings_.steering.rate_radps * dt_s;

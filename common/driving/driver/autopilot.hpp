@@ -27,12 +27,12 @@ struct AutopilotSettings {
   SteeringSettings steering;
   PedalSettings pedals;
   LightSettings lights;
-  double speed_factor = 0.98;     // of the legal limit: slopes and gear changes leave a little over
-  double anticipation_s = 0.5;    // the plan is read so far ahead in time, as pedals and engine take theirs
-  double tracking_s = 1.0;        // time in which a deviation from the plan is made good
-  double side_margin_m = 0.3;     // what comes nearer to the car's sides is in its way
-  double range_m = 150.0;         // sight
-  double far_off_m = 2.5;         // this far beside the lane it drives slowly
+  double speed_factor = 0.98;   // of the legal limit: slopes and gear changes leave a little over
+  double anticipation_s = 0.5;  // the plan is read so far ahead in time, as pedals and engine take theirs
+  double tracking_s = 1.0;      // time in which a deviation from the plan is made good
+  double side_margin_m = 0.3;   // what comes nearer to the car's sides is in its way
+  double range_m = 150.0;       // sight
+  double far_off_m = 2.5;       // this far beside the lane it drives slowly
   double slowly_mps = 4.0;
 };
 
@@ -44,7 +44,7 @@ base::Result<AutopilotSettings> LoadDriver(const std::filesystem::path& path);
 struct DriverView {
   const dynamics::VehicleState& own;
   const dynamics::VehicleDimensions& dimensions;
-  std::span<const Footprint> others;  // without the own car
+  std::span<const Footprint> others;        // without the own car
   std::span<const LightAhead> lights = {};  // on its way, ascending; behind it too
 };
 
@@ -58,8 +58,8 @@ struct CarMotion {
 // What a driver goes by at a moment, for displays.
 struct Aim {
   double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of him is not in it
-  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // the point of his way that he steers for
-  double way_heading_rad = 0.0;                        // of his way beside the car
+  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();      // the point of his way that he steers for
+  double way_heading_rad = 0.0;                            // of his way beside the car
   Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where on his way he looks for what slows him
 };
 

@@ -31,7 +31,8 @@ AutopilotSettings ReadAutopilot(const config::Map& root) {
   a.steering.preview_s = steering.Number("preview_s", {0.2, 3.0}, a.steering.preview_s);
   a.steering.preview_least_m = steering.Number("preview_least_m", {1.0, 20.0}, a.steering.preview_least_m);
   a.steering.preview_most_m = steering.Number("preview_most_m", {5.0, 100.0}, a.steering.preview_most_m);
-  a.steering.understeer_radps2pm = steering.Number("understeer_radps2pm", {-0.05, 0.05}, a.steering.understeer_radps2pm);
+  a.steering.understeer_radps2pm =
+      steering.Number("understeer_radps2pm", {-0.05, 0.05}, a.steering.understeer_radps2pm);
   a.steering.rate_radps = steering.Number("rate_radps", {0.5, 30.0}, a.steering.rate_radps);
   a.steering.smoothing_s = steering.Number("smoothing_s", {0.0, 1.0}, a.steering.smoothing_s);
   if (a.steering.preview_most_m < a.steering.preview_least_m) {

@@ -4,7 +4,8 @@
 
 namespace rodeira::driver {
 
-Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions) {
+Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state,
+                      const dynamics::VehicleDimensions& dimensions) {
   Footprint footprint;
   footprint.id = id;
   footprint.heading_rad = state.heading_rad();
@@ -20,7 +21,8 @@ Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state, con
 bool Overlap(const Footprint& a, const Footprint& b) {
   const double dx = b.x_m - a.x_m, dy = b.y_m - a.y_m, far = a.length_m + a.width_m + b.length_m + b.width_m;
   if (std::fabs(dx) > far || std::fabs(dy) > far) return false;
-  const double ca = std::cos(a.heading_rad), sa = std::sin(a.heading_rad), cb = std::cos(b.heading_rad), sb = std::sin(b.heading_rad);
+  const double ca = std::cos(a.heading_rad), sa = std::sin(a.heading_rad), cb = std::cos(b.heading_rad),
+               sb = std::sin(b.heading_rad);
   const auto parted = [&](double x, double y) {
     const double reach_a = 0.5 * (a.length_m * std::fabs(ca * x + sa * y) + a.width_m * std::fabs(ca * y - sa * x));
     const double reach_b = 0.5 * (b.length_m * std::fabs(cb * x + sb * y) + b.width_m * std::fabs(cb * y - sb * x));

@@ -17,7 +17,8 @@ struct Footprint {
   double width_m = 0.0;
 };
 
-Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions);
+Footprint FootprintOf(std::uint32_t id, const dynamics::VehicleState& state,
+                      const dynamics::VehicleDimensions& dimensions);
 
 // Whether two rectangles share ground: unless one of their four axes parts them.
 bool Overlap(const Footprint& a, const Footprint& b);

@@ -35,7 +35,8 @@ double LanePath::Distance(double s_m) const { return along_ ? AxisLength(s_m) : 
 double LanePath::AxisS(double d_m) const {
   const double wanted = std::clamp(along_ ? d_m : length_m_ - d_m, 0.0, length_m_);
   const auto after = std::upper_bound(nodes_m_.begin(), nodes_m_.end(), wanted);
-  const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(after - nodes_m_.begin() - 1, 0, static_cast<std::ptrdiff_t>(nodes_m_.size()) - 2));
+  const auto i = static_cast<std::size_t>(
+      std::clamp<std::ptrdiff_t>(after - nodes_m_.begin() - 1, 0, static_cast<std::ptrdiff_t>(nodes_m_.size()) - 2));
   const double low = static_cast<double>(i) * step_s_m_;
   double s = low + step_s_m_ * (wanted - nodes_m_[i]) / (nodes_m_[i + 1] - nodes_m_[i]);
   for (int turn = 0; turn < kNewtonTurns; ++turn) {

@@ -8,8 +8,9 @@
 
 namespace rodeira::driver {
 
-// A lane as those who drive in it see it: distance d from where its traffic enters the road, measured along the lane's own
-// middle, which is exact: d = s - t (heading(s) - heading(0)) for a lane at offset t of the axis. The road must outlive it.
+// A lane as those who drive in it see it: distance d from where its traffic enters the road, measured along the lane's
+// own middle, which is exact: d = s - t (heading(s) - heading(0)) for a lane at offset t of the axis. The road must
+// outlive it.
 class LanePath final : public Way {
  public:
   LanePath(const road::Road& road, int lane_id);  // the lane must be one of the road's

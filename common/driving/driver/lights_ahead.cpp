@@ -27,9 +27,10 @@ std::vector<LightLine> LightLines(const network::Network& network, const RoutePa
   return lines;
 }
 
-std::optional<double> LightStops::Step(const LightSettings& settings, std::span<const LightAhead> lights, double front_m, double speed_mps,
-                                       double anticipation_s) {
-  const auto next = std::find_if(lights.begin(), lights.end(), [&](const LightAhead& light) { return light.d_m >= front_m; });
+std::optional<double> LightStops::Step(const LightSettings& settings, std::span<const LightAhead> lights,
+                                       double front_m, double speed_mps, double anticipation_s) {
+  const auto next =
+      std::find_if(lights.begin(), lights.end(), [&](const LightAhead& light) { return light.d_m >= front_m; });
   if (next == lights.end() || next->colour == network::LightColour::kGreen) {
     decided_m_ = kNone_m;
     return std::nullopt;

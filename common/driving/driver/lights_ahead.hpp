@@ -39,8 +39,8 @@ struct LightSettings {
 class LightStops {
  public:
   // The acceleration that it takes to stop, where it has to; nothing where it may go on. `lights` ascending.
-  std::optional<double> Step(const LightSettings& settings, std::span<const LightAhead> lights, double front_m, double speed_mps,
-                             double anticipation_s);
+  std::optional<double> Step(const LightSettings& settings, std::span<const LightAhead> lights, double front_m,
+                             double speed_mps, double anticipation_s);
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);

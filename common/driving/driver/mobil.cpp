@@ -7,8 +7,10 @@ bool MobilIsSafe(const MobilSettings& settings, const MobilCase& at) {
 }
 
 double MobilSurplus(const MobilSettings& settings, const MobilCase& at, bool to_keep) {
-  const double others = at.new_follower_then_mps2 - at.new_follower_mps2 + at.old_follower_then_mps2 - at.old_follower_mps2;
-  return at.own_then_mps2 - at.own_mps2 + settings.politeness * others - settings.threshold_mps2 + (to_keep ? settings.bias_mps2 : -settings.bias_mps2);
+  const double others =
+      at.new_follower_then_mps2 - at.new_follower_mps2 + at.old_follower_then_mps2 - at.old_follower_mps2;
+  return at.own_then_mps2 - at.own_mps2 + settings.politeness * others - settings.threshold_mps2 +
+         (to_keep ? settings.bias_mps2 : -settings.bias_mps2);
 }
 
 }  // namespace rodeira::driver

@@ -41,12 +41,15 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
   const double brake = std::clamp((-needed - settings.coasting_mps2) / settings.full_brake_mps2, 0.0, 1.0);
   throttle_ = Toward(throttle_, throttle, settings.throttle_rate_1ps * dt_s);
   // On a hill the brake is let go as the engine takes over.
-  const double kept = climb > 0.0 && speed_mps < kEnds_mps ? 1.5 * (climb - throttle_ * available) / settings.full_brake_mps2 : 0.0;
+  const double kept =
+      climb > 0.0 && speed_mps < kEnds_mps ? 1.5 * (climb - throttle_ * available) / settings.full_brake_mps2 : 0.0;
   brake_ = Toward(brake_, std::max(brake, kept), settings.brake_rate_1ps * dt_s);
   if (brake_ > 0.0 && throttle == 0.0) throttle_ = 0.0;
 }
 
-void Pedals::TakeOver(double throttle, double brake) { TakeOver(throttle, brake, 0.0); }  // Step holds the reference near the speed
+void Pedals::TakeOver(double throttle, double brake) {
+  TakeOver(throttle, brake, 0.0);
+}  // Step holds the reference near the speed
 
 void Pedals::TakeOver(double throttle, double brake, double speed_mps) {
   throttle_ = throttle;

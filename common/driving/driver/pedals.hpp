@@ -15,15 +15,17 @@ struct PedalSettings {
   double trim_1ps2 = 0.3;          // and for one that keeps lagging
   double throttle_rate_1ps = 2.5;  // how fast the foot moves
   double brake_rate_1ps = 5.0;
-  double holding_brake = 0.35;     // while standing
+  double holding_brake = 0.35;  // while standing
 };
 
-// A foot that makes the car accelerate as wanted: a guess of throttle or brake from the car's rough measures, corrected by
-// what the speed does. Holds with the brake while standing.
+// A foot that makes the car accelerate as wanted: a guess of throttle or brake from the car's rough measures, corrected
+// by what the speed does. Holds with the brake while standing.
 class Pedals {
  public:
-  static constexpr double kGoes_mps2 = 0.25;  // the foot lets a car that it holds go only where more than this is wanted
-  static constexpr double kEnds_mps = 0.25;  // slower than this, and not wanted to go, the foot ends the stop by itself and holds
+  static constexpr double kGoes_mps2 =
+      0.25;  // the foot lets a car that it holds go only where more than this is wanted
+  static constexpr double kEnds_mps =
+      0.25;  // slower than this, and not wanted to go, the foot ends the stop by itself and holds
 
   // One step. `wanted_mps2` along the car, `speed_mps` forward, `grade` uphill positive.
   void Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s);

@@ -14,7 +14,7 @@ using network::LaneKey;
 using network::Network;
 
 constexpr double kSample_m = 4.0;
-constexpr double kApart_m = 4.0;   // of the middles of two lanes that do not touch, about
+constexpr double kApart_m = 4.0;    // of the middles of two lanes that do not touch, about
 constexpr double kRecent_m = 30.0;  // of the route behind, which the next lane may touch
 
 double LengthOf(const Network& network, const LaneKey& lane) {
@@ -38,14 +38,16 @@ std::vector<Eigen::Vector3d> Middle(const Network& network, const RouteLeg& leg)
 double Turn(const Network& network, const RouteLeg& leg) {
   const network::LaneSection& section = network.Section(leg.lane);
   const geometry::PlanAxis& axis = network.roads()[leg.lane.road].axis();
-  return std::fabs(geometry::WrapAngle(axis.Evaluate(section.end_s_m).heading_rad - axis.Evaluate(section.s_m).heading_rad));
+  return std::fabs(
+      geometry::WrapAngle(axis.Evaluate(section.end_s_m).heading_rad - axis.Evaluate(section.s_m).heading_rad));
 }
 
 bool ComesBack(const std::vector<Eigen::Vector3d>& route, const std::vector<Eigen::Vector3d>& leg) {
   const auto recent = static_cast<std::size_t>(kRecent_m / kSample_m);
   for (std::size_t i = 0; i + recent < route.size(); ++i) {
     for (const Eigen::Vector3d& p : leg) {
-      if ((route[i] - p).head<2>().norm() < kApart_m && std::fabs(route[i].z() - p.z()) < Network::kLevel_m) return true;
+      if ((route[i] - p).head<2>().norm() < kApart_m && std::fabs(route[i].z() - p.z()) < Network::kLevel_m)
+        return true;
     }
   }
   return false;
@@ -63,7 +65,8 @@ std::vector<RouteLeg> StraightOn(const Network& network, const LaneKey& start, d
     for (const LaneEnd& end : last.along ? network.AtEnd(last.lane) : network.AtStart(last.lane)) {
       const RouteLeg leg{end.lane, end.end == network::End::kStart};
       const network::Lane& lane = *network.Find(leg.lane);
-      if (!network::IsDrivable(lane.type) || !network::OpenToCars(lane) || lane.direction == (leg.along ? -1 : 1)) continue;
+      if (!network::IsDrivable(lane.type) || !network::OpenToCars(lane) || lane.direction == (leg.along ? -1 : 1))
+        continue;
       if (!next || Turn(network, leg) < Turn(network, *next)) next = leg;
     }
     if (!next) break;

@@ -12,8 +12,8 @@ struct RouteLeg {
   bool along = true;  // with growing s
 };
 
-// From a lane on, as its traffic goes, always into the drivable lane that turns least, until the route is length_m long,
-// the lanes end, or it would come back onto itself on the same level.
+// From a lane on, as its traffic goes, always into the drivable lane that turns least, until the route is length_m
+// long, the lanes end, or it would come back onto itself on the same level.
 std::vector<RouteLeg> StraightOn(const network::Network& network, const network::LaneKey& start, double length_m);
 
 }  // namespace rodeira::driver

@@ -10,14 +10,15 @@ namespace rodeira::driver {
 namespace {
 
 constexpr double kNode_m = 0.5;
-constexpr double kAside_m = 0.25;         // over twice this the bend is measured
+constexpr double kAside_m = 0.25;           // over twice this the bend is measured
 constexpr double kUnsaid_mps = 50.0 / 3.6;  // where a network says no limit
 constexpr double kNoLimit_mps = 130.0 / 3.6;
 constexpr double kBeyond_m = 1e-6;
 
 }  // namespace
 
-RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs) : network_(&network), legs_(std::move(legs)) {
+RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs)
+    : network_(&network), legs_(std::move(legs)) {
   RODEIRA_ASSERT(!legs_.empty());
   double d = 0.0;
   for (std::size_t leg = 0; leg < legs_.size(); ++leg) {
@@ -51,7 +52,8 @@ double RoutePath::Distance(std::size_t leg, double s_m) const {
 }
 
 RoutePath::Spot RoutePath::SpotAt(double d_m) const {
-  const auto after = std::upper_bound(nodes_.begin(), nodes_.end(), d_m, [](double d, const Node& node) { return d < node.d_m; });
+  const auto after =
+      std::upper_bound(nodes_.begin(), nodes_.end(), d_m, [](double d, const Node& node) { return d < node.d_m; });
   if (after == nodes_.begin()) return {nodes_.front().leg, nodes_.front().s_m};
   const Node& before = *(after - 1);
   if (after == nodes_.end() || after->leg != before.leg) return {before.leg, before.s_m};

@@ -36,7 +36,8 @@ double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double
 }
 
 SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, double d_m) {
-  if (a.squared_m2ps2 == b.squared_m2ps2 && a.squared_m2ps2 >= 0.0) return {std::sqrt(a.squared_m2ps2), 0.0};  // most of a street, and the same bits
+  if (a.squared_m2ps2 == b.squared_m2ps2 && a.squared_m2ps2 >= 0.0)
+    return {std::sqrt(a.squared_m2ps2), 0.0};                                 // most of a street, and the same bits
   const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
   const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
   return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
@@ -47,9 +48,12 @@ SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, d
 double LateralAllowed(double outward, const SpeedPlanSettings& settings) {
   if (outward <= 0.0) return std::min(settings.lateral_mps2, std::max(kCrawl_mps2, kTipShare * settings.tips_mps2));
   const double lean = std::atan(outward);
-  const auto beside = [&](double most_mps2) { return kGravity_mps2 * std::tan(std::atan(most_mps2 / kGravity_mps2) - lean); };
+  const auto beside = [&](double most_mps2) {
+    return kGravity_mps2 * std::tan(std::atan(most_mps2 / kGravity_mps2) - lean);
+  };
   const double comfortable = std::max(beside(settings.lateral_mps2), kLeastShare * settings.lateral_mps2);
-  return std::min(settings.lateral_mps2, std::max(kCrawl_mps2, std::min(comfortable, beside(kTipShare * settings.tips_mps2))));
+  return std::min(settings.lateral_mps2,
+                  std::max(kCrawl_mps2, std::min(comfortable, beside(kTipShare * settings.tips_mps2))));
 }
 
 SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
@@ -61,7 +65,8 @@ SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
     const bool stops = settings.stop_at_end && d >= path.length_m() - settings.end_margin_m;
     squared.push_back(stops ? 0.0 : AllowedSquared(path, settings, d));
   }
-  for (std::size_t i = count; i-- > 0;) squared[i] = std::min(squared[i], squared[i + 1] + 2.0 * settings.braking_mps2 * step);
+  for (std::size_t i = count; i-- > 0;)
+    squared[i] = std::min(squared[i], squared[i + 1] + 2.0 * settings.braking_mps2 * step);
   double rise = 0.0;  // a step, behind the node that was kept last
   for (std::size_t i = 0; i <= count; ++i) {
     const bool goes_on = i > 0 && i < count && std::fabs(squared[i + 1] - squared[i] - rise) < kSame_m2ps2;
@@ -82,13 +87,15 @@ SpeedPlan::Part SpeedPlan::Around(double d_m) const {
   constexpr double kFar_m = 1e300;
   if (is_even_) return {ends_, -kFar_m, kFar_m};
   if (d_m >= ends_.last.d_m) return {{ends_.last, ends_.last}, ends_.last.d_m, kFar_m};
-  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
+  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m,
+                                      [](double d, const Node& node) { return d < node.d_m; });
   return {{*(after - 1), *after}, after - 1 == nodes_.begin() ? -kFar_m : (after - 1)->d_m, after->d_m};
 }
 
 SpeedPlan::Allowed SpeedPlan::At(double d_m) const {
   if (is_even_ || d_m >= ends_.last.d_m) return ends_.At(d_m);
-  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m, [](double d, const Node& node) { return d < node.d_m; });
+  const auto after = std::upper_bound(nodes_.begin() + 1, nodes_.end() - 1, d_m,
+                                      [](double d, const Node& node) { return d < node.d_m; });
   return Between(*(after - 1), *after, d_m);
 }
 

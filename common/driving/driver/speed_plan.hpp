@@ -7,24 +7,25 @@
 namespace rodeira::driver {
 
 struct SpeedPlanSettings {
-  double lateral_mps2 = 2.0;        // comfortable in bends: see LateralAllowed
-  double vertical_mps2 = 1.5;       // comfortable over crests and through sags: v² |vertical curvature|
-  double braking_mps2 = 1.5;        // planned before a bend or the end
-  double tips_mps2 = 1e6;           // g track / (2 height of the centre of mass): so much sideways tips the vehicle over
-  double steep_grade = 0.06;        // downhill, from this grade on …
-  double steep_factor = 0.9;        // … so much of the speed
-  bool stop_at_end = false;         // speed 0 at the lane's end
-  double end_margin_m = 3.0;        // so far before it
+  double lateral_mps2 = 2.0;   // comfortable in bends: see LateralAllowed
+  double vertical_mps2 = 1.5;  // comfortable over crests and through sags: v² |vertical curvature|
+  double braking_mps2 = 1.5;   // planned before a bend or the end
+  double tips_mps2 = 1e6;      // g track / (2 height of the centre of mass): so much sideways tips the vehicle over
+  double steep_grade = 0.06;   // downhill, from this grade on …
+  double steep_factor = 0.9;   // … so much of the speed
+  bool stop_at_end = false;    // speed 0 at the lane's end
+  double end_margin_m = 3.0;   // so far before it
 };
 
-// v² |curvature| in m/s² that a bend allows whose ground leans outward by `outward` (rise over distance towards the inside; below 0: inward). In the frame
-// of the car weight and centrifugal force point tan(atan(outward) + atan(v² |curvature| / g)) beside the ground's normal (a banked curve): that many g are
-// at most lateral_mps2, and nothing is gained where the ground leans inward. Where the lean alone takes up more than three quarters of it a
-// quarter remains for the bend, as long as both stay below 0.6 of tips_mps2; beyond that 0.2 m/s², a crawl.
+// v² |curvature| in m/s² that a bend allows whose ground leans outward by `outward` (rise over distance towards the
+// inside; below 0: inward). In the frame of the car weight and centrifugal force point tan(atan(outward) + atan(v²
+// |curvature| / g)) beside the ground's normal (a banked curve): that many g are at most lateral_mps2, and nothing is
+// gained where the ground leans inward. Where the lean alone takes up more than three quarters of it a quarter remains
+// for the bend, as long as both stay below 0.6 of tips_mps2; beyond that 0.2 m/s², a crawl.
 double LateralAllowed(double outward, const SpeedPlanSettings& settings);
 
-// The speed that a lane allows a careful driver: the least of the limit and what bends, crests and steep descents leave, met
-// by planned braking. Computed once a lane.
+// The speed that a lane allows a careful driver: the least of the limit and what bends, crests and steep descents
+// leave, met by planned braking. Computed once a lane.
 class SpeedPlan {
  public:
   SpeedPlan(const Way& path, const SpeedPlanSettings& settings);

@@ -12,8 +12,8 @@ std::optional<LaneSpan> Way::SpanOf(const Footprint& footprint) const {
   const double s = std::fabs(std::sin(turn));
   const double half_along = 0.5 * (c * footprint.length_m + s * footprint.width_m);
   const double half_across = 0.5 * (s * footprint.length_m + c * footprint.width_m);
-  return LaneSpan{place->d_m - half_along, place->d_m + half_along, place->offset_m - half_across, place->offset_m + half_across,
-                  footprint.speed_mps * std::cos(turn)};
+  return LaneSpan{place->d_m - half_along, place->d_m + half_along, place->offset_m - half_across,
+                  place->offset_m + half_across, footprint.speed_mps * std::cos(turn)};
 }
 
 }  // namespace rodeira::driver

@@ -17,7 +17,7 @@ struct LaneFrame {
 
 // Something that occupies a stretch of the lane.
 struct LaneSpan {
-  double rear_m = 0.0;   // distances along the lane
+  double rear_m = 0.0;  // distances along the lane
   double front_m = 0.0;
   double right_m = 0.0;  // offsets from the lane's middle, positive to the left; right <= left
   double left_m = 0.0;

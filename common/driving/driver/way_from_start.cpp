@@ -14,7 +14,8 @@ constexpr double kRoute_m = 20'000.0;
 
 }  // namespace
 
-base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish, const std::string& place) {
+base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish,
+                                        const std::string& place) {
   const road::StartPose& start = world.start();
   if (world.network() != nullptr && world.roads().empty()) {
     const network::Network& network = *world.network();
@@ -22,8 +23,8 @@ base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<
     if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
       return base::WrongInput("this world has no lane to start on; the autopilot needs one", place);
     if (lane_wish && *lane_wish != at->lane.lane) {
-      return base::WrongInput(fmt::format("the car starts in lane {} of road '{}'; no other one can be wished for", at->lane.lane,
-                                          network.roads()[at->lane.road].id()),
+      return base::WrongInput(fmt::format("the car starts in lane {} of road '{}'; no other one can be wished for",
+                                          at->lane.lane, network.roads()[at->lane.road].id()),
                               place);
     }
     auto route = std::make_unique<RoutePath>(network, StraightOn(network, at->lane, kRoute_m));

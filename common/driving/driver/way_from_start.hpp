@@ -18,8 +18,9 @@ struct WayAndLights {
   std::vector<LightLine> lines;
 };
 
-// The lane in which the world's start lies, or another one of that road; in a network 20 km straight on from there. Wrong input where there is no such lane;
-// `place`: who asks, for the sentence.
-base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish, const std::string& place);
+// The lane in which the world's start lies, or another one of that road; in a network 20 km straight on from there.
+// Wrong input where there is no such lane; `place`: who asks, for the sentence.
+base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish,
+                                        const std::string& place);
 
 }  // namespace rodeira::driver

@@ -61,7 +61,8 @@ struct Steered {
 };
 
 // A step of the steering wheel to `wheel_rad`, to the left, at a held speed.
-base::Result<Steered> Steer(dynamics::VehicleModel& car, double speed_mps, double wheel_rad, double for_s, double step_s) {
+base::Result<Steered> Steer(dynamics::VehicleModel& car, double speed_mps, double wheel_rad, double for_s,
+                            double step_s) {
   auto begun = Trial::Begin(car, {}, speed_mps, step_s);
   if (!begun) return begun.error();
   Steered steered{std::move(begun).value()};
@@ -87,7 +88,8 @@ base::Result<Steered> Steer(dynamics::VehicleModel& car, double speed_mps, doubl
   }
   steered.yaw_rate_radps /= count;
   steered.lateral_mps2 /= count;
-  const auto ninety = std::find_if(lateral.begin(), lateral.end(), [&](double a) { return a >= 0.9 * steered.lateral_mps2; });
+  const auto ninety =
+      std::find_if(lateral.begin(), lateral.end(), [&](double a) { return a >= 0.9 * steered.lateral_mps2; });
   steered.ninety_at_s = static_cast<double>(ninety - lateral.begin() + 1) * step_s - kStraight_s - 0.5 * kTurn_s;
   return steered;
 }
@@ -111,7 +113,8 @@ base::Result<double> AngleFor(dynamics::VehicleModel& car, double speed_mps, dou
 }  // namespace
 
 base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s) {
-  constexpr double kRadius_m = 40.0, kFirst_mps = 5.0, kFaster_mps2 = 0.15, kLost_m = 2.0, kLow_mps2 = 1.0, kHigh_mps2 = 4.0;
+  constexpr double kRadius_m = 40.0, kFirst_mps = 5.0, kFaster_mps2 = 0.15, kLost_m = 2.0, kLow_mps2 = 1.0,
+                   kHigh_mps2 = 4.0;
   auto begun = Trial::Begin(car, {}, kFirst_mps, step_s);
   if (!begun) return begun.error();
   Trial& t = begun.value();
@@ -121,7 +124,8 @@ base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s)
   double wanted_mps = kFirst_mps;
   while (true) {
     const dynamics::VehicleState& s = t.state();
-    // How far outside of the circle about (0, radius). A car answers as off'' = -V²/L (angle - L/R): two rad/s, well damped.
+    // How far outside of the circle about (0, radius). A car answers as off'' = -V²/L (angle - L/R): two rad/s, well
+    // damped.
     const double off_m = std::hypot(s.p_WB_W.x(), s.p_WB_W.y() - kRadius_m) - kRadius_m;
     const double rate_mps = t.time_s() > 0.0 ? (off_m - last_off_m) / step_s : 0.0;
     last_off_m = off_m;
@@ -129,7 +133,8 @@ base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s)
     const double speed = std::max(s.speed_mps(), 1.0);
     const double give = t.dimensions().wheelbase_m / (speed * speed);
     integral += 1.0 * give * off_m * step_s;
-    const double angle = std::atan(t.dimensions().wheelbase_m / kRadius_m) + 4.0 * give * off_m + 3.2 * give * rate_mps + integral;
+    const double angle =
+        std::atan(t.dimensions().wheelbase_m / kRadius_m) + 4.0 * give * off_m + 3.2 * give * rate_mps + integral;
     Controls controls;
     controls.steering_wheel_rad = angle * t.dimensions().steering_ratio;
     if (t.time_s() > 10.0) wanted_mps += kFaster_mps2 * step_s;  // first it settles on the circle
@@ -168,7 +173,8 @@ base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s) {
 
 base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s) {
   constexpr double kSpeed_mps = 80.0 / 3.6, kFrequency_Hz = 0.5, kLateral_mps2 = 2.0;
-  constexpr double kTurning_radps = 2.0 * geometry::kPi * kFrequency_Hz, kFrom_s = 2.0 / kFrequency_Hz, kUntil_s = 8.0 / kFrequency_Hz;
+  constexpr double kTurning_radps = 2.0 * geometry::kPi * kFrequency_Hz, kFrom_s = 2.0 / kFrequency_Hz,
+                   kUntil_s = 8.0 / kFrequency_Hz;
   const auto angle = AngleFor(car, kSpeed_mps, kLateral_mps2, step_s);
   if (!angle) return angle.error();
   auto begun = Trial::Begin(car, {}, kSpeed_mps, step_s);
@@ -189,7 +195,8 @@ base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s) {
   outcome.figures.push_back({"steering wheel", angle.value() * kDegrees, "deg"});
   outcome.figures.push_back({"yaw rate gain", yaw.amplitude() / angle.value(), "1/s"});
   outcome.figures.push_back({"yaw rate delay", yaw.lag_rad() / kTurning_radps * 1e3, "ms"});
-  outcome.figures.push_back({"lateral acceleration gain", lateral.amplitude() / angle.value() / kDegrees, "m/s² per deg"});
+  outcome.figures.push_back(
+      {"lateral acceleration gain", lateral.amplitude() / angle.value() / kDegrees, "m/s² per deg"});
   outcome.figures.push_back({"lateral acceleration delay", lateral.lag_rad() / kTurning_radps * 1e3, "ms"});
   return outcome;
 }

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "common/driving/driver/steering.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/driving/driver/steering.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/driving/manoeuvres/trial.hpp"
 
@@ -24,12 +24,13 @@ double Smooth(double u) {
   return x * x * x * (10.0 + x * (6.0 * x - 15.0));
 }
 
-// The line that the driver means to follow. It begins to turn within a lane and ends within the next, as far as their widths
-// allow: 3.5 m over the 30 m between them would need more grip than there is.
+// The line that the driver means to follow. It begins to turn within a lane and ends within the next, as far as their
+// widths allow: 3.5 m over the 30 m between them would need more grip than there is.
 double PathY(double x_m) {
   constexpr std::array<double, 2> kOver_m = {7.5, 52.5}, kBack_m = {62.0, 103.0};
   const double x = x_m - kRunUp_m;
-  return kOffset_m * (Smooth((x - kOver_m[0]) / (kOver_m[1] - kOver_m[0])) - Smooth((x - kBack_m[0]) / (kBack_m[1] - kBack_m[0])));
+  return kOffset_m *
+         (Smooth((x - kOver_m[0]) / (kOver_m[1] - kOver_m[0])) - Smooth((x - kBack_m[0]) / (kBack_m[1] - kBack_m[0])));
 }
 
 // How far a point is outside of the lanes that its section has; negative inside, and where there is no lane.
@@ -52,7 +53,8 @@ double WorstCorner(const dynamics::VehicleState& s, const dynamics::VehicleDimen
   double worst = -1.0;
   for (const double along : {d.front_m, -d.rear_m}) {
     for (const double aside : {0.5 * d.width_m, -0.5 * d.width_m}) {
-      worst = std::max(worst, Outside(s.p_WB_W.x() + c * along - n * aside, s.p_WB_W.y() + n * along + c * aside, d.width_m));
+      worst = std::max(worst,
+                       Outside(s.p_WB_W.x() + c * along - n * aside, s.p_WB_W.y() + n * along + c * aside, d.width_m));
     }
   }
   return worst;
@@ -64,9 +66,12 @@ double WheelAngle(const dynamics::VehicleState& s, const dynamics::VehicleDimens
   driver::SteeringSettings settings;
   settings.preview_s = kAhead_s;
   const double heading = s.heading_rad();
-  const Eigen::Vector2d rear_axle_W = s.p_WB_W.head<2>() - 0.5 * d.wheelbase_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
+  const Eigen::Vector2d rear_axle_W =
+      s.p_WB_W.head<2>() - 0.5 * d.wheelbase_m * Eigen::Vector2d(std::cos(heading), std::sin(heading));
   const double target_x = rear_axle_W.x() + driver::PreviewDistance(settings, s.speed_mps());
-  return driver::PursuitAngle(settings, rear_axle_W, heading, {target_x, PathY(target_x)}, d.wheelbase_m, s.speed_mps()) * d.steering_ratio;
+  return driver::PursuitAngle(settings, rear_axle_W, heading, {target_x, PathY(target_x)}, d.wheelbase_m,
+                              s.speed_mps()) *
+         d.steering_ratio;
 }
 
 }  // namespace
@@ -79,11 +84,13 @@ base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s) {
   SpeedHold foot;
   double off_m = 0.0, lateral = 0.0, hands = 0.0, outside_m = -1.0, wheel_rad = 0.0;
   while (t.state().p_WB_W.x() < kRunUp_m + kEnds_m.back() + 30.0) {
-    if (t.time_s() > kLongest_s || std::fabs(t.state().heading_rad()) > 1.5) return base::Failed("the car is lost on its way through the lane change");
+    if (t.time_s() > kLongest_s || std::fabs(t.state().heading_rad()) > 1.5)
+      return base::Failed("the car is lost on its way through the lane change");
     Controls controls;
     foot.Press(kSpeed_mps, t, controls);
     const double before = wheel_rad;
-    wheel_rad += std::clamp(WheelAngle(t.state(), t.dimensions()) - wheel_rad, -kHands_radps * step_s, kHands_radps * step_s);
+    wheel_rad +=
+        std::clamp(WheelAngle(t.state(), t.dimensions()) - wheel_rad, -kHands_radps * step_s, kHands_radps * step_s);
     hands = std::max(hands, std::fabs(wheel_rad - before) / step_s);
     controls.steering_wheel_rad = wheel_rad;
     t.Step(controls);

@@ -10,7 +10,8 @@
 namespace rodeira::manoeuvres {
 
 const Figure* Outcome::Find(std::string_view name) const {
-  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& figure) { return figure.name == name; });
+  const auto found =
+      std::find_if(figures.begin(), figures.end(), [&](const Figure& figure) { return figure.name == name; });
   return found == figures.end() ? nullptr : &*found;
 }
 
@@ -35,7 +36,9 @@ base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name) {
     if (manoeuvre.name == name) return &manoeuvre;
     names.push_back(manoeuvre.name);
   }
-  return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", name, fmt::join(names, ", "), base::DidYouMean(name, names)), "--manoeuvre");
+  return base::WrongInput(
+      fmt::format("'{}' was found; {} was expected{}", name, fmt::join(names, ", "), base::DidYouMean(name, names)),
+      "--manoeuvre");
 }
 
 base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, dynamics::VehicleModel& car, double step_s) {

@@ -30,7 +30,8 @@ struct Outcome {
 struct Manoeuvre {
   std::string name;
   std::string what;  // for people, in a line
-  // Drives the model, which is placed anew. Failed where the car cannot be placed or does not come to what is to be measured.
+  // Drives the model, which is placed anew. Failed where the car cannot be placed or does not come to what is to be
+  // measured.
   std::function<base::Result<Outcome>(dynamics::VehicleModel& car, double step_s)> drive;
 };
 
@@ -48,16 +49,17 @@ base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s);
 base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s);
 // The same from 80 km/h with the right wheels on ice of friction 0.3 and the steering held straight.
 base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s);
-// A circle of 40 m, faster and faster (after ISO 4138): understeer gradient (change of the front wheels' angle over that of
-// lateral acceleration) and roll gradient between 1 and 4 m/s², largest lateral acceleration.
+// A circle of 40 m, faster and faster (after ISO 4138): understeer gradient (change of the front wheels' angle over
+// that of lateral acceleration) and roll gradient between 1 and 4 m/s², largest lateral acceleration.
 base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s);
-// At 100 km/h the steering wheel is turned in 0.1 s to the angle that ends at 4 m/s² (after ISO 7401): gain, overshoot, times.
+// At 100 km/h the steering wheel is turned in 0.1 s to the angle that ends at 4 m/s² (after ISO 7401): gain, overshoot,
+// times.
 base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s);
 // At 80 km/h the steering wheel goes to and fro at 0.5 Hz, for about 2 m/s²: gain and delay of yaw rate and lateral
 // acceleration, from the third period on.
 base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s);
-// At 80 km/h into the lane 3.5 m to the left and back, sections of 15, 30, 25, 25 and 30 m (after ISO 3888-1), by a driver who looks
-// ahead: how far it strays, largest lateral acceleration and steering speed.
+// At 80 km/h into the lane 3.5 m to the left and back, sections of 15, 30, 25, 25 and 30 m (after ISO 3888-1), by a
+// driver who looks ahead: how far it strays, largest lateral acceleration and steering speed.
 base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s);
 // A minute on a slope of 20 % with the handbrake pulled: how far it creeps.
 base::Result<Outcome> Park(dynamics::VehicleModel& car, double step_s);

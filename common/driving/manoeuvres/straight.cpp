@@ -35,7 +35,8 @@ class Passing {
   bool passed_ = false;
 };
 
-base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s) {
+base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps,
+                                double step_s) {
   constexpr double kLongest_s = 120.0;
   auto trial = Trial::Begin(car, ground, speed_mps, step_s);
   if (!trial) return trial.error();
@@ -88,7 +89,9 @@ base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s) {
   return outcome;
 }
 
-base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s) { return BrakeFrom(car, {}, kHundred_mps, step_s); }
+base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s) {
+  return BrakeFrom(car, {}, kHundred_mps, step_s);
+}
 
 base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s) {
   ProvingGroundSettings ground;

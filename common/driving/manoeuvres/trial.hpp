@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/core/base/result.hpp"
-#include "common/driving/manoeuvres/proving_ground.hpp"
 #include "common/core/plot/table.hpp"
+#include "common/driving/manoeuvres/proving_ground.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
 namespace rodeira::manoeuvres {
@@ -11,7 +11,8 @@ namespace rodeira::manoeuvres {
 class Trial {
  public:
   // The model is placed anew, heading along x, with B's origin above the world's.
-  static base::Result<Trial> Begin(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps, double step_s);
+  static base::Result<Trial> Begin(dynamics::VehicleModel& car, const ProvingGroundSettings& ground, double speed_mps,
+                                   double step_s);
 
   void Step(const dynamics::Controls& controls);
 

@@ -52,7 +52,8 @@ std::optional<double> NumberIn(std::string_view word) {
 std::span<const EventKind> EventKinds() { return kKinds; }
 
 const EventKind* FindEventKind(std::string_view name) {
-  const auto found = std::find_if(kKinds.begin(), kKinds.end(), [name](const EventKind& kind) { return kind.name == name; });
+  const auto found =
+      std::find_if(kKinds.begin(), kKinds.end(), [name](const EventKind& kind) { return kind.name == name; });
   return found == kKinds.end() ? nullptr : &*found;
 }
 
@@ -64,20 +65,26 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
   if (at != std::string_view::npos) {
     const std::string_view place = text.substr(at + kAt.size());
     const std::size_t space = place.rfind(' ');
-    const auto station = space == std::string_view::npos || space == 0 ? std::nullopt : NumberIn(place.substr(space + 1));
+    const auto station =
+        space == std::string_view::npos || space == 0 ? std::nullopt : NumberIn(place.substr(space + 1));
     if (!station || *station < 0.0) {
-      return base::WrongInput(fmt::format("'{}' is no place; a road and metres along it were expected, as in 'next at main 350'", place.substr(0, 60)));
+      return base::WrongInput(fmt::format(
+          "'{}' is no place; a road and metres along it were expected, as in 'next at main 350'", place.substr(0, 60)));
     }
     choice.at = AgentChoice::At{std::string(place.substr(0, space)), *station};
   }
-  if (whom == "next" && !choice.at) return base::WrongInput("'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+  if (whom == "next" && !choice.at)
+    return base::WrongInput("'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
   if (whom == "all" || whom == "ahead" || whom == "next") {
-    choice.kind = whom == "all" ? AgentChoice::Kind::kAll : whom == "ahead" ? AgentChoice::Kind::kAhead : AgentChoice::Kind::kNext;
+    choice.kind = whom == "all"     ? AgentChoice::Kind::kAll
+                  : whom == "ahead" ? AgentChoice::Kind::kAhead
+                                    : AgentChoice::Kind::kNext;
     return choice;
   }
   const auto [end, problem] = std::from_chars(whom.data(), whom.data() + whom.size(), choice.id);
   if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMostAgents) {
-    return base::WrongInput("'" + std::string(whom.substr(0, 40)) + "' is no agent; its number, all or ahead was expected");
+    return base::WrongInput("'" + std::string(whom.substr(0, 40)) +
+                            "' is no agent; its number, all or ahead was expected");
   }
   return choice;
 }
@@ -87,11 +94,18 @@ base::Result<AgentChoice> ParseAgentOnLane(std::string_view text) {
   if (!choice) return choice.error();
   const std::string_view lane = choice.value().at ? std::string_view(choice.value().at->road) : std::string_view();
   const std::size_t colon = lane.rfind(':');
-  if (choice.value().kind == AgentChoice::Kind::kOne && colon != std::string_view::npos && colon > 0 && NumberIn(lane.substr(colon + 1))) return choice;
-  return base::WrongInput(fmt::format("'{}' is no agent on a lane; its number, ROAD:LANE and metres along the road were expected, as in '20 at main:-1 350'", text.substr(0, 60)));
+  if (choice.value().kind == AgentChoice::Kind::kOne && colon != std::string_view::npos && colon > 0 &&
+      NumberIn(lane.substr(colon + 1)))
+    return choice;
+  return base::WrongInput(
+      fmt::format("'{}' is no agent on a lane; its number, ROAD:LANE and metres along the road were expected, as in "
+                  "'20 at main:-1 350'",
+                  text.substr(0, 60)));
 }
 
-std::string AgentText(std::string_view agent, const AgentChoice::At& at) { return fmt::format("{} at {} {}", agent, at.road, at.s_m); }
+std::string AgentText(std::string_view agent, const AgentChoice::At& at) {
+  return fmt::format("{} at {} {}", agent, at.road, at.s_m);
+}
 
 base::Result<PlaceChoice> ParsePlace(std::string_view text) {
   const auto words = WordsOf(text);
@@ -105,7 +119,10 @@ base::Result<PlaceChoice> ParsePlace(std::string_view text) {
       return place;
     }
   }
-  return base::WrongInput(fmt::format("'{}' is no place; the name of a vehicle node and metres to the east and north were expected, as in 'ego 12.5 -3.25'", text.substr(0, 60)));
+  return base::WrongInput(
+      fmt::format("'{}' is no place; the name of a vehicle node and metres to the east and north were expected, as in "
+                  "'ego 12.5 -3.25'",
+                  text.substr(0, 60)));
 }
 
 std::string PlaceText(const PlaceChoice& place) {
@@ -122,7 +139,9 @@ base::Result<CrossingChoice> ParseCrossing(std::string_view text) {
   }
   const auto station = words.size() < 2 ? std::nullopt : NumberIn(words.back());
   if (!station || words.front().empty()) {
-    return base::WrongInput(fmt::format("'{}' is no crossing; a road, metres along it, and 'left' or 'right' were expected, as in 'main 120 left'", text.substr(0, 60)));
+    return base::WrongInput(fmt::format(
+        "'{}' is no crossing; a road, metres along it, and 'left' or 'right' were expected, as in 'main 120 left'",
+        text.substr(0, 60)));
   }
   crossing.s_m = *station;
   crossing.road = std::string(text.substr(0, static_cast<std::size_t>(words.back().data() - text.data()) - 1));
@@ -148,10 +167,12 @@ base::Status CheckEvent(const Event& event) {
     if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
   }
   if (kind->value == ValueKind::kSide && event.value != 1.0 && event.value != -1.0) {
-    return base::WrongInput(fmt::format("'{}' of '{}' is {}; 1 (left) or -1 (right) was expected", kind->value_key, event.name, event.value));
+    return base::WrongInput(fmt::format("'{}' of '{}' is {}; 1 (left) or -1 (right) was expected", kind->value_key,
+                                        event.name, event.value));
   }
   if (kind->value_key.empty() || (event.value >= kind->low && event.value <= kind->high)) return {};
-  return base::WrongInput(fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name, event.value, kind->low, kind->high));
+  return base::WrongInput(fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name,
+                                      event.value, kind->low, kind->high));
 }
 
 }  // namespace rodeira::scenario

@@ -8,7 +8,8 @@
 
 namespace rodeira::scenario {
 
-inline constexpr std::string_view kPlaceRequest = "place";      // argument: the vehicle, and the height near which the ground is meant; value: degrees
+inline constexpr std::string_view kPlaceRequest =
+    "place";  // argument: the vehicle, and the height near which the ground is meant; value: degrees
 inline constexpr std::string_view kWeatherRequest = "weather";  // argument: its name; value: seconds
 
 // What a window asks for (idl/live.idl).

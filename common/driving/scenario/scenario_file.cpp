@@ -25,19 +25,22 @@ std::string SecondsText(std::int64_t steps, const Timing& timing) {
 
 std::optional<std::int64_t> ReadStep(const config::Map& map, const Timing& timing) {
   const double at_s = map.Number("at_s", {0.0, kLongest_s});
-  if (!(at_s >= 0.0 && at_s <= kLongest_s)) return std::nullopt;  // said already; as steps it may be more than a number holds
+  if (!(at_s >= 0.0 && at_s <= kLongest_s))
+    return std::nullopt;  // said already; as steps it may be more than a number holds
   const double periods = at_s * 1e9 / static_cast<double>(timing.period * timing.base_step_ns);
   const auto whole = static_cast<std::int64_t>(std::llround(periods));
   if (std::fabs(periods - static_cast<double>(whole)) > 1e-6 * std::max(1.0, periods)) {
     const auto below = static_cast<std::int64_t>(std::floor(periods)) * timing.period;
-    constexpr const char* kNoMultiple = "'at_s' is {}; a multiple of the scenario's period of {} s was expected, {} or {}";
+    constexpr const char* kNoMultiple =
+        "'at_s' is {}; a multiple of the scenario's period of {} s was expected, {} or {}";
     map.Problem("at_s", fmt::format(kNoMultiple, at_s, SecondsText(timing.period, timing), SecondsText(below, timing),
                                     SecondsText(below + timing.period, timing)));
     return std::nullopt;
   }
   const std::int64_t step = whole * timing.period;
   if (step < timing.delay) {
-    constexpr const char* kTooEarly = "'at_s' is {}; the first time at which an event can act was expected, {} s, or a later one";
+    constexpr const char* kTooEarly =
+        "'at_s' is {}; the first time at which an event can act was expected, {} s, or a later one";
     map.Problem("at_s", fmt::format(kTooEarly, at_s, SecondsText(timing.delay, timing)));
     return std::nullopt;
   }
@@ -62,11 +65,14 @@ Event ReadEvent(const config::Map& map) {
     const std::string lane = at.Text("lane");
     event.argument = AgentText(event.argument, {lane, at.Number("s_m", {0.0, kLongest_m})});
   }
-  if (kind->value == ValueKind::kSide) event.value = map.Choice(kind->value_key, {"left", "right"}) == "right" ? -1.0 : 1.0;
-  else if (!kind->value_key.empty()) event.value = map.Number(kind->value_key, {kind->low, kind->high});
+  if (kind->value == ValueKind::kSide)
+    event.value = map.Choice(kind->value_key, {"left", "right"}) == "right" ? -1.0 : 1.0;
+  else if (!kind->value_key.empty())
+    event.value = map.Number(kind->value_key, {kind->low, kind->high});
   // A value out of its range is said already.
   const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};
-  if (const base::Status sound = CheckEvent(argument_only); told && !sound) map.Problem(argument_key, sound.error().message);
+  if (const base::Status sound = CheckEvent(argument_only); told && !sound)
+    map.Problem(argument_key, sound.error().message);
   return event;
 }
 
@@ -94,8 +100,8 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
     if (!step) continue;
     if (!scenario.scheduled.empty() && *step < scenario.scheduled.back().step) {
       constexpr const char* kDescends = "'at_s' is {} and follows {}; times that do not descend were expected";
-      map.Problem("at_s",
-                  fmt::format(kDescends, SecondsText(*step, timing), SecondsText(scenario.scheduled.back().step, timing)));
+      map.Problem("at_s", fmt::format(kDescends, SecondsText(*step, timing),
+                                      SecondsText(scenario.scheduled.back().step, timing)));
     }
     scenario.scheduled.push_back({*step, std::move(event), map.Place()});
   }

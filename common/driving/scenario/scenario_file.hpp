@@ -40,8 +40,8 @@ struct Scenario {
   weather::WeatherPlan weather;
 };
 
-// Problems stay in the file's collection: a time that is no multiple of the period or before the first sample, times that
-// descend, a name that is no EventKind, an argument or a value that does not belong to it.
+// Problems stay in the file's collection: a time that is no multiple of the period or before the first sample, times
+// that descend, a name that is no EventKind, an argument or a value that does not belong to it.
 Scenario ReadScenario(const config::Map& root, const Timing& timing);
 base::Result<Scenario> LoadScenario(const std::filesystem::path& path, const Timing& timing);
 

@@ -5,7 +5,8 @@
 
 namespace rodeira::dds {
 
-Answers::Answers(const lockstep::Roster& roster, lockstep::NodeIndex node, bool keeps_all, std::size_t most_bytes, Say say)
+Answers::Answers(const lockstep::Roster& roster, lockstep::NodeIndex node, bool keeps_all, std::size_t most_bytes,
+                 Say say)
     : most_bytes_(most_bytes), say_(std::move(say)), kept_(roster, node) {
   if (keeps_all) archive_.emplace(roster);
   thread_ = std::thread([this] { Work(); });
@@ -58,7 +59,8 @@ std::vector<lockstep::Sample> Answers::Found(const lockstep::Gap& gap) const {
 void Answers::Send(lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) const {
   for (std::size_t begin = 0, end = 0; begin < samples.size(); begin = end) {
     std::size_t bytes = 0;
-    while (end < samples.size() && (end == begin || bytes + samples[end].payload->size() <= most_bytes_)) bytes += samples[end++].payload->size();
+    while (end < samples.size() && (end == begin || bytes + samples[end].payload->size() <= most_bytes_))
+      bytes += samples[end++].payload->size();
     say_(asker, samples.subspan(begin, end - begin));
   }
 }

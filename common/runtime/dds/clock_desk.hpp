@@ -9,7 +9,8 @@
 
 namespace rodeira::dds {
 
-// What the operator asks of the clock, and its answers: "answer NUMBER ok|wrong|failed SENTENCE" for each "NUMBER COMMAND".
+// What the operator asks of the clock, and its answers: "answer NUMBER ok|wrong|failed SENTENCE" for each "NUMBER
+// COMMAND".
 class ClockDesk {
  public:
   ClockDesk(LedRun& run, ClockLosses& losses) : run_(run), losses_(losses) {}

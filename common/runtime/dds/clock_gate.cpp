@@ -21,7 +21,8 @@ void ClockGate::Take(const base::Bytes& payload) {
 void ClockGate::Take(NamedReport& named) {
   const lockstep::NodeIndex node = run_.roster.Find(named.node);
   if (node == run_.roster.nodes().size()) {
-    Say("refused a node named '{}' on host {}, which is not in the roster{}", OneLine(named.node), named.hello.host, base::DidYouMean(named.node, run_.roster.Names()));
+    Say("refused a node named '{}' on host {}, which is not in the roster{}", OneLine(named.node), named.hello.host,
+        base::DidYouMean(named.node, run_.roster.Names()));
     return;
   }
   if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
@@ -44,7 +45,8 @@ void ClockGate::Take(NamedReport& named) {
 base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport& named) {
   if (own_.world == 0) own_.world = named.hello.world;
   if (auto status = CheckHello(own_, named.hello); !status) {
-    return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid, named.hello.host, status.error().Text()));
+    return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node,
+                                        named.hello.pid, named.hello.host, status.error().Text()));
   }
   if (named.report.phase < lockstep::Phase::kFailed) {
     if (auto status = CheckOnce(node, named); !status) return status;
@@ -58,8 +60,9 @@ base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& n
   Who& known = who_[node];
   if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
   if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return {};
-  return base::WrongInput(fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them", named.node, known.pid,
-                                      known.host, now.pid, now.host));
+  return base::WrongInput(
+      fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them",
+                  named.node, known.pid, known.host, now.pid, now.host));
 }
 
 std::vector<std::string> ClockGate::TakeLost() { return std::exchange(lost_, {}); }

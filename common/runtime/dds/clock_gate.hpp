@@ -9,11 +9,12 @@
 
 namespace rodeira::dds {
 
-// Who takes part: which reports count for the clock, which are passed over, and which end the run because two processes may not
-// drive together.
+// Who takes part: which reports count for the clock, which are passed over, and which end the run because two processes
+// may not drive together.
 class ClockGate {
  public:
-  ClockGate(LedRun& run, const Hello& own, std::uint64_t clock_id) : run_(run), own_(own), clock_id_(clock_id), who_(run.roster.nodes().size()) {}
+  ClockGate(LedRun& run, const Hello& own, std::uint64_t clock_id)
+      : run_(run), own_(own), clock_id_(clock_id), who_(run.roster.nodes().size()) {}
 
   // A report as it came. What it says goes to clock, watchdog and losses.
   void Take(const base::Bytes& payload);

@@ -16,7 +16,9 @@ std::optional<RunsEnd> ClockLosses::TakeLost(const std::string& lost) {
   const lockstep::NodeIndex node = run_.roster.Find(lost.substr(0, space));
   if (node == run_.roster.nodes().size()) return std::nullopt;
   const std::string what = space < lost.size() ? lost.substr(space + 1) : "was lost";
-  return Lose(node, fmt::format("node '{}' {} at about step {}", run_.roster.node(node).name, what, run_.clock.reached(node)), 1);
+  return Lose(node,
+              fmt::format("node '{}' {} at about step {}", run_.roster.node(node).name, what, run_.clock.reached(node)),
+              1);
 }
 
 // Who failed by its own word would fail again; who has not been ready in time would not be the next time either.
@@ -34,19 +36,23 @@ std::optional<RunsEnd> ClockLosses::Lose(lockstep::NodeIndex node, const std::st
   if (run_.clock.grant().abort || run_.clock.report(node).phase == Phase::kFinished) return std::nullopt;
   const auto decision = run_.clock.Lose(node);
   switch (decision.policy) {
-    case lockstep::Policy::kStop: return RunsEnd{decision.why.empty() ? reason : reason + "; " + decision.why, status};
+    case lockstep::Policy::kStop:
+      return RunsEnd{decision.why.empty() ? reason : reason + "; " + decision.why, status};
     case lockstep::Policy::kPause:
       run_.watchdog.Excuse(node);
       Say("paused {} {}", run_.roster.node(node).name, OneLine(reason));
       run_.conductor.NoteFault(reason + "; the run waits for it", run_.Now());
       run_.missed.Lost(node, reason, run_.NowNs());
       return std::nullopt;
-    case lockstep::Policy::kRestart: Announce(node, reason); return std::nullopt;
+    case lockstep::Policy::kRestart:
+      Announce(node, reason);
+      return std::nullopt;
   }
   return std::nullopt;
 }
 
-// To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start another.
+// To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start
+// another.
 void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) {
   run_.watchdog.ExpectNextLife(node, run_.NowMs());
   run_.missed.Restarted(node);
@@ -58,14 +64,20 @@ void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) 
 base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
   const lockstep::NodeIndex node = run_.roster.Find(name);
   if (node == run_.roster.nodes().size()) {
-    return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())), "restart");
+    return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())),
+                            "restart");
   }
   if (!run_.clock.recovery().restarts()) {
-    return base::Failed("in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or 'restart' in its launch file do");
+    return base::Failed(
+        "in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or "
+        "'restart' in its launch file do");
   }
-  if (run_.launch.node(node).is_live()) return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
-  if (run_.clock.report(node).cannot_save) return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
-  const std::string reason = fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
+  if (run_.launch.node(node).is_live())
+    return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
+  if (run_.clock.report(node).cannot_save)
+    return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
+  const std::string reason =
+      fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
   run_.clock.ExpectNextLife(node);
   Announce(node, reason);
   return fmt::format("'{}' is started again", name);

@@ -18,7 +18,8 @@ struct RunsEnd {
 class ClockLosses {
  public:
   // on_next_life: another life of the node is expected; the grant that says so is to be said.
-  ClockLosses(LedRun& run, std::function<void(lockstep::NodeIndex)> on_next_life) : run_(run), on_next_life_(std::move(on_next_life)) {}
+  ClockLosses(LedRun& run, std::function<void(lockstep::NodeIndex)> on_next_life)
+      : run_(run), on_next_life_(std::move(on_next_life)) {}
 
   // "NODE TEXT" of a process that died or was stopped, as `rodeira run` saw it. An end where the run cannot go on.
   std::optional<RunsEnd> TakeLost(const std::string& lost);

@@ -11,18 +11,23 @@ using WallClock = std::chrono::steady_clock;
 std::optional<lockstep::Step> LastStep(const launch::Launch& launch, const ProcessOptions& options) {
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (!seconds) return std::nullopt;
-  return static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(launch.roster().base_step_ns())));
+  return static_cast<lockstep::Step>(
+      std::llround(*seconds * 1e9 / static_cast<double>(launch.roster().base_step_ns())));
 }
 
 }  // namespace
 
 LedRun::LedRun(const launch::Launch& its_launch, const ProcessOptions& options)
-    : launch(its_launch), roster(its_launch.roster()), clock(roster, LastStep(its_launch, options), 0, its_launch.policies()),
-      conductor(clock, lockstep::Pacer(roster.base_step_ns(), options.pace), options.incarnation), watchdog(roster, its_launch.watchdog()),
+    : launch(its_launch),
+      roster(its_launch.roster()),
+      clock(roster, LastStep(its_launch, options), 0, its_launch.policies()),
+      conductor(clock, lockstep::Pacer(roster.base_step_ns(), options.pace), options.incarnation),
+      watchdog(roster, its_launch.watchdog()),
       start(WallClock::now()) {}
 
 lockstep::Wall LedRun::Now() const {
-  return {std::chrono::nanoseconds(WallClock::now() - start).count(), std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+  return {std::chrono::nanoseconds(WallClock::now() - start).count(),
+          std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
 }
 
 std::int64_t LedRun::BegunNs() const {

@@ -33,17 +33,21 @@ namespace topics = idl::topics;
 using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
-    : roster_(roster), mailbox_(mailbox), settings_(settings), listens_(settings.incarnation == 0),
+    : roster_(roster),
+      mailbox_(mailbox),
+      settings_(settings),
+      listens_(settings.incarnation == 0),
       parcels_(roster, settings.node, settings.most_parcel_bytes) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
-  answers_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes, [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
-    if (asker != settings_.node) (void)answers_writer_->Write(EncodeParcel(asker, samples));
-  });
+  answers_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
+                   [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
+                     if (asker != settings_.node) (void)answers_writer_->Write(EncodeParcel(asker, samples));
+                   });
 }
 
-base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox,
-                                                     const Settings& settings) {
+base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster,
+                                                     lockstep::Mailbox& mailbox, const Settings& settings) {
   std::unique_ptr<NodeBus> bus(new NodeBus(roster, mailbox, settings));
   if (auto status = bus->Connect(participant); !status) return status.error();
   bus->heartbeat_ = std::thread([raw = bus.get()] { raw->Heartbeat(); });
@@ -77,19 +81,29 @@ base::Status NodeBus::Connect(Participant& participant) {
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
-    const auto in_parcels = [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); };
+    const auto in_parcels = [&](lockstep::SourceIndex source) {
+      return lockstep::GetsParcels(roster_, source, settings_.node);
+    };
     if (std::all_of(port.sources.begin(), port.sources.end(), in_parcels)) continue;
-    if (auto status = add_reader(topic, Delivery::kSaidAgain, [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); }); !status) return status;
+    if (auto status = add_reader(topic, Delivery::kSaidAgain,
+                                 [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); });
+        !status)
+      return status;
   }
   if (auto status = ConnectParcels(participant); !status) return status;
-  // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their process
-  // also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
+  // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their
+  // process also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
   auto answers = participant.MakeWriter(topics::kAnswers, Delivery::kSaidAgain);
   if (!answers) return answers.error();
   answers_writer_ = std::move(answers).value();
-  if (auto status = add_reader(topics::kAnswers, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); }); !status) return status;
+  if (auto status =
+          add_reader(topics::kAnswers, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); });
+      !status)
+    return status;
   if (!writers_.empty() || settings_.keeps_all) {
-    if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); }); !status) return status;
+    if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+        !status)
+      return status;
   }
   auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
   if (!questions) return questions.error();
@@ -109,11 +123,14 @@ base::Status NodeBus::ConnectParcels(Participant& participant) {
     parcel_writers_.emplace(n, std::move(writer).value());
   }
   const auto gets_parcels = [&](const lockstep::Port& port) {
-    return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) { return lockstep::GetsParcels(roster_, source, settings_.node); });
+    return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) {
+      return lockstep::GetsParcels(roster_, source, settings_.node);
+    });
   };
   const auto& inputs = roster_.node(settings_.node).inputs;
   if (std::none_of(inputs.begin(), inputs.end(), gets_parcels)) return {};
-  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnParcel(bytes); });
+  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain,
+                                       [this](base::Bytes&& bytes) { OnParcel(bytes); });
   if (!reader) return reader.error();
   readers_.push_back(std::move(reader).value());
   return {};
@@ -123,7 +140,8 @@ base::Status NodeBus::Publish(const lockstep::Sample& sample) {
   const lockstep::Grant grant = mailbox_.grant();
   answers_->Keep(sample);
   for (const auto& parcel : parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
-    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.to, parcel.samples)); !status) return status;
+    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.to, parcel.samples)); !status)
+      return status;
   }
   return Say(sample);  // also where every consumer gets parcels: others may look on
 }
@@ -137,7 +155,8 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
 }
 
 void NodeBus::Ask(const lockstep::Gap& gap) {
-  (void)questions_->Write(EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
+  (void)questions_->Write(
+      EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
 }
 
 void NodeBus::OnAsk(const base::Bytes& payload) {
@@ -235,10 +254,12 @@ std::string NodeBus::fault() const {
 
 void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
   if (!listens_) return;
-  if (!lockstep::SampleHeader::HasHeader(payload)) return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
+  if (!lockstep::SampleHeader::HasHeader(payload))
+    return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
   if (header.source >= roster_.sources().size() || (!topic.empty() && roster_.source(header.source).topic != topic)) {
-    return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic, header.source));
+    return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic,
+                             header.source));
   }
   lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
   if (auto status = Remember(sample); !status) return AbortBy(status.error(), sample);
@@ -248,7 +269,9 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
 void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
   auto kept = answers_->Kept(came.source(), came.valid());
   if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
-  Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came) ? launch::ContradictionText(roster_, *kept, came) : error.Text());
+  Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came)
+            ? launch::ContradictionText(roster_, *kept, came)
+            : error.Text());
 }
 
 void NodeBus::OnGrant(base::Bytes&& payload) {
@@ -263,7 +286,8 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
   }
   const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
-  if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation) return Abort("another process has taken its place");
+  if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation)
+    return Abort("another process has taken its place");
   mailbox_.DeliverGrant(grant.value().grant);
   answers_->Granted(grant.value().grant);
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
@@ -295,8 +319,9 @@ void NodeBus::Heartbeat() {
     const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;
     lock.unlock();
     if (runner != nullptr && report.phase < lockstep::Phase::kFailed) report = runner->report();
-    if (silent && !mailbox_.grant().over) Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                                                            static_cast<double>(settings_.clock_silence.count()) / 1e3));
+    if (silent && !mailbox_.grant().over)
+      Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                        static_cast<double>(settings_.clock_silence.count()) / 1e3));
     if (g_terminated != 0 && !mailbox_.grant().over) Abort("the process was told to end by SIGTERM");
     Tell(report);
     lock.lock();
@@ -315,7 +340,8 @@ void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds lim
     if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached nobody
     lock.lock();
     if (grant.over) return;
-    if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100)) return;  // the last word had time to go
+    if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100))
+      return;  // the last word had time to go
     woken_.wait_for(lock, std::chrono::milliseconds(10));
   }
 }

@@ -30,13 +30,16 @@ class NodeBus final : public lockstep::Bus {
     lockstep::NodeIndex node = 0;
     std::uint32_t incarnation = 0;
     Hello hello;
-    bool keeps_all = false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
+    bool keeps_all =
+        false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
     std::size_t most_parcel_bytes = 8'000;  // as Parcels
     std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
-    std::chrono::milliseconds clock_silence{3000};  // the clock repeats its grant all the time; silent this long it is gone
+    std::chrono::milliseconds clock_silence{
+        3000};  // the clock repeats its grant all the time; silent this long it is gone
   };
-  static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
+  static base::Result<std::unique_ptr<NodeBus>> Open(Participant& participant, const lockstep::Roster& roster,
+                                                     lockstep::Mailbox& mailbox, const Settings& settings);
   ~NodeBus() override;
 
   base::Status Publish(const lockstep::Sample& sample) override;
@@ -58,8 +61,8 @@ class NodeBus final : public lockstep::Bus {
   base::Status Remember(const lockstep::Sample& sample);
   // The node's last word, repeated until the clock says that all is over, at most for `limit`.
   void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
-  // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this node,
-  // which then has a second to close what it has open. Call it once, early.
+  // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this
+  // node, which then has a second to close what it has open. Call it once, early.
   static void HandleSignals();
   // Why the run was aborted by this bus or the clock; empty where it was not.
   std::string fault() const;
@@ -94,7 +97,7 @@ class NodeBus final : public lockstep::Bus {
   std::vector<std::unique_ptr<Reader>> readers_;
 
   std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> parcel_writers_;  // by the node that they are for
-  std::unique_ptr<Writer> answers_writer_;  // of the answering thread
+  std::unique_ptr<Writer> answers_writer_;                                 // of the answering thread
 
   lockstep::Parcels parcels_;  // of the thread that publishes
   std::optional<Answers> answers_;

@@ -15,7 +15,9 @@ const CLI::Validator Positive(
     [](std::string& text) {
       char* end = nullptr;
       const double value = std::strtod(text.c_str(), &end);
-      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value) ? std::string() : "'" + text + "' was found; a positive number of seconds was expected";
+      return end != text.c_str() && *end == '\0' && value > 0.0 && std::isfinite(value)
+                 ? std::string()
+                 : "'" + text + "' was found; a positive number of seconds was expected";
     },
     "SECONDS");
 
@@ -41,7 +43,8 @@ ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, 
     app.add_option("--clock-id", options.clock_id, "number of the run's clock; another life has that of the first");
     app.add_option("--begun-ns", options.begun_ns, "another life: when the run began, on the monotonic clock");
     app.add_flag("--paused", options.paused, "another life: begin paused");
-    app.add_option("--follow", options.follow, "name of this host: grant nothing, say what the run's clock on another host says");
+    app.add_option("--follow", options.follow,
+                   "name of this host: grant nothing, say what the run's clock on another host says");
   } else {
     app.add_option("--node", options.node, "name of the node in the launch file")->required();
     app.add_option("--incarnation", options.incarnation, "which life of the node");
@@ -73,7 +76,14 @@ ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, 
 }
 
 DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& launch, const std::string& name) {
-  return {options.domain, options.run, name, launch.transport(), launch.discovery(), false, launch.keeps_for_restarts(), options.incarnation > 0};
+  return {options.domain,
+          options.run,
+          name,
+          launch.transport(),
+          launch.discovery(),
+          false,
+          launch.keeps_for_restarts(),
+          options.incarnation > 0};
 }
 
 }  // namespace rodeira::dds

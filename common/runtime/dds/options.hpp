@@ -13,19 +13,19 @@ namespace rodeira::dds {
 // The command line of every process of a run; `rodeira run` writes it, a person may.
 struct ProcessOptions {
   std::string launch_file;
-  std::string node;      // name in the roster; empty for the clock
+  std::string node;  // name in the roster; empty for the clock
   std::string run = "default";
   std::uint32_t domain = 0;
   std::uint32_t incarnation = 0;
   launch::Overrides overrides;
   // For the clock alone.
-  double pace = 0.0;                     // 0: as fast as possible
+  double pace = 0.0;  // 0: as fast as possible
   std::optional<double> duration_s;
-  bool listen = false;                   // take lines from standard input: a parent saw a process die, an operator asks
-  std::uint64_t clock_id = 0;            // 0: drawn by lot; another life of a clock keeps that of the first
-  std::int64_t begun_ns = -1;            // another life: when the run began, as std::chrono::steady_clock counts; -1: it has not
-  bool paused = false;                   // another life: begin paused
-  std::string follow;                    // name of this host: grant nothing, say what the run's clock elsewhere says
+  bool listen = false;         // take lines from standard input: a parent saw a process die, an operator asks
+  std::uint64_t clock_id = 0;  // 0: drawn by lot; another life of a clock keeps that of the first
+  std::int64_t begun_ns = -1;  // another life: when the run began, as std::chrono::steady_clock counts; -1: it has not
+  bool paused = false;         // another life: begin paused
+  std::string follow;          // name of this host: grant nothing, say what the run's clock elsewhere says
 };
 
 // The options, or the status to leave with (0 after --help, 2 after a wrong option); what a person should read has been

@@ -10,8 +10,8 @@
 
 namespace rodeira::dds {
 
-// What the parent writes to standard input: "lost NODE TEXT", what it sees sooner than any heartbeat, a process of its own that
-// died or was stopped; and "do NUMBER COMMAND", what the operator asks for.
+// What the parent writes to standard input: "lost NODE TEXT", what it sees sooner than any heartbeat, a process of its
+// own that died or was stopped; and "do NUMBER COMMAND", what the operator asks for.
 class ParentsWord {
  public:
   // Once. The thread ends with the process; `this` must live as long.

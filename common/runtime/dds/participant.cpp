@@ -51,7 +51,8 @@ class FastWriter final : public Writer {
 
 class FastReader final : public Reader, public fdds::DataReaderListener {
  public:
-  FastReader(fdds::Subscriber* subscriber, OnPayload on_payload) : subscriber_(subscriber), on_payload_(std::move(on_payload)) {}
+  FastReader(fdds::Subscriber* subscriber, OnPayload on_payload)
+      : subscriber_(subscriber), on_payload_(std::move(on_payload)) {}
   ~FastReader() override {
     if (reader_ == nullptr) return;
     reader_->set_listener(nullptr);
@@ -88,7 +89,8 @@ class FastParticipant final : public Participant {
     fdds::DataWriterQos qos = fdds::DATAWRITER_QOS_DEFAULT;
     Common(qos, delivery);
     qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
-    qos.reliability().kind = delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+    qos.reliability().kind =
+        delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
     times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
@@ -99,7 +101,8 @@ class FastParticipant final : public Participant {
     return std::unique_ptr<Writer>(std::make_unique<FastWriter>(publisher_, writer, std::string(topic)));
   }
 
-  base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) override {
+  base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery,
+                                                   OnPayload on_payload) override {
     auto* made_topic = TopicOf(topic);
     if (made_topic == nullptr) return Refused(topic);
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
@@ -116,11 +119,14 @@ class FastParticipant final : public Participant {
   }
 
  private:
-  static bool IsKept(Delivery delivery) { return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory; }
+  static bool IsKept(Delivery delivery) {
+    return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory;
+  }
   template <class Qos>
   static void Common(Qos& qos, Delivery delivery) {
     qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth = delivery == Delivery::kForLateComers ? 1 : 256;  // of all writers together: the types have no keys
+    qos.history().depth =
+        delivery == Delivery::kForLateComers ? 1 : 256;  // of all writers together: the types have no keys
     qos.resource_limits().max_samples = 1000;
     qos.resource_limits().max_instances = 1;
     qos.resource_limits().max_samples_per_instance = 1000;
@@ -128,7 +134,9 @@ class FastParticipant final : public Participant {
     qos.endpoint().history_memory_policy = eprosima::fastrtps::rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
     qos.data_sharing().off();
   }
-  static base::Error Refused(std::string_view topic) { return base::Failed("Fast DDS makes no endpoint for this topic", "topic " + std::string(topic)); }
+  static base::Error Refused(std::string_view topic) {
+    return base::Failed("Fast DDS makes no endpoint for this topic", "topic " + std::string(topic));
+  }
 
   fdds::Topic* TopicOf(std::string_view name) {
     const idl::TopicInfo* info = idl::FindTopic(name);
@@ -137,7 +145,8 @@ class FastParticipant final : public Participant {
     auto& topic = topics_[std::string(name)];
     if (topic == nullptr) {
       const std::string type_name(info->type);
-      if (participant_->find_type(type_name).empty()) fdds::TypeSupport(new RawType(type_name)).register_type(participant_);
+      if (participant_->find_type(type_name).empty())
+        fdds::TypeSupport(new RawType(type_name)).register_type(participant_);
       topic = participant_->create_topic(std::string(name), type_name, fdds::TOPIC_QOS_DEFAULT);
     }
     return topic;
@@ -157,15 +166,18 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
   RODEIRA_ASSERT(SharedMutexesAreRobust());
   const launch::Discovery& discovery = settings.discovery;
   if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
-    return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that one, or name another 'discovery.port'",
-                                        discovery.port), fmt::format("run '{}'", settings.run));
+    return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that "
+                                        "one, or name another 'discovery.port'",
+                                        discovery.port),
+                            fmt::format("run '{}'", settings.run));
   }
   fdds::Log::SetVerbosity(fdds::Log::Kind::Error);
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
   if (participant == nullptr) {
-    return base::Failed(fmt::format("Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)", settings.domain,
-                                    7400 + 250 * settings.domain));
+    return base::Failed(fmt::format(
+        "Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)",
+        settings.domain, 7400 + 250 * settings.domain));
   }
   fdds::PublisherQos publisher_qos = fdds::PUBLISHER_QOS_DEFAULT;
   publisher_qos.partition().push_back(("rodeira/" + settings.run).c_str());

@@ -16,14 +16,14 @@ namespace rodeira::dds {
 enum class Delivery {
   kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
   kForLateComers,  // reliable, transient local, the newest: world information
-  kHistory,      // reliable, transient local, the newest 256: what happens seldom and must reach everybody (triggers)
-  kObserve,      // best effort: whoever only looks on, and never slows a run (law L5)
+  kHistory,        // reliable, transient local, the newest 256: what happens seldom and must reach everybody (triggers)
+  kObserve,        // best effort: whoever only looks on, and never slows a run (law L5)
 };
 
 struct DomainSettings {
-  std::uint32_t domain = 0;       // one a rig
-  std::string run;                // one a run: becomes the partition, never empty
-  std::string name;               // of the participant, for people
+  std::uint32_t domain = 0;  // one a rig
+  std::string run;           // one a run: becomes the partition, never empty
+  std::string name;          // of the participant, for people
   launch::Transport transport = launch::Transport::kSharedMemory;
   launch::Discovery discovery;
   bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
@@ -53,7 +53,8 @@ class Participant {
   static base::Result<std::unique_ptr<Participant>> Open(const DomainSettings& settings);
   virtual ~Participant() = default;
   virtual base::Result<std::unique_ptr<Writer>> MakeWriter(std::string_view topic, Delivery delivery) = 0;
-  virtual base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery, OnPayload on_payload) = 0;
+  virtual base::Result<std::unique_ptr<Reader>> MakeReader(std::string_view topic, Delivery delivery,
+                                                           OnPayload on_payload) = 0;
 };
 
 }  // namespace rodeira::dds

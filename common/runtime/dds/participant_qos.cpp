@@ -58,32 +58,35 @@ void SetTransport(const DomainSettings& settings, fdds::DomainParticipantQos& qo
     shared->port_queue_capacity(kPortQueue);
     qos.transport().user_transports.push_back(shared);
     if (!settings.meets_later) return;
-    // The port of shared memory on which all participants listen for each other is out of order for seconds where one of them
-    // was killed: every newcomer finds it broken and makes its own. So they meet over the loopback interface instead; samples
-    // go through ports that belong to one process each.
+    // The port of shared memory on which all participants listen for each other is out of order for seconds where one
+    // of them was killed: every newcomer finds it broken and makes its own. So they meet over the loopback interface
+    // instead; samples go through ports that belong to one process each.
     auto loopback = std::make_shared<rtps::UDPv4TransportDescriptor>();
     loopback->interfaceWhiteList.emplace_back("127.0.0.1");
     qos.transport().user_transports.push_back(loopback);
     auto& builtin = qos.wire_protocol().builtin;
     builtin.metatrafficUnicastLocatorList.push_back(UdpLocator("127.0.0.1", 0));
-    builtin.metatrafficMulticastLocatorList.push_back(UdpLocator("239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * settings.domain)));
+    builtin.metatrafficMulticastLocatorList.push_back(
+        UdpLocator("239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * settings.domain)));
     return;
   }
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
-  if (settings.discovery.kind == launch::DiscoveryKind::kPeers) udp->maxInitialPeersRange = settings.discovery.participants;
+  if (settings.discovery.kind == launch::DiscoveryKind::kPeers)
+    udp->maxInitialPeersRange = settings.discovery.participants;
   if (!settings.discovery.interface.empty()) udp->interfaceWhiteList.push_back(settings.discovery.interface);
   qos.transport().user_transports.push_back(udp);
 }
 
-// Fast DDS 2.9.1 makes a port of shared memory anew where its owner has died, while those who wrote to it go on writing to the
-// old one and are never heard again (its pull request 4728). So who takes the place of a dead process takes a number whose
-// ports nobody, dead or alive, has had.
+// Fast DDS 2.9.1 makes a port of shared memory anew where its owner has died, while those who wrote to it go on writing
+// to the old one and are never heard again (its pull request 4728). So who takes the place of a dead process takes a
+// number whose ports nobody, dead or alive, has had.
 int UnusedParticipant(std::uint32_t domain) {
   constexpr int kFirst = 30, kNumbers = 80;  // the library counts from 0; number 119 is a domain's last
   const auto is_used = [&](int number, int which) {
-    const auto port = 7400 + 250 * domain + 10 + 2 * static_cast<std::uint32_t>(number) + static_cast<std::uint32_t>(which);
+    const auto port =
+        7400 + 250 * domain + 10 + 2 * static_cast<std::uint32_t>(number) + static_cast<std::uint32_t>(which);
     std::error_code problem;
     return std::filesystem::exists(fmt::format("/dev/shm/fastrtps_port{}", port), problem);
   };

@@ -10,7 +10,7 @@ namespace rodeira::dds {
 
 // What a writer hands over and a reader gets: a serialised sample with its encapsulation bytes.
 struct RawSample {
-  base::Bytes bytes;                   // received
+  base::Bytes bytes;                     // received
   const base::Bytes* to_send = nullptr;  // sent; lives until write() returns
 };
 

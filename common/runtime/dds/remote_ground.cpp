@@ -14,8 +14,8 @@ namespace topics = idl::topics;
 RemoteGround::RemoteGround(lockstep::NodeIndex asker, std::uint32_t incarnation, std::function<bool()> over)
     : asker_(asker), incarnation_(incarnation), over_(std::move(over)) {}
 
-base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex asker, std::uint32_t incarnation,
-                                                               std::function<bool()> over) {
+base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex asker,
+                                                               std::uint32_t incarnation, std::function<bool()> over) {
   std::unique_ptr<RemoteGround> ground(new RemoteGround(asker, incarnation, std::move(over)));
   auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kSaidAgain);
   if (!requests) return requests.error();
@@ -44,8 +44,8 @@ void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span
   answered_ = false;
   points_ = points;
   const base::Bytes payload = idl::Encode(request);
-  // Until an answer to this very request has come: question or answer may be lost, or the server has not met us yet. The
-  // same question again does no harm, SUELO is a function.
+  // Until an answer to this very request has come: question or answer may be lost, or the server has not met us yet.
+  // The same question again does no harm, SUELO is a function.
   auto patience = std::chrono::milliseconds(5);
   while (!answered_) {
     lock.unlock();
@@ -75,8 +75,11 @@ void RemoteGround::OnReply(base::Bytes&& payload) {
   if (answered_ || reply.value().number() != number_ || answers.size() != points_.size()) return;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto& answer = answers[i];
-    points_[i] = {answer.z_m(), {answer.normal_x(), answer.normal_y(), answer.normal_z()}, answer.friction(),
-                  static_cast<ground::Surface>(answer.surface()), answer.inside() != 0};
+    points_[i] = {answer.z_m(),
+                  {answer.normal_x(), answer.normal_y(), answer.normal_z()},
+                  answer.friction(),
+                  static_cast<ground::Surface>(answer.surface()),
+                  answer.inside() != 0};
   }
   answered_ = true;
   woken_.notify_all();

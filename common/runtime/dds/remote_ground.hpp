@@ -5,18 +5,18 @@
 #include <memory>
 #include <mutex>
 
+#include "common/core/ground/ground.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/lockstep/runner.hpp"
-#include "common/core/ground/ground.hpp"
 
 namespace rodeira::dds {
 
-// SUELO over request and reply. Waits for the answer on the caller's thread, asks again where none comes (the server may
-// have been restarted), and gives "outside" once `over` says that the run is.
+// SUELO over request and reply. Waits for the answer on the caller's thread, asks again where none comes (the server
+// may have been restarted), and gives "outside" once `over` says that the run is.
 class RemoteGround final : public ground::Ground {
  public:
-  static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker, std::uint32_t incarnation,
-                                                          std::function<bool()> over);
+  static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker,
+                                                          std::uint32_t incarnation, std::function<bool()> over);
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
   // Whose heartbeat says "waits for a server" meanwhile; may be null.
   void Follow(lockstep::Runner* runner) { runner_ = runner; }
@@ -34,7 +34,7 @@ class RemoteGround final : public ground::Ground {
 
   std::mutex mutex_;
   std::condition_variable woken_;
-  std::uint64_t number_ = 0;       // of the newest request
+  std::uint64_t number_ = 0;  // of the newest request
   bool answered_ = true;
   std::span<ground::GroundPoint> points_;  // where its answer goes
 };

@@ -36,8 +36,8 @@ class RemoteSender final : public launch::LiveKeysSender {
 class RemoteReceiver final : public launch::LiveKeysReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader =
-        participant.MakeReader(idl::topics::kLiveKeys, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { Hear(bytes); });
+    auto reader = participant.MakeReader(idl::topics::kLiveKeys, Delivery::kSaidAgain,
+                                         [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};

@@ -35,7 +35,8 @@ class Speaker final : public LogSpeaker {
     auto writer = participant.MakeWriter(topics::kRunLog, Delivery::kSaidAgain);
     if (!writer) return writer.error();
     writer_ = std::move(writer).value();
-    auto reader = participant.MakeReader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+    auto reader =
+        participant.MakeReader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -76,7 +77,8 @@ class Receiver final : public launch::RunLogReceiver {
     auto writer = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
     if (!writer) return writer.error();
     questions_ = std::move(writer).value();
-    auto reader = participant.MakeReader(topics::kRunLog, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { Hear(bytes); });
+    auto reader =
+        participant.MakeReader(topics::kRunLog, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -96,7 +98,9 @@ class Receiver final : public launch::RunLogReceiver {
   }
 
  private:
-  void Ask(std::uint64_t from) { (void)questions_->Write(EncodeAsk(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}})); }
+  void Ask(std::uint64_t from) {
+    (void)questions_->Write(EncodeAsk(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
+  }
   void Hear(const base::Bytes& bytes) {
     auto heard = DecodeLog(bytes);
     if (!heard) return;
@@ -131,22 +135,25 @@ base::Result<HeardLog> DecodeLog(const base::Bytes& payload) {
   const msg::RunLog& in = decoded.value();
   HeardLog heard{in.clock_id(), {in.number(), {}, {}, in.last() != 0}};
   for (const msg::WallTime& wall : in.walls()) {
-    heard.batch.walls.push_back({wall.after_step(), wall.through_step(), wall.utc_ns(), wall.monotonic_ns(), wall.late_ns(), wall.pace(), wall.paused() != 0});
+    heard.batch.walls.push_back({wall.after_step(), wall.through_step(), wall.utc_ns(), wall.monotonic_ns(),
+                                 wall.late_ns(), wall.pace(), wall.paused() != 0});
   }
   for (const msg::Remark& remark : in.remarks()) {
-    heard.batch.remarks.push_back({remark.step(), remark.utc_ns(), remark.monotonic_ns(), remark.pace(), KindOf(remark.kind()), remark.text(), remark.number()});
+    heard.batch.remarks.push_back({remark.step(), remark.utc_ns(), remark.monotonic_ns(), remark.pace(),
+                                   KindOf(remark.kind()), remark.text(), remark.number()});
   }
   return heard;
 }
 
-base::Result<std::unique_ptr<LogSpeaker>> OpenLogSpeaker(Participant& participant, base::Digest roster_hash, std::uint64_t clock_id,
-                                                         std::int64_t base_step_ns) {
+base::Result<std::unique_ptr<LogSpeaker>> OpenLogSpeaker(Participant& participant, base::Digest roster_hash,
+                                                         std::uint64_t clock_id, std::int64_t base_step_ns) {
   auto speaker = std::make_unique<Speaker>(roster_hash, clock_id, base_step_ns);
   if (auto status = speaker->Open(participant); !status) return status.error();
   return std::unique_ptr<LogSpeaker>(std::move(speaker));
 }
 
-base::Result<std::unique_ptr<launch::RunLogReceiver>> OpenLogReceiver(Participant& participant, base::Digest roster_hash) {
+base::Result<std::unique_ptr<launch::RunLogReceiver>> OpenLogReceiver(Participant& participant,
+                                                                      base::Digest roster_hash) {
   auto receiver = std::make_unique<Receiver>(roster_hash);
   if (auto status = receiver->Open(participant); !status) return status.error();
   return std::unique_ptr<launch::RunLogReceiver>(std::move(receiver));

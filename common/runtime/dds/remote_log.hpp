@@ -23,10 +23,11 @@ class LogSpeaker {
   virtual ~LogSpeaker() = default;
   virtual void Say(const lockstep::LogBatch& batch) = 0;
 };
-base::Result<std::unique_ptr<LogSpeaker>> OpenLogSpeaker(Participant& participant, base::Digest roster_hash, std::uint64_t clock_id,
-                                                         std::int64_t base_step_ns);
+base::Result<std::unique_ptr<LogSpeaker>> OpenLogSpeaker(Participant& participant, base::Digest roster_hash,
+                                                         std::uint64_t clock_id, std::int64_t base_step_ns);
 
 // The recorder's side, which asks for what it lacks.
-base::Result<std::unique_ptr<launch::RunLogReceiver>> OpenLogReceiver(Participant& participant, base::Digest roster_hash);
+base::Result<std::unique_ptr<launch::RunLogReceiver>> OpenLogReceiver(Participant& participant,
+                                                                      base::Digest roster_hash);
 
 }  // namespace rodeira::dds

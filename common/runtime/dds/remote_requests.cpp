@@ -36,8 +36,8 @@ class RemoteSender final : public launch::LiveRequestsSender {
 class RemoteReceiver final : public launch::LiveRequestsReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader =
-        participant.MakeReader(idl::topics::kLiveRequests, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { Hear(bytes); });
+    auto reader = participant.MakeReader(idl::topics::kLiveRequests, Delivery::kSaidAgain,
+                                         [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -50,7 +50,8 @@ class RemoteReceiver final : public launch::LiveRequestsReceiver {
     if (!in) return;
     launch::LiveRequestsSaid said{in.value().window(), {}};
     for (const msg::LiveRequest& request : in.value().requests()) {
-      said.requests.push_back({request.number(), request.name(), request.argument(), request.x_m(), request.y_m(), request.value()});
+      said.requests.push_back(
+          {request.number(), request.name(), request.argument(), request.x_m(), request.y_m(), request.value()});
     }
     memory_.Hear(said);
   }

@@ -7,7 +7,8 @@
 
 namespace rodeira::dds {
 
-// The border of common/runtime/launch/live_requests.hpp between processes: best effort, so that no window ever slows a run.
+// The border of common/runtime/launch/live_requests.hpp between processes: best effort, so that no window ever slows a
+// run.
 base::Result<std::unique_ptr<launch::LiveRequestsSender>> OpenRequestsSender(Participant& participant);
 base::Result<std::unique_ptr<launch::LiveRequestsReceiver>> OpenRequestsReceiver(Participant& participant);
 

@@ -12,12 +12,15 @@ Function* TheNext(const char* name) {
 }
 
 // The state behind a mutex whose owner has died is taken as it is.
-int Recover(pthread_mutex_t* mutex, int result) { return result == EOWNERDEAD ? ::pthread_mutex_consistent(mutex) : result; }
+int Recover(pthread_mutex_t* mutex, int result) {
+  return result == EOWNERDEAD ? ::pthread_mutex_consistent(mutex) : result;
+}
 
 }  // namespace
 
-// The dynamic linker takes a function of the program itself before a library's. These three are all that boost::interprocess, of
-// which Fast DDS makes its mutexes, calls to make one and to lock it: it never waits without a limit.
+// The dynamic linker takes a function of the program itself before a library's. These three are all that
+// boost::interprocess, of which Fast DDS makes its mutexes, calls to make one and to lock it: it never waits without a
+// limit.
 extern "C" {
 
 int pthread_mutexattr_setpshared(pthread_mutexattr_t* attributes, int shared) noexcept {
@@ -42,7 +45,8 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 namespace rodeira::dds {
 
 bool SharedMutexesAreRobust() {
-  return ::dlsym(RTLD_DEFAULT, "pthread_mutexattr_setpshared") == reinterpret_cast<void*>(&::pthread_mutexattr_setpshared) &&
+  return ::dlsym(RTLD_DEFAULT, "pthread_mutexattr_setpshared") ==
+             reinterpret_cast<void*>(&::pthread_mutexattr_setpshared) &&
          ::dlsym(RTLD_DEFAULT, "pthread_mutex_timedlock") == reinterpret_cast<void*>(&::pthread_mutex_timedlock) &&
          ::dlsym(RTLD_DEFAULT, "pthread_mutex_trylock") == reinterpret_cast<void*>(&::pthread_mutex_trylock);
 }

@@ -45,13 +45,17 @@ std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
   return clock_id;
 }
 
-// The clock's process: its endpoints, its loop, and its end. Who takes part, what becomes of losses, what an operator asks and how
-// the run is told have rooms of their own (clock_*.hpp).
+// The clock's process: its endpoints, its loop, and its end. Who takes part, what becomes of losses, what an operator
+// asks and how the run is told have rooms of their own (clock_*.hpp).
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
-      : options_(options), clock_id_(DrawnIfNone(options.clock_id)), run_(launch, options), gate_(run_, OwnHello(launch::Agreement(launch)), clock_id_),
-        losses_(run_, [this](lockstep::NodeIndex node) { OnNextLife(node); }), desk_(run_, losses_) {}
+      : options_(options),
+        clock_id_(DrawnIfNone(options.clock_id)),
+        run_(launch, options),
+        gate_(run_, OwnHello(launch::Agreement(launch)), clock_id_),
+        losses_(run_, [this](lockstep::NodeIndex node) { OnNextLife(node); }),
+        desk_(run_, losses_) {}
 
   int Run() {
     DomainSettings settings = DomainOf(options_, run_.launch, "clock");
@@ -103,8 +107,9 @@ class ClockProcess {
     return {};
   }
   base::Status SecondClock() const {
-    return base::WrongInput(fmt::format("run '{}' in domain {} has a clock already ({}); choose another --run or --domain", options_.run, options_.domain,
-                                        base::Hex(other_clock_)));
+    return base::WrongInput(
+        fmt::format("run '{}' in domain {} has a clock already ({}); choose another --run or --domain", options_.run,
+                    options_.domain, base::Hex(other_clock_)));
   }
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
   bool MustYield() const { return other_clock_ != 0 && other_clock_ < clock_id_; }
@@ -114,7 +119,8 @@ class ClockProcess {
     run_.clock.Rebuild();
     serial_ = options_.incarnation << 24;
     if (options_.begun_ns < 0) return;
-    run_.conductor.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(), options_.paused, run_.Now());
+    run_.conductor.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(),
+                        options_.paused, run_.Now());
   }
 
   int Loop() {
@@ -132,7 +138,8 @@ class ClockProcess {
       const lockstep::Grant before = run_.clock.grant();
       desk_.Do(parents_.TakeAsked());
       if (run_.clock.grant().abort) return Abort({run_.clock.grant().reason, 1});
-      if (desk_.stop_asked() && !run_.missed.empty()) return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
+      if (desk_.stop_asked() && !run_.missed.empty())
+        return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
       const lockstep::Grant grant = run_.conductor.Move(run_.Now());
       const auto now = WallClock::now();
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
@@ -199,8 +206,8 @@ class ClockProcess {
     for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
   }
 
-  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has gone
-  // already does not matter.
+  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has
+  // gone already does not matter.
   void Close(const std::string& words) {
     lockstep::Grant last = run_.clock.grant();
     last.over = true;
@@ -223,7 +230,8 @@ class ClockProcess {
       std::this_thread::sleep_for(10ms);
       TakeReports();
     }
-    Close(fmt::format("fault {}\n", OneLine(end.reason)) + NodeLines(run_) + EndLine(run_, "aborted", run_.clock.slowest_progress() - 1, 0, end.status));
+    Close(fmt::format("fault {}\n", OneLine(end.reason)) + NodeLines(run_) +
+          EndLine(run_, "aborted", run_.clock.slowest_progress() - 1, 0, end.status));
     return end.status;
   }
   bool AllSinksHaveFinished() const {

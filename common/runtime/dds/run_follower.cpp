@@ -29,8 +29,8 @@ namespace topics = idl::topics;
 using lockstep::NodeIndex;
 using lockstep::Phase;
 
-constexpr auto kClockSilence = 3s;   // as the nodes' own (NodeBus::Settings)
-constexpr auto kClosingTime = 3s;    // from an abort to the closing words
+constexpr auto kClockSilence = 3s;  // as the nodes' own (NodeBus::Settings)
+constexpr auto kClosingTime = 3s;   // from an abort to the closing words
 
 std::atomic<int> g_signals = 0;
 void OnSignal(int) { ++g_signals; }
@@ -59,10 +59,12 @@ class Follower {
   }
 
   base::Status Connect() {
-    auto grants = participant_->MakeReader(topics::kGrant, Delivery::kObserve, [this](base::Bytes&& bytes) { OnGrant(bytes); });
+    auto grants =
+        participant_->MakeReader(topics::kGrant, Delivery::kObserve, [this](base::Bytes&& bytes) { OnGrant(bytes); });
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
-    auto reports = participant_->MakeReader(topics::kReport, Delivery::kObserve, [this](base::Bytes&& bytes) { OnReport(bytes); });
+    auto reports =
+        participant_->MakeReader(topics::kReport, Delivery::kObserve, [this](base::Bytes&& bytes) { OnReport(bytes); });
     if (!reports) return reports.error();
     reports_in_ = std::move(reports).value();
     auto out = participant_->MakeWriter(topics::kReport, Delivery::kSaidAgain);
@@ -116,9 +118,11 @@ class Follower {
       }
       if (!met_) {
         if (now.grant.through >= 0) {
-          return Complain(base::WrongInput(fmt::format("it is under way already, at step {}, without the processes of this command; "
-                                                       "wait for its end or choose another --run", now.grant.through),
-                                           fmt::format("run '{}' in domain {}", options_.run, options_.domain)));
+          return Complain(base::WrongInput(
+              fmt::format("it is under way already, at step {}, without the processes of this command; "
+                          "wait for its end or choose another --run",
+                          now.grant.through),
+              fmt::format("run '{}' in domain {}", options_.run, options_.domain)));
         }
         met_ = true;
         Say("met");
@@ -130,8 +134,9 @@ class Follower {
       }
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
       if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
-        return Complain(base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                                                 std::chrono::duration<double>(kClockSilence).count())));
+        return Complain(
+            base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                                     std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
       TellLives(now);
@@ -158,11 +163,15 @@ class Follower {
       const auto space = std::min(word.find(' '), word.size());
       const NodeIndex node = roster_.Find(word.substr(0, space));
       if (node == roster_.nodes().size()) continue;
-      lost_.push_back({node, LifeOf(now, node), fmt::format("{} (host '{}')", space < word.size() ? word.substr(space + 1) : "was lost", options_.follow)});
+      lost_.push_back(
+          {node, LifeOf(now, node),
+           fmt::format("{} (host '{}')", space < word.size() ? word.substr(space + 1) : "was lost", options_.follow)});
     }
     std::erase_if(lost_, [&](const Lost& lost) { return LifeOf(now, lost.node) > lost.life; });
     for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
-    if (g_signals > 0) TellFault(now, {AnyOwnNode(), 0, fmt::format("it was stopped by a signal (host '{}')", options_.follow)}, Phase::kFailed);
+    if (g_signals > 0)
+      TellFault(now, {AnyOwnNode(), 0, fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
+                Phase::kFailed);
   }
   struct Lost {
     NodeIndex node = 0;
@@ -180,7 +189,9 @@ class Follower {
     report.report.message = lost.text;
     (void)reports_out_->Write(EncodeReport(report));
   }
-  static std::uint32_t LifeOf(const Now& now, NodeIndex node) { return node < now.grant.lives.size() ? now.grant.lives[node] : 0; }
+  static std::uint32_t LifeOf(const Now& now, NodeIndex node) {
+    return node < now.grant.lives.size() ? now.grant.lives[node] : 0;
+  }
 
   // The clock calls for another life of a node by its grant; who starts processes on this host is told.
   void TellLives(const Now& now) {
@@ -188,7 +199,8 @@ class Follower {
     for (NodeIndex n = 0; n < lives_.size(); ++n) {
       if (LifeOf(now, n) <= lives_[n]) continue;
       lives_[n] = LifeOf(now, n);
-      if (launch_.node(n).host == options_.follow) Say("restart {} {} asked for by the clock", launch_.node(n).name, lives_[n]);
+      if (launch_.node(n).host == options_.follow)
+        Say("restart {} {} asked for by the clock", launch_.node(n).name, lives_[n]);
     }
   }
   NodeIndex AnyOwnNode() const {
@@ -227,7 +239,8 @@ class Follower {
   lockstep::Step SlowestProgress(const Now& now) const {
     lockstep::Step slowest = std::numeric_limits<lockstep::Step>::max();
     for (NodeIndex n = 0; n < now.reports.size(); ++n) {
-      if (roster_.node(n).role == lockstep::Role::kStepped) slowest = std::min(slowest, now.reports[n] ? now.reports[n]->progress : 0);
+      if (roster_.node(n).role == lockstep::Role::kStepped)
+        slowest = std::min(slowest, now.reports[n] ? now.reports[n]->progress : 0);
     }
     return slowest == std::numeric_limits<lockstep::Step>::max() ? 0 : slowest;
   }

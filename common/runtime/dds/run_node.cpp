@@ -34,9 +34,13 @@ constexpr std::size_t kAnswerOnWire_bytes = 1'200;
 
 class ProcessContext final : public launch::NodeContext {
  public:
-  ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant, lockstep::Mailbox& mailbox, NodeBus& bus,
-                 std::uint32_t incarnation)
-      : NodeContext(launch, index), participant_(participant), mailbox_(mailbox), bus_(bus), incarnation_(incarnation) {}
+  ProcessContext(const launch::Launch& launch, lockstep::NodeIndex index, Participant& participant,
+                 lockstep::Mailbox& mailbox, NodeBus& bus, std::uint32_t incarnation)
+      : NodeContext(launch, index),
+        participant_(participant),
+        mailbox_(mailbox),
+        bus_(bus),
+        incarnation_(incarnation) {}
 
   ground::Ground& Ground() override {
     if (ground_ == nullptr) {
@@ -54,7 +58,8 @@ class ProcessContext final : public launch::NodeContext {
       const auto info = idl::Decode<msg::WorldInfo>(bytes);
       if (!info) return;
       const std::lock_guard lock(mutex);
-      summary = {info.value().content_hash(), info.value().name(), info.value().start_x_m(), info.value().start_y_m(), info.value().start_heading_rad()};
+      summary = {info.value().content_hash(), info.value().name(), info.value().start_x_m(), info.value().start_y_m(),
+                 info.value().start_heading_rad()};
       woken.notify_all();
     });
     if (!reader) return reader.error();
@@ -114,11 +119,13 @@ class ProcessContext final : public launch::NodeContext {
 };
 
 // For another life than the first.
-base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, lockstep::Runner::Settings& settings) {
+base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
+                           lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
   const auto grant = bus.AwaitGrant(limit);
   if (!grant) return base::Failed("the clock says nothing to a node that is started again");
-  const lockstep::Beginning beginning = lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
+  const lockstep::Beginning beginning =
+      lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
   settings.sink_from = beginning.sink_from;
   if (beginning.snapshot > 0) {
     settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
@@ -136,7 +143,8 @@ int Complain(const std::string& who, const base::Error& error) {
 }
 
 // The node is made and runs; what goes wrong is told to the clock, which ends the run.
-int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox, const ProcessOptions& options) {
+int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
+          const ProcessOptions& options) {
   const auto fail = [&](const base::Error& error) {
     lockstep::Report report;
     report.node = context.index();
@@ -179,7 +187,10 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   const auto& roster = launch.value().roster();
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return Complain(program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind), options.launch_file));
+    return Complain(program,
+                    base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
+                                                 options.node, kind),
+                                     options.launch_file));
   }
   const DomainSettings domain = DomainOf(options, launch.value(), options.node);
   auto participant = Participant::Open(domain);
@@ -189,8 +200,10 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch::Agreement(launch.value()));
-  settings.most_parcel_bytes = domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
-  settings.most_answer_bytes = domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kAnswerOnWire_bytes;
+  settings.most_parcel_bytes =
+      domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
+  settings.most_answer_bytes =
+      domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kAnswerOnWire_bytes;
   settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return Complain(program, bus.error());

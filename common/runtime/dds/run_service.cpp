@@ -20,12 +20,8 @@ namespace topics = idl::topics;
 class ServiceContext final : public launch::NodeContext {
  public:
   using NodeContext::NodeContext;
-  ground::Ground& Ground() override {
-    RODEIRA_ASSERT(!"a server asks nobody");
-  }
-  base::Result<launch::WorldSummary> World() override {
-    RODEIRA_ASSERT(!"a server asks nobody");
-  }
+  ground::Ground& Ground() override { RODEIRA_ASSERT(!"a server asks nobody"); }
+  base::Result<launch::WorldSummary> World() override { RODEIRA_ASSERT(!"a server asks nobody"); }
 };
 
 int Complain(const base::Error& error) {
@@ -47,7 +43,9 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   const auto& roster = launch.value().roster();
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return Complain(base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind), options.launch_file));
+    return Complain(base::WrongInput(
+        fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind),
+        options.launch_file));
   }
   auto participant = Participant::Open(DomainOf(options, launch.value(), options.node));
   if (!participant) return Complain(participant.error());
@@ -77,15 +75,17 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kForLateComers);
   if (!replies) return Complain(replies.error());
   if (!information) return Complain(information.error());
-  if (auto status = information.value()->Write(service.value()->Announcement()); !status) return Complain(status.error());
+  if (auto status = information.value()->Write(service.value()->Announcement()); !status)
+    return Complain(status.error());
   std::atomic<std::uint64_t> answered = 0;
   // The server waits for nobody, so it may answer on the receive thread itself: one thread change less in every step.
-  auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kSaidAgain, [&](base::Bytes&& request) {
-    auto reply = service.value()->Answer(request);
-    if (!reply) return;
-    (void)replies.value()->Write(reply.value());
-    ++answered;
-  });
+  auto requests =
+      participant.value()->MakeReader(topics::kGroundRequest, Delivery::kSaidAgain, [&](base::Bytes&& request) {
+        auto reply = service.value()->Answer(request);
+        if (!reply) return;
+        (void)replies.value()->Write(reply.value());
+        ++answered;
+      });
   if (!requests) return Complain(requests.error());
   report.phase = lockstep::Phase::kRunning;
   report.waiting = lockstep::Waiting::kGrant;

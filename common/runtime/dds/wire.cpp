@@ -22,7 +22,8 @@ std::string HostName() {
 
 base::Status Compare(std::string_view what, base::Digest own, base::Digest other, std::string_view advice) {
   if (own == other) return {};
-  return base::WrongInput(fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
+  return base::WrongInput(
+      fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
 }
 
 }  // namespace
@@ -41,9 +42,17 @@ Hello OwnHello(base::Digest roster_hash) {
 }
 
 base::Status CheckHello(const Hello& own, const Hello& other) {
-  if (auto status = Compare("protocol hash", own.protocol, other.protocol, "both PCs need the same version of Rodeira"); !status) return status;
-  if (auto status = Compare("roster hash", own.roster, other.roster, "both need the same launch file and the same --set"); !status) return status;
-  if (auto status = Compare("mathematics hash", own.mathematics, other.mathematics, "its mathematics library computes other bits"); !status) return status;
+  if (auto status = Compare("protocol hash", own.protocol, other.protocol, "both PCs need the same version of Rodeira");
+      !status)
+    return status;
+  if (auto status =
+          Compare("roster hash", own.roster, other.roster, "both need the same launch file and the same --set");
+      !status)
+    return status;
+  if (auto status = Compare("mathematics hash", own.mathematics, other.mathematics,
+                            "its mathematics library computes other bits");
+      !status)
+    return status;
   if (own.world == 0 || other.world == 0) return {};
   return Compare("world hash", own.world, other.world, "both need the same world files");
 }
@@ -84,13 +93,15 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return decoded.error();
   msg::Report& in = decoded.value();
-  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) || in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
+  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) ||
+      in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
     return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }
   NamedReport out;
   out.node = in.node();
   out.clock_id = in.clock_id();
-  out.hello = {in.hello().protocol_hash(), in.hello().roster_hash(), in.hello().world_hash(), in.hello().mathematics_hash(), in.hello().host(), in.hello().pid()};
+  out.hello = {in.hello().protocol_hash(),    in.hello().roster_hash(), in.hello().world_hash(),
+               in.hello().mathematics_hash(), in.hello().host(),        in.hello().pid()};
   out.report.incarnation = in.incarnation();
   out.report.phase = static_cast<lockstep::Phase>(in.phase());
   out.report.progress = in.progress_step();
@@ -186,11 +197,15 @@ base::Result<Opened> DecodeParcel(const base::Bytes& payload) {
   Opened opened{in.value().to(), {}};
   for (std::size_t at = 0; at < all.size();) {
     std::uint32_t length = 0;
-    if (all.size() - at < sizeof(length)) return base::WrongInput(fmt::format("a parcel of {} bytes ends within a length", all.size()));
+    if (all.size() - at < sizeof(length))
+      return base::WrongInput(fmt::format("a parcel of {} bytes ends within a length", all.size()));
     std::memcpy(&length, all.data() + at, sizeof(length));
     at += sizeof(length);
-    if (length > all.size() - at) return base::WrongInput(fmt::format("a parcel of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
-    opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at), all.begin() + static_cast<std::ptrdiff_t>(at + length));
+    if (length > all.size() - at)
+      return base::WrongInput(
+          fmt::format("a parcel of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
+    opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at),
+                                all.begin() + static_cast<std::ptrdiff_t>(at + length));
     at += length;
   }
   return opened;

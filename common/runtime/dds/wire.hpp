@@ -14,9 +14,9 @@ namespace rodeira::dds {
 
 // What two processes must share to drive together (the hello of law L7 and of the protocol).
 struct Hello {
-  base::Digest protocol = 0;     // of all IDL texts
+  base::Digest protocol = 0;  // of all IDL texts
   base::Digest roster = 0;
-  base::Digest world = 0;        // 0: knows none
+  base::Digest world = 0;  // 0: knows none
   base::Digest mathematics = 0;
   std::string host;
   std::uint32_t pid = 0;

@@ -5,7 +5,8 @@
 namespace rodeira::launch {
 
 bool IsOfTheRun(const Launch& launch, const std::string& key) {
-  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits.")) return false;
+  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits."))
+    return false;
   for (const LaunchNode& node : launch.nodes()) {
     if (node.kind->name == "recorder" && key == fmt::format("nodes.{}.config.file", node.name)) return false;
   }
@@ -15,7 +16,8 @@ bool IsOfTheRun(const Launch& launch, const std::string& key) {
 base::Digest Agreement(const Launch& launch) {
   base::Digest digest = base::Combine(launch.roster().hash(), base::Hash(launch.text()));
   for (const auto& [key, value] : launch.overrides()) {
-    if (IsOfTheRun(launch, key) && !key.ends_with(".config.window")) digest = base::Combine(digest, base::Hash(key + "=" + value));
+    if (IsOfTheRun(launch, key) && !key.ends_with(".config.window"))
+      digest = base::Combine(digest, base::Hash(key + "=" + value));
   }
   return digest;
 }

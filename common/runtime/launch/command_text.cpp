@@ -35,7 +35,8 @@ base::Result<Command> ParseStep(std::string_view rest) {
   if (rest.empty()) return command;
   const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), command.steps);
   if (problem != std::errc{} || end != rest.data() + rest.size() || command.steps < 1 || command.steps > kMostSteps) {
-    return base::WrongInput(fmt::format("'{}' was found; a number of base steps from 1 to {} was expected", rest, kMostSteps), "step");
+    return base::WrongInput(
+        fmt::format("'{}' was found; a number of base steps from 1 to {} was expected", rest, kMostSteps), "step");
   }
   return command;
 }
@@ -43,7 +44,9 @@ base::Result<Command> ParseStep(std::string_view rest) {
 base::Result<Command> ParseMark(std::string_view rest) {
   Command command = Of(Kind::kMark);
   if (rest.empty()) return base::WrongInput("a text was expected", "mark");
-  if (rest.size() > kMostText) return base::WrongInput(fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMostText), "mark");
+  if (rest.size() > kMostText)
+    return base::WrongInput(
+        fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMostText), "mark");
   command.text = base::Printable(rest);
   return command;
 }
@@ -51,7 +54,8 @@ base::Result<Command> ParseMark(std::string_view rest) {
 }  // namespace
 
 const std::vector<std::string>& CommandNames() {
-  static const std::vector<std::string> kNames{"pause", "resume", "step", "pace", "mark", "stop", "state", "toggle", "faster", "slower", "restart"};
+  static const std::vector<std::string> kNames{"pause", "resume", "step",   "pace",   "mark",   "stop",
+                                               "state", "toggle", "faster", "slower", "restart"};
   return kNames;
 }
 
@@ -79,8 +83,9 @@ base::Result<Command> ParseCommand(std::string_view line) {
     return command;
   }
   if (!rest.empty()) return base::WrongInput(fmt::format("'{}' was found behind it; nothing was expected", rest), name);
-  static const std::map<std::string, Kind> kBare{{"state", Kind::kState},   {"pause", Kind::kPause},   {"resume", Kind::kResume}, {"stop", Kind::kStop},
-                                                 {"toggle", Kind::kToggle}, {"faster", Kind::kFaster}, {"slower", Kind::kSlower}};
+  static const std::map<std::string, Kind> kBare{
+      {"state", Kind::kState},   {"pause", Kind::kPause},   {"resume", Kind::kResume}, {"stop", Kind::kStop},
+      {"toggle", Kind::kToggle}, {"faster", Kind::kFaster}, {"slower", Kind::kSlower}};
   return Of(kBare.at(name));
 }
 

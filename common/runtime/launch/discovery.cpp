@@ -17,22 +17,30 @@ bool IsAddress(const std::string& text) {
 
 std::string_view Word(DiscoveryKind kind) {
   switch (kind) {
-    case DiscoveryKind::kPeers: return "peers";
-    case DiscoveryKind::kServer: return "server";
-    default: return "multicast";
+    case DiscoveryKind::kPeers:
+      return "peers";
+    case DiscoveryKind::kServer:
+      return "server";
+    default:
+      return "multicast";
   }
 }
 
 DiscoveryKind ReadDiscoveryKind(const config::Map& map) {
   const std::string kind = map.Choice("kind", {"multicast", "peers", "server"}, "multicast");
-  return kind == "peers" ? DiscoveryKind::kPeers : kind == "server" ? DiscoveryKind::kServer : DiscoveryKind::kMulticast;
+  return kind == "peers"    ? DiscoveryKind::kPeers
+         : kind == "server" ? DiscoveryKind::kServer
+                            : DiscoveryKind::kMulticast;
 }
 
 std::uint32_t ReadParticipants(const config::Map& map) {
-  return static_cast<std::uint32_t>(map.Integer("participants", 1, 119, Discovery().participants));  // the domain has ports for 120
+  return static_cast<std::uint32_t>(
+      map.Integer("participants", 1, 119, Discovery().participants));  // the domain has ports for 120
 }
 
-std::uint16_t ReadPort(const config::Map& map) { return static_cast<std::uint16_t>(map.Integer("port", 1, 65535, Discovery::kServerPort)); }
+std::uint16_t ReadPort(const config::Map& map) {
+  return static_cast<std::uint16_t>(map.Integer("port", 1, 65535, Discovery::kServerPort));
+}
 
 std::string ReadAddress(const config::Map& map, std::string_view key) {
   const std::string text = map.Text(key);

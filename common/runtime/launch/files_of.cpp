@@ -25,20 +25,24 @@ fs::path HomeIn(const fs::path& root) {
   return home;
 }
 
-bool IsPartOfAPath(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || std::string_view("/._-~+").find(c) != std::string_view::npos; }
+bool IsPartOfAPath(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+         std::string_view("/._-~+").find(c) != std::string_view::npos;
+}
 
 // Each whole path that is `path` becomes `name`.
 void Rename(std::string& text, const std::string& path, const std::string& name) {
   for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path, at)) {
     const std::size_t end = at + path.size();
-    const bool is_whole = (at == 0 || !IsPartOfAPath(text[at - 1])) && (end == text.size() || !IsPartOfAPath(text[end]));
+    const bool is_whole =
+        (at == 0 || !IsPartOfAPath(text[at - 1])) && (end == text.size() || !IsPartOfAPath(text[end]));
     if (is_whole) text.replace(at, path.size(), name);
     at += is_whole ? name.size() : path.size();
   }
 }
 
-// The launch file, with files that it names by their whole path named where they are laid out: what lies on the disk may be
-// another one by now.
+// The launch file, with files that it names by their whole path named where they are laid out: what lies on the disk
+// may be another one by now.
 base::Bytes Led(const std::vector<NamedFile>& files) {
   const base::Bytes& bytes = files.front().bytes;
   std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -54,7 +58,8 @@ class Collector {
   explicit Collector(const Launch& launch) : home_(fs::absolute(launch.path()).parent_path().lexically_normal()) {
     for (const LaunchNode& node : launch.nodes()) {
       if (node.kind->name != "recorder") continue;
-      if (const auto file = node.config->Peek({"config", "file"})) outputs_.insert(fs::absolute(launch.path().parent_path() / *file).lexically_normal());
+      if (const auto file = node.config->Peek({"config", "file"}))
+        outputs_.insert(fs::absolute(launch.path().parent_path() / *file).lexically_normal());
     }
   }
 
@@ -75,19 +80,24 @@ class Collector {
     return {};
   }
   bool Seen(const fs::path& path, bool absolute) const {
-    return seen_.contains(absolute ? kAbsolute + path.generic_string() : path.lexically_relative(home_).generic_string());
+    return seen_.contains(absolute ? kAbsolute + path.generic_string()
+                                   : path.lexically_relative(home_).generic_string());
   }
   base::Status Follow(const fs::path& path, const config::File& file, bool from_absolute) {
     for (const std::string& scalar : file.Scalars()) {
-      if (scalar.size() > 1000 || !fs::path(scalar).has_extension()) continue;  // a plain word is a name, even where a file is called so
+      if (scalar.size() > 1000 || !fs::path(scalar).has_extension())
+        continue;  // a plain word is a name, even where a file is called so
       const bool absolute = from_absolute || fs::path(scalar).is_absolute();
       const fs::path named = fs::absolute(path.parent_path() / scalar).lexically_normal();
       std::error_code problem;
-      if (Seen(named, absolute) || outputs_.contains(named) || !fs::is_regular_file(named, problem) || fs::file_size(named, problem) > kMostBytes) continue;
+      if (Seen(named, absolute) || outputs_.contains(named) || !fs::is_regular_file(named, problem) ||
+          fs::file_size(named, problem) > kMostBytes)
+        continue;
       if (auto status = Take(named, absolute); !status) return status;
       if (named.extension() != ".yaml" && named.extension() != ".yml") {
         // A raster's projection and a picture's place stand beside it.
-        for (const char* extension : {".prj", ".wld", ".jgw", ".jpgw", ".pgw", ".pngw", ".bpw", ".bmpw", ".tfw", ".tifw"}) {
+        for (const char* extension :
+             {".prj", ".wld", ".jgw", ".jpgw", ".pgw", ".pngw", ".bpw", ".bmpw", ".tfw", ".tifw"}) {
           const fs::path beside = fs::path(named).replace_extension(extension);
           if (!fs::is_regular_file(beside, problem)) continue;
           if (auto status = Take(beside, absolute); !status) return status;
@@ -111,7 +121,8 @@ class Collector {
 
 base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch) {
   Collector collector(launch);
-  if (auto status = collector.Add(fs::absolute(launch.path()).lexically_normal(), launch.file()); !status) return status.error();
+  if (auto status = collector.Add(fs::absolute(launch.path()).lexically_normal(), launch.file()); !status)
+    return status.error();
   return std::move(collector).files();
 }
 
@@ -129,8 +140,11 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
     }
     std::error_code problem;
     fs::create_directories(target.parent_path(), problem);
-    if (problem) return base::Failed(fmt::format("the folder cannot be made: {}", problem.message()), target.parent_path().string());
-    if (auto status = base::WriteWhole(target, &file == &files.front() ? launch_file : file.bytes); !status) return status.error();
+    if (problem)
+      return base::Failed(fmt::format("the folder cannot be made: {}", problem.message()),
+                          target.parent_path().string());
+    if (auto status = base::WriteWhole(target, &file == &files.front() ? launch_file : file.bytes); !status)
+      return status.error();
   }
   return (home / files.front().name).lexically_normal();
 }
@@ -149,7 +163,8 @@ std::string WithNames(std::string text, const fs::path& folder) {
   std::string up;
   for (fs::path level = HomeIn(root);; level = level.parent_path(), up += "../") {
     const std::string start = level.string() + "/";
-    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + up.size())) text.replace(at, start.size(), up);
+    for (std::size_t at = text.find(start); at != std::string::npos; at = text.find(start, at + up.size()))
+      text.replace(at, start.size(), up);
     if (level == root) return text;
   }
 }

@@ -14,7 +14,9 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 LabScreen ReadScreen(const std::string& name, const config::Map& map) {
-  const auto metres = [&](std::string_view key, double low_cm, double high_cm) { return 0.01 * map.Number(key, {low_cm, high_cm}); };
+  const auto metres = [&](std::string_view key, double low_cm, double high_cm) {
+    return 0.01 * map.Number(key, {low_cm, high_cm});
+  };
   LabScreen screen;
   screen.name = name;
   screen.width_m = metres("width_cm", 1.0, 5000.0);
@@ -46,7 +48,8 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   const config::Map root = file.root();
   (void)root.Choice("rodeira", {"lab/1"});
   lab.run_ = root.Text("run", "lab");
-  if (lab.run_.empty()) root.Problem("run", "'run' is empty; a name was expected by which the processes of all PCs meet");
+  if (lab.run_.empty())
+    root.Problem("run", "'run' is empty; a name was expected by which the processes of all PCs meet");
   lab.domain_ = static_cast<std::uint32_t>(root.Integer("domain", 0, 232));
 
   const config::Map hosts = root.Child("hosts");
@@ -71,7 +74,8 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   const config::Map discovery = root.OptionalChild("discovery");
   lab.discovery_ = ReadDiscoveryKind(discovery);
   if (lab.discovery_ != DiscoveryKind::kMulticast && lab.transport_ != Transport::kUdp) {
-    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(lab.discovery_)));
+    root.Problem("discovery",
+                 fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(lab.discovery_)));
   }
   if (lab.discovery_ == DiscoveryKind::kPeers) lab.participants_ = ReadParticipants(discovery);
   if (lab.discovery_ == DiscoveryKind::kServer) lab.port_ = ReadPort(discovery);
@@ -90,7 +94,8 @@ std::vector<std::string> Lab::Names() const {
 base::Result<LabHost> Lab::Host(const std::string& name) const {
   const auto found = std::ranges::find(hosts_, name, &LabHost::name);
   if (found == hosts_.end()) {
-    return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())), path_.string());
+    return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())),
+                            path_.string());
   }
   return *found;
 }
@@ -100,14 +105,16 @@ base::Result<LabScreen> Lab::Screen(const std::string& name) const {
   if (found != screens_.end()) return *found;
   std::vector<std::string> names;
   for (const LabScreen& screen : screens_) names.push_back(screen.name);
-  return base::WrongInput(fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)), path_.string());
+  return base::WrongInput(fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)),
+                          path_.string());
 }
 
 base::Status Lab::Fits(const Launch& launch) const {
   for (const LaunchNode& node : launch.nodes()) {
     if (node.host.empty() || Host(node.host).ok()) continue;
-    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host, path_.string(),
-                                        base::DidYouMean(node.host, Names())), node.config->Place("host"));
+    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host,
+                                        path_.string(), base::DidYouMean(node.host, Names())),
+                            node.config->Place("host"));
   }
   return {};
 }
@@ -121,7 +128,8 @@ Overrides Lab::For(const LabHost& host) const {
     for (const LabHost& other : hosts_) addresses.push_back(other.address);
     more = fmt::format(", participants: {}, addresses: [{}]", participants_, fmt::join(addresses, ", "));
   }
-  if (discovery_ == DiscoveryKind::kServer) more = fmt::format(", address: {}, port: {}", Host(clock_).value().address, port_);
+  if (discovery_ == DiscoveryKind::kServer)
+    more = fmt::format(", address: {}, port: {}", Host(clock_).value().address, port_);
   const std::string interface = transport_ == Transport::kUdp ? ", interface: " + host.address : "";
   overrides.emplace_back("discovery", fmt::format("{{kind: {}{}{}}}", Word(discovery_), interface, more));
   return overrides;

@@ -25,7 +25,8 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
   const double steps = seconds * 1e9 / static_cast<double>(base_step_ns);
   const double whole = std::round(steps);
   if (std::fabs(steps - whole) > 1e-6 * std::max(1.0, steps) || whole < 1.0) {
-    map.Problem(key, fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds, static_cast<double>(base_step_ns) * 1e-9));
+    map.Problem(key, fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds,
+                                 static_cast<double>(base_step_ns) * 1e-9));
     return 1;
   }
   return static_cast<Step>(whole);
@@ -38,17 +39,22 @@ NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKin
   wish.role = kind.role;
   wish.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
   if (kind.role == lockstep::Role::kService) return wish;
-  wish.period = ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
-  if (map.Has("delay_s")) wish.delay = ToSteps(map, "delay_s", map.Number("delay_s", config::Range::Positive()), base_step_ns);
+  wish.period =
+      ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
+  if (map.Has("delay_s"))
+    wish.delay = ToSteps(map, "delay_s", map.Number("delay_s", config::Range::Positive()), base_step_ns);
   for (const std::string_view topic : kind.outputs) wish.outputs.emplace_back(topic);
   return wish;
 }
 
-// Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`, rounded
-// up to a common multiple of their periods.
+// Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`,
+// rounded up to a common multiple of their periods.
 void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeWish>& wishes) {
-  Step every = ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
-  const auto has_state = [](const NodeWish& wish) { return wish.role == lockstep::Role::kStepped && !wish.outputs.empty(); };
+  Step every =
+      ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
+  const auto has_state = [](const NodeWish& wish) {
+    return wish.role == lockstep::Role::kStepped && !wish.outputs.empty();
+  };
   if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
   Step common = 1;
   for (const NodeWish& wish : wishes) {
@@ -62,7 +68,8 @@ void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vecto
 }
 
 // Names of the other nodes that publish a topic.
-std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic, const std::string& except) {
+std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic,
+                                    const std::string& except) {
   std::vector<std::string> names;
   for (const NodeWish& wish : wishes) {
     if (wish.name == except) continue;
@@ -86,8 +93,9 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWi
     } else {
       out.sources = Publishers(wishes, port.topic, wish.name);
       if (!port.many && out.sources.size() > 1) {
-        map.Problem("kind", fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'", wish.name, key,
-                                        out.sources.size(), fmt::join(out.sources, ", ")));
+        map.Problem("kind",
+                    fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'",
+                                wish.name, key, out.sources.size(), fmt::join(out.sources, ", ")));
       }
     }
     if (!port.many && out.sources.size() > 1) out.sources.resize(1);
@@ -100,7 +108,9 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWi
 
 lockstep::Policy ReadPolicy(const config::Map& map, std::string_view fallback) {
   const std::string word = map.Choice("recovery", {"stop", "pause", "restart"}, std::string(fallback));
-  return word == "restart" ? lockstep::Policy::kRestart : word == "pause" ? lockstep::Policy::kPause : lockstep::Policy::kStop;
+  return word == "restart" ? lockstep::Policy::kRestart
+         : word == "pause" ? lockstep::Policy::kPause
+                           : lockstep::Policy::kStop;
 }
 
 // A person's input cannot be computed again.
@@ -109,7 +119,10 @@ void ExceptLiveInput(const std::vector<config::Map>& maps, std::vector<LaunchNod
     if (nodes[n].recovery != lockstep::Policy::kRestart || !nodes[n].is_live()) continue;
     nodes[n].recovery = lockstep::Policy::kStop;
     if (!maps[n].Has("recovery")) continue;
-    maps[n].Problem("recovery", fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected", nodes[n].name));
+    maps[n].Problem(
+        "recovery",
+        fmt::format("node '{}' is driven by a person, whose input cannot be computed again; stop or pause was expected",
+                    nodes[n].name));
   }
 }
 
@@ -121,7 +134,9 @@ bool LaunchNode::is_live() const {
   return kind->name == "input" && source && (*source == "keyboard" || *source == "joystick" || *source == "gamepad");
 }
 
-bool LaunchNode::takes_requests() const { return kind->name == "scenario" && config->Peek({"config", "requests"}) == "true"; }
+bool LaunchNode::takes_requests() const {
+  return kind->name == "scenario" && config->Peek({"config", "requests"}) == "true";
+}
 
 std::vector<lockstep::Policy> Launch::policies() const {
   std::vector<lockstep::Policy> policies;
@@ -131,11 +146,14 @@ std::vector<lockstep::Policy> Launch::policies() const {
 
 base::Status Launch::CheckRecovery() const {
   const auto& nodes = roster_->nodes();
-  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::NodeSpec& node) { return node.keeps_snapshots(); })) return {};
+  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::NodeSpec& node) { return node.keeps_snapshots(); }))
+    return {};
   for (const LaunchNode& node : nodes_) {
     if (node.recovery != lockstep::Policy::kRestart || node.kind->outputs.empty()) continue;
-    return base::WrongInput(fmt::format("node '{}' can be started again only where there is a recorder, but there is none (with --no-record: --set recovery=stop)",
-                                        node.name), path().string());
+    return base::WrongInput(fmt::format("node '{}' can be started again only where there is a recorder, but there is "
+                                        "none (with --no-record: --set recovery=stop)",
+                                        node.name),
+                            path().string());
   }
   return {};
 }
@@ -148,7 +166,8 @@ base::Result<Launch> Launch::Load(const std::filesystem::path& path, const Overr
   return Read(std::move(file).value(), overrides);
 }
 
-base::Result<Launch> Launch::Parse(std::string_view text, const std::filesystem::path& name, const Overrides& overrides) {
+base::Result<Launch> Launch::Parse(std::string_view text, const std::filesystem::path& name,
+                                   const Overrides& overrides) {
   auto file = config::File::Parse(text, name);
   if (!file) return file.error();
   return Read(std::move(file).value(), overrides);
@@ -169,10 +188,13 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
-  launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
+  launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp"
+                          ? Transport::kUdp
+                          : Transport::kSharedMemory;
   launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
   if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport_ != Transport::kUdp) {
-    root.Problem("discovery", fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
+    root.Problem("discovery",
+                 fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
   }
   launch.pace_ = root.Text("pace", "");
   if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {

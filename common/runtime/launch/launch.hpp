@@ -23,8 +23,8 @@ enum class Transport { kSharedMemory, kUdp };
 struct LaunchNode {
   std::string name;
   const NodeKind* kind = nullptr;
-  std::string host;                        // of a laboratory; empty: the clock's
-  std::shared_ptr<const config::Map> config;  // what the node itself reads; may be empty
+  std::string host;                                     // of a laboratory; empty: the clock's
+  std::shared_ptr<const config::Map> config;            // what the node itself reads; may be empty
   lockstep::Policy recovery = lockstep::Policy::kStop;  // what becomes of the run where the node is lost
 
   // Driven by a person: what it publishes cannot be computed again.
@@ -35,23 +35,26 @@ struct LaunchNode {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-// A launch file (docs/formats.md): who takes part in a run, on which world, at which rates. Every process of a run reads
-// the same file and so comes to the same roster; the roster's hash proves it.
+// A launch file (docs/formats.md): who takes part in a run, on which world, at which rates. Every process of a run
+// reads the same file and so comes to the same roster; the roster's hash proves it.
 class Launch {
  public:
   // Wrong input where the file is wrong, a kind is unknown, or the wiring is ambiguous or impossible. Keys below
   // `nodes.X.config` are the node's own and are not looked at here.
   static base::Result<Launch> Load(const std::filesystem::path& path, const Overrides& overrides = {});
-  static base::Result<Launch> Parse(std::string_view text, const std::filesystem::path& name, const Overrides& overrides = {});
+  static base::Result<Launch> Parse(std::string_view text, const std::filesystem::path& name,
+                                    const Overrides& overrides = {});
 
   const std::filesystem::path& path() const { return file_->path(); }
   const std::string& text() const { return file_->text(); }
   const config::File& file() const { return *file_; }
   const Overrides& overrides() const { return overrides_; }
   const std::string& name() const { return name_; }
-  const std::filesystem::path& lab() const { return lab_; }  // laboratory file; empty: none is named
+  const std::filesystem::path& lab() const { return lab_; }      // laboratory file; empty: none is named
   const std::filesystem::path& world() const { return world_; }  // empty: the run has none
-  const std::string& vehicle_model() const { return vehicle_model_; }  // of cars, in place of their files' own; empty: those
+  const std::string& vehicle_model() const {
+    return vehicle_model_;
+  }  // of cars, in place of their files' own; empty: those
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
   Transport transport() const { return transport_; }
@@ -61,10 +64,10 @@ class Launch {
   // Of the clock, and of nodes that say nothing of their own.
   lockstep::Policy recovery() const { return recovery_; }
   std::vector<lockstep::Policy> policies() const;  // one for each node
-  // A node that is started again begins at its snapshot and needs what others had said: both are with a recorder. Wrong input
-  // where one is to be and there is none.
+  // A node that is started again begins at its snapshot and needs what others had said: both are with a recorder. Wrong
+  // input where one is to be and there is none.
   base::Status CheckRecovery() const;
-  bool keeps_for_restarts() const;                 // somebody may be started again: recorders answer for everybody
+  bool keeps_for_restarts() const;  // somebody may be started again: recorders answer for everybody
   const lockstep::Roster& roster() const { return *roster_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
   const LaunchNode& node(lockstep::NodeIndex index) const { return nodes_[index]; }

@@ -49,7 +49,9 @@ KeysNow LiveKeysMemory::Take(double now_s) {
   return now;
 }
 
-double WallSeconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double WallSeconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 std::uint64_t DrawWindow() {
   std::random_device device;

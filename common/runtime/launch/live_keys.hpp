@@ -6,8 +6,8 @@
 #include <mutex>
 #include <vector>
 
-// The border over which a window's keys reach whoever drives by them. No part of the lockstep: what an input node takes at
-// an activation becomes its sample, and that is what a run remembers (law L5).
+// The border over which a window's keys reach whoever drives by them. No part of the lockstep: what an input node takes
+// at an activation becomes its sample, and that is what a run remembers (law L5).
 namespace rodeira::launch {
 
 // A key of a window; the numbers are those of common/vehicle/input_devices/keys.hpp.
@@ -47,8 +47,8 @@ class LiveKeysReceiver {
   virtual KeysNow Take() = 0;
 };
 
-// What the windows have said, merged. A window that says nothing for kSilence_s has let go of everything: it was closed,
-// was killed, hangs, or lost its network. Any thread may call; the caller says what time it is.
+// What the windows have said, merged. A window that says nothing for kSilence_s has let go of everything: it was
+// closed, was killed, hangs, or lost its network. Any thread may call; the caller says what time it is.
 class LiveKeysMemory {
  public:
   static constexpr double kSilence_s = 0.5;

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-// The border over which a window asks for something in the run: a car placed elsewhere, another weather. No part of the lockstep: the
-// scenario node turns what it takes at an activation into its own events, and those are what a run remembers (law L5).
+// The border over which a window asks for something in the run: a car placed elsewhere, another weather. No part of the
+// lockstep: the scenario node turns what it takes at an activation into its own events, and those are what a run
+// remembers (law L5).
 namespace rodeira::launch {
 
 // What it means: common/driving/scenario/request.hpp.
@@ -20,7 +21,8 @@ struct LiveRequest {
   double value = 0.0;
 };
 
-// One message of a window: what it has not yet seen happen, by number. A lost one does not matter, the next says it again.
+// One message of a window: what it has not yet seen happen, by number. A lost one does not matter, the next says it
+// again.
 struct LiveRequestsSaid {
   std::uint64_t window = 0;  // drawn by lot
   std::vector<LiveRequest> requests;

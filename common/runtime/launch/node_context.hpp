@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "common/core/base/result.hpp"
+#include "common/core/ground/ground.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/launch/live_keys.hpp"
 #include "common/runtime/launch/live_requests.hpp"
 #include "common/runtime/launch/run_log_border.hpp"
 #include "common/runtime/lockstep/node.hpp"
-#include "common/core/ground/ground.hpp"
 
 namespace rodeira::launch {
 
@@ -42,24 +42,26 @@ class NodeContext {
   virtual bool ground_is_here() const { return false; }
   // From the road server, waited for; Failed where it does not come.
   virtual base::Result<WorldSummary> World() = 0;
-  // The keys held in the run's windows, for who has a window and for who drives by them. Null where the host has no such
-  // border.
+  // The keys held in the run's windows, for who has a window and for who drives by them. Null where the host has no
+  // such border.
   virtual std::unique_ptr<LiveKeysSender> KeysSender() { return nullptr; }
   virtual std::unique_ptr<LiveKeysReceiver> KeysReceiver() { return nullptr; }
   // What windows ask for in the run, likewise for who asks and for who makes events of it.
   virtual std::unique_ptr<LiveRequestsSender> RequestsSender() { return nullptr; }
   virtual std::unique_ptr<LiveRequestsReceiver> RequestsReceiver() { return nullptr; }
-  // What the clock, the operator and faults did on the wall's clock, for who writes it down. Null where the host tells it
-  // to nobody.
+  // What the clock, the operator and faults did on the wall's clock, for who writes it down. Null where the host tells
+  // it to nobody.
   virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }
   // Recovery, as it concerns a recorder. An earlier life of this node has begun the work: its file is gone on with.
   virtual bool is_another_life() const { return false; }
-  // What an earlier life has said of its file (see SafeTeller), as the clock knows it; -1: nothing. Failed where the clock is silent.
+  // What an earlier life has said of its file (see SafeTeller), as the clock knows it; -1: nothing. Failed where the
+  // clock is silent.
   virtual base::Result<lockstep::Step> SafeStep() { return lockstep::Step{-1}; }
-  // To be told: samples valid through the step lie in the file, nobody needs to keep them for another life of this recorder.
-  // Null where the host has no use for it. It outlives this.
+  // To be told: samples valid through the step lie in the file, nobody needs to keep them for another life of this
+  // recorder. Null where the host has no use for it. It outlives this.
   virtual std::function<void(lockstep::Step)> SafeTeller() { return nullptr; }
-  // What the file holds already, for other nodes that are lost meanwhile. Wrong input where it contradicts what is known.
+  // What the file holds already, for other nodes that are lost meanwhile. Wrong input where it contradicts what is
+  // known.
   virtual base::Status Remember(const lockstep::Sample& /*sample*/) { return {}; }
   // A sink of another life says behind which step it has everything; its first activation is the next one.
   void BeginBehind(lockstep::Step step) { has_through_ = step; }

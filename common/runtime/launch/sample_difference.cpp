@@ -54,15 +54,18 @@ const decode::Type* SampleDifference::TypeOf(lockstep::SourceIndex source) {
   const auto known = types_.find(topic);
   if (known != types_.end()) return known->second.get();
   const idl::TopicInfo* info = idl::FindTopic(topic);
-  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput("")) : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
+  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput(""))
+                                    : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
   return (types_[topic] = type.ok() ? type.value() : nullptr).get();
 }
 
 std::string ContradictionText(const lockstep::Roster& roster, const Sample& before, const Sample& now) {
   const auto& source = roster.source(now.source());
   const auto field = SampleDifference(roster).Between(before, now);
-  return fmt::format("node '{}' contradicts itself at step {}, topic {}, field '{}': {} before, {} now; what it computes depends on more than its inputs and its state",
-                     roster.node(source.node).name, now.valid(), source.topic, field.path, field.a, field.b);
+  return fmt::format(
+      "node '{}' contradicts itself at step {}, topic {}, field '{}': {} before, {} now; what it computes depends on "
+      "more than its inputs and its state",
+      roster.node(source.node).name, now.valid(), source.topic, field.path, field.a, field.b);
 }
 
 }  // namespace rodeira::launch

@@ -10,8 +10,9 @@
 
 namespace rodeira::launch {
 
-// Names the first value in which two samples of one source and step differ: a field of the message, "state.NAME" of a snapshot,
-// "header.state_digest" where only the node's state does, or, where no field can be named, "(sample)" with both digests.
+// Names the first value in which two samples of one source and step differ: a field of the message, "state.NAME" of a
+// snapshot, "header.state_digest" where only the node's state does, or, where no field can be named, "(sample)" with
+// both digests.
 class SampleDifference {
  public:
   explicit SampleDifference(const lockstep::Roster& roster) : roster_(roster) {}
@@ -26,6 +27,7 @@ class SampleDifference {
 };
 
 // Of a node that said one thing, and another for the same step: who it is, where, and what differs.
-std::string ContradictionText(const lockstep::Roster& roster, const lockstep::Sample& before, const lockstep::Sample& now);
+std::string ContradictionText(const lockstep::Roster& roster, const lockstep::Sample& before,
+                              const lockstep::Sample& now);
 
 }  // namespace rodeira::launch

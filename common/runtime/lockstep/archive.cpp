@@ -5,11 +5,13 @@
 namespace rodeira::lockstep {
 
 base::Status Archive::Add(const Sample& sample) {
-  if (sample.source() >= samples_.size()) return base::WrongInput(fmt::format("a sample of source number {} was found", sample.source()));
+  if (sample.source() >= samples_.size())
+    return base::WrongInput(fmt::format("a sample of source number {} was found", sample.source()));
   if (sample.valid() < roster_.OldestNeeded(sample.source(), resume_)) return {};
   const auto [kept, is_new] = samples_[sample.source()].try_emplace(sample.valid(), sample);
   if (is_new || SameContent(kept->second, sample)) return {};
-  return base::WrongInput(fmt::format("two different samples are valid at step {}", sample.valid()), roster_.SourceName(sample.source()));
+  return base::WrongInput(fmt::format("two different samples are valid at step {}", sample.valid()),
+                          roster_.SourceName(sample.source()));
 }
 
 void Archive::Forget(Step resume) {
@@ -27,7 +29,8 @@ std::vector<Sample> Archive::From(const Gap& gap) const {
   const auto& kept = samples_[gap.source];
   const Step period = roster_.source(gap.source).period;
   Step expected = CeilTo(gap.from, period);
-  for (auto it = kept.lower_bound(expected); it != kept.end() && it->first == expected && found.size() < KeptSamples::kAtATime; ++it) {
+  for (auto it = kept.lower_bound(expected);
+       it != kept.end() && it->first == expected && found.size() < KeptSamples::kAtATime; ++it) {
     found.push_back(it->second);
     expected += period;
   }

@@ -10,8 +10,9 @@
 
 namespace rodeira::lockstep {
 
-// All samples and snapshots since the one from which a lost node would go on (recovery.hpp), whether they lie in a file yet or
-// not: who is started again asks for its state and for its inputs, and the recorder answers from here. One thread at a time.
+// All samples and snapshots since the one from which a lost node would go on (recovery.hpp), whether they lie in a file
+// yet or not: who is started again asks for its state and for its inputs, and the recorder answers from here. One
+// thread at a time.
 class Archive {
  public:
   explicit Archive(const Roster& roster) : roster_(roster), samples_(roster.sources().size()) {}

@@ -9,7 +9,11 @@
 namespace rodeira::lockstep {
 
 Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_step, std::vector<Policy> policies)
-    : roster_(roster), last_step_(last_step), first_step_(first_step), recovery_(roster, std::move(policies)), reports_(roster.nodes().size()),
+    : roster_(roster),
+      last_step_(last_step),
+      first_step_(first_step),
+      recovery_(roster, std::move(policies)),
+      reports_(roster.nodes().size()),
       heard_(roster.nodes().size(), false) {
   grant_.roster = roster.hash();
   grant_.safe = recovery_.safe();
@@ -18,11 +22,14 @@ Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_ste
 
 base::Status Clock::Take(const Report& report) {
   if (report.node >= roster_.nodes().size()) {
-    return base::WrongInput(fmt::format("a report of node number {} was refused: the roster has {} nodes", report.node, reports_.size()));
+    return base::WrongInput(
+        fmt::format("a report of node number {} was refused: the roster has {} nodes", report.node, reports_.size()));
   }
   const NodeSpec& spec = roster_.node(report.node);
   Report& known = reports_[report.node];
-  const auto refuse = [&](std::string why) { return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name)); };
+  const auto refuse = [&](std::string why) {
+    return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name));
+  };
   if (report.incarnation < life(report.node)) {
     return refuse(fmt::format("incarnation {} was found, {} is the living one", report.incarnation, life(report.node)));
   }
@@ -31,7 +38,8 @@ base::Status Clock::Take(const Report& report) {
     if (report.phase < known.phase) return {};
   }
   if (report.progress < 0 || report.progress % spec.period != 0) {
-    return refuse(fmt::format("progress {} was found, a multiple of the period {} was expected", report.progress, spec.period));
+    return refuse(
+        fmt::format("progress {} was found, a multiple of the period {} was expected", report.progress, spec.period));
   }
   if (rebuilding_ && report.granted > grant_.through) grant_.through = report.granted;
   if (rebuilding_ && report.granted_final && report.granted == grant_.through) grant_.final = true;
@@ -78,7 +86,8 @@ void Clock::ExpectNextLife(NodeIndex node) {
 std::vector<std::string> Clock::Missing(Phase phase) const {
   std::vector<std::string> names;
   for (NodeIndex n = 0; n < reports_.size(); ++n) {
-    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed) names.push_back(roster_.node(n).name);
+    if (!heard_[n] || reports_[n].phase < phase || reports_[n].phase >= Phase::kFailed)
+      names.push_back(roster_.node(n).name);
   }
   return names;
 }

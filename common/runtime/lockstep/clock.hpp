@@ -18,8 +18,8 @@ class Clock {
   // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
   // snapshot's step), 0 for a run from its start. policies: as Recovery.
   Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0, std::vector<Policy> policies = {});
-  // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants nothing
-  // new before it has heard them all.
+  // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants
+  // nothing new before it has heard them all.
   void Rebuild() { rebuilding_ = true; }
 
   // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase

@@ -48,7 +48,8 @@ Grant Conductor::Move(const Wall& now) {
   const Grant grant = clock_.Update(pacer_.Limit(now.monotonic_ns, clock_.window_limit()));
   if (grant.through > before) {
     pacer_.Granted(now.monotonic_ns, grant.through);
-    log_.Add(WallTime{std::max(before, clock_.first_step() - 1), grant.through, now.utc_ns, RunNs(now), pacer_.late_ns(), pacer_.pace(), pacer_.paused()});
+    log_.Add(WallTime{std::max(before, clock_.first_step() - 1), grant.through, now.utc_ns, RunNs(now),
+                      pacer_.late_ns(), pacer_.pace(), pacer_.paused()});
   }
   return grant;
 }
@@ -75,12 +76,24 @@ base::Result<std::string> Conductor::Do(const Command& command, const Wall& now)
   }
   if (clock_.grant().final) return base::Failed("the run is ending at " + Here());
   switch (command.kind) {
-    case Kind::kPause: Pause(now); break;
-    case Kind::kResume: Resume(now); break;
-    case Kind::kToggle: pacer_.paused() ? Resume(now) : Pause(now); break;
-    case Kind::kPace: SetPace(command.pace, now); break;
-    case Kind::kFaster: SetPace(Faster(pacer_.pace()), now); break;
-    case Kind::kSlower: SetPace(Slower(pacer_.pace()), now); break;
+    case Kind::kPause:
+      Pause(now);
+      break;
+    case Kind::kResume:
+      Resume(now);
+      break;
+    case Kind::kToggle:
+      pacer_.paused() ? Resume(now) : Pause(now);
+      break;
+    case Kind::kPace:
+      SetPace(command.pace, now);
+      break;
+    case Kind::kFaster:
+      SetPace(Faster(pacer_.pace()), now);
+      break;
+    case Kind::kSlower:
+      SetPace(Slower(pacer_.pace()), now);
+      break;
     case Kind::kStep: {
       if (!pacer_.paused()) Pause(now);
       const std::string from = Here();
@@ -92,9 +105,11 @@ base::Result<std::string> Conductor::Do(const Command& command, const Wall& now)
       const std::uint32_t number = Note(RemarkKind::kMark, command.text, now);
       return fmt::format("marked {} as remark {}", Here(), number);
     }
-    case Kind::kRestart: return base::Failed("nothing can be started again here");
+    case Kind::kRestart:
+      return base::Failed("nothing can be started again here");
     case Kind::kState:
-    case Kind::kStop: break;
+    case Kind::kStop:
+      break;
   }
   return State();
 }

@@ -16,14 +16,16 @@ struct Wall {
   std::int64_t utc_ns = 0;  // since 1970
 };
 
-// Leads a run: the clock grants, the pacer says when, the operator says otherwise, and the log keeps what happened. Pure
-// logic: whoever holds it brings the wall time and hands on grants and log.
+// Leads a run: the clock grants, the pacer says when, the operator says otherwise, and the log keeps what happened.
+// Pure logic: whoever holds it brings the wall time and hands on grants and log.
 class Conductor {
  public:
   // The clock outlives it.
-  Conductor(Clock& clock, const Pacer& pacer, std::uint32_t life = 0) : clock_(clock), pacer_(pacer), log_(life), life_(life) {}
+  Conductor(Clock& clock, const Pacer& pacer, std::uint32_t life = 0)
+      : clock_(clock), pacer_(pacer), log_(life), life_(life) {}
 
-  // Another life of a clock goes on with a run that began at `begin_ns` of the monotonic wall; the log says so where it goes on.
+  // Another life of a clock goes on with a run that began at `begin_ns` of the monotonic wall; the log says so where it
+  // goes on.
   void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
 
   // The grant that holds now. The run begins at the first call with everybody ready.

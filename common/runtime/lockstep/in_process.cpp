@@ -26,8 +26,12 @@ Wall ReadWall() {
 class ThreadedRun {
  public:
   ThreadedRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings)
-      : roster_(roster), nodes_(nodes), settings_(settings), clock_(roster, settings.last_step, settings.first_step),
-        conductor_(clock_, Pacer(roster.base_step_ns(), settings.pace, settings.first_step)), consumers_(ConsumersOf(roster)) {
+      : roster_(roster),
+        nodes_(nodes),
+        settings_(settings),
+        clock_(roster, settings.last_step, settings.first_step),
+        conductor_(clock_, Pacer(roster.base_step_ns(), settings.pace, settings.first_step)),
+        consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
@@ -35,7 +39,8 @@ class ThreadedRun {
     }
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       runners_.push_back(nodes[n] == nullptr ? nullptr
-                                             : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n], *mailboxes_[n], RunnerSettings(settings, n)));
+                                             : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n],
+                                                                        *mailboxes_[n], RunnerSettings(settings, n)));
     }
   }
 
@@ -102,7 +107,8 @@ class ThreadedRun {
   void Hear(const Report& report) {
     const std::lock_guard lock(mutex_);
     if (report.phase == Phase::kFailed && fault_.empty()) {
-      fault_ = fmt::format("node '{}' failed at step {}: {}", roster_.node(report.node).name, report.progress, report.message);
+      fault_ = fmt::format("node '{}' failed at step {}: {}", roster_.node(report.node).name, report.progress,
+                           report.message);
       conductor_.Abort(fault_, ReadWall());
     }
     if (auto status = clock_.Take(report); !status && fault_.empty()) {

@@ -25,19 +25,19 @@ struct Asked {
 
 struct InProcessSettings {
   std::optional<Step> last_step;
-  double pace = 0.0;                     // as Pacer
+  double pace = 0.0;  // as Pacer
   Step snapshot_every = 0;
-  std::vector<Snapshot> resume;          // one for each node in the roster's order, or empty
-  Step first_step = 0;                   // where those snapshots were taken
+  std::vector<Snapshot> resume;                      // one for each node in the roster's order, or empty
+  Step first_step = 0;                               // where those snapshots were taken
   std::function<void(const Sample&)> on_sample;      // every sample published; one call at a time
   std::function<void(const Snapshot&)> on_snapshot;  // one call at a time
-  double loss = 0.0;                     // RunShuffled: the share of samples and questions that never arrive
+  double loss = 0.0;  // RunShuffled: the share of samples and questions that never arrive
   // RunShuffled: nodes die, with everything that they kept, and are made again (recovery.hpp).
   struct Deaths {
-    double share = 0.0;                  // of the turns at which somebody dies
-    std::vector<Policy> policies;        // as Recovery
-    // A node of another life; for a recorder also what its file holds: all samples through `has_through`, of which the archive
-    // is told those in `tail`.
+    double share = 0.0;            // of the turns at which somebody dies
+    std::vector<Policy> policies;  // as Recovery
+    // A node of another life; for a recorder also what its file holds: all samples through `has_through`, of which the
+    // archive is told those in `tail`.
     struct Remade {
       Node* node = nullptr;
       Step has_through = -1;
@@ -47,29 +47,30 @@ struct InProcessSettings {
     std::function<Step(NodeIndex)> safe;  // of a recorder: samples valid through it are in its file
   };
   Deaths deaths;
-  std::function<bool()> stop_requested;  // asked about every 20 ms
-  std::function<void(const Clock&)> on_progress;     // called now and then on the caller's thread
+  std::function<bool()> stop_requested;                // asked about every 20 ms
+  std::function<void(const Clock&)> on_progress;       // called now and then on the caller's thread
   std::function<std::optional<Asked>()> next_command;  // RunThreaded: asked about every 20 ms until it has none
   std::function<void(const LogBatch&)> on_log;         // RunThreaded: on the caller's thread
 };
 
 struct RunOutcome {
   bool ok = false;
-  std::string fault;             // why not ok: names node and step
-  Step last_step = -1;           // the last step of the run
-  base::Digest digest = 0;       // of all samples of all nodes
-  std::vector<Report> reports;   // one for each node
-  int deaths = 0;                // RunShuffled
-  std::int64_t slipped_ns = 0;   // real time given up
-  std::int64_t paused_ns = 0;    // wall time
+  std::string fault;            // why not ok: names node and step
+  Step last_step = -1;          // the last step of the run
+  base::Digest digest = 0;      // of all samples of all nodes
+  std::vector<Report> reports;  // one for each node
+  int deaths = 0;               // RunShuffled
+  std::int64_t slipped_ns = 0;  // real time given up
+  std::int64_t paused_ns = 0;   // wall time
   Lateness lateness;
 };
 
 // One thread a node. `nodes` has one entry for each of the roster's, null for services (they take no part).
 RunOutcome RunThreaded(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings);
 
-// One thread for all: every choice (who runs next, which message arrives, twice or late) is drawn from `seed`, so that a
-// seed reproduces a failure. Pace and stop_requested are not used. Says so where nobody can go on (deadlock).
-RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings, std::uint64_t seed);
+// One thread for all: every choice (who runs next, which message arrives, twice or late) is drawn from `seed`, so that
+// a seed reproduces a failure. Pace and stop_requested are not used. Says so where nobody can go on (deadlock).
+RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
+                       std::uint64_t seed);
 
 }  // namespace rodeira::lockstep

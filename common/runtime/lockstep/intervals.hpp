@@ -7,8 +7,8 @@
 
 namespace rodeira::lockstep {
 
-// Lengths of time, counted: any number of them in a fixed place. Eight classes an octave, so that a quantile is the upper end of
-// its class, at most an eighth too long; below 8 ns exact.
+// Lengths of time, counted: any number of them in a fixed place. Eight classes an octave, so that a quantile is the
+// upper end of its class, at most an eighth too long; below 8 ns exact.
 class Intervals {
  public:
   void Add(std::int64_t length_ns) {

@@ -31,11 +31,14 @@ std::vector<Sample> KeptSamples::From(const Gap& gap) const {
   const auto output = std::find(outputs_.begin(), outputs_.end(), gap.source);
   if (output == outputs_.end()) return {};
   const auto& kept = samples_[static_cast<std::size_t>(output - outputs_.begin())];
-  const auto first = std::lower_bound(kept.begin(), kept.end(), gap.from, [](const Sample& sample, Step step) { return sample.valid() < step; });
+  const auto first = std::lower_bound(kept.begin(), kept.end(), gap.from,
+                                      [](const Sample& sample, Step step) { return sample.valid() < step; });
   return {first, first + std::min<std::ptrdiff_t>(kAtATime, kept.end() - first)};
 }
 
-bool KeptSamples::Has(SourceIndex source) const { return std::find(outputs_.begin(), outputs_.end(), source) != outputs_.end(); }
+bool KeptSamples::Has(SourceIndex source) const {
+  return std::find(outputs_.begin(), outputs_.end(), source) != outputs_.end();
+}
 
 std::size_t KeptSamples::size() const {
   std::size_t size = 0;

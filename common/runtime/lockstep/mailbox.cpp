@@ -24,7 +24,8 @@ Mailbox::Mailbox(const Roster& roster, NodeIndex node) : roster_(roster), spec_(
 }
 
 Mailbox::Track* Mailbox::TrackOf(SourceIndex source) {
-  const auto found = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) { return track.source == source; });
+  const auto found =
+      std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) { return track.source == source; });
   return found == tracks_.end() ? nullptr : &*found;
 }
 const Mailbox::Track* Mailbox::TrackOf(SourceIndex source) const { return const_cast<Mailbox*>(this)->TrackOf(source); }
@@ -58,8 +59,9 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   const Step step = sample.valid();
   const std::string_view topic = roster_.source(sample.source()).topic;
   if (step < 0 || step % track->period != 0) {
-    return base::WrongInput(fmt::format("a sample valid at {} was found, multiples of the period {} were expected", step, track->period),
-                            fmt::format("{} (topic {})", roster_.SourceName(sample.source()), topic));
+    return base::WrongInput(
+        fmt::format("a sample valid at {} was found, multiples of the period {} were expected", step, track->period),
+        fmt::format("{} (topic {})", roster_.SourceName(sample.source()), topic));
   }
   if (step < track->first) return {};  // an old one said again
   const auto at = static_cast<std::size_t>((step - track->first) / track->period);
@@ -72,7 +74,8 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   if (at >= track->slots.size()) track->slots.resize(at + 1);
   if (track->slots[at]) {
     if (SameContent(*track->slots[at], sample)) return {};
-    return base::WrongInput(fmt::format("two different samples are valid at step {}", step), roster_.SourceName(sample.source()));
+    return base::WrongInput(fmt::format("two different samples are valid at step {}", step),
+                            roster_.SourceName(sample.source()));
   }
   track->slots[at] = std::move(sample);
   wake = want_.what != Want::What::kNothing && IsOver(want_);
@@ -98,7 +101,8 @@ void Mailbox::DeliverGrant(const Grant& grant) {
 }
 
 bool Mailbox::IsNews(const Grant& grant) const {
-  return grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) || (grant.over && !grant_.over);
+  return grant.through > grant_.through || (grant.final && !grant_.final) || (grant.abort && !grant_.abort) ||
+         (grant.over && !grant_.over);
 }
 
 std::optional<Step> Mailbox::FirstGap(const Track& track, Step from, Step through) {
@@ -115,15 +119,21 @@ std::optional<Step> Mailbox::GapFor(const Track& track, Step step) const {
 
 std::optional<Step> Mailbox::InputGap(const Track& track, Step step) const {
   const Step newest = FloorTo(step, track.period);
-  return FirstGap(track, track.events ? std::max<Step>(CeilTo(step, spec_.period) - spec_.period + 1, 0) : newest, newest);
+  return FirstGap(track, track.events ? std::max<Step>(CeilTo(step, spec_.period) - spec_.period + 1, 0) : newest,
+                  newest);
 }
 
 bool Mailbox::Satisfied(const Want& want) const {
   switch (want.what) {
-    case Want::What::kNothing: return true;
+    case Want::What::kNothing:
+      return true;
     case Want::What::kInputs:
-      return std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return InputGap(track, want.step).has_value(); });
-    case Want::What::kActivation: return grant_.through >= want.step && std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) { return GapFor(track, want.step).has_value(); });
+      return std::none_of(tracks_.begin(), tracks_.end(),
+                          [&](const Track& track) { return InputGap(track, want.step).has_value(); });
+    case Want::What::kActivation:
+      return grant_.through >= want.step && std::none_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+               return GapFor(track, want.step).has_value();
+             });
     case Want::What::kEvents:
       return std::all_of(tracks_.begin(), tracks_.end(),
                          [&](const Track& track) { return !track.events || !FirstGap(track, track.first, want.step); });
@@ -132,19 +142,23 @@ bool Mailbox::Satisfied(const Want& want) const {
 }
 
 bool Mailbox::IsOver(const Want& want) const {
-  return grant_.abort || (want.what == Want::What::kActivation && grant_.final && want.step > grant_.through) || Satisfied(want);
+  return grant_.abort || (want.what == Want::What::kActivation && grant_.final && want.step > grant_.through) ||
+         Satisfied(want);
 }
 
 Mailbox::Woken Mailbox::Wait(const Want& want, std::chrono::milliseconds limit) {
   std::unique_lock lock(mutex_);
   want_ = want;
-  if (!IsOver(want) && !(limit.count() > 0 && woken_.wait_for(lock, limit, [&] { return IsOver(want); }))) return Woken::kTimeout;
+  if (!IsOver(want) && !(limit.count() > 0 && woken_.wait_for(lock, limit, [&] { return IsOver(want); })))
+    return Woken::kTimeout;
   want_ = {};
   if (grant_.abort) return Woken::kAborted;
   return Satisfied(want) ? Woken::kReady : Woken::kFinal;
 }
 
-Mailbox::Woken Mailbox::WaitForInputs(Step step, std::chrono::milliseconds limit) { return Wait({Want::What::kInputs, step}, limit); }
+Mailbox::Woken Mailbox::WaitForInputs(Step step, std::chrono::milliseconds limit) {
+  return Wait({Want::What::kInputs, step}, limit);
+}
 Mailbox::Woken Mailbox::WaitForActivation(Step step, std::chrono::milliseconds limit) {
   return Wait({Want::What::kActivation, step}, limit);
 }
@@ -194,7 +208,8 @@ Inbox Mailbox::Open(Step step) {
     for (const SourceIndex source : port.sources) {
       const Track& track = *TrackOf(source);
       const Step newest = FloorTo(step, track.period);
-      const Step from = port.kind == PortKind::kEvent ? CeilTo(std::max<Step>(step - spec_.period + 1, 0), track.period) : newest;
+      const Step from =
+          port.kind == PortKind::kEvent ? CeilTo(std::max<Step>(step - spec_.period + 1, 0), track.period) : newest;
       for (Step s = from; s <= newest; s += track.period) {
         const Sample* sample = track.Find(s);
         RODEIRA_ASSERT(sample != nullptr);
@@ -202,7 +217,8 @@ Inbox Mailbox::Open(Step step) {
       }
     }
     if (port.kind == PortKind::kEvent) {
-      std::stable_sort(out.samples.begin(), out.samples.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
+      std::stable_sort(out.samples.begin(), out.samples.end(),
+                       [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
     }
     ports.push_back(std::move(out));
   }
@@ -221,7 +237,8 @@ Inbox Mailbox::OpenEvents(Step after, Step through) {
         if (const Sample* sample = track.Find(s)) out.samples.push_back(*sample);
       }
     }
-    std::stable_sort(out.samples.begin(), out.samples.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
+    std::stable_sort(out.samples.begin(), out.samples.end(),
+                     [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
     ports.push_back(std::move(out));
   }
   return Inbox(std::move(ports));
@@ -251,7 +268,8 @@ void Mailbox::StartAt(Step at) {
 void Mailbox::Forget(Step step) {
   const std::lock_guard lock(mutex_);
   for (Track& track : tracks_) {
-    const Step oldest = track.events ? CeilTo(std::max<Step>(step - spec_.period + 1, 0), track.period) : FloorTo(step, track.period);
+    const Step oldest =
+        track.events ? CeilTo(std::max<Step>(step - spec_.period + 1, 0), track.period) : FloorTo(step, track.period);
     DropBefore(track, oldest);
   }
 }

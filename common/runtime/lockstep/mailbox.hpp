@@ -35,8 +35,8 @@ class Mailbox {
   void DeliverGrant(const Grant& grant);
 
   enum class Woken { kReady, kTimeout, kFinal, kAborted };
-  // The start, at 0 or at a snapshot: waits until every source has delivered its sample that is the newest at `step`, and of
-  // events those through `step` that the first activation will see.
+  // The start, at 0 or at a snapshot: waits until every source has delivered its sample that is the newest at `step`,
+  // and of events those through `step` that the first activation will see.
   Woken WaitForInputs(Step step, std::chrono::milliseconds limit);
   // Waits until activation `step` is granted and everything it must see has arrived. kFinal: `step` lies behind the
   // last step of the run. kTimeout after `limit`, so that the caller can say again what may have been lost.
@@ -75,7 +75,7 @@ class Mailbox {
     SourceIndex source = 0;
     Step period = 1;
     bool events = false;
-    Step first = 0;                        // the step of slots.front()
+    Step first = 0;  // the step of slots.front()
     std::deque<std::optional<Sample>> slots;
 
     const Sample* Find(Step step) const;
@@ -94,7 +94,7 @@ class Mailbox {
   const Track* TrackOf(SourceIndex source) const;
   // The oldest multiple of the period in [from, through] that is not there.
   static std::optional<Step> FirstGap(const Track& track, Step from, Step through);
-  std::optional<Step> GapFor(const Track& track, Step step) const;  // of activation `step`
+  std::optional<Step> GapFor(const Track& track, Step step) const;    // of activation `step`
   std::optional<Step> InputGap(const Track& track, Step step) const;  // of the start at `step`
   bool Satisfied(const Want& want) const;
   Woken Wait(const Want& want, std::chrono::milliseconds limit);

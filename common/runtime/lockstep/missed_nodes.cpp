@@ -13,7 +13,8 @@ void MissedNodes::Heard(NodeIndex node, std::int64_t now_ns) {
 std::string MissedNodes::Text(std::int64_t now_ns) const {
   std::string text;
   for (const auto& [node, loss] : missed_) {
-    text += fmt::format("{}{} {:.1f} s ago", text.empty() ? "" : "; ", loss.reason, static_cast<double>(now_ns - loss.since_ns) * 1e-9);
+    text += fmt::format("{}{} {:.1f} s ago", text.empty() ? "" : "; ", loss.reason,
+                        static_cast<double>(now_ns - loss.since_ns) * 1e-9);
   }
   return text;
 }

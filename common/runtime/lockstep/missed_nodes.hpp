@@ -8,12 +8,13 @@
 
 namespace rodeira::lockstep {
 
-// The lost nodes for which a run waits (policy pause), until a person starts them again, lets them go on, or stops the run.
-// Times are of one wall clock, ns.
+// The lost nodes for which a run waits (policy pause), until a person starts them again, lets them go on, or stops the
+// run. Times are of one wall clock, ns.
 class MissedNodes {
  public:
   void Lost(NodeIndex node, std::string reason, std::int64_t now_ns) { missed_[node] = {std::move(reason), now_ns}; }
-  // Its report has come: somebody has let its process go on. What was on its way when it was lost (0.3 s) does not count.
+  // Its report has come: somebody has let its process go on. What was on its way when it was lost (0.3 s) does not
+  // count.
   void Heard(NodeIndex node, std::int64_t now_ns);
   // Another life takes its place.
   void Restarted(NodeIndex node) { missed_.erase(node); }

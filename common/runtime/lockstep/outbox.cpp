@@ -6,7 +6,8 @@
 
 namespace rodeira::lockstep {
 
-Outbox::Outbox(const Roster& roster, NodeIndex node) : roster_(roster), node_(node), payloads_(roster.node(node).outputs.size()) {}
+Outbox::Outbox(const Roster& roster, NodeIndex node)
+    : roster_(roster), node_(node), payloads_(roster.node(node).outputs.size()) {}
 
 void Outbox::Put(std::string_view topic, base::Bytes payload) {
   const auto& outputs = roster_.node(node_).outputs;

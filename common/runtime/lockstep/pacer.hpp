@@ -9,8 +9,8 @@ namespace rodeira::lockstep {
 // How late the steps of a run were granted, measured against what the pace asked for at that moment: where time has
 // slipped, the steps behind are due later by as much.
 struct Lateness {
-  std::uint64_t steps = 0;     // granted at a pace
-  std::uint64_t late = 0;      // of them, when the step behind was already due, or later
+  std::uint64_t steps = 0;  // granted at a pace
+  std::uint64_t late = 0;   // of them, when the step behind was already due, or later
   std::int64_t total_ns = 0;
   std::int64_t worst_ns = 0;
   double mean_ns() const { return steps == 0 ? 0.0 : static_cast<double>(total_ns) / static_cast<double>(steps); }
@@ -19,11 +19,12 @@ struct Lateness {
 // How the wall time moves the grant (law L2). Pace 1 is real time, 0.5 slow motion, 0 as fast as possible.
 class Pacer {
  public:
-  Pacer(std::int64_t base_step_ns, double pace, Step first_step = 0) : base_step_ns_(base_step_ns), pace_(pace), from_step_(first_step) {}
+  Pacer(std::int64_t base_step_ns, double pace, Step first_step = 0)
+      : base_step_ns_(base_step_ns), pace_(pace), from_step_(first_step) {}
 
   // The last step that may be granted at wall time `now_ns`. `window_limit` is what the nodes' progress allows: where
-  // the wall has got further than that, time slips (the late part is forgotten, never caught up) and is counted. It may lie
-  // behind what was granted already, while a node that was started again computes that once more: time stands then.
+  // the wall has got further than that, time slips (the late part is forgotten, never caught up) and is counted. It may
+  // lie behind what was granted already, while a node that was started again computes that once more: time stands then.
   Step Limit(std::int64_t now_ns, Step window_limit);
   // What was granted then. A pause, a step and a new pace begin there.
   void Granted(std::int64_t now_ns, Step through);

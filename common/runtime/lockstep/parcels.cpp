@@ -6,7 +6,9 @@ namespace rodeira::lockstep {
 namespace {
 
 // The sample valid at `step` is the newest one at an activation of its consumer.
-bool IsSeen(Step step, Step source_period, Step consumer_period) { return CeilTo(step, consumer_period) < step + source_period; }
+bool IsSeen(Step step, Step source_period, Step consumer_period) {
+  return CeilTo(step, consumer_period) < step + source_period;
+}
 
 }  // namespace
 
@@ -14,14 +16,17 @@ bool GetsParcels(const Roster& roster, SourceIndex source, NodeIndex consumer) {
   return roster.node(consumer).period > roster.source(source).period;
 }
 
-Parcels::Parcels(const Roster& roster, NodeIndex producer, std::size_t most_bytes) : roster_(roster), most_bytes_(most_bytes) {
+Parcels::Parcels(const Roster& roster, NodeIndex producer, std::size_t most_bytes)
+    : roster_(roster), most_bytes_(most_bytes) {
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     Recipient recipient{n, {}, {}, 0};
     for (const Port& port : roster.node(n).inputs) {
       for (const SourceIndex source : port.sources) {
         if (roster.source(source).node != producer) continue;
-        if (!GetsParcels(roster, source, n)) alone_.push_back(source);
-        else recipient.lines.push_back({source, port.kind == PortKind::kEvent, roster.node(n).period});
+        if (!GetsParcels(roster, source, n))
+          alone_.push_back(source);
+        else
+          recipient.lines.push_back({source, port.kind == PortKind::kEvent, roster.node(n).period});
       }
     }
     if (!recipient.lines.empty()) recipients_.push_back(std::move(recipient));
@@ -47,7 +52,9 @@ std::vector<Parcels::Parcel> Parcels::Add(const Sample& sample, Step last) {
   return complete;
 }
 
-bool Parcels::IsSentAlone(SourceIndex source) const { return std::find(alone_.begin(), alone_.end(), source) != alone_.end(); }
+bool Parcels::IsSentAlone(SourceIndex source) const {
+  return std::find(alone_.begin(), alone_.end(), source) != alone_.end();
+}
 
 std::vector<NodeIndex> Parcels::Consumers() const {
   std::vector<NodeIndex> nodes;

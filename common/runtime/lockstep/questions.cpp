@@ -4,7 +4,9 @@ namespace rodeira::lockstep {
 
 void Questions::Add(const Question& question) {
   const auto& [asker, gap] = question;
-  if (being_answered_ && being_answered_->asker == asker && being_answered_->gap.source == gap.source && being_answered_->gap.from == gap.from) return;
+  if (being_answered_ && being_answered_->asker == asker && being_answered_->gap.source == gap.source &&
+      being_answered_->gap.from == gap.from)
+    return;
   waiting_[{asker, gap.source}] = gap.from;
 }
 

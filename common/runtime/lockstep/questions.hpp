@@ -15,14 +15,15 @@ struct Question {
   Gap gap;
 };
 
-// The questions that one process has heard and not answered. An asker repeats itself until it is answered, faster than a long
-// answer can be given; so of each asker and source only the newest question stands, and one that is repeated while it is being
-// answered was answered. Therefore there are never more than askers times sources, however slow the answers are. One thread at
-// a time.
+// The questions that one process has heard and not answered. An asker repeats itself until it is answered, faster than
+// a long answer can be given; so of each asker and source only the newest question stands, and one that is repeated
+// while it is being answered was answered. Therefore there are never more than askers times sources, however slow the
+// answers are. One thread at a time.
 class Questions {
  public:
   void Add(const Question& question);
-  // The next to be answered, of the askers and sources in turn; that one is being answered until the next call. None: all are.
+  // The next to be answered, of the askers and sources in turn; that one is being answered until the next call. None:
+  // all are.
   std::optional<Question> Next();
   bool empty() const { return waiting_.empty(); }
 

@@ -21,10 +21,15 @@ Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, 
 }
 
 Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
-    : roster_(roster), policies_(std::move(policies)), safe_of_(roster.nodes().size(), -1), lives_(roster.nodes().size()) {
+    : roster_(roster),
+      policies_(std::move(policies)),
+      safe_of_(roster.nodes().size(), -1),
+      lives_(roster.nodes().size()) {
   policies_.resize(roster.nodes().size(), Policy::kStop);
-  const bool wished = std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
-  restarts_ = wished && std::any_of(roster.nodes().begin(), roster.nodes().end(), [](const NodeSpec& node) { return node.keeps_snapshots(); });
+  const bool wished =
+      std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
+  restarts_ = wished && std::any_of(roster.nodes().begin(), roster.nodes().end(),
+                                    [](const NodeSpec& node) { return node.keeps_snapshots(); });
   for (const NodeSpec& node : roster.nodes()) {
     if (node.role != Role::kStepped) continue;
     ahead_ = std::max(ahead_, node.delay);
@@ -35,7 +40,10 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
 base::Status Recovery::CheckState(const Report& report) const {
   if (!report.cannot_save || policies_[report.node] != Policy::kRestart) return {};
   const std::string& name = roster_.node(report.node).name;
-  return base::WrongInput(fmt::format("node '{}' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.{}.recovery", name, name));
+  return base::WrongInput(
+      fmt::format("node '{}' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as "
+                  "nodes.{}.recovery",
+                  name, name));
 }
 
 void Recovery::Heard(const Report& report) {
@@ -66,7 +74,9 @@ Recovery::Decision Recovery::Lost(NodeIndex node, Step progress) {
   if (policies_[node] != Policy::kRestart) return {policies_[node], ""};
   Life& life = lives_[node];
   life.times = progress <= life.farthest ? life.times + 1 : 1;
-  if (life.times >= kMostTimes) return {Policy::kStop, fmt::format("it was lost {} times without getting beyond step {}", life.times, life.farthest)};
+  if (life.times >= kMostTimes)
+    return {Policy::kStop,
+            fmt::format("it was lost {} times without getting beyond step {}", life.times, life.farthest)};
   life.resume = resume();  // not beyond where an earlier life was sent to, as long as it is not back
   life.farthest = std::max(life.farthest, progress);
   life.back = false;

@@ -18,9 +18,9 @@ enum class Policy {
   kRestart,  // the part is started again and computes again what it had computed: the same bits
 };
 
-// Where another life than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0: from its start,
-// with everybody's samples from there on), a recorder behind what its file holds (`has_through`), another sink where nobody can
-// be behind. A run that has not begun begins for everybody alike.
+// Where another life than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0: from
+// its start, with everybody's samples from there on), a recorder behind what its file holds (`has_through`), another
+// sink where nobody can be behind. A run that has not begun begins for everybody alike.
 struct Beginning {
   Step snapshot = 0;
   Step sink_from = 0;
@@ -29,9 +29,9 @@ Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, 
 
 // Says how a run goes on after the loss of a node, and from where. Pure logic for the clock.
 //
-// A node goes on from its snapshot at resume(): the newest step of which the recorder says that everything valid up to then,
-// and all that a node publishes ahead of it, lies in its file (`safe`). So two losses at once lose nothing: what lies behind
-// is still with those who made it, or they compute it again.
+// A node goes on from its snapshot at resume(): the newest step of which the recorder says that everything valid up to
+// then, and all that a node publishes ahead of it, lies in its file (`safe`). So two losses at once lose nothing: what
+// lies behind is still with those who made it, or they compute it again.
 class Recovery {
  public:
   // policies: one for each node, or empty (all kStop).
@@ -41,8 +41,8 @@ class Recovery {
   // Somebody may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
   bool restarts() const { return restarts_; }
 
-  // Wrong input: the node is to be started again, and says that it cannot save its state. There is no snapshot to begin at, and
-  // nobody keeps the samples of a whole run, to compute it again from its first step.
+  // Wrong input: the node is to be started again, and says that it cannot save its state. There is no snapshot to begin
+  // at, and nobody keeps the samples of a whole run, to compute it again from its first step.
   base::Status CheckState(const Report& report) const;
   void Heard(const Report& report);
   // For the grant: kNever where nobody is started again.
@@ -53,24 +53,24 @@ class Recovery {
     Policy policy = Policy::kStop;
     std::string why;  // of a stop that the policy did not ask for
   };
-  // The node was lost before its activation at `progress`, a server when the run was there. Who is lost four times without having got further than before will
-  // be lost there every time.
+  // The node was lost before its activation at `progress`, a server when the run was there. Who is lost four times
+  // without having got further than before will be lost there every time.
   Decision Lost(NodeIndex node, Step progress);
 
  private:
   struct Life {
-    Step farthest = -1;           // where it was lost
-    int times = 0;                // lost at or before that step
-    bool back = true;             // it has come that far again
-    Step resume = 0;              // where it was sent to
+    Step farthest = -1;  // where it was lost
+    int times = 0;       // lost at or before that step
+    bool back = true;    // it has come that far again
+    Step resume = 0;     // where it was sent to
   };
   Step Newest() const;
 
   const Roster& roster_;
   std::vector<Policy> policies_;
   bool restarts_ = false;
-  Step every_ = 0;   // steps between snapshots; 0: there are none
-  Step ahead_ = 0;   // the longest delay
+  Step every_ = 0;  // steps between snapshots; 0: there are none
+  Step ahead_ = 0;  // the longest delay
   Step safe_ = -1;
   std::vector<Step> safe_of_;  // by node, of those who keep snapshots
   std::vector<Life> lives_;

@@ -4,13 +4,20 @@ namespace rodeira::lockstep {
 
 std::string_view PhaseName(Phase phase) {
   switch (phase) {
-    case Phase::kStarting: return "starting";
-    case Phase::kReady: return "ready";
-    case Phase::kRunning: return "running";
-    case Phase::kFinished: return "finished";
-    case Phase::kFailed: return "failed";
-    case Phase::kRefused: return "refused";
-    case Phase::kLost: return "lost";
+    case Phase::kStarting:
+      return "starting";
+    case Phase::kReady:
+      return "ready";
+    case Phase::kRunning:
+      return "running";
+    case Phase::kFinished:
+      return "finished";
+    case Phase::kFailed:
+      return "failed";
+    case Phase::kRefused:
+      return "refused";
+    case Phase::kLost:
+      return "lost";
   }
   return "unknown";
 }

@@ -30,22 +30,22 @@ struct Report {
   NodeIndex node = 0;
   std::uint32_t incarnation = 0;
   Phase phase = Phase::kStarting;
-  Step progress = 0;                      // the next activation
+  Step progress = 0;  // the next activation
   Waiting waiting = Waiting::kNothing;
-  SourceIndex waiting_source = 0;         // the first missing source, where waiting is kInputs
-  std::int64_t since_ms = 0;              // how long it has been computing or waiting, wall time
-  base::Digest digest = 0;                // chain of all samples so far, this node's outputs
-  std::uint64_t steps = 0;                // activations done
-  std::int64_t busy_ns = 0;               // wall time inside Step, all activations together
-  std::int64_t worst_ns = 0;              // the longest of them
-  std::uint64_t server_calls = 0;         // round trips to a server (SUELO)
-  std::int64_t median_interval_ns = 0;    // wall time from activation to activation: half of them at most this,
-  std::int64_t p99_interval_ns = 0;       // 99 of 100 at most this; both only once the node has finished
-  Step safe = -1;                         // of who keeps snapshots (a recorder): samples valid through it are in its file
-  Step granted = -1;                      // the newest grant that the node knows …
-  bool granted_final = false;             // … and whether that is the last of the run
-  bool cannot_save = false;               // its state: it has no snapshots to begin at (Node::can_save)
-  std::string message;                    // why it failed; what it refused
+  SourceIndex waiting_source = 0;       // the first missing source, where waiting is kInputs
+  std::int64_t since_ms = 0;            // how long it has been computing or waiting, wall time
+  base::Digest digest = 0;              // chain of all samples so far, this node's outputs
+  std::uint64_t steps = 0;              // activations done
+  std::int64_t busy_ns = 0;             // wall time inside Step, all activations together
+  std::int64_t worst_ns = 0;            // the longest of them
+  std::uint64_t server_calls = 0;       // round trips to a server (SUELO)
+  std::int64_t median_interval_ns = 0;  // wall time from activation to activation: half of them at most this,
+  std::int64_t p99_interval_ns = 0;     // 99 of 100 at most this; both only once the node has finished
+  Step safe = -1;                       // of who keeps snapshots (a recorder): samples valid through it are in its file
+  Step granted = -1;                    // the newest grant that the node knows …
+  bool granted_final = false;           // … and whether that is the last of the run
+  bool cannot_save = false;             // its state: it has no snapshots to begin at (Node::can_save)
+  std::string message;                  // why it failed; what it refused
 };
 
 // A step that no run comes to.
@@ -53,16 +53,16 @@ inline constexpr Step kNever = std::numeric_limits<Step>::max();
 
 // The clock's word (law L2). Everything in it is a state, so it can be said again at any time.
 struct Grant {
-  Step through = -1;      // inclusive; -1: nothing granted yet
-  bool final = false;     // `through` is the last step of the run: run to it and finish
-  bool abort = false;     // stop at once; reason says why
-  bool over = false;      // everybody has finished, whoever lingers may go
+  Step through = -1;   // inclusive; -1: nothing granted yet
+  bool final = false;  // `through` is the last step of the run: run to it and finish
+  bool abort = false;  // stop at once; reason says why
+  bool over = false;   // everybody has finished, whoever lingers may go
   base::Digest roster = 0;
   // Recovery (law L3, recovery.hpp).
-  Step safe = kNever;                     // samples valid through it need not be kept for a recorder that is started again
-  Step resume = 0;                        // who is lost goes on from its snapshot there
-  std::vector<std::uint32_t> lives;       // by node: the incarnation that takes part; empty: all 0
-  std::string reason;     // why it was aborted; where it is over, the clock's closing words, a line each
+  Step safe = kNever;                // samples valid through it need not be kept for a recorder that is started again
+  Step resume = 0;                   // who is lost goes on from its snapshot there
+  std::vector<std::uint32_t> lives;  // by node: the incarnation that takes part; empty: all 0
+  std::string reason;                // why it was aborted; where it is over, the clock's closing words, a line each
 };
 
 std::string_view PhaseName(Phase phase);

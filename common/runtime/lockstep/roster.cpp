@@ -16,17 +16,22 @@ base::Status CheckNode(const NodeWish& wish) {
   if (wish.role == Role::kService && (!wish.outputs.empty() || !wish.inputs.empty())) {
     return base::WrongInput("a service has neither inputs nor outputs in the lockstep", where);
   }
-  if (wish.period < 1) return base::WrongInput(fmt::format("period {} was found, at least 1 step was expected", wish.period), where);
+  if (wish.period < 1)
+    return base::WrongInput(fmt::format("period {} was found, at least 1 step was expected", wish.period), where);
   if (wish.delay != 0 && (wish.delay < wish.period || wish.delay % wish.period != 0)) {
-    return base::WrongInput(fmt::format("delay {} was found, a multiple of the period {} was expected", wish.delay, wish.period), where);
+    return base::WrongInput(
+        fmt::format("delay {} was found, a multiple of the period {} was expected", wish.delay, wish.period), where);
   }
   if (wish.snapshot_every < 0 || wish.snapshot_every % wish.period != 0) {
-    return base::WrongInput(fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected", wish.snapshot_every, wish.period), where);
+    return base::WrongInput(fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected",
+                                        wish.snapshot_every, wish.period),
+                            where);
   }
   return {};
 }
 
-base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& nodes, const std::vector<Source>& sources) {
+base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& nodes,
+                    const std::vector<Source>& sources) {
   base::ByteWriter out;
   out.Put(base_step_ns);
   out.Put(window);
@@ -50,15 +55,18 @@ base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<No
 }  // namespace
 
 base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeWish>& wishes) {
-  if (base_step_ns < 1) return base::WrongInput(fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
+  if (base_step_ns < 1)
+    return base::WrongInput(fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
   if (window < 1) return base::WrongInput(fmt::format("window {} was found, at least 1 step was expected", window));
   Roster roster;
   roster.base_step_ns_ = base_step_ns;
   roster.window_ = window;
   for (const NodeWish& wish : wishes) {
     if (auto status = CheckNode(wish); !status) return status.error();
-    if (roster.Find(wish.name) != roster.nodes_.size()) return base::WrongInput(fmt::format("two nodes are named '{}'", wish.name));
-    NodeSpec node{wish.name, wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay, wish.deadline_ms, {}, {}, {}};
+    if (roster.Find(wish.name) != roster.nodes_.size())
+      return base::WrongInput(fmt::format("two nodes are named '{}'", wish.name));
+    NodeSpec node{wish.name,        wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay,
+                  wish.deadline_ms, {},        {},        {}};
     for (const std::string& topic : wish.outputs) {
       node.outputs.push_back(static_cast<SourceIndex>(roster.sources_.size()));
       roster.sources_.push_back({static_cast<NodeIndex>(roster.nodes_.size()), topic, node.period, node.delay});
@@ -78,7 +86,8 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
         const NodeIndex from = roster.Find(name);
         const std::string where = fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic);
         if (from == roster.nodes_.size()) {
-          return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())), where);
+          return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
+                                  where);
         }
         if (wish.topic == kSnapshotTopic && roster.nodes_[from].snapshots) {
           if (!roster.nodes_[n].is_sink()) return base::WrongInput("only a sink can be wired to snapshots", where);
@@ -86,16 +95,21 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
           continue;
         }
         const auto& outputs = roster.nodes_[from].outputs;
-        const auto found = std::find_if(outputs.begin(), outputs.end(), [&](SourceIndex s) { return roster.sources_[s].topic == wish.topic; });
-        if (found == outputs.end()) return base::WrongInput(fmt::format("node '{}' does not publish this topic", name), where);
+        const auto found = std::find_if(outputs.begin(), outputs.end(),
+                                        [&](SourceIndex s) { return roster.sources_[s].topic == wish.topic; });
+        if (found == outputs.end())
+          return base::WrongInput(fmt::format("node '{}' does not publish this topic", name), where);
         port.sources.push_back(*found);
       }
       std::sort(port.sources.begin(), port.sources.end());
       for (const Port& other : roster.nodes_[n].inputs) {
-        if (other.topic == port.topic) return base::WrongInput("the topic is wired to two inputs", fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
+        if (other.topic == port.topic)
+          return base::WrongInput("the topic is wired to two inputs",
+                                  fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
       }
       if (std::adjacent_find(port.sources.begin(), port.sources.end()) != port.sources.end()) {
-        return base::WrongInput("a source is wired twice", fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
+        return base::WrongInput("a source is wired twice",
+                                fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
       }
       roster.nodes_[n].inputs.push_back(std::move(port));
     }
@@ -105,11 +119,13 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
 }
 
 bool NodeSpec::keeps_snapshots() const {
-  return is_sink() && std::any_of(inputs.begin(), inputs.end(), [](const Port& port) { return port.topic == kSnapshotTopic; });
+  return is_sink() &&
+         std::any_of(inputs.begin(), inputs.end(), [](const Port& port) { return port.topic == kSnapshotTopic; });
 }
 
 NodeIndex Roster::Find(std::string_view name) const {
-  const auto found = std::find_if(nodes_.begin(), nodes_.end(), [&](const NodeSpec& node) { return node.name == name; });
+  const auto found =
+      std::find_if(nodes_.begin(), nodes_.end(), [&](const NodeSpec& node) { return node.name == name; });
   return static_cast<NodeIndex>(found - nodes_.begin());
 }
 

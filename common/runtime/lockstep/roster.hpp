@@ -41,12 +41,12 @@ struct NodeWish {
   std::string name;
   std::string kind;
   Role role = Role::kStepped;
-  Step period = 1;             // P, base steps
-  Step delay = 0;              // D, base steps; 0 means P
-  std::int64_t deadline_ms = 0;  // longest wall time of one step; 0 means the run's default
+  Step period = 1;                   // P, base steps
+  Step delay = 0;                    // D, base steps; 0 means P
+  std::int64_t deadline_ms = 0;      // longest wall time of one step; 0 means the run's default
   std::vector<std::string> outputs;  // topics
   std::vector<PortWish> inputs;
-  Step snapshot_every = 0;     // a multiple of the period: the node's state is a stream of samples too; 0: it is not
+  Step snapshot_every = 0;  // a multiple of the period: the node's state is a stream of samples too; 0: it is not
 };
 
 // One stream of samples: a node's output on a topic. Its index in the roster is its number on the wire.
@@ -72,8 +72,8 @@ struct NodeSpec {
   std::int64_t deadline_ms = 0;
   std::vector<SourceIndex> outputs;
   std::vector<Port> inputs;
-  // The node's snapshots (law L3), valid at each multiple of this source's period. They are published by the activation at
-  // that very step, before it is done, and therefore only sinks may be wired to them: a sink keeps nobody waiting.
+  // The node's snapshots (law L3), valid at each multiple of this source's period. They are published by the activation
+  // at that very step, before it is done, and therefore only sinks may be wired to them: a sink keeps nobody waiting.
   std::optional<SourceIndex> snapshots;
 
   bool is_sink() const { return role == Role::kStepped && outputs.empty(); }

@@ -7,15 +7,24 @@ namespace rodeira::lockstep {
 
 std::string_view RemarkName(RemarkKind kind) {
   switch (kind) {
-    case RemarkKind::kStart: return "start";
-    case RemarkKind::kEnd: return "end";
-    case RemarkKind::kMark: return "mark";
-    case RemarkKind::kPause: return "pause";
-    case RemarkKind::kResume: return "resume";
-    case RemarkKind::kStep: return "step";
-    case RemarkKind::kPace: return "pace";
-    case RemarkKind::kStop: return "stop";
-    case RemarkKind::kFault: return "fault";
+    case RemarkKind::kStart:
+      return "start";
+    case RemarkKind::kEnd:
+      return "end";
+    case RemarkKind::kMark:
+      return "mark";
+    case RemarkKind::kPause:
+      return "pause";
+    case RemarkKind::kResume:
+      return "resume";
+    case RemarkKind::kStep:
+      return "step";
+    case RemarkKind::kPace:
+      return "pace";
+    case RemarkKind::kStop:
+      return "stop";
+    case RemarkKind::kFault:
+      return "fault";
   }
   return "unknown";
 }
@@ -28,7 +37,8 @@ std::uint32_t RunLog::Add(Remark remark) {
 
 std::optional<LogBatch> RunLog::Take(std::int64_t now_ns) {
   if (closed_) return std::nullopt;
-  const bool old_enough = !next_.walls.empty() && (now_ns - taken_ns_ >= kBatch_ns || next_.walls.size() >= kBatchEntries);
+  const bool old_enough =
+      !next_.walls.empty() && (now_ns - taken_ns_ >= kBatch_ns || next_.walls.size() >= kBatchEntries);
   if (!old_enough && next_.remarks.empty() && !next_.last) return std::nullopt;
   taken_ns_ = now_ns;
   closed_ = next_.last;
@@ -44,7 +54,8 @@ void KeptLog::Add(const LogBatch& batch) {
 
 std::vector<LogBatch> KeptLog::From(std::uint64_t number) const {
   constexpr std::size_t kAtATime = 64;
-  const auto first = std::find_if(batches_.begin(), batches_.end(), [number](const LogBatch& batch) { return batch.number >= number; });
+  const auto first = std::find_if(batches_.begin(), batches_.end(),
+                                  [number](const LogBatch& batch) { return batch.number >= number; });
   const auto count = std::min<std::size_t>(kAtATime, static_cast<std::size_t>(batches_.end() - first));
   return {first, first + static_cast<std::ptrdiff_t>(count)};
 }

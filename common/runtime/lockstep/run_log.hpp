@@ -13,15 +13,15 @@
 
 #include "common/runtime/lockstep/step.hpp"
 
-// What happens around a run on the wall's clock: when which step was granted, what the operator did, what failed. No part
-// of the lockstep: nothing of it is in a digest, and two runs with different logs are identical.
+// What happens around a run on the wall's clock: when which step was granted, what the operator did, what failed. No
+// part of the lockstep: nothing of it is in a digest, and two runs with different logs are identical.
 namespace rodeira::lockstep {
 
-// One grant: all steps behind `after`, through `through`. At a pace step k was due (through - k) base steps, divided by the
-// pace, before through was: before monotonic_ns - late_ns. Steps that no entry covers were granted by a clock that died before it
-// could say when.
+// One grant: all steps behind `after`, through `through`. At a pace step k was due (through - k) base steps, divided by
+// the pace, before through was: before monotonic_ns - late_ns. Steps that no entry covers were granted by a clock that
+// died before it could say when.
 struct WallTime {
-  Step after = -1;                // the newest granted step before
+  Step after = -1;  // the newest granted step before
   Step through = 0;
   std::int64_t utc_ns = 0;        // since 1970
   std::int64_t monotonic_ns = 0;  // since the first grant
@@ -95,8 +95,8 @@ class KeptLog {
   std::deque<LogBatch> batches_;
 };
 
-// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier life of the
-// clock had not said is lost with it. Any thread may call.
+// The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier
+// life of the clock had not said is lost with it. Any thread may call.
 class LogInbox {
  public:
   void Deliver(LogBatch batch);

@@ -14,8 +14,15 @@ using WallClock = std::chrono::steady_clock;
 }  // namespace
 
 Runner::Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings)
-    : roster_(roster), index_(index), spec_(roster.node(index)), node_(node), bus_(bus), mailbox_(mailbox),
-      settings_(std::move(settings)), outbox_(roster, index), since_(WallClock::now()) {
+    : roster_(roster),
+      index_(index),
+      spec_(roster.node(index)),
+      node_(node),
+      bus_(bus),
+      mailbox_(mailbox),
+      settings_(std::move(settings)),
+      outbox_(roster, index),
+      since_(WallClock::now()) {
   report_.node = index;
   report_.incarnation = settings_.incarnation;
   report_.cannot_save = !node.can_save();
@@ -33,11 +40,16 @@ Runner::Outcome Runner::Run() {
 
 Runner::Outcome Runner::Advance(std::chrono::milliseconds limit) {
   switch (stage_) {
-    case Stage::kBegin: return Begin();
-    case Stage::kInputs: return AwaitInputs(limit);
-    case Stage::kStepping: return Activate(limit);
-    case Stage::kEnding: return End(limit);
-    case Stage::kOver: break;
+    case Stage::kBegin:
+      return Begin();
+    case Stage::kInputs:
+      return AwaitInputs(limit);
+    case Stage::kStepping:
+      return Activate(limit);
+    case Stage::kEnding:
+      return End(limit);
+    case Stage::kOver:
+      break;
   }
   RODEIRA_ASSERT(!"a node is advanced after its end");
 }
@@ -48,7 +60,8 @@ Runner::Outcome Runner::Begin() {
   if (settings_.resume) {
     const Snapshot& snapshot = *settings_.resume;
     if (snapshot.has_state) {
-      if (!node_.can_save()) return Fail(base::WrongInput("its snapshot holds a state, which this node can neither save nor take"));
+      if (!node_.can_save())
+        return Fail(base::WrongInput("its snapshot holds a state, which this node can neither save nor take"));
       base::StateReader in(snapshot.state);
       node_.Restore(in);
       if (auto status = in.Finish(); !status) return Fail(status.error());
@@ -85,7 +98,8 @@ Runner::Outcome Runner::Begin() {
         report_.digest = base::Combine(report_.digest, PayloadDigest(*first.back().payload));
       }
     }
-    std::stable_sort(first.begin(), first.end(), [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
+    std::stable_sort(first.begin(), first.end(),
+                     [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
   // The first snapshot is, like every first sample, there before anybody is ready.
@@ -99,17 +113,18 @@ Runner::Outcome Runner::Begin() {
 
 Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
   switch (mailbox_.WaitForInputs(begun_at_, limit)) {
-    case Mailbox::Woken::kReady:
-      {
-        const std::lock_guard lock(report_mutex_);
-        report_.progress = next_;
-      }
+    case Mailbox::Woken::kReady: {
+      const std::lock_guard lock(report_mutex_);
+      report_.progress = next_;
+    }
       Note(Phase::kReady, Waiting::kGrant);
       TellReport();
       stage_ = Stage::kStepping;
       return Outcome::kWorking;
-    case Mailbox::Woken::kAborted: return FinishAborted();
-    default: break;
+    case Mailbox::Woken::kAborted:
+      return FinishAborted();
+    default:
+      break;
   }
   NoteWaiting(next_);
   return Outcome::kBlocked;
@@ -121,11 +136,13 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   const bool granted = mailbox_.IsGranted(next_);
   if (told_ < next_ && (!granted || next_ - told_ >= std::max<Step>(roster_.window() / 4, 1))) TellReport();
   switch (mailbox_.WaitForActivation(next_, limit)) {
-    case Mailbox::Woken::kReady: break;
+    case Mailbox::Woken::kReady:
+      break;
     case Mailbox::Woken::kFinal:
       stage_ = Stage::kEnding;
       return Outcome::kWorking;
-    case Mailbox::Woken::kAborted: return FinishAborted();
+    case Mailbox::Woken::kAborted:
+      return FinishAborted();
     case Mailbox::Woken::kTimeout:
       NoteWaiting(next_);
       return Outcome::kBlocked;
@@ -135,17 +152,20 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
-                      static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9, next_ + spec_.delay};
+                      static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9,
+                      next_ + spec_.delay};
   Note(Phase::kRunning, Waiting::kNothing);
   const auto begin = WallClock::now();
   if (begun_step_) intervals_.Add(std::chrono::nanoseconds(begin - *begun_step_).count());
   begun_step_ = begin;
   const base::Status status = node_.Step(info, inbox, outbox_);
   const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
-  // A server's answer may have failed to come: nothing of this counts. A sink asks nobody, and what it has written is written.
+  // A server's answer may have failed to come: nothing of this counts. A sink asks nobody, and what it has written is
+  // written.
   if (!spec_.is_sink() && mailbox_.grant().abort) return FinishAborted();
   if (!status) return Fail(status.error());
-  std::vector<Sample> samples = outbox_.Take(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest());
+  std::vector<Sample> samples =
+      outbox_.Take(info.output_valid, settings_.incarnation, spec_.outputs.empty() ? 0 : StateDigest());
   {
     const std::lock_guard lock(report_mutex_);
     for (const Sample& sample : samples) report_.digest = base::Combine(report_.digest, PayloadDigest(*sample.payload));
@@ -211,12 +231,17 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
 void Runner::AskAgain() {
   std::vector<Gap> gaps;
   switch (stage_) {
-    case Stage::kInputs: gaps = mailbox_.MissingInputs(begun_at_); break;
+    case Stage::kInputs:
+      gaps = mailbox_.MissingInputs(begun_at_);
+      break;
     case Stage::kStepping:
       if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
       break;
-    case Stage::kEnding: gaps = mailbox_.MissingEvents(mailbox_.grant().through); break;
-    default: break;
+    case Stage::kEnding:
+      gaps = mailbox_.MissingEvents(mailbox_.grant().through);
+      break;
+    default:
+      break;
   }
   for (const Gap& gap : gaps) bus_.Ask(gap);
 }
@@ -231,7 +256,9 @@ Snapshot Runner::SnapshotAt(Step step) const {
   return snapshot;
 }
 
-base::Status Runner::PublishSnapshot(const Snapshot& snapshot) { return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation)); }
+base::Status Runner::PublishSnapshot(const Snapshot& snapshot) {
+  return bus_.Publish(snapshot.ToSample(roster_, settings_.incarnation));
+}
 
 base::Status Runner::TakeSnapshotIfDue(Step step) {
   const bool publish = spec_.snapshots && step > begun_at_ && step % roster_.source(*spec_.snapshots).period == 0;
@@ -253,7 +280,8 @@ base::Status Runner::TakeSnapshotIfDue(Step step) {
 
 void Runner::ForgetOwnSamples(Step step) {
   const Step reference = std::max<Step>(step - spec_.period, 0);
-  while (!own_.empty() && own_.front().valid() < roster_.OldestNeeded(own_.front().source(), reference)) own_.pop_front();
+  while (!own_.empty() && own_.front().valid() < roster_.OldestNeeded(own_.front().source(), reference))
+    own_.pop_front();
 }
 
 base::Digest Runner::StateDigest() {

@@ -20,9 +20,10 @@ class Runner {
  public:
   struct Settings {
     std::uint32_t incarnation = 0;
-    Step snapshot_every = 0;             // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
-    std::optional<Snapshot> resume;      // begin here instead of at step 0; one without a state: the node stands there already
-    Step sink_from = 0;                  // a sink: the first activation at or after this step, instead of a snapshot
+    Step snapshot_every = 0;  // 0: none; otherwise one at each multiple, the node's state handed to Bus::Keep
+    std::optional<Snapshot>
+        resume;          // begin here instead of at step 0; one without a state: the node stands there already
+    Step sink_from = 0;  // a sink: the first activation at or after this step, instead of a snapshot
     std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
     std::chrono::milliseconds most_patience{8};  // … doubled after each question up to this
   };

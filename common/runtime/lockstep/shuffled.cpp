@@ -18,14 +18,20 @@ constexpr std::size_t kMostParcel_bytes = 300;  // a few samples of a test's: so
 
 class ShuffledRun {
  public:
-  ShuffledRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings, std::uint64_t seed)
-      : roster_(roster), settings_(settings), seed_(seed), clock_(roster, settings.last_step, settings.first_step, settings.deaths.policies), consumers_(ConsumersOf(roster)) {
+  ShuffledRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
+              std::uint64_t seed)
+      : roster_(roster),
+        settings_(settings),
+        seed_(seed),
+        clock_(roster, settings.last_step, settings.first_step, settings.deaths.policies),
+        consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
       buses_.push_back(std::make_unique<ShuffleBus>(*this, n));
       runners_.push_back(nodes[n] == nullptr ? nullptr
-                                             : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n], *mailboxes_[n], RunnerSettings(settings, n)));
+                                             : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n],
+                                                                        *mailboxes_[n], RunnerSettings(settings, n)));
       over_.push_back(nodes[n] == nullptr);
     }
   }
@@ -60,7 +66,8 @@ class ShuffledRun {
     Gap gap{};
   };
   struct ShuffleBus final : Bus {
-    ShuffleBus(ShuffledRun& owner, NodeIndex n) : run(owner), node(n), kept(run.roster_, n), parcels(run.roster_, n, kMostParcel_bytes) {
+    ShuffleBus(ShuffledRun& owner, NodeIndex n)
+        : run(owner), node(n), kept(run.roster_, n), parcels(run.roster_, n, kMostParcel_bytes) {
       if (run.settings_.deaths.share > 0.0 && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
     }
     base::Status Publish(const Sample& sample) override {
@@ -68,7 +75,8 @@ class ShuffledRun {
       kept.Add(sample);
       const Grant grant = run.mailboxes_[node]->grant();
       for (auto& parcel : parcels.Add(sample, grant.final ? grant.through : kNever)) {
-        run.in_flight_.push_back({.kind = Message::Kind::kParcel, .to = parcel.to, .parcel = std::move(parcel.samples)});
+        run.in_flight_.push_back(
+            {.kind = Message::Kind::kParcel, .to = parcel.to, .parcel = std::move(parcel.samples)});
       }
       Say(sample, [&](NodeIndex n) { return !GetsParcels(run.roster_, sample.source(), n); });
       return {};
@@ -119,10 +127,13 @@ class ShuffledRun {
       in_flight_[at] = in_flight_.back();
       in_flight_.pop_back();
     }
-    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kParcel || message.kind == Message::Kind::kAsk;
+    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kParcel ||
+                             message.kind == Message::Kind::kAsk;
     if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
     switch (message.kind) {
-      case Message::Kind::kSample: Deliver(message.to, message.sample); break;
+      case Message::Kind::kSample:
+        Deliver(message.to, message.sample);
+        break;
       case Message::Kind::kParcel:
         for (const Sample& sample : message.parcel) Deliver(message.to, sample);
         break;
@@ -131,8 +142,12 @@ class ShuffledRun {
         buses_[message.to]->kept.Granted(message.grant);
         if (auto& archive = buses_[message.to]->archive) archive->Forget(message.grant.resume);
         break;
-      case Message::Kind::kAsk: buses_[message.to]->Answer(message.gap); break;
-      case Message::Kind::kReport: Hear(message.report); break;
+      case Message::Kind::kAsk:
+        buses_[message.to]->Answer(message.gap);
+        break;
+      case Message::Kind::kReport:
+        Hear(message.report);
+        break;
     }
     return false;
   }
@@ -145,12 +160,14 @@ class ShuffledRun {
   }
   void Hear(const Report& report) {
     if (report.incarnation < clock_.life(report.node)) return;
-    if (report.phase == Phase::kFailed) fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
+    if (report.phase == Phase::kFailed)
+      fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
     if (auto status = clock_.Take(report); !status) fault_ = status.error().Text();
     const Step before = clock_.grant().through;
     const Grant grant = clock_.Update(clock_.window_limit());
     if (grant.through == before) return;
-    for (NodeIndex n = 0; n < mailboxes_.size(); ++n) in_flight_.push_back({.kind = Message::Kind::kGrant, .to = n, .grant = grant});
+    for (NodeIndex n = 0; n < mailboxes_.size(); ++n)
+      in_flight_.push_back({.kind = Message::Kind::kGrant, .to = n, .grant = grant});
   }
   // With its mailbox, what it kept, and what it has said to a clock that knows better.
   void KillOne() {
@@ -241,7 +258,8 @@ class ShuffledRun {
 
 }  // namespace
 
-RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings, std::uint64_t seed) {
+RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
+                       std::uint64_t seed) {
   RODEIRA_ASSERT(nodes.size() == roster.nodes().size());
   return ShuffledRun(roster, nodes, settings, seed).Run();
 }

@@ -15,11 +15,11 @@ namespace rodeira::lockstep {
 struct Snapshot {
   NodeIndex node = 0;
   Step at = 0;
-  base::Bytes state;             // StateWriter, with names
-  std::vector<Sample> samples;   // ordered by step, then by source
-  std::uint64_t steps = 0;       // activations done before
-  base::Digest digest = 0;       // the chain of samples so far
-  bool has_state = true;         // false: of a node that cannot save its state (Node::can_save); `state` is empty then
+  base::Bytes state;            // StateWriter, with names
+  std::vector<Sample> samples;  // ordered by step, then by source
+  std::uint64_t steps = 0;      // activations done before
+  base::Digest digest = 0;      // the chain of samples so far
+  bool has_state = true;        // false: of a node that cannot save its state (Node::can_save); `state` is empty then
 
   base::Bytes Encode() const;
   // As a sample of the snapshot source (idl/snapshot.idl): CDR with the header, this, and padding of zeros.

@@ -12,9 +12,12 @@ bool Stands(const Report& report) { return report.phase < Phase::kFinished && re
 std::string Doing(const Report& report) {
   const double since_s = static_cast<double>(report.since_ms) * 1e-3;
   switch (report.waiting) {
-    case Waiting::kServer: return fmt::format("waits at step {} for a server's answer since {:.1f} s", report.progress, since_s);
-    case Waiting::kOutput: return fmt::format("writes what it made before step {} since {:.1f} s", report.progress, since_s);
-    default: break;
+    case Waiting::kServer:
+      return fmt::format("waits at step {} for a server's answer since {:.1f} s", report.progress, since_s);
+    case Waiting::kOutput:
+      return fmt::format("writes what it made before step {} since {:.1f} s", report.progress, since_s);
+    default:
+      break;
   }
   if (report.phase >= Phase::kFailed) return std::string(PhaseName(report.phase));
   if (report.phase == Phase::kStarting) return fmt::format("is {}", PhaseName(report.phase));
@@ -32,7 +35,8 @@ std::string WaitChain(const Roster& roster, const std::vector<Report>& reports) 
   if (at == nullptr) return "";
   std::string chain;
   std::vector<bool> seen(reports.size(), false);
-  while (at->waiting == Waiting::kInputs && at->phase < Phase::kFailed && at->waiting_source < roster.sources().size() && !seen[at->node]) {
+  while (at->waiting == Waiting::kInputs && at->phase < Phase::kFailed &&
+         at->waiting_source < roster.sources().size() && !seen[at->node]) {
     seen[at->node] = true;
     const NodeIndex on = roster.source(at->waiting_source).node;
     chain += fmt::format("'{}' waits for '{}', ", roster.node(at->node).name, roster.node(on).name);

@@ -6,7 +6,8 @@
 
 namespace rodeira::lockstep {
 
-Watchdog::Watchdog(const Roster& roster, const Settings& settings) : roster_(roster), settings_(settings), lives_(roster.nodes().size()) {}
+Watchdog::Watchdog(const Roster& roster, const Settings& settings)
+    : roster_(roster), settings_(settings), lives_(roster.nodes().size()) {}
 
 void Watchdog::Heard(const Report& report, std::int64_t now_ms) {
   if (report.node >= lives_.size()) return;
@@ -14,8 +15,9 @@ void Watchdog::Heard(const Report& report, std::int64_t now_ms) {
   if (report.incarnation < life.report.incarnation) return;
   // Who failed stays so, whatever overtakes the news.
   if (life.heard && report.incarnation == life.report.incarnation && life.report.phase >= Phase::kFailed) return;
-  const bool computes_still = life.excused && report.incarnation == life.report.incarnation && report.progress == life.report.progress &&
-                              report.phase == Phase::kRunning && report.waiting == Waiting::kNothing;
+  const bool computes_still = life.excused && report.incarnation == life.report.incarnation &&
+                              report.progress == life.report.progress && report.phase == Phase::kRunning &&
+                              report.waiting == Waiting::kNothing;
   life = {true, now_ms, report, computes_still};
 }
 
@@ -41,14 +43,17 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
     if (life.heard && !life.excused && life.report.phase >= Phase::kFailed) {
-      return Fault{n, fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress, life.report.message),
+      return Fault{n,
+                   fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress,
+                               life.report.message),
                    life.report.phase == Phase::kRefused ? 2 : 1};
     }
   }
   std::string missing;
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
-    if (!life.heard || life.report.phase < Phase::kReady) missing += (missing.empty() ? "'" : ", '") + roster_.node(n).name + "'";
+    if (!life.heard || life.report.phase < Phase::kReady)
+      missing += (missing.empty() ? "'" : ", '") + roster_.node(n).name + "'";
   }
   if (recovering_ && missing.empty()) {
     recovering_ = false;
@@ -63,24 +68,30 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
     if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
     if (silence_ms > (life.held_up ? kHeldUp : 1) * settings_.silence_ms) {
-      return Fault{n, fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off", spec.name,
-                                  static_cast<double>(silence_ms) / 1e3, life.report.progress)};
+      return Fault{n,
+                   fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off",
+                               spec.name, static_cast<double>(silence_ms) / 1e3, life.report.progress)};
     }
     const std::int64_t deadline_ms = spec.deadline_ms > 0 ? spec.deadline_ms : settings_.deadline_ms;
-    if (life.report.phase == Phase::kRunning && life.report.waiting == Waiting::kNothing && life.report.since_ms > deadline_ms) {
-      return Fault{n, fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s", spec.name, life.report.progress,
-                                  static_cast<double>(life.report.since_ms) / 1e3, static_cast<double>(deadline_ms) / 1e3)};
+    if (life.report.phase == Phase::kRunning && life.report.waiting == Waiting::kNothing &&
+        life.report.since_ms > deadline_ms) {
+      return Fault{n, fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s",
+                                  spec.name, life.report.progress, static_cast<double>(life.report.since_ms) / 1e3,
+                                  static_cast<double>(deadline_ms) / 1e3)};
     }
-    if (life.report.phase == Phase::kRunning && life.report.waiting == Waiting::kOutput && life.report.since_ms > settings_.start_ms) {
-      return Fault{n, fmt::format("node '{}' has been writing what it made before step {} for {:.0f} s", spec.name, life.report.progress,
-                                  static_cast<double>(life.report.since_ms) / 1e3)};
+    if (life.report.phase == Phase::kRunning && life.report.waiting == Waiting::kOutput &&
+        life.report.since_ms > settings_.start_ms) {
+      return Fault{n, fmt::format("node '{}' has been writing what it made before step {} for {:.0f} s", spec.name,
+                                  life.report.progress, static_cast<double>(life.report.since_ms) / 1e3)};
     }
   }
   everybody_ready_ = everybody_ready_ || missing.empty();
   if (!everybody_ready_ && now_ms - *first_ms_ > settings_.start_ms) {
-    const auto late = std::find_if(lives_.begin(), lives_.end(), [](const Life& life) { return !life.heard || life.report.phase < Phase::kReady; });
+    const auto late = std::find_if(lives_.begin(), lives_.end(),
+                                   [](const Life& life) { return !life.heard || life.report.phase < Phase::kReady; });
     return Fault{static_cast<NodeIndex>(late - lives_.begin()),
-                 fmt::format("after {:.0f} s these are still missing: {}", static_cast<double>(settings_.start_ms) / 1e3, missing)};
+                 fmt::format("after {:.0f} s these are still missing: {}",
+                             static_cast<double>(settings_.start_ms) / 1e3, missing)};
   }
   return std::nullopt;
 }

@@ -11,13 +11,15 @@
 namespace rodeira::lockstep {
 
 // Names the node that stands still. Nodes report as a heartbeat; who is silent is dead, stopped or cut off; who says
-// that it has been computing one step for longer than its deadline hangs. Waiting is never a fault of the one who waits.
+// that it has been computing one step for longer than its deadline hangs. Waiting is never a fault of the one who
+// waits.
 class Watchdog {
  public:
   struct Settings {
     std::int64_t silence_ms = 600;    // longest time without a report
     std::int64_t deadline_ms = 5000;  // longest wall time of one step, where the node names none of its own
-    std::int64_t start_ms = 60000;    // longest time until everybody is ready, and until somebody has written what it made
+    std::int64_t start_ms =
+        60000;  // longest time until everybody is ready, and until somebody has written what it made
   };
   struct Fault {
     NodeIndex node = 0;
@@ -30,10 +32,10 @@ class Watchdog {
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
   // calls (the clock itself was stopped) is nobody's silence and is forgiven.
   std::optional<Fault> Check(std::int64_t now_ms);
-  // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or slowness
-  // counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A process that dies
-  // meanwhile is seen by who has started it. Who was held up may be so still when the new life is there already: until it has
-  // spoken again, its silence may last kHeldUp times as long.
+  // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or
+  // slowness counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A
+  // process that dies meanwhile is seen by who has started it. Who was held up may be so still when the new life is
+  // there already: until it has spoken again, its silence may last kHeldUp times as long.
   void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
   // Its fault is known and a person looks after it: it is named no more until it goes on.
   void Excuse(NodeIndex node);

@@ -11,11 +11,17 @@ namespace rodeira::replay {
 using lockstep::Sample;
 
 std::string Difference::Text() const {
-  return fmt::format("first difference at step {}: node '{}', topic {}, field '{}': recorded {}, computed {}", step, node, topic, field, recorded, computed);
+  return fmt::format("first difference at step {}: node '{}', topic {}, field '{}': recorded {}, computed {}", step,
+                     node, topic, field, recorded, computed);
 }
 
 Comparison::Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted)
-    : run_(run), from_(from), trusted_(trusted), stream_(run.Samples(from)), waiting_(run.roster().sources().size()), differences_(run.roster()) {}
+    : run_(run),
+      from_(from),
+      trusted_(trusted),
+      stream_(run.Samples(from)),
+      waiting_(run.roster().sources().size()),
+      differences_(run.roster()) {}
 
 bool Comparison::ReadOne() {
   if (over_ || problem_) return false;
@@ -46,12 +52,16 @@ std::optional<Sample> Comparison::Recorded(lockstep::SourceIndex source, lockste
 
 void Comparison::Take(const Sample& computed) {
   const auto source = computed.source();
-  if (problem_ || computed.valid() < from_ || computed.valid() > run_.last_step() || trusted_[run_.roster().source(source).node]) return;
+  if (problem_ || computed.valid() < from_ || computed.valid() > run_.last_step() ||
+      trusted_[run_.roster().source(source).node])
+    return;
   const auto recorded = Recorded(source, computed.valid());
   if (problem_) return;
   if (!recorded && run_.roster().source(source).topic == lockstep::kSnapshotTopic) {
-    problem_ = base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", run_.roster().node(run_.roster().source(source).node).name, computed.valid()),
-                                run_.path().string());
+    problem_ =
+        base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing",
+                                     run_.roster().node(run_.roster().source(source).node).name, computed.valid()),
+                         run_.path().string());
     return;
   }
   if (!recorded) return Note(computed, "(sample)", "nothing", "a sample");
@@ -74,7 +84,9 @@ void Comparison::Note(const Sample& sample, std::string field, std::string recor
   if (first_ && first_at_ <= at) return;
   first_at_ = at;
   const auto& source = run_.roster().source(sample.source());
-  first_ = Difference{sample.valid(), run_.roster().node(source.node).name, source.topic, std::move(field), std::move(recorded), std::move(computed)};
+  first_ = Difference{sample.valid(),      run_.roster().node(source.node).name,
+                      source.topic,        std::move(field),
+                      std::move(recorded), std::move(computed)};
 }
 
 void Comparison::Finish(lockstep::Step through) {
@@ -84,7 +96,8 @@ void Comparison::Finish(lockstep::Step through) {
     if (beyond) break;
   }
   for (const auto& waiting : waiting_) {
-    if (!waiting.empty() && waiting.front().valid() <= through) Note(waiting.front(), "(sample)", "a sample", "nothing");
+    if (!waiting.empty() && waiting.front().valid() <= through)
+      Note(waiting.front(), "(sample)", "a sample", "nothing");
   }
 }
 

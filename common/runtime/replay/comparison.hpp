@@ -16,7 +16,7 @@ struct Difference {
   lockstep::Step step = 0;
   std::string node;
   std::string topic;
-  std::string field;     // of the sample, or of the node's state where "state." stands before it
+  std::string field;  // of the sample, or of the node's state where "state." stands before it
   std::string recorded;
   std::string computed;
 
@@ -31,7 +31,8 @@ class Comparison {
   Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted);
 
   void Take(const lockstep::Sample& computed);
-  // Once everybody has stopped: samples that were recorded up to `through`, and were not computed, are a difference too.
+  // Once everybody has stopped: samples that were recorded up to `through`, and were not computed, are a difference
+  // too.
   void Finish(lockstep::Step through);
 
   bool differs() const { return first_.has_value() || problem_.has_value(); }

@@ -8,14 +8,19 @@
 namespace rodeira::replay {
 namespace {
 
-
 class RecordedNode final : public lockstep::Node {
  public:
   RecordedNode(const RecordedRun& run, lockstep::NodeIndex node, lockstep::Step from)
-      : run_(run), outputs_(run.roster().node(node).outputs), stream_(run.Samples(from)), waiting_(outputs_.size()), last_(outputs_.size()) {}
+      : run_(run),
+        outputs_(run.roster().node(node).outputs),
+        stream_(run.Samples(from)),
+        waiting_(outputs_.size()),
+        last_(outputs_.size()) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override { return PutValidAt(0, outbox); }
-  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox&, lockstep::Outbox& outbox) override { return PutValidAt(step.output_valid, outbox); }
+  base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox&, lockstep::Outbox& outbox) override {
+    return PutValidAt(step.output_valid, outbox);
+  }
   void Save(base::StateWriter&) const override {}
   void Restore(base::StateReader&) override {}
 
@@ -30,7 +35,9 @@ class RecordedNode final : public lockstep::Node {
         waiting_[i].pop_front();
       }
       if (last_[i].empty()) {
-        return base::WrongInput(fmt::format("no sample of {} valid at step {} is recorded", run_.roster().SourceName(outputs_[i]), valid), run_.path().string());
+        return base::WrongInput(
+            fmt::format("no sample of {} valid at step {} is recorded", run_.roster().SourceName(outputs_[i]), valid),
+            run_.path().string());
       }
       outbox.Put(run_.roster().source(outputs_[i]).topic, last_[i]);
     }
@@ -44,7 +51,8 @@ class RecordedNode final : public lockstep::Node {
       return {};
     }
     const auto output = std::find(outputs_.begin(), outputs_.end(), sample.value()->source());
-    if (output != outputs_.end()) waiting_[static_cast<std::size_t>(output - outputs_.begin())].push_back(std::move(*sample.value()));
+    if (output != outputs_.end())
+      waiting_[static_cast<std::size_t>(output - outputs_.begin())].push_back(std::move(*sample.value()));
     return {};
   }
 
@@ -67,7 +75,8 @@ class NullSink final : public lockstep::Node {
 
 }  // namespace
 
-std::unique_ptr<lockstep::Node> MakeRecordedNode(const RecordedRun& run, lockstep::NodeIndex node, lockstep::Step from) {
+std::unique_ptr<lockstep::Node> MakeRecordedNode(const RecordedRun& run, lockstep::NodeIndex node,
+                                                 lockstep::Step from) {
   return std::make_unique<RecordedNode>(run, node, from);
 }
 

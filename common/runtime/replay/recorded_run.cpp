@@ -9,9 +9,9 @@
 #include <system_error>
 
 #include "common/core/base/mathematics.hpp"
-#include "common/runtime/launch/files_of.hpp"
 #include "common/data/record/compress.hpp"
 #include "common/data/record/text_number.hpp"
+#include "common/runtime/launch/files_of.hpp"
 #include "common/runtime/replay/splice.hpp"
 #include "idl/topics.hpp"
 
@@ -32,16 +32,20 @@ base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
   if (attachment.media_type != kCompressed) return base::Bytes(attachment.data.begin(), attachment.data.end());
   base::ByteReader in(attachment.data);
   const auto size = in.Get<std::uint64_t>();
-  if (!in.ok() || size > kMostFileBytes) return base::WrongInput(fmt::format("the embedded file '{}' is damaged", attachment.name));
+  if (!in.ok() || size > kMostFileBytes)
+    return base::WrongInput(fmt::format("the embedded file '{}' is damaged", attachment.name));
   return record::ZstdDecompress(in.GetRaw(in.remaining()), size);
 }
 
 }  // namespace
 
 base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source) {
-  if (!lockstep::SampleHeader::HasHeader(payload)) return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
+  if (!lockstep::SampleHeader::HasHeader(payload))
+    return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
-  if (header.source != source) return base::WrongInput(fmt::format("a sample of source {} was found on the channel of source {}", header.source, source));
+  if (header.source != source)
+    return base::WrongInput(
+        fmt::format("a sample of source {} was found on the channel of source {}", header.source, source));
   return header;
 }
 
@@ -56,7 +60,8 @@ base::Result<std::optional<lockstep::Sample>> SampleStream::Next() {
     const auto header = HeaderOf(data, source->second);
     if (!header) return header.error();
     if (header.value().step > last_) continue;
-    return std::optional(lockstep::Sample{header.value(), std::make_shared<const base::Bytes>(data.begin(), data.end())});
+    return std::optional(
+        lockstep::Sample{header.value(), std::make_shared<const base::Bytes>(data.begin(), data.end())});
   }
 }
 
@@ -65,7 +70,8 @@ base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::
   if (!reader) return reader.error();
   if (!reader.value().condition().whole) {
     const auto& findings = reader.value().condition().findings;
-    return base::WrongInput(fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved", findings.empty() ? "" : " (" + findings.front() + ")"),
+    return base::WrongInput(fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved",
+                                        findings.empty() ? "" : " (" + findings.front() + ")"),
                             path.string());
   }
   auto folder = base::TemporaryFolder::Make("replay");
@@ -99,7 +105,8 @@ base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::Te
       files.push_back({info.name.substr(6), std::move(bytes).value()});
     }
   }
-  if (!has_launch) return base::WrongInput("the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+  if (!has_launch)
+    return base::WrongInput("the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
   return files;
 }
 
@@ -110,8 +117,10 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const record::TextMap& about = metadata.value()->entries;
   const std::string protocol = Entry(about, "protocol_hash");
   if (protocol != base::Hex(idl::ProtocolHash())) {
-    return base::WrongInput(fmt::format("the recording's protocol hash is {}, this program's is {}: it was written by another version ({}); read it with that one",
-                                        protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
+    return base::WrongInput(
+        fmt::format("the recording's protocol hash is {}, this program's is {}: it was written by another version "
+                    "({}); read it with that one",
+                    protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
   }
   mathematics_ = Entry(about, "mathematics_hash");
   version_ = Entry(about, "version");
@@ -126,31 +135,37 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     if (info.name != "override") continue;
     const auto attachment = reader_.ReadAttachment(info);
     if (!attachment) return attachment.error();
-    const std::string line(reinterpret_cast<const char*>(attachment.value().data.data()), attachment.value().data.size());
+    const std::string line(reinterpret_cast<const char*>(attachment.value().data.data()),
+                           attachment.value().data.size());
     const auto equals = line.find('=');
-    if (equals == std::string::npos) return base::WrongInput(fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
+    if (equals == std::string::npos)
+      return base::WrongInput(fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
     overrides.emplace_back(line.substr(0, equals), launch::LaidOut(line.substr(equals + 1), launch_file.value()));
   }
   // The run as it was: its roster must be the recorded one, whatever is changed afterwards.
   auto recorded = launch::Launch::Load(launch_file.value(), overrides);
   if (!recorded) return recorded.error();
   if (base::Hex(recorded.value().roster().hash()) != Entry(about, "roster_hash")) {
-    return base::WrongInput(fmt::format("the recorded launch file gives the roster {}, the recording says {}", base::Hex(recorded.value().roster().hash()),
-                                        Entry(about, "roster_hash")));
+    return base::WrongInput(fmt::format("the recorded launch file gives the roster {}, the recording says {}",
+                                        base::Hex(recorded.value().roster().hash()), Entry(about, "roster_hash")));
   }
   const auto said = [&about](const char* key, const std::string& expected) -> base::Status {
     if (Entry(about, key).empty() || Entry(about, key) == expected) return {};
-    return base::WrongInput(fmt::format("the recording says {} {}, but its launch file {}; it was changed after it was written", key, Entry(about, key), expected));
+    return base::WrongInput(
+        fmt::format("the recording says {} {}, but its launch file {}; it was changed after it was written", key,
+                    Entry(about, key), expected));
   };
   if (auto status = said("seed", std::to_string(recorded.value().seed())); !status) return status;
-  if (auto status = said("base_step_ns", std::to_string(recorded.value().roster().base_step_ns())); !status) return status;
+  if (auto status = said("base_step_ns", std::to_string(recorded.value().roster().base_step_ns())); !status)
+    return status;
   overrides.insert(overrides.end(), extra.begin(), extra.end());
   if (!extra.empty()) {
     const base::Digest roster = recorded.value().roster().hash();
     recorded = launch::Launch::Load(launch_file.value(), overrides);
     if (!recorded) return recorded.error();
     if (recorded.value().roster().hash() != roster) {
-      return base::WrongInput("the changes give another roster (other nodes, periods or wires); a branch has its parent's");
+      return base::WrongInput(
+          "the changes give another roster (other nodes, periods or wires); a branch has its parent's");
     }
   }
   launch_ = std::make_shared<launch::Launch>(std::move(recorded).value());
@@ -158,8 +173,10 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   for (const auto& [id, channel] : reader_.channels()) {
     const auto number = record::WholeNumber(channel.metadata, "source_number");
     if (!number) continue;
-    if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() || roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != channel.topic) {
-      return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know", channel.topic, *number));
+    if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() ||
+        roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != channel.topic) {
+      return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know",
+                                          channel.topic, *number));
     }
     sources_[id] = static_cast<lockstep::SourceIndex>(*number);
   }
@@ -175,7 +192,9 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const auto end = reader_.FindMetadata("rodeira.end");
   if (!end) return end.error();
   const auto last = end.value() ? record::WholeNumber(end.value()->entries, "last_step") : std::nullopt;
-  if (!last || *last < 0) return base::WrongInput("the recording does not say at which step the run ended; not even its first samples are there");
+  if (!last || *last < 0)
+    return base::WrongInput(
+        "the recording does not say at which step the run ended; not even its first samples are there");
   if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
     return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
   }
@@ -188,10 +207,13 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
 base::Status RecordedRun::CheckSchema(const record::Channel& channel) const {
   const idl::TopicInfo* info = idl::FindTopic(channel.topic);
   const auto schema = reader_.schemas().find(channel.schema);
-  if (info == nullptr || schema == reader_.schemas().end()) return base::WrongInput(fmt::format("the channel of topic {} has no IDL that this program knows", channel.topic));
+  if (info == nullptr || schema == reader_.schemas().end())
+    return base::WrongInput(fmt::format("the channel of topic {} has no IDL that this program knows", channel.topic));
   if (schema->second.name == info->type && schema->second.text == idl::IdlTextOf(info->subject)) return {};
-  return base::WrongInput(fmt::format("the recording's IDL of topic {} ({}) is not this program's ({}), though its protocol hash is; it was changed after it was written",
-                                      channel.topic, schema->second.name, info->type));
+  return base::WrongInput(
+      fmt::format("the recording's IDL of topic {} ({}) is not this program's ({}), though its protocol hash is; it "
+                  "was changed after it was written",
+                  channel.topic, schema->second.name, info->type));
 }
 
 // What the recorder listened to has a channel each: where one is missing, all samples of its source went with it.
@@ -206,8 +228,9 @@ base::Status RecordedRun::CheckChannels() const {
     for (const lockstep::Port& port : roster().node(n).inputs) {
       for (const lockstep::SourceIndex source : port.sources) {
         if (known.contains(source)) continue;
-        return base::WrongInput(fmt::format("the recording holds nothing that node '{}' said on topic {}; it was lost with what was damaged",
-                                            roster().node(roster().source(source).node).name, port.topic));
+        return base::WrongInput(fmt::format(
+            "the recording holds nothing that node '{}' said on topic {}; it was lost with what was damaged",
+            roster().node(roster().source(source).node).name, port.topic));
       }
     }
   }
@@ -217,13 +240,18 @@ base::Status RecordedRun::CheckChannels() const {
 base::Status RecordedRun::CheckBytes() const {
   const std::vector<std::string> findings = reader_.Verify();
   if (findings.empty()) return {};
-  return base::WrongInput(fmt::format("the recording was changed or damaged after it was written ({})", findings.front()), path_.string());
+  return base::WrongInput(
+      fmt::format("the recording was changed or damaged after it was written ({})", findings.front()), path_.string());
 }
 
 base::Status RecordedRun::CheckMathematics() const {
   const std::string own = base::Hex(base::MathematicsDigest());
   if (mathematics_ == own) return {};
-  return base::WrongInput(fmt::format("the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits", mathematics_, own), path_.string());
+  return base::WrongInput(
+      fmt::format(
+          "the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits",
+          mathematics_, own),
+      path_.string());
 }
 
 std::optional<record::ChannelId> RecordedRun::ChannelOf(lockstep::SourceIndex source) const {
@@ -266,14 +294,18 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
   if (!without) return without.error();
   if (!without.value().empty()) {
     if (branched_at_ == 0) return Step{0};
-    return base::WrongInput(fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes computed: the branch cannot be computed again",
-                                        roster().node(without.value().front()).name, branched_at_), path_.string());
+    return base::WrongInput(fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes "
+                                        "computed: the branch cannot be computed again",
+                                        roster().node(without.value().front()).name, branched_at_),
+                            path_.string());
   }
   for (const lockstep::NodeSpec& node : roster().nodes()) {
     if (!node.snapshots) continue;
     const Step period = roster().source(*node.snapshots).period;
     const Step own = lockstep::CeilTo(branched_at_, period);
-    if (own > last_step_) return base::WrongInput("the branch is shorter than the distance of two snapshots; it holds none of its own", path_.string());
+    if (own > last_step_)
+      return base::WrongInput("the branch is shorter than the distance of two snapshots; it holds none of its own",
+                              path_.string());
     return std::max(own, lockstep::FloorTo(std::min(step, last_step_), period));
   }
   return Step{0};
@@ -284,11 +316,16 @@ base::Status RecordedRun::CheckSamples(const lockstep::Snapshot& snapshot) const
   const lockstep::NodeSpec& spec = roster().node(snapshot.node);
   for (const lockstep::SourceIndex source : spec.outputs) {
     const Step newest = std::min(last_step_, lockstep::CeilTo(snapshot.at, spec.period) - spec.period + spec.delay);
-    for (Step valid = lockstep::CeilTo(roster().OldestNeeded(source, snapshot.at), spec.period); valid <= newest; valid += spec.period) {
-      const auto is_it = [&](const lockstep::Sample& sample) { return sample.source() == source && sample.valid() == valid; };
+    for (Step valid = lockstep::CeilTo(roster().OldestNeeded(source, snapshot.at), spec.period); valid <= newest;
+         valid += spec.period) {
+      const auto is_it = [&](const lockstep::Sample& sample) {
+        return sample.source() == source && sample.valid() == valid;
+      };
       if (std::ranges::count_if(snapshot.samples, is_it) == 1) continue;
-      return base::WrongInput(fmt::format("one sample of {} valid at step {} was expected, which the run goes on with from step {}", roster().SourceName(source), valid, snapshot.at),
-                              path_.string());
+      return base::WrongInput(
+          fmt::format("one sample of {} valid at step {} was expected, which the run goes on with from step {}",
+                      roster().SourceName(source), valid, snapshot.at),
+          path_.string());
     }
   }
   return {};
@@ -303,7 +340,8 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
   }
   // From the oldest sample that anybody may still need, to the newest that was there before the snapshot.
   Step oldest = at;
-  for (lockstep::SourceIndex s = 0; s < roster().sources().size(); ++s) oldest = std::min(oldest, roster().OldestNeeded(s, at));
+  for (lockstep::SourceIndex s = 0; s < roster().sources().size(); ++s)
+    oldest = std::min(oldest, roster().OldestNeeded(s, at));
   Step newest = at;
   for (const lockstep::NodeSpec& node : roster().nodes()) newest = std::max(newest, at - node.period + node.delay);
   SampleStream samples = Samples(oldest);
@@ -320,21 +358,25 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
       auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
       if (!snapshot) return snapshot.error();
       if (snapshot.value().node != n || snapshot.value().at != at) {
-        return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} says that it is of node number {} at step {}", spec.name, at, snapshot.value().node,
-                                            snapshot.value().at), path_.string());
+        return base::WrongInput(
+            fmt::format("the snapshot of node '{}' at step {} says that it is of node number {} at step {}", spec.name,
+                        at, snapshot.value().node, snapshot.value().at),
+            path_.string());
       }
       auto samples_so_far = std::move(snapshots[n].samples);
       snapshots[n] = std::move(snapshot).value();
       snapshots[n].samples = std::move(samples_so_far);
       found[n] = true;
-    } else if (valid >= roster().OldestNeeded(source, at) && valid <= lockstep::CeilTo(at, spec.period) - spec.period + spec.delay) {
+    } else if (valid >= roster().OldestNeeded(source, at) &&
+               valid <= lockstep::CeilTo(at, spec.period) - spec.period + spec.delay) {
       snapshots[n].samples.push_back(std::move(*sample.value()));
     }
   }
   for (lockstep::NodeIndex n = 0; n < snapshots.size(); ++n) {
     if (auto status = CheckSamples(snapshots[n]); !status) return status.error();
     if (roster().node(n).snapshots && !found[n]) {
-      return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at), path_.string());
+      return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at),
+                              path_.string());
     }
   }
   return snapshots;

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "common/core/base/temporary_folder.hpp"
 #include "common/core/base/result.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "common/data/record/mcap_reader.hpp"
 #include "common/runtime/launch/files_of.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
-#include "common/data/record/mcap_reader.hpp"
 
 namespace rodeira::replay {
 
@@ -28,7 +28,8 @@ class SampleStream {
 
  private:
   friend class RecordedRun;
-  SampleStream(record::MessageCursor cursor, const std::map<record::ChannelId, lockstep::SourceIndex>& sources, lockstep::Step last)
+  SampleStream(record::MessageCursor cursor, const std::map<record::ChannelId, lockstep::SourceIndex>& sources,
+               lockstep::Step last)
       : cursor_(std::move(cursor)), sources_(sources), last_(last) {}
   record::MessageCursor cursor_;
   const std::map<record::ChannelId, lockstep::SourceIndex>& sources_;
@@ -50,7 +51,8 @@ class RecordedRun {
   // Which program recorded: its release and commit.
   const std::string& version() const { return version_; }
   const std::string& commit() const { return commit_; }
-  // What is wrong with an embedded file, or with what follows from one: said with this recording's name and the file's in it.
+  // What is wrong with an embedded file, or with what follows from one: said with this recording's name and the file's
+  // in it.
   base::Error Named(const base::Error& error) const;
   // Wrong input where a byte of the file is not as it was written. Reads all of it.
   base::Status CheckBytes() const;
@@ -67,18 +69,20 @@ class RecordedRun {
   const record::McapReader& reader() const { return reader_; }
   // Where a source's samples are recorded; nothing where they are not.
   std::optional<record::ChannelId> ChannelOf(lockstep::SourceIndex source) const;
-  // The nodes, but live input, whose snapshots say that they could not save their state: what they did can be computed again only
-  // from the first step on.
+  // The nodes, but live input, whose snapshots say that they could not save their state: what they did can be computed
+  // again only from the first step on.
   base::Result<std::vector<lockstep::NodeIndex>> WithoutState() const;
   // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
-  // least); 0 where there is only the beginning, or a node without a state. Wrong input where a branch has none, or such a node.
+  // least); 0 where there is only the beginning, or a node without a state. Wrong input where a branch has none, or
+  // such a node.
   base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;
-  // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state. Wrong input where one is missing,
-  // or a sample that somebody may ask for behind it.
+  // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state. Wrong input
+  // where one is missing, or a sample that somebody may ask for behind it.
   base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
 
  private:
-  explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder) : reader_(std::move(reader)), folder_(std::move(folder)) {}
+  explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder)
+      : reader_(std::move(reader)), folder_(std::move(folder)) {}
   base::Status CheckSchema(const record::Channel& channel) const;
   base::Status CheckChannels() const;
   base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;

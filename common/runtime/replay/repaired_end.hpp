@@ -2,13 +2,13 @@
 
 #include <map>
 
-#include "common/runtime/lockstep/roster.hpp"
 #include "common/data/record/repair.hpp"
+#include "common/runtime/lockstep/roster.hpp"
 
 namespace rodeira::replay {
 
-// The end of a repaired run (the metadata 'rodeira.end'): the newest step through which every source's samples are all there from
-// the first one on. What lies behind a hole stays in the file and is no part of the run any more.
+// The end of a repaired run (the metadata 'rodeira.end'): the newest step through which every source's samples are all
+// there from the first one on. What lies behind a hole stays in the file and is no part of the run any more.
 class RepairedEnd final : public record::RepairEnd {
  public:
   std::string_view name() const override { return "rodeira.end"; }

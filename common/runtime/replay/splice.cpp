@@ -22,7 +22,8 @@ using lockstep::SampleHeader;
 
 class Splicer {
  public:
-  Splicer(const RecordedRun& parent, const record::McapReader& branch, lockstep::Step at, record::McapWriter& writer, const std::function<bool()>& stop_requested)
+  Splicer(const RecordedRun& parent, const record::McapReader& branch, lockstep::Step at, record::McapWriter& writer,
+          const std::function<bool()>& stop_requested)
       : parent_(parent), branch_(branch), at_(at), writer_(writer), stop_requested_(stop_requested) {}
 
   base::Status Write(const record::TextMap& about) {
@@ -36,7 +37,8 @@ class Splicer {
     for (const auto& info : branch_.attachments()) {
       const auto attachment = branch_.ReadAttachment(info);
       if (!attachment) return attachment.error();
-      if (auto status = writer_.AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0); !status) return status;
+      if (auto status = writer_.AddAttachment(info.name, info.media_type, attachment.value().data, 0, 0); !status)
+        return status;
     }
     if (auto status = AddChannels(); !status) return status;
     if (auto status = CopyParent(); !status) return status;
@@ -44,7 +46,8 @@ class Splicer {
     const auto end = branch_.FindMetadata("rodeira.end");
     if (!end) return end.error();
     if (end.value()) {
-      if (auto status = writer_.AddMetadata("rodeira.end", WithAllCounted(end.value()->entries)); !status) return status;
+      if (auto status = writer_.AddMetadata("rodeira.end", WithAllCounted(end.value()->entries)); !status)
+        return status;
     }
     return writer_.Close();
   }
@@ -55,7 +58,8 @@ class Splicer {
       const record::Schema& schema = branch_.schemas().at(channel.schema);
       const auto new_schema = writer_.AddSchema(schema.name, schema.encoding, schema.text);
       if (!new_schema) return new_schema.error();
-      const auto made = writer_.AddChannel(channel.topic, new_schema.value(), channel.message_encoding, channel.metadata);
+      const auto made =
+          writer_.AddChannel(channel.topic, new_schema.value(), channel.message_encoding, channel.metadata);
       if (!made) return made.error();
       of_branch_[id] = made.value();
       const auto number = channel.metadata.find("source_number");
@@ -63,8 +67,8 @@ class Splicer {
     }
     return {};
   }
-  // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples. A grant
-  // across the branch's first step belongs to it: it covers the parent's last steps.
+  // What the parent says of the wall's clock, its operator's marks among it, has no place in the order of samples. A
+  // grant across the branch's first step belongs to it: it covers the parent's last steps.
   base::Status LoadParentsLog() {
     const record::McapReader& reader = parent_.reader();
     std::map<record::ChannelId, record::ChannelId> of_parent;
@@ -90,13 +94,17 @@ class Splicer {
       if (in.log_time_ns > at_ns && !is_wall) continue;
       if (covered && is_wall) return {};
       covered = covered || (is_wall && in.log_time_ns >= at_ns);
-      parents_log_.push_back({of_parent.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, base::Bytes(in.data.begin(), in.data.end())});
+      parents_log_.push_back({of_parent.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns,
+                              base::Bytes(in.data.begin(), in.data.end())});
     }
   }
   base::Status CopyParentsLogThrough(std::uint64_t time_ns) {
     for (; next_in_log_ < parents_log_.size() && parents_log_[next_in_log_].log_time_ns <= time_ns; ++next_in_log_) {
       const Logged& entry = parents_log_[next_in_log_];
-      if (auto status = writer_.Write(entry.channel, entry.sequence, entry.log_time_ns, entry.publish_time_ns, entry.data); !status) return status;
+      if (auto status =
+              writer_.Write(entry.channel, entry.sequence, entry.log_time_ns, entry.publish_time_ns, entry.data);
+          !status)
+        return status;
     }
     return {};
   }
@@ -108,7 +116,8 @@ class Splicer {
       if (!sample) return sample.error();
       if (stopped()) return Stopped();
       const bool is_over = !sample.value() || sample.value()->valid() > at_;
-      const std::uint64_t until_ns = is_over ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(sample.value()->header.time_ns);
+      const std::uint64_t until_ns = is_over ? std::numeric_limits<std::uint64_t>::max()
+                                             : static_cast<std::uint64_t>(sample.value()->header.time_ns);
       if (auto status = CopyParentsLogThrough(until_ns); !status) return status;
       if (is_over) return {};
       const auto& source = parent_.roster().source(sample.value()->source());
@@ -117,7 +126,8 @@ class Splicer {
       if (channel == of_source_.end()) continue;
       const auto time_ns = static_cast<std::uint64_t>(sample.value()->header.time_ns);
       const auto sequence = static_cast<std::uint32_t>(sample.value()->valid() / source.period);
-      if (auto status = writer_.Write(channel->second, sequence, time_ns, time_ns, *sample.value()->payload); !status) return status;
+      if (auto status = writer_.Write(channel->second, sequence, time_ns, time_ns, *sample.value()->payload); !status)
+        return status;
       ++written_[channel->second];
     }
   }
@@ -134,7 +144,10 @@ class Splicer {
         const lockstep::Step valid = SampleHeader::Read(in.data).step;
         if (valid < at_ || (valid == at_ && channel.topic != lockstep::kSnapshotTopic)) continue;
       }
-      if (auto status = writer_.Write(of_branch_.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, in.data); !status) return status;
+      if (auto status =
+              writer_.Write(of_branch_.at(in.channel), in.sequence, in.log_time_ns, in.publish_time_ns, in.data);
+          !status)
+        return status;
       ++written_[of_branch_.at(in.channel)];
     }
   }
@@ -158,7 +171,9 @@ class Splicer {
   }
 
   bool stopped() const { return stop_requested_ && stop_requested_(); }
-  base::Error Stopped() const { return base::Failed("interrupted while the branch was written; there is no new file", parent_.path().string()); }
+  base::Error Stopped() const {
+    return base::Failed("interrupted while the branch was written; there is no new file", parent_.path().string());
+  }
 
   struct Logged {
     record::ChannelId channel = 0;  // the new file's
@@ -182,10 +197,11 @@ class Splicer {
 
 }  // namespace
 
-base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about, const fs::path& target,
-                    const std::function<bool()>& stop_requested) {
+base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep::Step at, const record::TextMap& about,
+                    const fs::path& target, const std::function<bool()>& stop_requested) {
   std::error_code problem;
-  if (fs::exists(target, problem)) return base::WrongInput("the file exists; a recording is never overwritten", target.string());
+  if (fs::exists(target, problem))
+    return base::WrongInput("the file exists; a recording is never overwritten", target.string());
   const auto reader = record::McapReader::Open(branch);
   if (!reader) return reader.error();
   const fs::path part = target.string() + fmt::format(".{}.part", ::getpid());

@@ -13,9 +13,10 @@ namespace rodeira::replay {
 inline constexpr const char* kBranchMetadata = "rodeira.branch";
 
 // Writes the recording of a branch: the parent's samples valid up to `at`, then the branch's own (and the branch's
-// snapshots at `at`: they are of its models), with everything else of the branch's file and `about` as its branch metadata.
-// The target appears whole or not at all; an existing one is refused. Failed where it was asked to stop.
-base::Status Splice(const RecordedRun& parent, const std::filesystem::path& branch, lockstep::Step at, const record::TextMap& about,
-                    const std::filesystem::path& target, const std::function<bool()>& stop_requested = {});
+// snapshots at `at`: they are of its models), with everything else of the branch's file and `about` as its branch
+// metadata. The target appears whole or not at all; an existing one is refused. Failed where it was asked to stop.
+base::Status Splice(const RecordedRun& parent, const std::filesystem::path& branch, lockstep::Step at,
+                    const record::TextMap& about, const std::filesystem::path& target,
+                    const std::function<bool()>& stop_requested = {});
 
 }  // namespace rodeira::replay

@@ -7,7 +7,8 @@ namespace rodeira::replay {
 
 using lockstep::Sample;
 
-Tape::Tape(const RecordedRun& run, std::vector<lockstep::SourceIndex> sources) : run_(run), sources_(std::move(sources)) {
+Tape::Tape(const RecordedRun& run, std::vector<lockstep::SourceIndex> sources)
+    : run_(run), sources_(std::move(sources)) {
   for (const record::ChunkInfo& chunk : run.reader().chunks()) by_time_.push_back(&chunk);
   std::ranges::stable_sort(by_time_, {}, &record::ChunkInfo::first_log_time_ns);
   std::uint64_t latest_ns = 0;
@@ -41,7 +42,8 @@ base::Result<std::optional<Sample>> Tape::Find(lockstep::SourceIndex source, loc
   if (!channel || step < 0) return best;
   // By the step law the newest one is valid then: who finds it need not look on.
   const auto base_step_ns = static_cast<std::uint64_t>(run_.roster().base_step_ns());
-  const auto wanted_ns = static_cast<std::uint64_t>(lockstep::FloorTo(step, run_.roster().source(source).period)) * base_step_ns;
+  const auto wanted_ns =
+      static_cast<std::uint64_t>(lockstep::FloorTo(step, run_.roster().source(source).period)) * base_step_ns;
   const auto behind = std::ranges::upper_bound(by_time_, wanted_ns, {}, &record::ChunkInfo::first_log_time_ns);
   std::uint64_t best_ns = 0;
   for (auto chunk = static_cast<std::size_t>(behind - by_time_.begin()); chunk-- > 0;) {

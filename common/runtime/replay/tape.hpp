@@ -9,8 +9,8 @@
 
 namespace rodeira::replay {
 
-// Some sources of a recording at any step, forward or backward. Of the file only those chunks are read that hold what is
-// asked for; the last few stay in memory, so that going on and turning back read nothing twice.
+// Some sources of a recording at any step, forward or backward. Of the file only those chunks are read that hold what
+// is asked for; the last few stay in memory, so that going on and turning back read nothing twice.
 class Tape {
  public:
   static constexpr std::size_t kKeptChunks = 8;

@@ -6,17 +6,18 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kWalking_mps = 1.5;        // above it the car does not go from D to R or back
-constexpr double kMatched_radps = 10.0;     // near enough to the new gear's speed
-constexpr double kMatchGain = 0.02;         // throttle a rad/s that the engine is too slow
+constexpr double kWalking_mps = 1.5;     // above it the car does not go from D to R or back
+constexpr double kMatched_radps = 10.0;  // near enough to the new gear's speed
+constexpr double kMatchGain = 0.02;      // throttle a rad/s that the engine is too slow
 constexpr double kLoadSmoothing_s = 0.4;
-constexpr double kTouched = 0.05;           // less throttle than this is coasting
-constexpr double kAnotherPedal = 0.1;       // the driver has changed his mind
+constexpr double kTouched = 0.05;      // less throttle than this is coasting
+constexpr double kAnotherPedal = 0.1;  // the driver has changed his mind
 
 double Between(double light, double full, double throttle) { return light + (full - light) * throttle; }
 
 // Torque at the wheels in this gear with this pedal.
-double WheelTorque(const GearboxSettings& gearbox, const EngineSettings& engine, int gear, double wheel_radps, double throttle) {
+double WheelTorque(const GearboxSettings& gearbox, const EngineSettings& engine, int gear, double wheel_radps,
+                   double throttle) {
   const double ratio = TotalRatio(gearbox, gear);
   const double drag = DragTorque(engine, ratio * wheel_radps);
   return gearbox.efficiency * ratio * (throttle * (FullLoadTorque(engine, ratio * wheel_radps) + drag) - drag);
@@ -34,12 +35,14 @@ void AutomaticGearbox::Start(const AutomaticSettings& settings, const GearboxSet
   int gear = 1;
   if (wheel_radps < 0.0) gear = -1;
   const int top = static_cast<int>(gearbox.forward.size());
-  while (gear > 0 && gear < top && TotalRatio(gearbox, gear + 1) * wheel_radps > 0.5 * (settings.down_light_radps + settings.up_light_radps)) ++gear;
+  while (gear > 0 && gear < top &&
+         TotalRatio(gearbox, gear + 1) * wheel_radps > 0.5 * (settings.down_light_radps + settings.up_light_radps))
+    ++gear;
   Adopt(gear);
 }
 
-bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
-                                  const AutomaticInput& input) const {
+bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const GearboxSettings& gearbox,
+                                  const EngineSettings& engine, const AutomaticInput& input) const {
   const int next = gear_ + 1;
   const double load = load_Nm_ * settings.margin;
   const double most = WheelTorque(gearbox, engine, next, input.wheel_radps, 1.0);
@@ -72,8 +75,8 @@ int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const Gea
   return gear_;
 }
 
-int AutomaticGearbox::Wanted(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
-                             const AutomaticInput& input) const {
+int AutomaticGearbox::Wanted(const AutomaticSettings& settings, const GearboxSettings& gearbox,
+                             const EngineSettings& engine, const AutomaticInput& input) const {
   if (input.selector == 0) return 0;
   if (input.selector < 0) return input.speed_mps > kWalking_mps ? 0 : -1;
   if (gear_ >= 1) return WantedForward(settings, gearbox, engine, input);
@@ -83,8 +86,8 @@ int AutomaticGearbox::Wanted(const AutomaticSettings& settings, const GearboxSet
   return fresh.gear_;
 }
 
-void AutomaticGearbox::Advance(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input,
-                               double dt_s) {
+void AutomaticGearbox::Advance(const AutomaticSettings& settings, const GearboxSettings& gearbox,
+                               const AutomaticInput& input, double dt_s) {
   phase_s_ += dt_s;
   driven_s_ += dt_s;
   const auto enter = [&](Phase phase) {
@@ -106,13 +109,16 @@ void AutomaticGearbox::Advance(const AutomaticSettings& settings, const GearboxS
 double AutomaticGearbox::ThrottleFor(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                      const AutomaticInput& input) const {
   switch (phase_) {
-    case Phase::kDrive: return input.throttle;
-    case Phase::kOpen: return input.throttle * std::max(0.0, 1.0 - 2.0 * phase_s_ / settings.open_s);
+    case Phase::kDrive:
+      return input.throttle;
+    case Phase::kOpen:
+      return input.throttle * std::max(0.0, 1.0 - 2.0 * phase_s_ / settings.open_s);
     case Phase::kSwap: {
       const double gap = TotalRatio(gearbox, gear_) * input.wheel_radps - input.engine_radps;
       return gear_ == 0 ? input.throttle : std::clamp(kMatchGain * gap, 0.0, 1.0);
     }
-    case Phase::kClose: return input.throttle * std::min(1.0, phase_s_ / settings.close_s);
+    case Phase::kClose:
+      return input.throttle * std::min(1.0, phase_s_ / settings.close_s);
   }
   return 0.0;
 }
@@ -142,7 +148,8 @@ AutomaticOutput AutomaticGearbox::Step(const AutomaticSettings& settings, const 
   // The clutch of the launch closes with the faster of its two sides; that of a change follows its ramp.
   const double input_radps = TotalRatio(gearbox, gear_) * input.wheel_radps;
   const double faster = std::max(input.engine_radps, input_radps);
-  const double launch = 1.0 - std::clamp((faster - settings.bite_radps) / (settings.closed_radps - settings.bite_radps), 0.0, 1.0);
+  const double launch =
+      1.0 - std::clamp((faster - settings.bite_radps) / (settings.closed_radps - settings.bite_radps), 0.0, 1.0);
   double ramp = 0.0;
   if (phase_ == Phase::kOpen) ramp = phase_s_ / settings.open_s;
   if (phase_ == Phase::kSwap) ramp = 1.0;

@@ -20,8 +20,8 @@ struct AutomaticSettings {
   double open_s = 0.12;             // clutch out
   double swap_s = 0.15;             // at most, to bring the engine to the new gear's speed
   double close_s = 0.35;            // clutch in
-  double press_s = 0.3;            // smoothing of the pedal for the law when pressed …
-  double release_s = 2.0;          // … and when released: no change up for a short lift of the foot
+  double press_s = 0.3;             // smoothing of the pedal for the law when pressed …
+  double release_s = 2.0;           // … and when released: no change up for a short lift of the foot
   double bite_radps = 100.0;        // the clutch starts to pass torque at this engine speed …
   double closed_radps = 250.0;      // … and is closed from here on
 };
@@ -43,9 +43,9 @@ struct AutomaticOutput {
   double throttle = 0.0;
 };
 
-// Chooses the gear and works the clutch. It does not hunt: a higher gear is entered only where it can bear the load and its
-// own law would keep it at the pedal which that takes; and a gear that was too weak at some pedal is not tried again until
-// the pedal or the load has changed. At low speed the clutch closes with the engine's speed, so that the
+// Chooses the gear and works the clutch. It does not hunt: a higher gear is entered only where it can bear the load and
+// its own law would keep it at the pedal which that takes; and a gear that was too weak at some pedal is not tried
+// again until the pedal or the load has changed. At low speed the clutch closes with the engine's speed, so that the
 // car starts smoothly, does not creep and does not stall.
 class AutomaticGearbox {
  public:
@@ -69,18 +69,20 @@ class AutomaticGearbox {
                     const AutomaticInput& input) const;
   bool MayShiftUp(const AutomaticSettings& settings, const GearboxSettings& gearbox, const EngineSettings& engine,
                   const AutomaticInput& input) const;
-  void Advance(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input, double dt_s);
-  double ThrottleFor(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input) const;
+  void Advance(const AutomaticSettings& settings, const GearboxSettings& gearbox, const AutomaticInput& input,
+               double dt_s);
+  double ThrottleFor(const AutomaticSettings& settings, const GearboxSettings& gearbox,
+                     const AutomaticInput& input) const;
 
   std::int32_t gear_ = 0;    // engaged
   std::int32_t target_ = 0;  // of the change under way
   Phase phase_ = Phase::kDrive;
-  double phase_s_ = 0.0;   // time in this phase
-  double driven_s_ = 0.0;  // time since the last change
-  double load_Nm_ = 0.0;   // the input's, smoothed
-  double pedal_ = 0.0;     // the throttle pedal as the law sees it: follows a press quickly, a release slowly
-  std::int32_t weak_gear_ = 0;   // left downward under load …
-  double weak_throttle_ = 0.0;   // … at this pedal
+  double phase_s_ = 0.0;        // time in this phase
+  double driven_s_ = 0.0;       // time since the last change
+  double load_Nm_ = 0.0;        // the input's, smoothed
+  double pedal_ = 0.0;          // the throttle pedal as the law sees it: follows a press quickly, a release slowly
+  std::int32_t weak_gear_ = 0;  // left downward under load …
+  double weak_throttle_ = 0.0;  // … at this pedal
 };
 
 }  // namespace rodeira::dynamics

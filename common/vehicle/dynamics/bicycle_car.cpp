@@ -10,12 +10,12 @@ namespace {
 
 constexpr double kGravity_mps2 = 9.81;
 constexpr double kLongestSubstep_s = 0.001;
-constexpr double kLeastLean = 0.3;          // cosine between strut and normal, for walls
-constexpr double kBottom = 0.5;             // share of the radius that a tyre can be pressed in
-constexpr double kMostTilt_rad = 0.45;      // of the body against the ground under it
-constexpr double kSurelyUpright = 0.95;     // a cosine over that of the most tilt
-constexpr double kLeastHeight = 0.4;        // of the centre of gravity over that ground, share of its height at rest
-constexpr double kSteepest = 0.6;           // vertical part of the steepest ground that the body follows
+constexpr double kLeastLean = 0.3;       // cosine between strut and normal, for walls
+constexpr double kBottom = 0.5;          // share of the radius that a tyre can be pressed in
+constexpr double kMostTilt_rad = 0.45;   // of the body against the ground under it
+constexpr double kSurelyUpright = 0.95;  // a cosine over that of the most tilt
+constexpr double kLeastHeight = 0.4;     // of the centre of gravity over that ground, share of its height at rest
+constexpr double kSteepest = 0.6;        // vertical part of the steepest ground that the body follows
 constexpr double kMostTurn_radps = 20.0;
 
 bool IsFront(std::size_t wheel) { return wheel == kFrontLeft || wheel == kFrontRight; }
@@ -30,7 +30,8 @@ BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of), tyres(
   p_BG_B = {0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m};
   const double weight = body.mass_kg * kGravity_mps2;
   const double front_share = 1.0 - body.cg_to_front_axle_m / body.wheelbase_m;
-  for (std::size_t i = 0; i < kWheels; ++i) static_load_N[i] = 0.5 * weight * (IsFront(i) ? front_share : 1.0 - front_share);
+  for (std::size_t i = 0; i < kWheels; ++i)
+    static_load_N[i] = 0.5 * weight * (IsFront(i) ? front_share : 1.0 - front_share);
   for (std::size_t i = 0; i < kWheels; ++i) p_GH_B[i] = HubAtRest_B(i) - p_BG_B;
 }
 
@@ -43,14 +44,16 @@ Eigen::Vector3d BicycleChassis::HubAtRest_B(std::size_t wheel) const {
   const VehicleDimensions& d = settings.dimensions;
   const double half_track = 0.5 * (IsFront(wheel) ? d.track_front_m : d.track_rear_m);
   const double sunk = static_load_N[wheel] / settings.wheel.vertical_Npm;
-  return {(IsFront(wheel) ? 0.5 : -0.5) * d.wheelbase_m, IsLeft(wheel) ? half_track : -half_track, settings.wheel.radius_m - sunk};
+  return {(IsFront(wheel) ? 0.5 : -0.5) * d.wheelbase_m, IsLeft(wheel) ? half_track : -half_track,
+          settings.wheel.radius_m - sunk};
 }
 
 BicyclePose BicycleCar::PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const {
   BicyclePose pose;
   pose.up_W = body.q_WG * Eigen::Vector3d::UnitZ();
   const double steer = chassis.SteerAngle(kFrontLeft, steering_wheel_rad);
-  pose.heading_W = {body.q_WG * Eigen::Vector3d(std::cos(steer), std::sin(steer), 0.0), body.q_WG * Eigen::Vector3d::UnitX()};
+  pose.heading_W = {body.q_WG * Eigen::Vector3d(std::cos(steer), std::sin(steer), 0.0),
+                    body.q_WG * Eigen::Vector3d::UnitX()};
   for (std::size_t i = 0; i < kWheels; ++i) pose.hub_W[i] = HubAtRest_W(chassis, i);
   return pose;
 }
@@ -81,7 +84,8 @@ BicycleContact BicycleCar::ContactOf(const BicyclePose& pose, std::size_t wheel)
   return contact;
 }
 
-std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chassis, const BicycleContacts& contacts) const {
+std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chassis,
+                                                     const BicycleContacts& contacts) const {
   std::array<TyreMotion, kWheels> motion;
   const Eigen::Vector3d w_WG_W = body.w_WG_W();
   for (const std::size_t left : {0u, 2u}) {
@@ -89,18 +93,21 @@ std::array<TyreMotion, kWheels> BicycleCar::MotionOf(const BicycleChassis& chass
     const Eigen::Vector3d v = body.v_WG_W + w_WG_W.cross(middle - body.p_WG_W);
     for (const std::size_t i : {left, left + 1}) {
       const double vx = v.dot(contacts[i].along_W);
-      motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m, v.dot(contacts[i].across_W)};
+      motion[i] = {vx, vx - wheels[i].spin_radps * chassis.settings.wheel.rolling_radius_m,
+                   v.dot(contacts[i].across_W)};
     }
   }
   return motion;
 }
 
-void BicycleCar::Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings) {
+void BicycleCar::Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
+                      BicycleFindings& findings) {
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / kLongestSubstep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(chassis, controls, push, dt_s / substeps, findings);
 }
 
-void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings) {
+void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
+                         BicycleFindings& findings) {
   BicycleContacts& contacts = findings.contacts;
   const BicyclePose pose = PoseOf(chassis, controls.steering_wheel_rad);
   std::array<CornerInput, kWheels> inputs;
@@ -126,7 +133,8 @@ void BicycleCar::Substep(const BicycleChassis& chassis, const Controls& controls
   KeepUpright(chassis, contacts);
 }
 
-void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s, BicycleFindings& findings) {
+void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s,
+                            BicycleFindings& findings) {
   const double radius = chassis.settings.wheel.rolling_radius_m;
   std::array<double, kWheels> road{};
   std::array<double, kWheels> friction{};
@@ -151,7 +159,8 @@ void BicycleCar::TurnWheels(const BicycleChassis& chassis, const Controls& contr
     wheels[driven + i].spin_radps = motion.wheel_radps[i];
     findings.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
     Wheel& rolling = wheels[free + i];
-    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, chassis.settings.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
+    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, chassis.settings.wheel.inertia_kgm2, road[free + i],
+                                       friction[free + i], dt_s);
   }
 }
 
@@ -172,7 +181,8 @@ void BicycleCar::PushBody(const BicycleChassis& chassis, const Wrench& push, dou
       const Eigen::Vector3d normal = wheels[i].corner.load_N() * wheels[i].normal_W;
       force += normal;
       moment += (contacts[i].point_W - body.p_WG_W).cross(normal);
-      tangential += contacts[i].forces.longitudinal_N * contacts[i].along_W + contacts[i].forces.lateral_N * contacts[i].across_W;
+      tangential +=
+          contacts[i].forces.longitudinal_N * contacts[i].along_W + contacts[i].forces.lateral_N * contacts[i].across_W;
     }
     force += tangential;
     moment += (0.5 * (left.point_W + right.point_W) - body.p_WG_W).cross(tangential);
@@ -199,7 +209,8 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
   const double tilt = upright > kSurelyUpright ? 0.0 : std::acos(std::clamp(upright, -1.0, 1.0));
   if (tilt > kMostTilt_rad) {
     const Eigen::Vector3d cross = up.cross(normal);
-    const Eigen::Vector3d axis = cross.norm() > 1e-9 ? Eigen::Vector3d(cross.normalized()) : body.q_WG * Eigen::Vector3d::UnitX();
+    const Eigen::Vector3d axis =
+        cross.norm() > 1e-9 ? Eigen::Vector3d(cross.normalized()) : body.q_WG * Eigen::Vector3d::UnitX();
     body.q_WG = (Eigen::Quaterniond(Eigen::AngleAxisd(tilt - kMostTilt_rad, axis)) * body.q_WG).normalized();
     const Eigen::Vector3d turning = body.q_WG.conjugate() * axis;
     body.w_WG_G -= std::min(0.0, body.w_WG_G.dot(turning)) * turning;

@@ -50,8 +50,8 @@ struct BicycleFindings {
   double drag_N = 0.0;
 };
 
-// All of one car that changes: a value of some 900 bytes, without a reference to anything, so that many of them are an array
-// (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/vehicle.md).
+// All of one car that changes: a value of some 900 bytes, without a reference to anything, so that many of them are an
+// array (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/vehicle.md).
 struct BicycleCar {
   struct Wheel : WheelGround {
     Corner corner;
@@ -73,9 +73,10 @@ struct BicycleCar {
     return body.p_WG_W + body.q_WG * chassis.p_GH_B[wheel];
   }
 
-  // A step of any length with the controls held and the ground's planes as they are, in substeps of at most 1 ms. `controls` are cut to their bounds
-  // (Cut), the push holds all the while.
-  void Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings);
+  // A step of any length with the controls held and the ground's planes as they are, in substeps of at most 1 ms.
+  // `controls` are cut to their bounds (Cut), the push holds all the while.
+  void Step(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
+            BicycleFindings& findings);
 
   BicyclePose PoseOf(const BicycleChassis& chassis, double steering_wheel_rad) const;
   CornerInput CornerInputOf(const BicycleChassis& chassis, const BicyclePose& pose, std::size_t wheel) const;
@@ -87,13 +88,15 @@ struct BicycleCar {
   void Restore(base::StateReader& reader);
 
  private:
-  void Substep(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s, BicycleFindings& findings);
+  void Substep(const BicycleChassis& chassis, const Controls& controls, const Wrench& push, double dt_s,
+               BicycleFindings& findings);
   void TurnWheels(const BicycleChassis& chassis, const Controls& controls, double dt_s, BicycleFindings& findings);
   void PushBody(const BicycleChassis& chassis, const Wrench& push, double dt_s, BicycleFindings& findings);
   void KeepUpright(const BicycleChassis& chassis, const BicycleContacts& contacts);
 };
 
-// The plane under the car: parallel to both diagonals of the contact points, which for four points of a plane is theirs.
+// The plane under the car: parallel to both diagonals of the contact points, which for four points of a plane is
+// theirs.
 Eigen::Vector3d RoadNormal(const BicycleContacts& contacts);
 
 }  // namespace rodeira::dynamics

@@ -13,9 +13,9 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-constexpr int kGroundTurns = 30;     // the wheels move a little as the body leans, and with them the ground's answers
+constexpr int kGroundTurns = 30;  // the wheels move a little as the body leans, and with them the ground's answers
 constexpr int kNewtonTurns = 40;
-constexpr int kBarTurns = 12;        // an anti-roll bar ties two wheels; each turn gains a factor of twenty or more
+constexpr int kBarTurns = 12;  // an anti-roll bar ties two wheels; each turn gains a factor of twenty or more
 constexpr double kSettled_m = 1e-13;
 constexpr double kStandstill_mps = 1e-6;
 
@@ -40,7 +40,8 @@ class BicycleEquilibrium {
   Eigen::Vector3d Drag(const Eigen::Vector3d& normal) const;
   Eigen::Vector3d HoldingForce(const Eigen::Vector3d& normal) const;
   CruiseForces Cruise(const Eigen::Vector3d& normal) const;
-  std::array<Eigen::Vector3d, kWheels> HoldingForces(const BicycleContacts& contacts, const Eigen::Vector3d& normal) const;
+  std::array<Eigen::Vector3d, kWheels> HoldingForces(const BicycleContacts& contacts,
+                                                     const Eigen::Vector3d& normal) const;
   Eigen::Vector3d Residual(const Unknowns& unknowns);
   Unknowns Balance(Unknowns unknowns);
 
@@ -50,8 +51,10 @@ class BicycleEquilibrium {
 
 void BicycleEquilibrium::Place(const Unknowns& unknowns) {
   model_.car_.body.q_WG = Eigen::AngleAxisd(initial_.heading_rad, Eigen::Vector3d::UnitZ()) *
-                      Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
-  model_.car_.body.p_WG_W = Eigen::Vector3d(initial_.x_m, initial_.y_m, unknowns[0]) + model_.car_.body.q_WG * model_.chassis_.p_BG_B;
+                          Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) *
+                          Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
+  model_.car_.body.p_WG_W =
+      Eigen::Vector3d(initial_.x_m, initial_.y_m, unknowns[0]) + model_.car_.body.q_WG * model_.chassis_.p_BG_B;
 }
 
 // Parallel to the plane of the ground's four points, as if springs were rigid: where the search begins.
@@ -73,7 +76,8 @@ void BicycleEquilibrium::SettleCorners() {
   const BicyclePose pose = model_.car_.PoseOf(model_.chassis_, 0.0);
   for (int turn = 0; turn < kBarTurns; ++turn) {
     for (std::size_t i = 0; i < kWheels; ++i) {
-      model_.car_.wheels[i].corner.Settle(model_.chassis_.settings.suspension[i / 2], model_.car_.CornerInputOf(model_.chassis_, pose, i));
+      model_.car_.wheels[i].corner.Settle(model_.chassis_.settings.suspension[i / 2],
+                                          model_.car_.CornerInputOf(model_.chassis_, pose, i));
     }
   }
 }
@@ -95,7 +99,8 @@ Eigen::Vector3d BicycleEquilibrium::Along(const Eigen::Vector3d& normal) const {
 Eigen::Vector3d BicycleEquilibrium::Drag(const Eigen::Vector3d& normal) const {
   if (!IsCruise(initial_)) return Eigen::Vector3d::Zero();
   const BodySettings& body = model_.chassis_.settings.body;
-  return -std::copysign(AirDrag(body.air_density_kgpm3, body.drag_area_m2, initial_.speed_mps), initial_.speed_mps) * Along(normal);
+  return -std::copysign(AirDrag(body.air_density_kgpm3, body.drag_area_m2, initial_.speed_mps), initial_.speed_mps) *
+         Along(normal);
 }
 
 // What the tyres must give along the road, all together, so that nothing accelerates.
@@ -109,12 +114,14 @@ Eigen::Vector3d BicycleEquilibrium::HoldingForce(const Eigen::Vector3d& normal) 
 CruiseForces BicycleEquilibrium::Cruise(const Eigen::Vector3d& normal) const {
   std::array<double, kWheels> loads_N{};
   for (std::size_t i = 0; i < kWheels; ++i) loads_N[i] = model_.car_.wheels[i].corner.load_N();
-  return PushAlong(HoldingForce(normal).dot(Along(normal)), loads_N, model_.chassis_.settings.wheel, model_.chassis_.settings.front_driven, initial_.speed_mps);
+  return PushAlong(HoldingForce(normal).dot(Along(normal)), loads_N, model_.chassis_.settings.wheel,
+                   model_.chassis_.settings.front_driven, initial_.speed_mps);
 }
 
-// Of each wheel. Along the car by load, or as rolling wheels drive it; across it the axles share so that nothing yaws (both forces of an axle act at its middle), and an
-// axle's wheels by load.
-std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const BicycleContacts& contacts, const Eigen::Vector3d& normal) const {
+// Of each wheel. Along the car by load, or as rolling wheels drive it; across it the axles share so that nothing yaws
+// (both forces of an axle act at its middle), and an axle's wheels by load.
+std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const BicycleContacts& contacts,
+                                                                       const Eigen::Vector3d& normal) const {
   std::array<Eigen::Vector3d, kWheels> forces;
   forces.fill(Eigen::Vector3d::Zero());
   std::array<double, 2> load{};
@@ -124,16 +131,21 @@ std::array<Eigen::Vector3d, kWheels> BicycleEquilibrium::HoldingForces(const Bic
   const Eigen::Vector3d along = Along(normal);
   const Eigen::Vector3d lengthwise = holding.dot(along) * along, across = holding - lengthwise;
   const auto yaws = [&](std::size_t axle, const Eigen::Vector3d& force) {
-    return (0.5 * (contacts[2 * axle].point_W + contacts[2 * axle + 1].point_W) - model_.car_.body.p_WG_W).cross(force).dot(normal);
+    return (0.5 * (contacts[2 * axle].point_W + contacts[2 * axle + 1].point_W) - model_.car_.body.p_WG_W)
+        .cross(force)
+        .dot(normal);
   };
   const double by_load = load[0] / (load[0] + load[1]);
   std::array<double, kWheels> along_N{};
   for (std::size_t i = 0; i < kWheels; ++i)
-    along_N[i] = model_.car_.wheels[i].corner.load_N() / load[i / 2] * (i < 2 ? by_load : 1.0 - by_load) * lengthwise.dot(along);
+    along_N[i] =
+        model_.car_.wheels[i].corner.load_N() / load[i / 2] * (i < 2 ? by_load : 1.0 - by_load) * lengthwise.dot(along);
   if (IsCruise(initial_)) along_N = Cruise(normal).longitudinal_N;
-  const double lengthwise_yaws = (along_N[0] + along_N[1]) * yaws(0, along) + (along_N[2] + along_N[3]) * yaws(1, along);
+  const double lengthwise_yaws =
+      (along_N[0] + along_N[1]) * yaws(0, along) + (along_N[2] + along_N[3]) * yaws(1, along);
   const double apart = yaws(0, across) - yaws(1, across);
-  const double front = std::fabs(apart) > 1e-9 ? std::clamp(-(lengthwise_yaws + yaws(1, across)) / apart, 0.0, 1.0) : by_load;
+  const double front =
+      std::fabs(apart) > 1e-9 ? std::clamp(-(lengthwise_yaws + yaws(1, across)) / apart, 0.0, 1.0) : by_load;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const double of_axle = model_.car_.wheels[i].corner.load_N() / load[i / 2];
     forces[i] = along_N[i] * along + of_axle * (i < 2 ? front : 1.0 - front) * across;
@@ -173,7 +185,7 @@ BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
       slope.col(k) = (Residual(probe) - residual) / kProbe;
     }
     Eigen::Vector3d step = -slope.partialPivLu().solve(residual);
-    if (!step.allFinite()) step = {-0.01, 0.0, 0.0};                           // no wheel touches: come down
+    if (!step.allFinite()) step = {-0.01, 0.0, 0.0};  // no wheel touches: come down
     step = step.cwiseMax(Eigen::Vector3d(-0.1, -0.05, -0.05)).cwiseMin(Eigen::Vector3d(0.1, 0.05, 0.05));
     unknowns += step;
     unknowns[1] = std::clamp(unknowns[1], -0.8, 0.8);
@@ -188,8 +200,8 @@ BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
 base::Status BicycleEquilibrium::Find(ground::Ground& ground) {
   const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial_.x_m,
-                                        initial_.y_m, initial_.heading_rad, what));
+    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+                                        initial_.x_m, initial_.y_m, initial_.heading_rad, what));
   };
   if (!start.inside) return refusal("that is outside of the world");
   Unknowns unknowns(start.z_m, 0.0, 0.0);
@@ -213,7 +225,8 @@ void BicycleEquilibrium::SetInMotion() {
   const Eigen::Vector3d normal = RoadNormal(model_.findings_.contacts);
   const Eigen::Vector3d along = Along(normal);
   const bool cruises = IsCruise(initial_);
-  const double speed_mps = cruises ? initial_.speed_mps / along.dot(body.q_WG * Eigen::Vector3d::UnitX()) : initial_.speed_mps;
+  const double speed_mps =
+      cruises ? initial_.speed_mps / along.dot(body.q_WG * Eigen::Vector3d::UnitX()) : initial_.speed_mps;
   const Eigen::Vector3d v_WB_W = speed_mps * along + initial_.lateral_speed_mps * normal.cross(along);
   body.w_WG_G = body.q_WG.conjugate() * (initial_.yaw_rate_radps * normal);
   body.v_WG_W = v_WB_W + body.w_WG_W().cross(body.q_WG * model_.chassis_.p_BG_B);
@@ -225,14 +238,17 @@ void BicycleEquilibrium::SetInMotion() {
     BicycleContact& contact = model_.findings_.contacts[i];
     const TyreSettings& tyre = model_.chassis_.tyres[i];
     const double bears = wheel.corner.load_N();
-    wheel.spin_radps = rests ? 0.0 : model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts)[i].vx_mps / model_.chassis_.settings.wheel.rolling_radius_m;
+    wheel.spin_radps = rests ? 0.0
+                             : model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts)[i].vx_mps /
+                                   model_.chassis_.settings.wheel.rolling_radius_m;
     TyreMotion motion = model_.car_.MotionOf(model_.chassis_, model_.findings_.contacts)[i];
     if (cruises && bears > 0.0) {
       const TyreForces wanted{holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)};
       motion = wheel.tyre.SetToRollAndBear(tyre, wanted, motion.vx_mps, bears, wheel.friction);
       wheel.spin_radps = (motion.vx_mps - motion.vsx_mps) / model_.chassis_.settings.wheel.rolling_radius_m;
     } else if (rests && bears > 0.0) {
-      wheel.tyre.SetToBear(tyre, {holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)}, bears, wheel.friction);
+      wheel.tyre.SetToBear(tyre, {holding[i].dot(contact.along_W), holding[i].dot(contact.across_W)}, bears,
+                           wheel.friction);
     } else {
       wheel.tyre.SetToRoll(tyre, motion, bears, wheel.friction);
     }
@@ -240,8 +256,10 @@ void BicycleEquilibrium::SetInMotion() {
   }
   const std::size_t driven = model_.chassis_.settings.front_driven ? kFrontLeft : kRearLeft;
   const double turning = 0.5 * (model_.car_.wheels[driven].spin_radps + model_.car_.wheels[driven + 1].spin_radps);
-  if (cruises) model_.car_.powertrain.StartSteadily(model_.chassis_.settings.powertrain, turning, Cruise(normal).at_wheel_Nm);
-  else model_.car_.powertrain.Start(model_.chassis_.settings.powertrain, rests ? 0.0 : turning);
+  if (cruises)
+    model_.car_.powertrain.StartSteadily(model_.chassis_.settings.powertrain, turning, Cruise(normal).at_wheel_Nm);
+  else
+    model_.car_.powertrain.Start(model_.chassis_.settings.powertrain, rests ? 0.0 : turning);
 }
 
 base::Status BicycleModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {

@@ -5,12 +5,13 @@
 
 namespace rodeira::dynamics {
 
-// The single-track car on four wheels. In plan both wheels of an axle share the motion of the axle's middle, so one slip
-// angle an axle, and their horizontal forces act there; each wheel has its own load, friction and spin. The body is a rigid
-// body on four massless wheel carriers (spring, damper, anti-roll bar, vertical tyre stiffness), so that loads, height,
-// pitch and roll follow from the ground under the four wheels, and weight acts along slopes. Longer steps than 1 ms are
-// divided; the ground under a wheel is then its tangent plane. The car cannot fall over: its lean against the ground under
-// it is bounded. Not modelled: bump steer, camber, aligning moments on the body, lift, wind, gyroscopes of the wheels.
+// The single-track car on four wheels. In plan both wheels of an axle share the motion of the axle's middle, so one
+// slip angle an axle, and their horizontal forces act there; each wheel has its own load, friction and spin. The body
+// is a rigid body on four massless wheel carriers (spring, damper, anti-roll bar, vertical tyre stiffness), so that
+// loads, height, pitch and roll follow from the ground under the four wheels, and weight acts along slopes. Longer
+// steps than 1 ms are divided; the ground under a wheel is then its tangent plane. The car cannot fall over: its lean
+// against the ground under it is bounded. Not modelled: bump steer, camber, aligning moments on the body, lift, wind,
+// gyroscopes of the wheels.
 class BicycleModel final : public VehicleModel {
  public:
   explicit BicycleModel(const BicycleSettings& settings) : chassis_(settings) {}

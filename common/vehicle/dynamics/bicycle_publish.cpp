@@ -16,7 +16,8 @@ double BicycleModel::SteeringTorque() const {
     const double load = car_.wheels[i].corner.load_N();
     const double peak = LateralPeak(settings().tyre[0], load, car_.wheels[i].friction);
     const double stiffness = std::max(1.0, CorneringStiffness(settings().tyre[0], load));
-    const double sliding = peak > 0.0 ? std::min(1.0, std::fabs(car_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
+    const double sliding =
+        peak > 0.0 ? std::min(1.0, std::fabs(car_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
     const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
     torque -= trail * findings_.contacts[i].forces.lateral_N / steering.ratio;
   }

@@ -20,7 +20,9 @@ BodySettings ReadBody(const Map& map) {
   body.drag_area_m2 = map.Number("drag_area_m2", Range::NotNegative());
   body.air_density_kgpm3 = map.Number("air_density_kgpm3", {0.0, 3.0}, body.air_density_kgpm3);
   if (body.cg_to_front_axle_m >= body.wheelbase_m) {
-    map.Problem("cg_to_front_axle_m", "'body.cg_to_front_axle_m' is not below 'body.wheelbase_m'; the centre of gravity must lie between the axles");
+    map.Problem(
+        "cg_to_front_axle_m",
+        "'body.cg_to_front_axle_m' is not below 'body.wheelbase_m'; the centre of gravity must lie between the axles");
   }
   return body;
 }
@@ -33,7 +35,8 @@ SteeringSettings ReadSteering(const Map& map) {
   steering.pneumatic_trail_m = map.Number("pneumatic_trail_m", {0.0, 0.2}, steering.pneumatic_trail_m);
   constexpr double kMostLock_rad = 1.2;
   if (steering.limit_rad / steering.ratio > kMostLock_rad) {
-    map.Problem("wheel_limit_rad", "'steering.wheel_limit_rad' over 'steering.ratio' turns the front wheels by more than 1.2 rad");
+    map.Problem("wheel_limit_rad",
+                "'steering.wheel_limit_rad' over 'steering.ratio' turns the front wheels by more than 1.2 rad");
   }
   return steering;
 }

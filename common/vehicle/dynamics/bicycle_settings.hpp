@@ -15,7 +15,7 @@ struct BodySettings {
   double roll_inertia_kgm2 = 360.0;
   double pitch_inertia_kgm2 = 1400.0;
   double yaw_inertia_kgm2 = 1500.0;
-  double cg_height_m = 0.53;         // above the road at rest
+  double cg_height_m = 0.53;  // above the road at rest
   double cg_to_front_axle_m = 1.0;
   double wheelbase_m = 2.46;
   double drag_area_m2 = 0.5;  // C_d A

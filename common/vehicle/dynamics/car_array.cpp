@@ -13,7 +13,8 @@ constexpr double kMostStep_s = 0.1;
 }  // namespace
 
 base::Result<std::uint32_t> CarArray::AddKind(const BicycleSettings& settings) {
-  if (settings.wheel.enveloping != Enveloping::kNone) return base::WrongInput("'wheel.enveloping' is 'ring'; 'none' was expected of a car among many");
+  if (settings.wheel.enveloping != Enveloping::kNone)
+    return base::WrongInput("'wheel.enveloping' is 'ring'; 'none' was expected of a car among many");
   chassis_.push_back(std::make_shared<const BicycleChassis>(settings));
   return static_cast<std::uint32_t>(chassis_.size() - 1);
 }
@@ -34,7 +35,8 @@ void CarArray::Resize(std::size_t places) {
   findings_.resize(places);
 }
 
-base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground) {
+base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial,
+                             ground::Ground& ground) {
   RODEIRA_ASSERT(kind < chassis_.size() && i < size());
   BicycleModel alone(chassis_[kind]->settings);
   if (const base::Status status = alone.Initialise(initial, ground); !status) return status;

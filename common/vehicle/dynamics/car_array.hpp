@@ -14,24 +14,28 @@
 
 namespace rodeira::dynamics {
 
-// Many cars of model `bicycle`, each with the bits that BicycleModel gives it alone, whoever else is in the array: four wheels with suspension and
-// tyres on SUELO's planes, engine, clutch, gears. Arrays of one kind of value each, one element a car.
+// Many cars of model `bicycle`, each with the bits that BicycleModel gives it alone, whoever else is in the array: four
+// wheels with suspension and tyres on SUELO's planes, engine, clutch, gears. Arrays of one kind of value each, one
+// element a car.
 class CarArray {
  public:
-  // A kind of car that others may be of: its number. Wrong input where its wheels envelop the ground, which takes more questions than an array asks.
+  // A kind of car that others may be of: its number. Wrong input where its wheels envelop the ground, which takes more
+  // questions than an array asks.
   base::Result<std::uint32_t> AddKind(const BicycleSettings& settings);
   // INI of one more car; its index. Refused as by BicycleModel::Initialise; the array is then as before.
   base::Result<std::size_t> Add(std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground);
 
-  // So many places, of which new ones are empty: neither asked for ground nor moved. Cars come to a place and leave it while the others go on.
+  // So many places, of which new ones are empty: neither asked for ground nor moved. Cars come to a place and leave it
+  // while the others go on.
   void Resize(std::size_t places);
   // INI of a car at a place, whatever was there. Where it is refused the place is as before.
   base::Status Place(std::size_t i, std::uint32_t kind, const InitialCondition& initial, ground::Ground& ground);
   void Clear(std::size_t i) { present_[i] = 0; }
   bool present(std::size_t i) const { return present_[i] != 0; }
 
-  // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once, one batch of all wheels in the
-  // order of the cars (law L4); then each car goes by itself, in substeps of at most 1 ms on these planes. By how large a crew (none: alone) changes no bit.
+  // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once,
+  // one batch of all wheels in the order of the cars (law L4); then each car goes by itself, in substeps of at most 1
+  // ms on these planes. By how large a crew (none: alone) changes no bit.
   void Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew = nullptr);
 
   std::size_t size() const { return cars_.size(); }
@@ -43,7 +47,8 @@ class CarArray {
   // Along the car.
   double speed_mps(std::size_t i) const { return (cars_[i].body.q_WG.conjugate() * cars_[i].body.v_WG_W).x(); }
 
-  // Which places hold a car, of which kind, and its motion; Restore is meant for an array with the same kinds and as many places.
+  // Which places hold a car, of which kind, and its motion; Restore is meant for an array with the same kinds and as
+  // many places.
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 

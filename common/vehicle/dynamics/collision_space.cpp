@@ -24,7 +24,8 @@ Eigen::Vector3d Vector(const dVector3 v) { return {v[0], v[1], v[2]}; }
 }  // namespace
 
 struct CollisionSpace::Boxes {
-  explicit Boxes(const Eigen::Vector3d& size) : car(dCreateBox(nullptr, size.x(), size.y(), size.z())), other(dCreateBox(nullptr, 1.0, 1.0, 1.0)) {}
+  explicit Boxes(const Eigen::Vector3d& size)
+      : car(dCreateBox(nullptr, size.x(), size.y(), size.z())), other(dCreateBox(nullptr, 1.0, 1.0, 1.0)) {}
   ~Boxes() {
     dGeomDestroy(car);
     dGeomDestroy(other);
@@ -63,7 +64,8 @@ std::vector<Impact> CollisionSpace::Touch(const VehicleState& car, std::span<con
     for (int i = 0; i < count; ++i) {
       const dContactGeom& contact = contacts[static_cast<std::size_t>(i)];
       const Eigen::Vector3d at = Vector(contact.pos), normal = Vector(contact.normal);
-      const Eigen::Vector3d v = car.v_WB_W + w_WB_W.cross(at - car.p_WB_W) - obstacle.v_WO_W - obstacle.w_WO_W.cross(at - obstacle.centre_W);
+      const Eigen::Vector3d v =
+          car.v_WB_W + w_WB_W.cross(at - car.p_WB_W) - obstacle.v_WO_W - obstacle.w_WO_W.cross(at - obstacle.centre_W);
       const Eigen::Vector3d force = ContactForce(settings_, normal, contact.depth, v, 1.0 / count);
       const double bears = force.dot(normal);
       impact.force_W += force;

@@ -17,8 +17,8 @@ struct Obstacle {
   std::uint64_t id = 0;
   Eigen::Vector3d centre_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WO = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d half_m = Eigen::Vector3d::Ones();      // along its axes, from the centre
-  Eigen::Vector3d v_WO_W = Eigen::Vector3d::Zero();      // of its centre
+  Eigen::Vector3d half_m = Eigen::Vector3d::Ones();  // along its axes, from the centre
+  Eigen::Vector3d v_WO_W = Eigen::Vector3d::Zero();  // of its centre
   Eigen::Vector3d w_WO_W = Eigen::Vector3d::Zero();
 };
 
@@ -33,9 +33,9 @@ struct Impact {
   Eigen::Vector3d moment_WB_W = Eigen::Vector3d::Zero();  // on the car, about B's origin
 };
 
-// The car's box (its outline, from the clearance to its height) among obstacles. Contacts are found by the Open Dynamics Engine, box on
-// box; the force at each of n contacts is (k depth + c closing) / n along the normal, at least 0, and Coulomb friction across. Remembers
-// nothing: the same pose and obstacles give the same bits.
+// The car's box (its outline, from the clearance to its height) among obstacles. Contacts are found by the Open
+// Dynamics Engine, box on box; the force at each of n contacts is (k depth + c closing) / n along the normal, at least
+// 0, and Coulomb friction across. Remembers nothing: the same pose and obstacles give the same bits.
 class CollisionSpace {
  public:
   CollisionSpace(const VehicleDimensions& dimensions, const CollisionSettings& settings);

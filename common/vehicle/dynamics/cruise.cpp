@@ -10,10 +10,12 @@ constexpr double kStandstill_mps = 1e-6;
 }  // namespace
 
 bool IsCruise(const InitialCondition& initial) {
-  return std::fabs(initial.speed_mps) >= kStandstill_mps && initial.lateral_speed_mps == 0.0 && initial.yaw_rate_radps == 0.0;
+  return std::fabs(initial.speed_mps) >= kStandstill_mps && initial.lateral_speed_mps == 0.0 &&
+         initial.yaw_rate_radps == 0.0;
 }
 
-CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel, bool front_driven, double speed_mps) {
+CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel,
+                       bool front_driven, double speed_mps) {
   CruiseForces forces;
   const double resistance = std::copysign(wheel.rolling_resistance, speed_mps);
   double shafts_N = total_N;  // over the rolling radius

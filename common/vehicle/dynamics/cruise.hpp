@@ -7,15 +7,17 @@
 
 namespace rodeira::dynamics {
 
-// Straight ahead at a speed, which INI solves as it does the standstill. Turning, or slipping sideways, is no equilibrium: there the wheels roll.
+// Straight ahead at a speed, which INI solves as it does the standstill. Turning, or slipping sideways, is no
+// equilibrium: there the wheels roll.
 bool IsCruise(const InitialCondition& initial);
 
-// How four wheels that keep their speed push a car with `total_N` along: those without a shaft only overcome their rolling resistance, the
-// shafts of the two others have the same torque.
+// How four wheels that keep their speed push a car with `total_N` along: those without a shaft only overcome their
+// rolling resistance, the shafts of the two others have the same torque.
 struct CruiseForces {
   std::array<double, kWheels> longitudinal_N{};
   double at_wheel_Nm = 0.0;  // of each shaft on its wheel, less the gears' losses
 };
-CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel, bool front_driven, double speed_mps);
+CruiseForces PushAlong(double total_N, const std::array<double, kWheels>& loads_N, const WheelSettings& wheel,
+                       bool front_driven, double speed_mps);
 
 }  // namespace rodeira::dynamics

@@ -6,8 +6,8 @@
 
 namespace rodeira::dynamics {
 
-DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m, const Eigen::Vector3d& plane_W,
-                      const Eigen::Vector3d& normal_W) {
+DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m,
+                      const Eigen::Vector3d& plane_W, const Eigen::Vector3d& normal_W) {
   constexpr double kLeastLean = 0.2;
   const double tilt = std::clamp(axle_W.dot(normal_W), -1.0, 1.0);
   DiscContact contact;

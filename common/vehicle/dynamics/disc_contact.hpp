@@ -6,8 +6,8 @@ namespace rodeira::dynamics {
 
 // Where a thin disc meets a plane: its lowest point.
 struct DiscContact {
-  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();   // on the plane
-  Eigen::Vector3d along_W = Eigen::Vector3d::UnitX();  // in the plane, the way that the disc rolls
+  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();    // on the plane
+  Eigen::Vector3d along_W = Eigen::Vector3d::UnitX();   // in the plane, the way that the disc rolls
   Eigen::Vector3d across_W = Eigen::Vector3d::UnitY();  // in the plane, to its left
   double deflection_m = 0.0;  // how far the disc would reach beyond the plane, along its radius; negative in the air
   double lean = 1.0;          // cosine between the disc's plane and the normal, cut at 0.2 where it lies nearly flat
@@ -15,7 +15,7 @@ struct DiscContact {
 };
 
 // Centre and axle (unit, to the left) of the disc, a point and the unit normal of the plane.
-DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m, const Eigen::Vector3d& plane_W,
-                      const Eigen::Vector3d& normal_W);
+DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m,
+                      const Eigen::Vector3d& plane_W, const Eigen::Vector3d& normal_W);
 
 }  // namespace rodeira::dynamics

@@ -9,9 +9,9 @@
 namespace rodeira::dynamics {
 namespace {
 
-// The friction elements, and a give that keeps their matrix definite when all five stick (five ties on three rotors). It is
-// put where it does not matter: a parked car held by its engine creeps by less than 1e-9 rad/s, a locked differential's shafts
-// differ by less than 1e-6.
+// The friction elements, and a give that keeps their matrix definite when all five stick (five ties on three rotors).
+// It is put where it does not matter: a parked car held by its engine creeps by less than 1e-9 rad/s, a locked
+// differential's shafts differ by less than 1e-6.
 enum Element { kLeft = 0, kRight = 1, kClutch = 2, kEngineDrag = 3, kDifferential = 4 };
 constexpr double kGive = 1e-6;
 
@@ -22,11 +22,15 @@ double LockingTorque(const DifferentialSettings& differential, double sum_of_sha
   return differential.preload_Nm + locking * std::fabs(sum_of_shafts_Nm);
 }
 
-double ClutchCapacity(const ClutchSettings& clutch, double pedal) { return clutch.capacity_Nm * (1.0 - std::clamp(pedal, 0.0, 1.0)); }
+double ClutchCapacity(const ClutchSettings& clutch, double pedal) {
+  return clutch.capacity_Nm * (1.0 - std::clamp(pedal, 0.0, 1.0));
+}
 
-DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads, double dt_s) {
+DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads,
+                              double dt_s) {
   using Rotors = Eigen::Vector3d;  // left wheel, right wheel, engine
-  const Rotors inverse_inertia(1.0 / loads.wheel_inertia_kgm2, 1.0 / loads.wheel_inertia_kgm2, 1.0 / settings.inertia_kgm2);
+  const Rotors inverse_inertia(1.0 / loads.wheel_inertia_kgm2, 1.0 / loads.wheel_inertia_kgm2,
+                               1.0 / settings.inertia_kgm2);
   const Rotors before(loads.wheel_radps[0], loads.wheel_radps[1], engine.speed_radps());
   const Rotors torque(loads.road_torque_Nm[0], loads.road_torque_Nm[1], engine.driving_Nm());
   const Rotors free = before + dt_s * inverse_inertia.cwiseProduct(torque);
@@ -40,8 +44,8 @@ DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engi
   FrictionMatrix a = ties * inverse_inertia.asDiagonal() * ties.transpose();
   for (const Element element : {kEngineDrag, kDifferential}) a(element, element) *= 1.0 + kGive;
   FrictionVector bound;
-  bound << loads.friction_torque_Nm[0], loads.friction_torque_Nm[1], loads.ratio == 0.0 ? 0.0 : loads.clutch_capacity_Nm, engine.drag_Nm(),
-      loads.locking_torque_Nm;
+  bound << loads.friction_torque_Nm[0], loads.friction_torque_Nm[1],
+      loads.ratio == 0.0 ? 0.0 : loads.clutch_capacity_Nm, engine.drag_Nm(), loads.locking_torque_Nm;
   bound *= dt_s;
   const FrictionVector impulse = SolveFriction(a, ties * free, bound);
   const Rotors after = free + inverse_inertia.cwiseProduct(ties.transpose() * impulse);

@@ -13,9 +13,10 @@ struct ClutchSettings {
 };
 double ClutchCapacity(const ClutchSettings& clutch, double pedal);  // pedal 0 engaged … 1 disengaged
 
-// A differential whose clutch plates resist a difference of its shafts' speeds with a torque of at most this much between the two
-// shafts: preload + locking × |sum of both shafts|. All 0: open. A locking value S is |T_left - T_right| / (T_left + T_right)
-// while one wheel slips, as makers state it: without preload the better wheel gets up to (1 + S)/(1 - S) of the worse one's torque.
+// A differential whose clutch plates resist a difference of its shafts' speeds with a torque of at most this much
+// between the two shafts: preload + locking × |sum of both shafts|. All 0: open. A locking value S is |T_left -
+// T_right| / (T_left + T_right) while one wheel slips, as makers state it: without preload the better wheel gets up to
+// (1 + S)/(1 - S) of the worse one's torque.
 struct DifferentialSettings {
   double preload_Nm = 0.0;
   double locking_drive = 0.0;    // while the engine drives, 0 … 1
@@ -25,13 +26,14 @@ double LockingTorque(const DifferentialSettings& differential, double sum_of_sha
 
 // One step's loads on engine, clutch, gears, differential and the two driven wheels.
 struct DrivelineLoads {
-  double ratio = 0.0;            // engine turns a turn of the wheels, negative in reverse, 0 in neutral
+  double ratio = 0.0;  // engine turns a turn of the wheels, negative in reverse, 0 in neutral
   double clutch_capacity_Nm = 0.0;
   double locking_torque_Nm = 0.0;   // the most that the shafts' torques differ by; 0: an open differential
   double wheel_inertia_kgm2 = 1.0;  // each
   std::array<double, 2> wheel_radps{};
-  std::array<double, 2> road_torque_Nm{};      // of the tyres on the wheels, positive forward
-  std::array<double, 2> friction_torque_Nm{};  // brake, rolling resistance, losses: at most this much against the rotation
+  std::array<double, 2> road_torque_Nm{};  // of the tyres on the wheels, positive forward
+  std::array<double, 2>
+      friction_torque_Nm{};  // brake, rolling resistance, losses: at most this much against the rotation
 };
 
 struct DrivelineMotion {
@@ -48,16 +50,20 @@ struct DrivelineMotion {
   double clutch_heat_W = 0.0;                  // in - out
 
   // Of each shaft on its wheel: left, right.
-  std::array<double, 2> shaft_torque_Nm() const { return {drive_torque_Nm + 0.5 * locking_torque_Nm, drive_torque_Nm - 0.5 * locking_torque_Nm}; }
+  std::array<double, 2> shaft_torque_Nm() const {
+    return {drive_torque_Nm + 0.5 * locking_torque_Nm, drive_torque_Nm - 0.5 * locking_torque_Nm};
+  }
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 };
 
 // Engine, clutch and driven wheels as three rigid rotors joined by dry friction, solved at the end-of-step speeds: what
-// sticks sticks exactly, brakes never turn a wheel back, a locked clutch or differential does not slip. Over the step the work
-// balances to rounding: change of kinetic energy = engine + road - friction - heat of clutch and differential, torques × mean speeds.
-DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads, double dt_s);
+// sticks sticks exactly, brakes never turn a wheel back, a locked clutch or differential does not slip. Over the step
+// the work balances to rounding: change of kinetic energy = engine + road - friction - heat of clutch and differential,
+// torques × mean speeds.
+DrivelineMotion StepDriveline(const EngineSettings& settings, const Engine& engine, const DrivelineLoads& loads,
+                              double dt_s);
 
 // A wheel by itself, without a drive shaft. Returns its new speed; `friction_Nm` becomes what acted.
 double StepFreeWheel(double wheel_radps, double inertia_kgm2, double road_torque_Nm, double& friction_Nm, double dt_s);

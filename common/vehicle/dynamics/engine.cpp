@@ -20,7 +20,8 @@ double IdleThrottle(const EngineSettings& engine, double speed_radps, double ava
 // Hermite's cubic.
 double Between(const TorqueSample& a, double slope_a, const TorqueSample& b, double slope_b, double speed_radps) {
   const double width = b.speed_radps - a.speed_radps, u = (speed_radps - a.speed_radps) / width, v = 1.0 - u;
-  return v * v * ((1.0 + 2.0 * u) * a.torque_Nm + u * width * slope_a) + u * u * ((1.0 + 2.0 * v) * b.torque_Nm - v * width * slope_b);
+  return v * v * ((1.0 + 2.0 * u) * a.torque_Nm + u * width * slope_a) +
+         u * u * ((1.0 + 2.0 * v) * b.torque_Nm - v * width * slope_b);
 }
 
 }  // namespace
@@ -30,10 +31,13 @@ std::vector<double> SmoothSlopes(const std::vector<TorqueSample>& samples) {
   std::vector<double> slopes(n, 0.0);
   if (n < 2) return slopes;
   std::vector<double> chords;
-  for (std::size_t i = 1; i < n; ++i) chords.push_back((samples[i].torque_Nm - samples[i - 1].torque_Nm) / (samples[i].speed_radps - samples[i - 1].speed_radps));
+  for (std::size_t i = 1; i < n; ++i)
+    chords.push_back((samples[i].torque_Nm - samples[i - 1].torque_Nm) /
+                     (samples[i].speed_radps - samples[i - 1].speed_radps));
   slopes.front() = chords.front();
   slopes.back() = chords.back();
-  for (std::size_t i = 1; i + 1 < n; ++i) slopes[i] = chords[i - 1] * chords[i] > 0.0 ? 0.5 * (chords[i - 1] + chords[i]) : 0.0;
+  for (std::size_t i = 1; i + 1 < n; ++i)
+    slopes[i] = chords[i - 1] * chords[i] > 0.0 ? 0.5 * (chords[i - 1] + chords[i]) : 0.0;
   for (std::size_t i = 0; i + 1 < n; ++i) {
     if (chords[i] == 0.0) {
       slopes[i] = slopes[i + 1] = 0.0;
@@ -50,12 +54,14 @@ std::vector<double> SmoothSlopes(const std::vector<TorqueSample>& samples) {
 double FullLoadTorque(const EngineSettings& engine, double speed_radps) {
   const auto& curve = engine.full_load;
   if (curve.empty() || speed_radps <= 0.0) return 0.0;
-  if (speed_radps <= curve.front().speed_radps) return curve.front().torque_Nm * speed_radps / curve.front().speed_radps;
+  if (speed_radps <= curve.front().speed_radps)
+    return curve.front().torque_Nm * speed_radps / curve.front().speed_radps;
   for (std::size_t i = 1; i < curve.size(); ++i) {
     if (speed_radps > curve[i].speed_radps) continue;
     const TorqueSample& a = curve[i - 1];
     const TorqueSample& b = curve[i];
-    if (!engine.full_load_Nmspr.empty()) return Between(a, engine.full_load_Nmspr[i - 1], b, engine.full_load_Nmspr[i], speed_radps);
+    if (!engine.full_load_Nmspr.empty())
+      return Between(a, engine.full_load_Nmspr[i - 1], b, engine.full_load_Nmspr[i], speed_radps);
     return a.torque_Nm + (b.torque_Nm - a.torque_Nm) * (speed_radps - a.speed_radps) / (b.speed_radps - a.speed_radps);
   }
   return curve.back().torque_Nm;
@@ -97,7 +103,8 @@ void Engine::Prepare(const EngineSettings& engine, double throttle, bool starter
 void Engine::Finish(const EngineSettings& engine, double speed_radps, double dt_s) {
   const double mean = 0.5 * (speed_radps_ + speed_radps);
   fuel_rate_kgps_ = engine.throttle_fuel_kgps > 0.0 ? throttle_ * engine.throttle_fuel_kgps
-                                                    : std::max(0.0, indicated_Nm_ * mean) / (engine.indicated_efficiency * engine.heating_value_Jpkg);
+                                                    : std::max(0.0, indicated_Nm_ * mean) /
+                                                          (engine.indicated_efficiency * engine.heating_value_Jpkg);
   fuel_kg_ += fuel_rate_kgps_ * dt_s;
   speed_radps_ = speed_radps;
 }

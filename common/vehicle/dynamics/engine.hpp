@@ -20,20 +20,22 @@ struct EngineSettings {
   double drag_Nm = 14.0;                // torque to turn it without combustion: drag + drag_Nmspr · speed
   double drag_Nmspr = 0.012;
   double idle_radps = 89.0;
-  double stall_radps = 40.0;       // below it combustion ends
-  double cut_radps = 680.678;      // the limiter cuts the fuel from here (6500 rpm) …
-  double resume_radps = 659.734;   // … until the speed has fallen to here (6300 rpm)
+  double stall_radps = 40.0;      // below it combustion ends
+  double cut_radps = 680.678;     // the limiter cuts the fuel from here (6500 rpm) …
+  double resume_radps = 659.734;  // … until the speed has fallen to here (6300 rpm)
   double starter_Nm = 45.0;
-  double indicated_efficiency = 0.35;      // of combustion, for the fuel
-  double heating_value_Jpkg = 42.7e6;      // of the fuel
-  double throttle_fuel_kgps = 0.0;         // over 0: what full throttle burns, in proportion to the throttle, instead of Willans' line
+  double indicated_efficiency = 0.35;  // of combustion, for the fuel
+  double heating_value_Jpkg = 42.7e6;  // of the fuel
+  double throttle_fuel_kgps =
+      0.0;  // over 0: what full throttle burns, in proportion to the throttle, instead of Willans' line
 };
 
-// Slopes of a smooth curve through the samples that rises and falls only where they do (F. N. Fritsch, R. E. Carlson, SIAM Journal on
-// Numerical Analysis 17 (1980) 238-246).
+// Slopes of a smooth curve through the samples that rises and falls only where they do (F. N. Fritsch, R. E. Carlson,
+// SIAM Journal on Numerical Analysis 17 (1980) 238-246).
 std::vector<double> SmoothSlopes(const std::vector<TorqueSample>& samples);
 
-// Full-load torque: linear, or smooth, between samples; below the first linear to 0 at 0; above the last it keeps the last value.
+// Full-load torque: linear, or smooth, between samples; below the first linear to 0 at 0; above the last it keeps the
+// last value.
 double FullLoadTorque(const EngineSettings& engine, double speed_radps);
 // Drag torque, at least 0, the same for either direction.
 double DragTorque(const EngineSettings& engine, double speed_radps);

@@ -11,7 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSteepest = 2.0;
-constexpr double kCell = 2.0 * kRingReach / kRingPoints;  // length of the ground that a place stands for, share of the radius
+constexpr double kCell =
+    2.0 * kRingReach / kRingPoints;  // length of the ground that a place stands for, share of the radius
 
 // Of the place number i, along the wheel from below the hub.
 double Ahead(int i, double radius_m) { return (2 * i + 1 - kRingPoints) * 0.5 * kCell * radius_m; }
@@ -27,12 +28,13 @@ struct Touch {
   double hub_z_m = -std::numeric_limits<double>::infinity();
   double z_m = 0.0;  // of the ground there
   double ahead_m = 0.0;
-  double slope = 0.0;      // of the plane, along the wheel
-  bool tangent = false;    // to the ground's own plane there; otherwise the ring stands on an edge
+  double slope = 0.0;    // of the plane, along the wheel
+  bool tangent = false;  // to the ground's own plane there; otherwise the ring stands on an edge
   const ground::GroundPoint* point = nullptr;
 };
 
-// Where a ring touches one cell's plane: at its lowest point against it, or at the end of the cell that is nearer to that.
+// Where a ring touches one cell's plane: at its lowest point against it, or at the end of the cell that is nearer to
+// that.
 Touch TouchCell(const ground::GroundPoint& point, double middle_m, const Vector3d& heading, double radius_m) {
   const double half = 0.5 * kCell * radius_m;
   const double slope = std::clamp(-point.normal_W.dot(heading) / point.normal_W.z(), -kSteepest, kSteepest);
@@ -48,7 +50,8 @@ Touch TouchCell(const ground::GroundPoint& point, double middle_m, const Vector3
   return touch;
 }
 
-void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std::span<const ground::GroundPoint> points, WheelGround& wheel) {
+void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std::span<const ground::GroundPoint> points,
+           WheelGround& wheel) {
   const ground::GroundPoint& below = points[kRingPoints / 2];
   wheel.inside = below.inside;
   wheel.surface = below.surface;
@@ -71,7 +74,8 @@ void Stand(const Vector3d& hub_W, const Vector3d& heading, double radius_m, std:
   wheel.surface = first.point->surface;
 }
 
-void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
+void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces& places,
+                     const std::array<WheelGround*, kWheels>& wheels) {
   std::array<ground::GroundQuery, kWheels * kRingPoints> queries;
   std::array<ground::GroundPoint, kWheels * kRingPoints> points;
   std::array<Vector3d, kWheels> headings;
@@ -80,7 +84,8 @@ void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces&
     headings[i] = Heading(places.axles_W[i]);
     for (int k = 0; k < kRingPoints; ++k) {
       const double ahead = Ahead(k, radius_m);
-      queries[i * kRingPoints + static_cast<std::size_t>(k)] = {hub.x() + ahead * headings[i].x(), hub.y() + ahead * headings[i].y(), hub.z()};
+      queries[i * kRingPoints + static_cast<std::size_t>(k)] = {hub.x() + ahead * headings[i].x(),
+                                                                hub.y() + ahead * headings[i].y(), hub.z()};
     }
   }
   ground.Query(queries, points);
@@ -91,9 +96,12 @@ void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces&
 
 }  // namespace
 
-void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places, const std::array<WheelGround*, kWheels>& wheels) {
-  if (enveloping == Enveloping::kNone) AskGround(ground, places.hubs_W, wheels);
-  else AskGroundByRing(ground, radius_m, places, wheels);
+void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
+               const std::array<WheelGround*, kWheels>& wheels) {
+  if (enveloping == Enveloping::kNone)
+    AskGround(ground, places.hubs_W, wheels);
+  else
+    AskGroundByRing(ground, radius_m, places, wheels);
 }
 
 }  // namespace rodeira::dynamics

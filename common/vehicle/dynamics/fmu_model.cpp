@@ -35,7 +35,8 @@ base::Status FmuModel::Build() {
   }
   for (const auto& [name, value] : settings_.parameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    return base::WrongInput(fmt::format("the FMU has no parameter '{}'{}", name, base::DidYouMean(name, known)), settings_.fmu.string());
+    return base::WrongInput(fmt::format("the FMU has no parameter '{}'{}", name, base::DidYouMean(name, known)),
+                            settings_.fmu.string());
   }
   return {};
 }
@@ -43,7 +44,8 @@ base::Status FmuModel::Build() {
 Eigen::Vector3d FmuModel::HubAtRest_B(std::size_t wheel) const {
   const VehicleDimensions& d = settings_.dimensions;
   const double half_track = 0.5 * (wheel < kRearLeft ? d.track_front_m : d.track_rear_m);
-  return {(wheel < kRearLeft ? 0.5 : -0.5) * d.wheelbase_m, wheel % 2 == 0 ? half_track : -half_track, d.wheel_radius_m};
+  return {(wheel < kRearLeft ? 0.5 : -0.5) * d.wheelbase_m, wheel % 2 == 0 ? half_track : -half_track,
+          d.wheel_radius_m};
 }
 
 void FmuModel::AskGround(ground::Ground& ground) {
@@ -58,13 +60,16 @@ void FmuModel::AskGround(ground::Ground& ground) {
   dynamics::AskGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
 }
 
-base::Status FmuModel::Set(const fmi::Variable* variable, double value) { return variable == nullptr ? base::Status() : instance_->Set(*variable, value); }
+base::Status FmuModel::Set(const fmi::Variable* variable, double value) {
+  return variable == nullptr ? base::Status() : instance_->Set(*variable, value);
+}
 
 base::Result<double> FmuModel::Get(const fmi::Variable* variable, double otherwise) {
   if (variable == nullptr) return otherwise;
   auto value = instance_->Get(*variable);
   if (value && !std::isfinite(value.value())) {
-    return base::Failed(fmt::format("its output '{}' is not a finite number at {:.6g} s", variable->name, time_s_), settings_.fmu.string());
+    return base::Failed(fmt::format("its output '{}' is not a finite number at {:.6g} s", variable->name, time_s_),
+                        settings_.fmu.string());
   }
   return value;
 }
@@ -73,8 +78,11 @@ base::Status FmuModel::SetGround() {
   for (std::size_t i = 0; i < kWheels; ++i) {
     const FmuVariables::Wheel& w = variables_.wheels[i];
     const WheelGround& g = wheels_[i];
-    const std::pair<const fmi::Variable*, double> values[] = {{w.ground_z, g.plane_W.z()}, {w.normal_x, g.normal_W.x()}, {w.normal_y, g.normal_W.y()},
-                                                              {w.normal_z, g.normal_W.z()}, {w.friction, g.friction}};
+    const std::pair<const fmi::Variable*, double> values[] = {{w.ground_z, g.plane_W.z()},
+                                                              {w.normal_x, g.normal_W.x()},
+                                                              {w.normal_y, g.normal_W.y()},
+                                                              {w.normal_z, g.normal_W.z()},
+                                                              {w.friction, g.friction}};
     for (const auto& [variable, value] : values) {
       if (auto status = Set(variable, value); !status) return status;
     }
@@ -95,8 +103,13 @@ base::Status FmuModel::SetControls(const Controls& c) {
   const FmuVariables& v = variables_;
   const double limit = settings_.dimensions.steering_wheel_limit_rad;
   const std::pair<const fmi::Variable*, double> values[] = {
-      {v.steering_wheel, std::clamp(c.steering_wheel_rad, -limit, limit)}, {v.throttle, c.throttle}, {v.brake, c.brake}, {v.clutch, c.clutch},
-      {v.handbrake, c.handbrake}, {v.gear_wish, static_cast<double>(c.gear)}, {v.automatic, c.gearbox == GearboxMode::kAutomatic ? 1.0 : 0.0},
+      {v.steering_wheel, std::clamp(c.steering_wheel_rad, -limit, limit)},
+      {v.throttle, c.throttle},
+      {v.brake, c.brake},
+      {v.clutch, c.clutch},
+      {v.handbrake, c.handbrake},
+      {v.gear_wish, static_cast<double>(c.gear)},
+      {v.automatic, c.gearbox == GearboxMode::kAutomatic ? 1.0 : 0.0},
       {v.starter, c.starter ? 1.0 : 0.0}};
   for (const auto& [variable, value] : values) {
     if (auto status = Set(variable, value); !status) return status;
@@ -108,13 +121,19 @@ base::Status FmuModel::SetControls(const Controls& c) {
 base::Status FmuModel::SetStart(const InitialCondition& initial) {
   const FmuVariables& v = variables_;
   const auto refusal = [&](const char* name) {
-    return base::WrongInput(fmt::format("the FMU cannot begin in motion: it has no variable '{}'", name), settings_.fmu.string());
+    return base::WrongInput(fmt::format("the FMU cannot begin in motion: it has no variable '{}'", name),
+                            settings_.fmu.string());
   };
   if (v.start_speed == nullptr && initial.speed_mps != 0.0) return refusal("start_speed_mps");
-  const std::pair<const fmi::Variable*, double> values[] = {
-      {v.start_x, initial.x_m}, {v.start_y, initial.y_m}, {v.start_z, state_.p_WB_W.z()}, {v.start_heading, initial.heading_rad},
-      {v.start_pitch, state_.pitch_rad()}, {v.start_roll, state_.roll_rad()}, {v.start_speed, initial.speed_mps},
-      {v.start_lateral_speed, initial.lateral_speed_mps}, {v.start_yaw_rate, initial.yaw_rate_radps}};
+  const std::pair<const fmi::Variable*, double> values[] = {{v.start_x, initial.x_m},
+                                                            {v.start_y, initial.y_m},
+                                                            {v.start_z, state_.p_WB_W.z()},
+                                                            {v.start_heading, initial.heading_rad},
+                                                            {v.start_pitch, state_.pitch_rad()},
+                                                            {v.start_roll, state_.roll_rad()},
+                                                            {v.start_speed, initial.speed_mps},
+                                                            {v.start_lateral_speed, initial.lateral_speed_mps},
+                                                            {v.start_yaw_rate, initial.yaw_rate_radps}};
   for (const auto& [variable, value] : values) {
     if (auto status = Set(variable, value); !status) return status;
   }
@@ -126,8 +145,8 @@ base::Status FmuModel::SetStart(const InitialCondition& initial) {
 
 base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& ground) {
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial.x_m,
-                                        initial.y_m, initial.heading_rad, what));
+    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+                                        initial.x_m, initial.y_m, initial.heading_rad, what));
   };
   const ground::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
   if (!start.inside) return refusal("that is outside of the world");
@@ -252,7 +271,8 @@ void FmuModel::Save(base::StateWriter& writer) const {
   writer.Put("published", state_);
   if (!can_save()) return;
   const auto state = instance_ ? instance_->State() : base::Result<base::Bytes>(base::Bytes());
-  // An FMU that offers its state and does not give it has failed; the next step would say so, and the snapshot is of no use.
+  // An FMU that offers its state and does not give it has failed; the next step would say so, and the snapshot is of no
+  // use.
   const base::Bytes& bytes = state ? state.value() : base::Bytes();
   const auto* raw = reinterpret_cast<const std::uint8_t*>(bytes.data());
   writer.Put("fmu", std::vector<std::uint8_t>(raw, raw + bytes.size()));

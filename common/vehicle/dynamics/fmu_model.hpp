@@ -6,27 +6,27 @@
 #include <memory>
 #include <string>
 
-#include "common/vehicle/fmi/unit.hpp"
 #include "common/vehicle/dynamics/fmu_variables.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
+#include "common/vehicle/fmi/unit.hpp"
 
 namespace rodeira::dynamics {
 
 // All that a vehicle file of model `fmu` says.
 struct FmuSettings {
   std::filesystem::path fmu;
-  std::map<std::string, std::string> names;    // our names of variables to the FMU's own
-  std::map<std::string, double> parameters;    // of the FMU, by its names: set before the first step
-  Enveloping enveloping = Enveloping::kNone;   // of the ground that it is told
+  std::map<std::string, std::string> names;   // our names of variables to the FMU's own
+  std::map<std::string, double> parameters;   // of the FMU, by its names: set before the first step
+  Enveloping enveloping = Enveloping::kNone;  // of the ground that it is told
   VehicleDimensions dimensions;
 };
 FmuSettings ReadFmu(const config::Map& root);
 
-// A laboratory's own vehicle: an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's plane under each
-// wheel, its outputs the car's motion; how it stands at the beginning is its own business. An FMU that fails stops where it is, and
-// problem() says why.
+// A laboratory's own vehicle: an FMU for co-simulation (FMI 2.0). Its inputs are the driver's controls and the ground's
+// plane under each wheel, its outputs the car's motion; how it stands at the beginning is its own business. An FMU that
+// fails stops where it is, and problem() says why.
 class FmuModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build has succeeded.
@@ -44,7 +44,9 @@ class FmuModel final : public VehicleModel {
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
-  bool can_save() const override { return unit_->description().can_get_state && unit_->description().can_serialize_state; }
+  bool can_save() const override {
+    return unit_->description().can_get_state && unit_->description().can_serialize_state;
+  }
 
  private:
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;

@@ -31,13 +31,16 @@ struct Finder {
     const bool output = missing_way == Way::kOutput;
     std::vector<std::string> there;
     for (const fmi::Variable& variable : description.variables) {
-      if ((variable.causality == "output") == output && variable.causality != "local" && !known.contains(variable.name)) there.push_back(variable.name);
+      if ((variable.causality == "output") == output && variable.causality != "local" && !known.contains(variable.name))
+        there.push_back(variable.name);
     }
-    Complain(fmt::format("the FMU has no variable '{}' ({}){}", missing, output ? "an output" : "an input", base::DidYouMean(missing, there)));
+    Complain(fmt::format("the FMU has no variable '{}' ({}){}", missing, output ? "an output" : "an input",
+                         base::DidYouMean(missing, there)));
   }
 
   // `unit` as FMI writes it; "" for what has none.
-  void operator()(FmuVariables::Variable& into, const std::string& name, Way way, const std::string& unit, bool needed = false) {
+  void operator()(FmuVariables::Variable& into, const std::string& name, Way way, const std::string& unit,
+                  bool needed = false) {
     known.insert(name);
     const auto renamed = names.find(name);
     const std::string own = renamed == names.end() ? name : renamed->second;
@@ -49,14 +52,19 @@ struct Finder {
       }
       return;
     }
-    const bool fits = way == Way::kOutput ? into->causality == "output" : into->causality == "input" || (way == Way::kStart && into->causality == "parameter");
+    const bool fits = way == Way::kOutput
+                          ? into->causality == "output"
+                          : into->causality == "input" || (way == Way::kStart && into->causality == "parameter");
     if (!fits) {
       Complain(fmt::format("'{}' of the FMU is declared '{}'; {} was expected", own, into->causality,
-                           way == Way::kOutput ? "'output'" : way == Way::kStart ? "'input' or 'parameter'" : "'input'"));
+                           way == Way::kOutput  ? "'output'"
+                           : way == Way::kStart ? "'input' or 'parameter'"
+                                                : "'input'"));
     }
     if (into->type == fmi::VariableType::kOther) Complain(fmt::format("'{}' of the FMU is no number", own));
     if (!into->unit.empty() && into->unit != unit) {
-      Complain(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, into->unit, unit.empty() ? "1" : unit));
+      Complain(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, into->unit,
+                           unit.empty() ? "1" : unit));
     }
   }
 };
@@ -68,8 +76,8 @@ bool FmuVariables::takes_pushes() const {
   return std::ranges::all_of(push_force, is_there) && std::ranges::all_of(push_moment, is_there);
 }
 
-base::Result<FmuVariables> FindVariables(const fmi::Description& description, const std::map<std::string, std::string>& names,
-                                         const std::string& context) {
+base::Result<FmuVariables> FindVariables(const fmi::Description& description,
+                                         const std::map<std::string, std::string>& names, const std::string& context) {
   FmuVariables v;
   Finder find{description, names, context};
   find(v.start_x, "start_x_m", Way::kStart, "m", true);
@@ -89,7 +97,8 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   find(v.gear_wish, "gear_lever", Way::kInput, "1");
   find(v.automatic, "automatic", Way::kInput, "1");
   find(v.starter, "starter", Way::kInput, "1");
-  const std::array<std::string, 3> axes = {"x", "y", "z"}, angles = {"roll", "pitch", "heading"}, rates = {"roll", "pitch", "yaw"};
+  const std::array<std::string, 3> axes = {"x", "y", "z"}, angles = {"roll", "pitch", "heading"},
+                                   rates = {"roll", "pitch", "yaw"};
   for (std::size_t i = 0; i < 3; ++i) {
     find(v.push_force[i], "push_" + axes[i] + "_N", Way::kInput, "N");
     find(v.push_moment[i], "push_moment_" + axes[i] + "_Nm", Way::kInput, "N.m");
@@ -124,7 +133,8 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description, co
   find.ComplainOfMissing();
   for (const auto& [name, own] : names) {
     if (find.known.contains(name)) continue;
-    find.Complain(fmt::format("'names.{}' is no variable of a vehicle{}", name, base::DidYouMean(name, {find.known.begin(), find.known.end()})));
+    find.Complain(fmt::format("'names.{}' is no variable of a vehicle{}", name,
+                              base::DidYouMean(name, {find.known.begin(), find.known.end()})));
   }
   if (!find.status) return find.status.error();
   return v;

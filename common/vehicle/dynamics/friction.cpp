@@ -11,7 +11,8 @@ enum class Role { kSticks, kAtPlus, kAtMinus };
 using Roles = std::array<Role, kFrictionElements>;
 
 // Impulses when the elements play these roles: sticking ones make their relative speed vanish.
-FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound) {
+FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const FrictionVector& s_free,
+                           const FrictionVector& bound) {
   FrictionMatrix system = FrictionMatrix::Identity();
   FrictionVector right;
   for (int i = 0; i < kFrictionElements; ++i) {
@@ -27,11 +28,11 @@ FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const Fr
 
 }  // namespace
 
-// Least-index pivoting (K. G. Murty's rule) on the box-constrained complementarity problem: change the role of the first
-// element that breaks its condition. Finite for a positive definite A; with five elements a handful of turns.
+// Least-index pivoting (K. G. Murty's rule) on the box-constrained complementarity problem: change the role of the
+// first element that breaks its condition. Finite for a positive definite A; with five elements a handful of turns.
 FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound) {
   constexpr int kMostTurns = 500;  // there are 243 patterns
-  Roles roles{};  // begin with what each would do by itself; a bound of 0 never changes its role
+  Roles roles{};                   // begin with what each would do by itself; a bound of 0 never changes its role
   for (int i = 0; i < kFrictionElements; ++i) {
     const double most = a(i, i) * bound[i];
     roles[i] = s_free[i] > most ? Role::kAtMinus : (s_free[i] < -most || most == 0.0 ? Role::kAtPlus : Role::kSticks);
@@ -45,10 +46,14 @@ FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_fr
       if (!(bound[i] > 0.0)) continue;
       Role& role = roles[i];
       const Role before = role;
-      if (role == Role::kSticks && p[i] > bound[i]) role = Role::kAtPlus;
-      else if (role == Role::kSticks && p[i] < -bound[i]) role = Role::kAtMinus;
-      else if (role == Role::kAtPlus && s[i] > 0.0) role = Role::kSticks;
-      else if (role == Role::kAtMinus && s[i] < 0.0) role = Role::kSticks;
+      if (role == Role::kSticks && p[i] > bound[i])
+        role = Role::kAtPlus;
+      else if (role == Role::kSticks && p[i] < -bound[i])
+        role = Role::kAtMinus;
+      else if (role == Role::kAtPlus && s[i] > 0.0)
+        role = Role::kSticks;
+      else if (role == Role::kAtMinus && s[i] < 0.0)
+        role = Role::kSticks;
       done = role == before;
     }
     if (done) break;

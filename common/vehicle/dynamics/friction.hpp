@@ -4,8 +4,8 @@
 
 namespace rodeira::dynamics {
 
-// Dry friction elements that act together during one step: brakes, clutch, drag, differential. Element i lets its parts slide with the
-// relative speed s_i and passes an angular impulse p_i (torque × dt) of at most bound_i:
+// Dry friction elements that act together during one step: brakes, clutch, drag, differential. Element i lets its parts
+// slide with the relative speed s_i and passes an angular impulse p_i (torque × dt) of at most bound_i:
 //   s = s_free + A p,   and for each i:  s_i = 0 with |p_i| <= bound_i,  or  p_i = -sign(s_i) bound_i.
 // A = G M⁻¹ Gᵗ is symmetric and must be positive definite; the solution is then unique.
 inline constexpr int kFrictionElements = 5;

@@ -10,7 +10,9 @@ constexpr double kWalking_mps = 2.0;
 
 }  // namespace
 
-int CutGear(const GearboxSettings& gearbox, int gear) { return std::clamp(gear, -1, static_cast<int>(gearbox.forward.size())); }
+int CutGear(const GearboxSettings& gearbox, int gear) {
+  return std::clamp(gear, -1, static_cast<int>(gearbox.forward.size()));
+}
 
 double TotalRatio(const GearboxSettings& gearbox, int gear) {
   const int cut = CutGear(gearbox, gear);

@@ -12,24 +12,28 @@ constexpr double kTiny = 1e-9;  // keeps divisions finite where a load or a fric
 
 constexpr auto kCoefficients = std::to_array<MagicFormulaCoefficient>({
     {"FNOMIN", &S::fnomin}, {"FZMAX", &S::fzmax}, {"NOMPRES", &S::nompres}, {"INFLPRES", &S::inflpres},
-    {"LFZO", &S::lfzo}, {"LCX", &S::lcx}, {"LMUX", &S::lmux}, {"LEX", &S::lex}, {"LKX", &S::lkx}, {"LHX", &S::lhx},
-    {"LVX", &S::lvx}, {"LCY", &S::lcy}, {"LMUY", &S::lmuy}, {"LEY", &S::ley}, {"LKY", &S::lky}, {"LKYC", &S::lkyc},
-    {"LHY", &S::lhy}, {"LVY", &S::lvy}, {"LXAL", &S::lxal}, {"LYKA", &S::lyka}, {"LVYKA", &S::lvyka}, {"LGAX", &S::lgax}, {"LGAY", &S::lgay},
-    {"PCX1", &S::pcx1}, {"PDX1", &S::pdx1}, {"PDX2", &S::pdx2}, {"PDX3", &S::pdx3}, {"PEX1", &S::pex1},
-    {"PEX2", &S::pex2}, {"PEX3", &S::pex3}, {"PEX4", &S::pex4}, {"PKX1", &S::pkx1}, {"PKX2", &S::pkx2},
-    {"PKX3", &S::pkx3}, {"PHX1", &S::phx1}, {"PHX2", &S::phx2}, {"PVX1", &S::pvx1}, {"PVX2", &S::pvx2},
-    {"PPX1", &S::ppx1}, {"PPX2", &S::ppx2}, {"PPX3", &S::ppx3}, {"PPX4", &S::ppx4},
-    {"RBX1", &S::rbx1}, {"RBX2", &S::rbx2}, {"RBX3", &S::rbx3}, {"RCX1", &S::rcx1}, {"REX1", &S::rex1},
-    {"REX2", &S::rex2}, {"RHX1", &S::rhx1},
-    {"PCY1", &S::pcy1}, {"PDY1", &S::pdy1}, {"PDY2", &S::pdy2}, {"PDY3", &S::pdy3}, {"PEY1", &S::pey1},
-    {"PEY2", &S::pey2}, {"PEY3", &S::pey3}, {"PEY4", &S::pey4}, {"PEY5", &S::pey5}, {"PKY1", &S::pky1},
-    {"PKY2", &S::pky2}, {"PKY3", &S::pky3}, {"PKY4", &S::pky4}, {"PKY5", &S::pky5}, {"PKY6", &S::pky6},
-    {"PKY7", &S::pky7}, {"PHY1", &S::phy1}, {"PHY2", &S::phy2}, {"PHY3", &S::phy3}, {"PVY1", &S::pvy1}, {"PVY2", &S::pvy2},
-    {"PVY3", &S::pvy3}, {"PVY4", &S::pvy4}, {"PPY1", &S::ppy1}, {"PPY2", &S::ppy2}, {"PPY3", &S::ppy3},
-    {"PPY4", &S::ppy4}, {"PPY5", &S::ppy5},
-    {"RBY1", &S::rby1}, {"RBY2", &S::rby2}, {"RBY3", &S::rby3}, {"RBY4", &S::rby4}, {"RCY1", &S::rcy1},
-    {"REY1", &S::rey1}, {"REY2", &S::rey2}, {"RHY1", &S::rhy1}, {"RHY2", &S::rhy2}, {"RVY1", &S::rvy1},
-    {"RVY2", &S::rvy2}, {"RVY3", &S::rvy3}, {"RVY4", &S::rvy4}, {"RVY5", &S::rvy5}, {"RVY6", &S::rvy6},
+    {"LFZO", &S::lfzo},     {"LCX", &S::lcx},     {"LMUX", &S::lmux},       {"LEX", &S::lex},
+    {"LKX", &S::lkx},       {"LHX", &S::lhx},     {"LVX", &S::lvx},         {"LCY", &S::lcy},
+    {"LMUY", &S::lmuy},     {"LEY", &S::ley},     {"LKY", &S::lky},         {"LKYC", &S::lkyc},
+    {"LHY", &S::lhy},       {"LVY", &S::lvy},     {"LXAL", &S::lxal},       {"LYKA", &S::lyka},
+    {"LVYKA", &S::lvyka},   {"LGAX", &S::lgax},   {"LGAY", &S::lgay},       {"PCX1", &S::pcx1},
+    {"PDX1", &S::pdx1},     {"PDX2", &S::pdx2},   {"PDX3", &S::pdx3},       {"PEX1", &S::pex1},
+    {"PEX2", &S::pex2},     {"PEX3", &S::pex3},   {"PEX4", &S::pex4},       {"PKX1", &S::pkx1},
+    {"PKX2", &S::pkx2},     {"PKX3", &S::pkx3},   {"PHX1", &S::phx1},       {"PHX2", &S::phx2},
+    {"PVX1", &S::pvx1},     {"PVX2", &S::pvx2},   {"PPX1", &S::ppx1},       {"PPX2", &S::ppx2},
+    {"PPX3", &S::ppx3},     {"PPX4", &S::ppx4},   {"RBX1", &S::rbx1},       {"RBX2", &S::rbx2},
+    {"RBX3", &S::rbx3},     {"RCX1", &S::rcx1},   {"REX1", &S::rex1},       {"REX2", &S::rex2},
+    {"RHX1", &S::rhx1},     {"PCY1", &S::pcy1},   {"PDY1", &S::pdy1},       {"PDY2", &S::pdy2},
+    {"PDY3", &S::pdy3},     {"PEY1", &S::pey1},   {"PEY2", &S::pey2},       {"PEY3", &S::pey3},
+    {"PEY4", &S::pey4},     {"PEY5", &S::pey5},   {"PKY1", &S::pky1},       {"PKY2", &S::pky2},
+    {"PKY3", &S::pky3},     {"PKY4", &S::pky4},   {"PKY5", &S::pky5},       {"PKY6", &S::pky6},
+    {"PKY7", &S::pky7},     {"PHY1", &S::phy1},   {"PHY2", &S::phy2},       {"PHY3", &S::phy3},
+    {"PVY1", &S::pvy1},     {"PVY2", &S::pvy2},   {"PVY3", &S::pvy3},       {"PVY4", &S::pvy4},
+    {"PPY1", &S::ppy1},     {"PPY2", &S::ppy2},   {"PPY3", &S::ppy3},       {"PPY4", &S::ppy4},
+    {"PPY5", &S::ppy5},     {"RBY1", &S::rby1},   {"RBY2", &S::rby2},       {"RBY3", &S::rby3},
+    {"RBY4", &S::rby4},     {"RCY1", &S::rcy1},   {"REY1", &S::rey1},       {"REY2", &S::rey2},
+    {"RHY1", &S::rhy1},     {"RHY2", &S::rhy2},   {"RVY1", &S::rvy1},       {"RVY2", &S::rvy2},
+    {"RVY3", &S::rvy3},     {"RVY4", &S::rvy4},   {"RVY5", &S::rvy5},       {"RVY6", &S::rvy6},
 });
 
 double Sign(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : 0.0); }
@@ -55,17 +59,20 @@ Operating At(const S& t, double load_N) {
 }
 
 double Mux(const S& t, const Operating& o, double camber, double friction) {
-  const double mu = (t.pdx1 + t.pdx2 * o.dfz) * (1.0 + t.ppx3 * o.dpi + t.ppx4 * o.dpi * o.dpi) * (1.0 - t.pdx3 * camber * camber);
+  const double mu =
+      (t.pdx1 + t.pdx2 * o.dfz) * (1.0 + t.ppx3 * o.dpi + t.ppx4 * o.dpi * o.dpi) * (1.0 - t.pdx3 * camber * camber);
   return std::max(0.0, mu) * t.lmux * friction;
 }
 
 double Muy(const S& t, const Operating& o, double camber, double friction) {
-  const double mu = (t.pdy1 + t.pdy2 * o.dfz) * (1.0 + t.ppy3 * o.dpi + t.ppy4 * o.dpi * o.dpi) * (1.0 - t.pdy3 * camber * camber);
+  const double mu =
+      (t.pdy1 + t.pdy2 * o.dfz) * (1.0 + t.ppy3 * o.dpi + t.ppy4 * o.dpi * o.dpi) * (1.0 - t.pdy3 * camber * camber);
   return std::max(0.0, mu) * t.lmuy * friction;
 }
 
 double Kx(const S& t, const Operating& o) {
-  return o.fz * (t.pkx1 + t.pkx2 * o.dfz) * std::exp(t.pkx3 * o.dfz) * (1.0 + t.ppx1 * o.dpi + t.ppx2 * o.dpi * o.dpi) * t.lkx;
+  return o.fz * (t.pkx1 + t.pkx2 * o.dfz) * std::exp(t.pkx3 * o.dfz) * (1.0 + t.ppx1 * o.dpi + t.ppx2 * o.dpi * o.dpi) *
+         t.lkx;
 }
 
 double Ky(const S& t, const Operating& o, double camber) {
@@ -74,18 +81,26 @@ double Ky(const S& t, const Operating& o, double camber) {
          std::sin(t.pky4 * std::atan(o.fz / o.fz0 / bend)) * t.lky;
 }
 
-// The formula's factor of friction for the vertical shifts, degressive since version 6: it lets them vanish with the friction.
-double ShiftFactor(const S& t, double lambda) { return t.version == MagicFormulaVersion::k52 ? lambda : 10.0 * lambda / (1.0 + 9.0 * lambda); }
+// The formula's factor of friction for the vertical shifts, degressive since version 6: it lets them vanish with the
+// friction.
+double ShiftFactor(const S& t, double lambda) {
+  return t.version == MagicFormulaVersion::k52 ? lambda : 10.0 * lambda / (1.0 + 9.0 * lambda);
+}
 
 // Version 5.2 scales the camber of each direction by a factor of its own.
-double CamberX(const S& t, const TyreSlip& slip) { return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgax : slip.camber_rad; }
-double CamberY(const S& t, const TyreSlip& slip) { return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgay : slip.camber_rad; }
+double CamberX(const S& t, const TyreSlip& slip) {
+  return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgax : slip.camber_rad;
+}
+double CamberY(const S& t, const TyreSlip& slip) {
+  return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgay : slip.camber_rad;
+}
 
 double PureLongitudinal(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
   const double kappa = slip.kappa + (t.phx1 + t.phx2 * o.dfz) * t.lhx;
   const double c = t.pcx1 * t.lcx;
   const double d = Mux(t, o, CamberX(t, slip), friction) * o.fz;
-  const double e = std::min(1.0, (t.pex1 + t.pex2 * o.dfz + t.pex3 * o.dfz * o.dfz) * (1.0 - t.pex4 * Sign(kappa)) * t.lex);
+  const double e =
+      std::min(1.0, (t.pex1 + t.pex2 * o.dfz + t.pex3 * o.dfz * o.dfz) * (1.0 - t.pex4 * Sign(kappa)) * t.lex);
   const double b = Kx(t, o) / (c * d + kTiny);
   const double vertical = o.fz * (t.pvx1 + t.pvx2 * o.dfz) * t.lvx * ShiftFactor(t, t.lmux * friction);
   return d * std::sin(Angle(b, c, e, kappa)) + vertical;
@@ -98,7 +113,8 @@ double PureLateral(const S& t, const Operating& o, const TyreSlip& slip, double 
   const double camber_shift = o.fz * (t.pvy3 + t.pvy4 * o.dfz) * gamma * t.lkyc * shift_factor;
   const double camber_stiffness = o.fz * (t.pky6 + t.pky7 * o.dfz) * (1.0 + t.ppy5 * o.dpi) * t.lkyc;
   const double k_safe = std::fabs(k) < kTiny ? -kTiny : k;
-  const double shift_by_camber = t.version == MagicFormulaVersion::k52 ? t.phy3 * gamma : (camber_stiffness * gamma - camber_shift) / k_safe;
+  const double shift_by_camber =
+      t.version == MagicFormulaVersion::k52 ? t.phy3 * gamma : (camber_stiffness * gamma - camber_shift) / k_safe;
   const double alpha = slip.tan_alpha + (t.phy1 + t.phy2 * o.dfz) * t.lhy + shift_by_camber;
   const double c = t.pcy1 * t.lcy;
   const double d = Muy(t, o, gamma, friction) * o.fz;
@@ -118,7 +134,8 @@ double WeightLongitudinal(const S& t, const Operating& o, const TyreSlip& slip) 
 }
 
 double WeightLateral(const S& t, const Operating& o, const TyreSlip& slip) {
-  const double b = (t.rby1 + t.rby4 * slip.camber_rad * slip.camber_rad) * CosAtan(t.rby2 * (slip.tan_alpha - t.rby3)) * t.lyka;
+  const double b =
+      (t.rby1 + t.rby4 * slip.camber_rad * slip.camber_rad) * CosAtan(t.rby2 * (slip.tan_alpha - t.rby3)) * t.lyka;
   const double e = std::min(1.0, t.rey1 + t.rey2 * o.dfz);
   const double shift = t.rhy1 + t.rhy2 * o.dfz;
   const double weight = std::cos(Angle(b, t.rcy1, e, slip.kappa + shift)) / std::cos(Angle(b, t.rcy1, e, shift));
@@ -127,8 +144,8 @@ double WeightLateral(const S& t, const Operating& o, const TyreSlip& slip) {
 
 // The side force that longitudinal slip brings about by itself.
 double InducedLateral(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
-  const double size = Muy(t, o, CamberY(t, slip), friction) * o.fz * (t.rvy1 + t.rvy2 * o.dfz + t.rvy3 * CamberY(t, slip)) *
-                      CosAtan(t.rvy4 * slip.tan_alpha);
+  const double size = Muy(t, o, CamberY(t, slip), friction) * o.fz *
+                      (t.rvy1 + t.rvy2 * o.dfz + t.rvy3 * CamberY(t, slip)) * CosAtan(t.rvy4 * slip.tan_alpha);
   return size * std::sin(t.rvy5 * std::atan(t.rvy6 * slip.kappa)) * t.lvyka;
 }
 
@@ -142,7 +159,8 @@ TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& mounte
   const TyreSlip slip{mounted.kappa, side * mounted.tan_alpha, side * mounted.camber_rad};
   const Operating o = At(tyre, load_N);
   return {PureLongitudinal(tyre, o, slip, friction) * WeightLongitudinal(tyre, o, slip),
-          side * (PureLateral(tyre, o, slip, friction) * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction))};
+          side * (PureLateral(tyre, o, slip, friction) * WeightLateral(tyre, o, slip) +
+                  InducedLateral(tyre, o, slip, friction))};
 }
 
 double LongitudinalStiffness(const MagicFormulaSettings& tyre, double load_N) {

@@ -5,23 +5,24 @@
 
 namespace rodeira::dynamics {
 
-// Pacejka's Magic Formula, version 6.1 (H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 4.3), forces Fx
-// and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. Version
-// 5.2 (the same book's 2nd ed., 2006, chapter 4.3) is the same with the newer coefficients at their defaults, but for the terms of
-// camber: the side force is shifted by PHY3 instead of by PKY6 and PKY7, LGAX and LGAY scale the camber, and the vertical shift of
-// Fy is scaled with friction itself. Names are those of the .tir files in lower case.
+// Pacejka's Magic Formula, version 6.1 (H. B. Pacejka, Tire and Vehicle Dynamics, 3rd ed., 2012, chapter 4.3), forces
+// Fx and Fy with combined slip, camber and inflation pressure; turn slip and the moments are left out. Version 5.2 (the
+// same book's 2nd ed., 2006, chapter 4.3) is the same with the newer coefficients at their defaults, but for the terms
+// of camber: the side force is shifted by PHY3 instead of by PKY6 and PKY7, LGAX and LGAY scale the camber, and the
+// vertical shift of Fy is scaled with friction itself. Names are those of the .tir files in lower case.
 enum class MagicFormulaVersion { k61, k52 };
 
-// The side of a car on which a tyre was measured: mounted on the other one it is its mirror image. kEither: nobody says.
+// The side of a car on which a tyre was measured: mounted on the other one it is its mirror image. kEither: nobody
+// says.
 enum class TyreSide { kEither, kLeft, kRight };
 
 struct MagicFormulaSettings {
   MagicFormulaVersion version = MagicFormulaVersion::k61;
   TyreSide measured_on = TyreSide::kEither;
-  bool mirrored = false;      // it is mounted on the other side
-  double fnomin = 4000.0;     // nominal load, N
-  double fzmax = 20000.0;     // above it the formula is evaluated at this load, N
-  double nompres = 220000.0;  // Pa
+  bool mirrored = false;       // it is mounted on the other side
+  double fnomin = 4000.0;      // nominal load, N
+  double fzmax = 20000.0;      // above it the formula is evaluated at this load, N
+  double nompres = 220000.0;   // Pa
   double inflpres = 220000.0;  // Pa
   // Scale factors.
   double lfzo = 1.0, lcx = 1.0, lmux = 1.0, lex = 1.0, lkx = 1.0, lhx = 1.0, lvx = 1.0;
@@ -45,12 +46,12 @@ struct MagicFormulaSettings {
 // A coefficient by the name that it has in .tir files ("PCX1"), for readers of files.
 struct MagicFormulaCoefficient {
   std::string_view name;
-  double MagicFormulaSettings::* member;
+  double MagicFormulaSettings::*member;
 };
 std::span<const MagicFormulaCoefficient> MagicFormulaCoefficients();
 
-// What a tyre does, steadily: kappa = -v_sx / |v_x| (1: spinning, -1: locked), tan_alpha = v_y / |v_x|, camber about the
-// wheel's x axis. Contact frame: x along the wheel, y to its left.
+// What a tyre does, steadily: kappa = -v_sx / |v_x| (1: spinning, -1: locked), tan_alpha = v_y / |v_x|, camber about
+// the wheel's x axis. Contact frame: x along the wheel, y to its left.
 struct TyreSlip {
   double kappa = 0.0;
   double tan_alpha = 0.0;
@@ -64,8 +65,8 @@ struct TyreForces {
 // The forces at a load (0 for a load of 0 or less). `friction` of the ground multiplies the peaks, not the stiffness.
 TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction);
 
-// Slopes at zero slip, both positive: dFx/dkappa and -dFy/dtan(alpha) of a tyre without camber, in N. They do not depend
-// on friction. With shifts (PHX, PHY …) they are the formula's K, whose point lies beside the origin.
+// Slopes at zero slip, both positive: dFx/dkappa and -dFy/dtan(alpha) of a tyre without camber, in N. They do not
+// depend on friction. With shifts (PHX, PHY …) they are the formula's K, whose point lies beside the origin.
 double LongitudinalStiffness(const MagicFormulaSettings& tyre, double load_N);
 double CorneringStiffness(const MagicFormulaSettings& tyre, double load_N);
 // Peaks D = mu Fz in N.

@@ -36,7 +36,8 @@ void BodyLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const
 
 double BodyLoad::Force(const multibody::Motion& motion) const {
   double force = 0.0;
-  for (const multibody::Form& corner : corners_) force += origin_.terms.empty() ? 0.0 : OnCorner(corner, motion).dot(normal_W_);
+  for (const multibody::Form& corner : corners_)
+    force += origin_.terms.empty() ? 0.0 : OnCorner(corner, motion).dot(normal_W_);
   return force;
 }
 

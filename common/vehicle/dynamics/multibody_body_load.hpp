@@ -2,18 +2,20 @@
 
 #include <array>
 
-#include "common/vehicle/multibody/body.hpp"
-#include "common/vehicle/multibody/load.hpp"
 #include "common/vehicle/dynamics/collision_settings.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/multibody/body.hpp"
+#include "common/vehicle/multibody/load.hpp"
 
 namespace rodeira::dynamics {
 
-// What the chassis takes from outside but for its wheels: a push that is set before the step, and the ground under the corners of the
-// car's box, by which the car lies on its side or its roof. The ground's force follows the motion within the step.
+// What the chassis takes from outside but for its wheels: a push that is set before the step, and the ground under the
+// corners of the car's box, by which the car lies on its side or its roof. The ground's force follows the motion within
+// the step.
 class BodyLoad final : public multibody::Load {
  public:
-  BodyLoad(const multibody::Frame& chassis, const CollisionSettings& settings) : chassis_(chassis), settings_(settings) {}
+  BodyLoad(const multibody::Frame& chassis, const CollisionSettings& settings)
+      : chassis_(chassis), settings_(settings) {}
 
   // Where B and the corners of the box lie in the chassis as it is drawn. Until then nothing acts.
   void SetBody(const Eigen::Isometry3d& X_CB, const VehicleDimensions& dimensions);

@@ -17,8 +17,9 @@ namespace {
 constexpr int kGroundTurns = 40;  // the wheels move a little as the car settles, and with them the ground's answers
 constexpr double kSettled_m = 1e-10;
 constexpr double kResidual_mps2 = 1e-9;
-constexpr double kAnchor_Npm = 3e5;  // as a tyre: what a stiffer one does to the carrier by its lever is not in Newton's matrix
-constexpr double kHeld_N = 1e-6;     // what anchors may still hold of a car at a speed
+constexpr double kAnchor_Npm =
+    3e5;  // as a tyre: what a stiffer one does to the carrier by its lever is not in Newton's matrix
+constexpr double kHeld_N = 1e-6;  // what anchors may still hold of a car at a speed
 constexpr double kStandstill_mps = 1e-6;
 
 Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
@@ -33,8 +34,8 @@ Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Ei
 }
 
 base::Error Refusal(const InitialCondition& initial, const std::string& what) {
-  return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial.x_m,
-                                      initial.y_m, initial.heading_rad, what));
+  return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+                                      initial.x_m, initial.y_m, initial.heading_rad, what));
 }
 
 }  // namespace
@@ -67,25 +68,28 @@ void MultibodyModel::FillTranslation(const Eigen::Vector3d& v_W, std::span<doubl
   const auto& entities = system_->drawing().entities;
   for (std::size_t i = 0; i < entities.size(); ++i) {
     const multibody::EntityDrawing& entity = entities[i];
-    const bool moves = entity.kind == multibody::EntityKind::kPoint && !(entity.fixed[0] && entity.fixed[1] && entity.fixed[2]);
+    const bool moves =
+        entity.kind == multibody::EntityKind::kPoint && !(entity.fixed[0] && entity.fixed[1] && entity.fixed[2]);
     Eigen::Map<Eigen::Vector3d>(rates.data() + 3 * i) = moves ? v_W : Eigen::Vector3d(Eigen::Vector3d::Zero());
   }
 }
 
-// The forces that the tyres have at this speed in the present position, in the place of those that they and their anchors have had: across by toe
-// and camber and, where that does not hold the car (on a slope across), by load; along what is missing, by the driven wheels. Returns what the
-// anchors still had to hold, in N.
+// The forces that the tyres have at this speed in the present position, in the place of those that they and their
+// anchors have had: across by toe and camber and, where that does not hold the car (on a slope across), by load; along
+// what is missing, by the driven wheels. Returns what the anchors still had to hold, in N.
 double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cruise) {
   const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
   const Eigen::Vector3d forward = X_WB().linear().col(0);
-  const Eigen::Vector3d along = (forward - forward.dot(under.normal_W) * under.normal_W).normalized(), across = under.normal_W.cross(along);
+  const Eigen::Vector3d along = (forward - forward.dot(under.normal_W) * under.normal_W).normalized(),
+                        across = under.normal_W.cross(along);
   cruise.v_W = initial.speed_mps / along.dot(forward) * along;
   FillTranslation(cruise.v_W, ahead_qd_);
   const multibody::Motion motion{system_->q().data(), ahead_qd_.data(), 0.0};
   const Contacts contacts = FindContacts(system_->motion());
   // What a force of a wheel does to the car along, across, and about the normal.
   const auto acts = [&](std::size_t wheel, const Eigen::Vector3d& force) {
-    return Eigen::Vector3d(force.dot(along), force.dot(across), (contacts[wheel].point_W - under.point_W).cross(force).dot(under.normal_W));
+    return Eigen::Vector3d(force.dot(along), force.dot(across),
+                           (contacts[wheel].point_W - under.point_W).cross(force).dot(under.normal_W));
   };
   std::array<double, kWheels> loads_N{};
   std::array<double, 2> axle_N{};
@@ -93,7 +97,8 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
   double held_N = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Eigen::Vector2d bears = wheels_[i].load->Tangential(system_->motion(), contacts[i]);
-    held_N = std::max({held_N, std::fabs(bears[0] - cruise.forces[i].longitudinal_N), std::fabs(bears[1] - cruise.forces[i].lateral_N)});
+    held_N = std::max({held_N, std::fabs(bears[0] - cruise.forces[i].longitudinal_N),
+                       std::fabs(bears[1] - cruise.forces[i].lateral_N)});
     missing += acts(i, bears[0] * contacts[i].along_W + bears[1] * contacts[i].across_W);
     loads_N[i] = contacts[i].load_N;
     axle_N[i / 2] += loads_N[i];
@@ -108,7 +113,8 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
     TyreSlip slip = SteadySlip(tyres_[i], MotionOf(i, motion, contacts[i]), loads_N[i]);
     slip.kappa = cruise.slip[i];
     const TyreForces now = SteadyForces(tyres_[i], slip, loads_N[i], wheels_[i].friction);
-    cruise.slip[i] += (cruise.forces[i].longitudinal_N - now.longitudinal_N) / LongitudinalStiffness(tyres_[i], loads_N[i]);
+    cruise.slip[i] +=
+        (cruise.forces[i].longitudinal_N - now.longitudinal_N) / LongitudinalStiffness(tyres_[i], loads_N[i]);
     cruise.forces[i].lateral_N = now.lateral_N;
     missing -= acts(i, now.lateral_N * contacts[i].across_W);
   }
@@ -122,19 +128,22 @@ double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cru
   };
   missing -= pushed(2.0 * wanted_N - pushed(wanted_N)[0]);
   const double apart_m = by_axle[0][2] * by_axle[1][1] - by_axle[1][2] * by_axle[0][1];
-  cruise.axle_N = {(missing[2] * by_axle[1][1] - by_axle[1][2] * missing[1]) / apart_m, (by_axle[0][2] * missing[1] - missing[2] * by_axle[0][1]) / apart_m};
+  cruise.axle_N = {(missing[2] * by_axle[1][1] - by_axle[1][2] * missing[1]) / apart_m,
+                   (by_axle[0][2] * missing[1] - missing[2] * by_axle[0][1]) / apart_m};
   for (std::size_t i = 0; i < kWheels; ++i) {
     cruise.forces[i].longitudinal_N = cruise.push.longitudinal_N[i];
     cruise.forces[i].lateral_N += share[i] * cruise.axle_N[i / 2];
     wheels_[i].load->SetStep(cruise.forces[i].longitudinal_N, cruise.forces[i].lateral_N, 0.0, 0.0);
     wheels_[i].load->Anchor(Hub_W(i), kAnchor_Npm, false);
   }
-  chassis_load_->SetDrive(2.0 * ShaftTorque(settings_.powertrain.gearbox, cruise.push.at_wheel_Nm, std::copysign(1.0, initial.speed_mps)));
+  chassis_load_->SetDrive(
+      2.0 * ShaftTorque(settings_.powertrain.gearbox, cruise.push.at_wheel_Nm, std::copysign(1.0, initial.speed_mps)));
   chassis_load_->SetHeadway(cruise.v_W);
   return held_N;
 }
 
-// Turned about the vertical and shifted, so that it stands over the wanted place as it stands. Returns that movement; it is small at last.
+// Turned about the vertical and shifted, so that it stands over the wanted place as it stands. Returns that movement;
+// it is small at last.
 Eigen::Isometry3d MultibodyModel::MoveTo(const InitialCondition& initial, double& by) {
   const Eigen::Isometry3d now = X_WB();
   const Eigen::Vector3d off(initial.x_m - now.translation().x(), initial.y_m - now.translation().y(), 0.0);
@@ -179,7 +188,8 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, ground::Gro
   return {};
 }
 
-// At rest the wheels are locked, and what holds them is not asked; at a speed (cruise) they roll, and at last the tyres hold all.
+// At rest the wheels are locked, and what holds them is not asked; at a speed (cruise) they roll, and at last the tyres
+// hold all.
 base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Ground& ground, Cruise* cruise) {
   // The springs that hold the hubs are stretched on a slope: they go with the car when it is moved.
   std::array<Eigen::Vector3d, kWheels> anchors;
@@ -207,7 +217,9 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
   const Eigen::Vector3d forward = pose.linear().col(0);
   const Eigen::Vector3d up = pose.linear().col(2);
   const bool cruises = cruise.found;
-  const Eigen::Vector3d v = cruises ? cruise.v_W : Eigen::Vector3d(initial.speed_mps * forward + initial.lateral_speed_mps * pose.linear().col(1));
+  const Eigen::Vector3d v =
+      cruises ? cruise.v_W
+              : Eigen::Vector3d(initial.speed_mps * forward + initial.lateral_speed_mps * pose.linear().col(1));
   const Eigen::Vector3d w = initial.yaw_rate_radps * up;
   const bool rests = v.norm() < kStandstill_mps && std::fabs(initial.yaw_rate_radps) < kStandstill_mps;
   FillTranslation(rests ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : v, system_->qd());
@@ -225,7 +237,8 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
     if (rests) {
       wheel.tyre.SetToBear(tyre, {bears[0], bears[1]}, load_N, wheel.friction, contacts[i].camber_rad);
     } else if (cruises) {
-      motion = wheel.tyre.SetToRollAndBear(tyre, cruise.forces[i], motion.vx_mps, load_N, wheel.friction, contacts[i].camber_rad);
+      motion = wheel.tyre.SetToRollAndBear(tyre, cruise.forces[i], motion.vx_mps, load_N, wheel.friction,
+                                           contacts[i].camber_rad);
       wheel.spin_radps = (motion.vx_mps - motion.vsx_mps) / settings_.wheel.rolling_radius_m;
     } else {
       wheel.spin_radps = motion.vx_mps / settings_.wheel.rolling_radius_m;
@@ -238,16 +251,20 @@ void MultibodyModel::SetInMotion(const InitialCondition& initial, const Cruise& 
   torques_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) {
     // At rest the brakes hold what the tyres bear about the axles; rolling wheels bear nothing.
-    const Eigen::Vector3d bears = forces_[i].longitudinal_N * contacts[i].along_W + forces_[i].lateral_N * contacts[i].across_W +
+    const Eigen::Vector3d bears = forces_[i].longitudinal_N * contacts[i].along_W +
+                                  forces_[i].lateral_N * contacts[i].across_W +
                                   contacts[i].load_N * wheels_[i].normal_W;
     const Eigen::Vector3d axle = system_->motion().At(settings_.wheels[i].axle);
     torques_.friction_Nm[i] = rests ? -(contacts[i].point_W - Hub_W(i)).cross(bears).dot(axle) : 0.0;
-    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);
+    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i],
+                             wheels_[i].spin_radps);
   }
   hands_rad_ = 0.0;
   forward_mps2_ = 0.0;
-  if (cruises) powertrain_.StartSteadily(settings_.powertrain, turning_radps, cruise.push.at_wheel_Nm);
-  else powertrain_.Start(settings_.powertrain, rests ? 0.0 : turning_radps);
+  if (cruises)
+    powertrain_.StartSteadily(settings_.powertrain, turning_radps, cruise.push.at_wheel_Nm);
+  else
+    powertrain_.Start(settings_.powertrain, rests ? 0.0 : turning_radps);
   for (std::size_t i = 0; i < 2; ++i) torques_.drive_Nm[driven + i] = powertrain_.motion().drive_torque_Nm;
   (void)system_->FindAccelerations();
 }
@@ -259,7 +276,8 @@ void MultibodyModel::Turn(const Eigen::Vector3d& about_W, const Eigen::Vector3d&
     const multibody::EntityDrawing& entity = entities[i];
     if (entity.is_scalar() || (entity.fixed[0] && entity.fixed[1] && entity.fixed[2])) continue;
     const Eigen::Vector3d at = Eigen::Map<const Eigen::Vector3d>(system_->q().data() + 3 * i);
-    Eigen::Map<Eigen::Vector3d>(system_->qd().data() + 3 * i) += w_W.cross(entity.kind == multibody::EntityKind::kVector ? at : Eigen::Vector3d(at - about_W));
+    Eigen::Map<Eigen::Vector3d>(system_->qd().data() + 3 * i) +=
+        w_W.cross(entity.kind == multibody::EntityKind::kVector ? at : Eigen::Vector3d(at - about_W));
   }
 }
 

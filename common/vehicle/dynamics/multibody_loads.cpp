@@ -28,7 +28,8 @@ void WheelLoad::Anchor(const Vector3d& hub_W, double stiffness_Npm, bool locked)
 
 WheelLoad::Contact WheelLoad::ContactAt(const multibody::Motion& motion) const {
   Contact contact;
-  static_cast<DiscContact&>(contact) = MeetPlane(motion.At(settings_.centre), motion.At(settings_.axle), settings_.radius_m, plane_W_, normal_W_);
+  static_cast<DiscContact&>(contact) =
+      MeetPlane(motion.At(settings_.centre), motion.At(settings_.axle), settings_.radius_m, plane_W_, normal_W_);
   contact.deflection_m = std::min(contact.deflection_m, settings_.bottom_m);
   if (contact.deflection_m > 0.0) {
     const double closing = -motion.RateOf(settings_.centre).dot(normal_W_) / contact.lean;
@@ -47,7 +48,8 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
   const Contact contact = ContactAt(motion);
   const Vector3d axle = motion.At(settings_.axle);
   const Eigen::Vector2d tangential = Tangential(motion, contact);
-  const Vector3d force = contact.load_N * normal_W_ + tangential[0] * contact.along_W + tangential[1] * contact.across_W;
+  const Vector3d force =
+      contact.load_N * normal_W_ + tangential[0] * contact.along_W + tangential[1] * contact.across_W;
   Vector3d moment = (contact.point_W - motion.At(settings_.centre)).cross(force);
   if (!locked_) {
     moment -= (moment.dot(axle) + brake_on_wheel_Nm_) * axle;  // about its axle the wheel turns by itself
@@ -82,7 +84,8 @@ double ChassisLoad::Force(const multibody::Motion& motion) const {
 }
 
 double ColumnLoad::Force(const multibody::Motion& motion) const {
-  return stiffness_Nmprad_ * (hands_rad_ - motion.q[3 * angle_]) + damping_Nmsprad_ * (hands_radps_ - motion.qd[3 * angle_]);
+  return stiffness_Nmprad_ * (hands_rad_ - motion.q[3 * angle_]) +
+         damping_Nmsprad_ * (hands_radps_ - motion.qd[3 * angle_]);
 }
 
 void ColumnLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include "common/vehicle/dynamics/disc_contact.hpp"
 #include "common/vehicle/multibody/body.hpp"
 #include "common/vehicle/multibody/load.hpp"
-#include "common/vehicle/dynamics/disc_contact.hpp"
 
 namespace rodeira::dynamics {
 
@@ -32,7 +32,8 @@ class WheelLoad final : public multibody::Load {
   }
   // Forces along and across, torque of the brake on the wheel about the axle, spin.
   void SetStep(double longitudinal_N, double lateral_N, double brake_on_wheel_Nm, double spin_radps);
-  // INI, until SetStep: stiff springs hold the hub over this point, beside the forces that are set; locked, or free to roll.
+  // INI, until SetStep: stiff springs hold the hub over this point, beside the forces that are set; locked, or free to
+  // roll.
   void Anchor(const Eigen::Vector3d& hub_W, double stiffness_Npm, bool locked);
 
   Contact ContactAt(const multibody::Motion& motion) const;

@@ -15,7 +15,8 @@ constexpr double kBottom = 0.5;  // share of the radius that a tyre can be press
 constexpr int kMostHalvings = 3;
 
 TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
-  return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps), 0.5 * (a.camber_rad + b.camber_rad)};
+  return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps),
+          0.5 * (a.camber_rad + b.camber_rad)};
 }
 
 }  // namespace
@@ -40,8 +41,8 @@ base::Status MultibodyModel::Build() {
   }
   chassis_load_ = std::make_shared<ChassisLoad>(chassis, chassis.PointAt(settings_.drag_point_m),
                                                 0.5 * settings_.air_density_kgpm3 * settings_.drag_area_m2);
-  column_load_ =
-      std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad, settings_.steering.column_Nmsprad);
+  column_load_ = std::make_shared<ColumnLoad>(settings_.steering.angle, settings_.steering.column_Nmprad,
+                                              settings_.steering.column_Nmsprad);
   body_load_ = std::make_shared<BodyLoad>(chassis, CollisionSettings{});
   drawing.loads.push_back({"chassis", chassis_load_});
   drawing.loads.push_back({"body", body_load_});
@@ -62,23 +63,28 @@ base::Status MultibodyModel::Build() {
   return Initialise({}, level);
 }
 
-Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const { return system_->motion().At(settings_.wheels[wheel].centre); }
+Eigen::Vector3d MultibodyModel::Hub_W(std::size_t wheel) const {
+  return system_->motion().At(settings_.wheels[wheel].centre);
+}
 
 Eigen::Isometry3d MultibodyModel::X_WB() const {
   Eigen::Isometry3d X_WC = Eigen::Isometry3d::Identity();
-  X_WC.linear() = system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data());
+  X_WC.linear() =
+      system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.Rotation(system_->q().data());
   X_WC.translation() = multibody::Evaluate(origin_, system_->q().data());
   return X_WC * X_CB_;
 }
 
 Eigen::Vector3d MultibodyModel::Forward_W() const {
-  return multibody::Evaluate(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.axes[0], system_->q().data());
+  return multibody::Evaluate(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame.axes[0],
+                             system_->q().data());
 }
 
 // ½ Σ e × ė.
 Eigen::Vector3d MultibodyModel::Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const {
   Eigen::Vector3d turning = Eigen::Vector3d::Zero();
-  for (const multibody::Form& axis : frame.axes) turning += 0.5 * multibody::Evaluate(axis, motion.q).cross(multibody::Evaluate(axis, motion.qd));
+  for (const multibody::Form& axis : frame.axes)
+    turning += 0.5 * multibody::Evaluate(axis, motion.q).cross(multibody::Evaluate(axis, motion.qd));
   return turning;
 }
 
@@ -117,10 +123,12 @@ MultibodyModel::Contacts MultibodyModel::FindContacts(const multibody::Motion& m
 }
 
 // Sideways the contact moves with the carrier (camber and steer rates count); along, the hub's speed and the spin do.
-TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const multibody::Motion& motion, const WheelLoad::Contact& contact) const {
+TyreMotion MultibodyModel::MotionOf(std::size_t wheel, const multibody::Motion& motion,
+                                    const WheelLoad::Contact& contact) const {
   const MultibodyWheelSettings& hung = settings_.wheels[wheel];
   const Eigen::Vector3d hub_v = motion.RateOf(hung.centre);
-  const Eigen::Vector3d turning = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame, motion);
+  const Eigen::Vector3d turning =
+      Turning_W(system_->drawing().bodies[static_cast<std::size_t>(hung.carrier)].frame, motion);
   const Eigen::Vector3d v = hub_v + turning.cross(contact.point_W - motion.At(hung.centre));
   TyreMotion rolling;
   rolling.vx_mps = hub_v.dot(contact.along_W);
@@ -136,7 +144,8 @@ MultibodyModel::Rolling MultibodyModel::FindRolling(const multibody::Motion& mot
   return rolling;
 }
 
-MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
+MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls,
+                                                        const std::array<double, kWheels>& loads_N,
                                                         const std::array<TyreForces, kWheels>& forces, double dt_s) {
   WheelTorques torques;
   const double radius = settings_.wheel.rolling_radius_m;
@@ -165,16 +174,17 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
     torques.friction_Nm[driven + i] = motion.friction_torque_Nm[i];
     Wheel& rolling = wheels_[free + i];
     torques.friction_Nm[free + i] = friction[free + i];
-    rolling.spin_radps =
-        StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i], torques.friction_Nm[free + i], dt_s);
+    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, settings_.wheel.inertia_kgm2, road[free + i],
+                                       torques.friction_Nm[free + i], dt_s);
   }
   // The brake's share of the friction that acted: the rest is rolling resistance and gears.
-  for (std::size_t i = 0; i < kWheels; ++i) torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
+  for (std::size_t i = 0; i < kWheels; ++i)
+    torques.friction_Nm[i] *= friction[i] > 0.0 ? torques.brake_Nm[i] / friction[i] : 0.0;
   return torques;
 }
 
-// The wheels turn under the forces of the step's middle; the mechanism, whose rule takes the mean of both ends, gets those of its end. Both are
-// found from where the present accelerations lead, so that all of it is of second order.
+// The wheels turn under the forces of the step's middle; the mechanism, whose rule takes the mean of both ends, gets
+// those of its end. Both are found from where the present accelerations lead, so that all of it is of second order.
 void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
   system_->Foresee(dt_s, ahead_q_, ahead_qd_);
@@ -185,15 +195,18 @@ void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   std::array<double, kWheels> loads_N{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     loads_N[i] = 0.5 * (before[i].load_N + foreseen[i].load_N);
-    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], Halfway(began[i], goes_on[i]), loads_N[i], wheels_[i].friction, 0.5 * dt_s);
+    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], Halfway(began[i], goes_on[i]), loads_N[i],
+                                             wheels_[i].friction, 0.5 * dt_s);
   }
   torques_ = TurnWheels(controls, loads_N, forces_, dt_s);
   const Rolling ends = FindRolling(ahead, foreseen);  // with the new spins
   for (std::size_t i = 0; i < kWheels; ++i)
-    forces_[i] = wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], ends[i], foreseen[i].load_N, wheels_[i].friction, dt_s);
+    forces_[i] =
+        wheels_[i].tyre.ForcesAfter(tyres_[i], began[i], ends[i], foreseen[i].load_N, wheels_[i].friction, dt_s);
   double drive_Nm = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i) {
-    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i], wheels_[i].spin_radps);
+    wheels_[i].load->SetStep(forces_[i].longitudinal_N, forces_[i].lateral_N, torques_.friction_Nm[i],
+                             wheels_[i].spin_radps);
     drive_Nm += torques_.drive_Nm[i];
   }
   chassis_load_->SetDrive(drive_Nm);

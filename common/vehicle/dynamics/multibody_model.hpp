@@ -5,27 +5,28 @@
 #include <span>
 #include <vector>
 
-#include "common/vehicle/multibody/output.hpp"
-#include "common/vehicle/multibody/system.hpp"
 #include "common/vehicle/dynamics/multibody_body_load.hpp"
 #include "common/vehicle/dynamics/multibody_loads.hpp"
 #include "common/vehicle/dynamics/multibody_settings.hpp"
 #include "common/vehicle/dynamics/wheel_ground.hpp"
+#include "common/vehicle/multibody/output.hpp"
+#include "common/vehicle/multibody/system.hpp"
 
 namespace rodeira::dynamics {
 
 // A car whose body, suspensions and steering are a multibody mechanism in natural coordinates, stepped by the index-3
-// augmented Lagrangian (common/vehicle/multibody), on tyres by the Magic Formula with camber. Wheels spin as rotors about their
-// axles, coupled to the mechanism by brake reaction, drive reaction and gyroscopic torque; engine, clutch, gearbox,
-// differential and brakes are those of the other models. Longer steps than the file's longest substep are divided; the
-// ground under a wheel is then its tangent plane.
+// augmented Lagrangian (common/vehicle/multibody), on tyres by the Magic Formula with camber. Wheels spin as rotors
+// about their axles, coupled to the mechanism by brake reaction, drive reaction and gyroscopic torque; engine, clutch,
+// gearbox, differential and brakes are those of the other models. Longer steps than the file's longest substep are
+// divided; the ground under a wheel is then its tangent plane.
 class MultibodyModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build has succeeded.
   explicit MultibodyModel(const MultibodySettings& settings) : settings_(settings), tyres_(OnWheels(settings.tyre)) {}
   // Refused where the mechanism cannot be assembled or cannot stand on level ground.
   base::Status Build();
-  // After it: the file's `mechanism: outputs`, as of a mechanism file but none where it names none. Problems stay in the file's collection.
+  // After it: the file's `mechanism: outputs`, as of a mechanism file but none where it names none. Problems stay in
+  // the file's collection.
   void ReadOutputs(const config::Map& root);
 
   base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override;
@@ -76,7 +77,8 @@ class MultibodyModel final : public VehicleModel {
   using Rolling = std::array<TyreMotion, kWheels>;
   Rolling FindRolling(const multibody::Motion& motion, const Contacts& contacts) const;
   // Loads and tyres' forces in the middle of the step.
-  WheelTorques TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N, const std::array<TyreForces, kWheels>& forces, double dt_s);
+  WheelTorques TurnWheels(const Controls& controls, const std::array<double, kWheels>& loads_N,
+                          const std::array<TyreForces, kWheels>& forces, double dt_s);
   void Advance(double dt_s, int depth);
   // INI.
   struct Cruise;  // of a car that keeps its speed
@@ -97,8 +99,9 @@ class MultibodyModel final : public VehicleModel {
   std::shared_ptr<ChassisLoad> chassis_load_;
   std::shared_ptr<BodyLoad> body_load_;
   std::shared_ptr<ColumnLoad> column_load_;
-  multibody::Form origin_;                                  // chassis point drawn at the file's origin
-  Eigen::Isometry3d X_CB_ = Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
+  multibody::Form origin_;  // chassis point drawn at the file's origin
+  Eigen::Isometry3d X_CB_ =
+      Eigen::Isometry3d::Identity();  // body frame in the chassis as drawn: what rests level on z = 0
   std::array<Eigen::Vector3d, kWheels> hub_rest_B_;
   std::vector<multibody::Output> outputs_;
 
@@ -110,7 +113,7 @@ class MultibodyModel final : public VehicleModel {
   WheelTorques torques_;
   multibody::StepReport report_;
   std::vector<double> ahead_q_, ahead_qd_;  // scratch of a substep
-  Wrench push_;  // of the next step
+  Wrench push_;                             // of the next step
   VehicleState state_;
 };
 

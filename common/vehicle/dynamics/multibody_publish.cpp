@@ -11,7 +11,8 @@ namespace rodeira::dynamics {
 
 void MultibodyModel::ReadOutputs(const config::Map& root) {
   const config::Map mechanism = root.Child("mechanism");
-  if (mechanism.Has("outputs")) outputs_ = multibody::ReadOutputs(mechanism, multibody::DrawingReader(mechanism), *system_);
+  if (mechanism.Has("outputs"))
+    outputs_ = multibody::ReadOutputs(mechanism, multibody::DrawingReader(mechanism), *system_);
 }
 
 std::vector<std::string> MultibodyModel::output_names() const {
@@ -30,9 +31,11 @@ void MultibodyModel::Publish(const Controls& controls, double dt_s) {
   VehicleState& s = state_;
   const Eigen::Isometry3d pose = X_WB();
   const multibody::Motion motion = system_->motion();
-  const Eigen::Vector3d turning_W = Turning_W(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame, motion);
+  const Eigen::Vector3d turning_W =
+      Turning_W(system_->drawing().bodies[static_cast<std::size_t>(settings_.chassis)].frame, motion);
   const Eigen::Vector3d origin = multibody::Evaluate(origin_, system_->q().data());
-  const Eigen::Vector3d v = multibody::Evaluate(origin_, system_->qd().data()) + turning_W.cross(pose.translation() - origin);
+  const Eigen::Vector3d v =
+      multibody::Evaluate(origin_, system_->qd().data()) + turning_W.cross(pose.translation() - origin);
   const Eigen::Vector3d turning_B = pose.linear().transpose() * turning_W;
   s.a_WB_W = dt_s > 0.0 ? Eigen::Vector3d((v - s.v_WB_W) / dt_s) : Eigen::Vector3d::Zero();
   s.alpha_WB_B = dt_s > 0.0 ? Eigen::Vector3d((turning_B - s.w_WB_B) / dt_s) : Eigen::Vector3d::Zero();

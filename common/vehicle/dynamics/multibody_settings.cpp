@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "common/vehicle/multibody/drawing_reader.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
+#include "common/vehicle/multibody/drawing_reader.hpp"
 
 namespace rodeira::dynamics {
 namespace {

@@ -2,11 +2,11 @@
 
 #include <array>
 
-#include "common/vehicle/multibody/drawing.hpp"
 #include "common/vehicle/dynamics/powertrain.hpp"
 #include "common/vehicle/dynamics/tyre.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/dynamics/wheel.hpp"
+#include "common/vehicle/multibody/drawing.hpp"
 
 namespace rodeira::dynamics {
 

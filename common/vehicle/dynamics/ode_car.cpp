@@ -11,12 +11,13 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr double kGravity_mps2 = 9.81;
-constexpr double kStopErp = 0.8;       // share of a steer angle's error that a step takes away
+constexpr double kStopErp = 0.8;  // share of a steer angle's error that a step takes away
 constexpr double kMostSpeed_mps = 120.0;
 constexpr double kMostTurn_radps = 20.0;  // of the chassis
 constexpr double kMostSpin_radps = 1000.0;
 constexpr int kMostContacts = 8;
-constexpr double kSoft = 1e-6;  // speed at which a contact gives way, m/s a newton: four contacts of a box are more than it needs
+constexpr double kSoft =
+    1e-6;  // speed at which a contact gives way, m/s a newton: four contacts of a box are more than it needs
 
 void Limit(Eigen::Vector3d& v, double most) {
   const double size = v.norm();
@@ -25,7 +26,9 @@ void Limit(Eigen::Vector3d& v, double most) {
 
 }  // namespace
 
-double PreloadOf(const OdeSettings& settings, std::size_t wheel) { return LoadAtRest(settings.car, wheel) - settings.wheel_mass_kg * kGravity_mps2; }
+double PreloadOf(const OdeSettings& settings, std::size_t wheel) {
+  return LoadAtRest(settings.car, wheel) - settings.wheel_mass_kg * kGravity_mps2;
+}
 
 struct OdeCar::World {
   explicit World(const OdeSettings& of);
@@ -43,8 +46,8 @@ struct OdeCar::World {
   dJointGroupID contacts = nullptr;
 };
 
-// Made at the origin as the car rests: the joints' own frames are then the same for every car of the file. ODE lets a joint's reaction
-// act on the chassis where the wheel was when it was made, so that place is the middle of the travel.
+// Made at the origin as the car rests: the joints' own frames are then the same for every car of the file. ODE lets a
+// joint's reaction act on the chassis where the wheel was when it was made, so that place is the middle of the travel.
 OdeCar::World::World(const OdeSettings& of) : settings(of) {
   PrepareOde();
   world = dWorldCreate();
@@ -62,7 +65,8 @@ OdeCar::World::World(const OdeSettings& of) : settings(of) {
       dMassSetParameters(&mass, chassis.mass_kg, 0.0, 0.0, 0.0, inertia.x(), inertia.y(), inertia.z(), 0.0, 0.0, 0.0);
     } else {
       const double across = settings.wheel_across_kgm2;
-      dMassSetParameters(&mass, settings.wheel_mass_kg, 0.0, 0.0, 0.0, across, settings.car.wheel.inertia_kgm2, across, 0.0, 0.0, 0.0);
+      dMassSetParameters(&mass, settings.wheel_mass_kg, 0.0, 0.0, 0.0, across, settings.car.wheel.inertia_kgm2, across,
+                         0.0, 0.0, 0.0);
       const Eigen::Vector3d at = HubAtRest_B(settings.car, i) - chassis.p_BG_B;
       dBodySetPosition(bodies[i], at.x(), at.y(), at.z());
     }
@@ -109,7 +113,8 @@ void OdeCar::World::Touch() {
     contact.surface.soft_cfm = kSoft;
     contact.surface.slip1 = contact.surface.slip2 = kSoft;
     contact.geom = touching[static_cast<std::size_t>(i)];
-    dJointAttach(dJointCreateContact(world, contacts, &contact), dGeomGetBody(contact.geom.g1), dGeomGetBody(contact.geom.g2));
+    dJointAttach(dJointCreateContact(world, contacts, &contact), dGeomGetBody(contact.geom.g1),
+                 dGeomGetBody(contact.geom.g2));
   }
 }
 
@@ -154,7 +159,9 @@ void OdeCar::Push(std::size_t body, const Eigen::Vector3d& f, const Eigen::Vecto
   dBodyAddForceAtPos(world_->bodies[body], f.x(), f.y(), f.z(), at.x(), at.y(), at.z());
 }
 
-void OdeCar::Twist(std::size_t body, const Eigen::Vector3d& t) { dBodyAddTorque(world_->bodies[body], t.x(), t.y(), t.z()); }
+void OdeCar::Twist(std::size_t body, const Eigen::Vector3d& t) {
+  dBodyAddTorque(world_->bodies[body], t.x(), t.y(), t.z());
+}
 
 void OdeCar::Strut(std::size_t wheel, double force_N) {
   const Eigen::Vector3d force = force_N * (bodies_[kChassis].q_WG * Eigen::Vector3d::UnitZ());

@@ -11,10 +11,11 @@
 
 namespace rodeira::dynamics {
 
-// The car in the Open Dynamics Engine: a chassis with a box around it, and four wheels on hinge-2 joints whose springs and dampers are
-// the suspension's. The joints turn the steered wheels to their angles and every wheel at the speed that the driveline found.
-// Between two calls of Give everything follows from what was given and what was pushed: nothing is remembered that a snapshot of
-// the five bodies would miss (solver: dWorldStep, exact, without random numbers and without a warm start).
+// The car in the Open Dynamics Engine: a chassis with a box around it, and four wheels on hinge-2 joints whose springs
+// and dampers are the suspension's. The joints turn the steered wheels to their angles and every wheel at the speed
+// that the driveline found. Between two calls of Give everything follows from what was given and what was pushed:
+// nothing is remembered that a snapshot of the five bodies would miss (solver: dWorldStep, exact, without random
+// numbers and without a warm start).
 class OdeCar {
  public:
   static constexpr std::size_t kChassis = kWheels;  // after the wheels
@@ -31,10 +32,11 @@ class OdeCar {
   // For the next step: a force at a point, or a torque, on one body.
   void Push(std::size_t body, const Eigen::Vector3d& force_W, const Eigen::Vector3d& at_W);
   void Twist(std::size_t body, const Eigen::Vector3d& torque_W);
-  // A force along the strut: on the chassis upward, on the wheel downward, at the wheel's centre. The joint's spring bears nothing where
-  // the car rests, so this is its preload, and what else there is of bars and stops.
+  // A force along the strut: on the chassis upward, on the wheel downward, at the wheel's centre. The joint's spring
+  // bears nothing where the car rests, so this is its preload, and what else there is of bars and stops.
   void Strut(std::size_t wheel, double force_N);
-  // Steer angle (positive left) and speed about the axle (positive rolling forward) that the joint keeps in the next step.
+  // Steer angle (positive left) and speed about the axle (positive rolling forward) that the joint keeps in the next
+  // step.
   void TurnWheel(std::size_t wheel, double steer_rad, double spin_radps);
   // The ground that the body's box must stay above in the next step.
   void SetGround(const Eigen::Vector3d& point_W, const Eigen::Vector3d& normal_W);

@@ -45,17 +45,19 @@ class OdeEquilibrium {
 
   OdeModel& model_;
   const InitialCondition& initial_;
-  CruiseForces cruise_;                                  // at a speed
-  std::array<double, 2> cruise_axle_N_{};                // then, across: front, rear
+  CruiseForces cruise_;                    // at a speed
+  std::array<double, 2> cruise_axle_N_{};  // then, across: front, rear
   std::array<double, 2> axle_load_N_{};
-  Eigen::Vector3d holding_W_ = Eigen::Vector3d::Zero();  // of all tyres together along the road, so that nothing accelerates
-  double load_N_ = 0.0;                                  // of all
+  Eigen::Vector3d holding_W_ =
+      Eigen::Vector3d::Zero();  // of all tyres together along the road, so that nothing accelerates
+  double load_N_ = 0.0;         // of all
   Eigen::Vector3d normal_W_ = Eigen::Vector3d::UnitZ();  // mean of the ground under the wheels
 };
 
 void OdeEquilibrium::Place(const Vector& unknowns) {
   const Eigen::Quaterniond q = Eigen::AngleAxisd(initial_.heading_rad, Eigen::Vector3d::UnitZ()) *
-                               Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
+                               Eigen::AngleAxisd(unknowns[1], Eigen::Vector3d::UnitY()) *
+                               Eigen::AngleAxisd(unknowns[2], Eigen::Vector3d::UnitX());
   const Eigen::Vector3d origin(initial_.x_m, initial_.y_m, unknowns[0]);
   for (RigidBody& body : model_.now_.bodies) {
     body = RigidBody();
@@ -74,7 +76,8 @@ OdeEquilibrium::Vector OdeEquilibrium::OnThePlane() const {
   const Eigen::Vector3d rising = wheels[kFrontLeft].plane_W - wheels[kRearRight].plane_W;
   const Eigen::Vector3d falling = wheels[kFrontRight].plane_W - wheels[kRearLeft].plane_W;
   const Eigen::Vector3d cross = falling.cross(rising);
-  const Eigen::Vector3d up = cross.norm() > 1e-3 && cross.z() > 0.5 * cross.norm() ? Eigen::Vector3d(cross.normalized()) : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d up = cross.norm() > 1e-3 && cross.z() > 0.5 * cross.norm() ? Eigen::Vector3d(cross.normalized())
+                                                                                   : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d ahead(std::cos(initial_.heading_rad), std::sin(initial_.heading_rad), 0.0);
   const double pitch = std::atan(ahead.dot(up) / up.z());
   const Eigen::Vector3d forward = std::cos(pitch) * ahead - std::sin(pitch) * Eigen::Vector3d::UnitZ();
@@ -86,12 +89,16 @@ OdeEquilibrium::Vector OdeEquilibrium::OnThePlane() const {
 }
 
 // The way ahead in the road's plane: that of the wheels, which none is steered out of.
-Eigen::Vector3d OdeEquilibrium::Along() const { return (model_.chassis().q_WG * Eigen::Vector3d::UnitY()).cross(normal_W_).normalized(); }
+Eigen::Vector3d OdeEquilibrium::Along() const {
+  return (model_.chassis().q_WG * Eigen::Vector3d::UnitY()).cross(normal_W_).normalized();
+}
 
 // Of the air on a car that keeps its speed, at the chassis's centre of gravity.
 Eigen::Vector3d OdeEquilibrium::Drag() const {
   if (!IsCruise(initial_)) return Eigen::Vector3d::Zero();
-  return -std::copysign(AirDrag(car().body.air_density_kgpm3, car().body.drag_area_m2, initial_.speed_mps), initial_.speed_mps) * Along();
+  return -std::copysign(AirDrag(car().body.air_density_kgpm3, car().body.drag_area_m2, initial_.speed_mps),
+                        initial_.speed_mps) *
+         Along();
 }
 
 // Loads at the present place, and what the tyres must hold, shared by load.
@@ -126,15 +133,18 @@ Eigen::Vector3d OdeEquilibrium::Holding(std::size_t wheel) const {
 // At a speed the axles share what acts across so that nothing yaws.
 void OdeEquilibrium::ShareAcross() {
   const Eigen::Vector3d centre = model_.chassis().p_WG_W;
-  const Eigen::Vector3d across = normal_W_.cross(Along()), wheel_weight(0.0, 0.0, -model_.settings_.wheel_mass_kg * kGravity_mps2);
+  const Eigen::Vector3d across = normal_W_.cross(Along()),
+                        wheel_weight(0.0, 0.0, -model_.settings_.wheel_mass_kg * kGravity_mps2);
   axle_load_N_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) axle_load_N_[i / 2] += model_.contacts_[i].load_N;
   double yaws_Nm = 0.0;
   std::array<double, 2> arm_m{};
   for (std::size_t i = 0; i < kWheels; ++i) {
     const OdeModel::Contact& contact = model_.contacts_[i];
-    const Eigen::Vector3d road = contact.load_N * model_.now_.wheels[i].normal_W + cruise_.longitudinal_N[i] * contact.along_W;
-    yaws_Nm += ((contact.point_W - centre).cross(road) + (model_.now_.bodies[i].p_WG_W - centre).cross(wheel_weight)).dot(normal_W_);
+    const Eigen::Vector3d road =
+        contact.load_N * model_.now_.wheels[i].normal_W + cruise_.longitudinal_N[i] * contact.along_W;
+    yaws_Nm += ((contact.point_W - centre).cross(road) + (model_.now_.bodies[i].p_WG_W - centre).cross(wheel_weight))
+                   .dot(normal_W_);
     const double share = axle_load_N_[i / 2] > 0.0 ? contact.load_N / axle_load_N_[i / 2] : 0.5;
     arm_m[i / 2] += share * (contact.point_W - centre).cross(contact.across_W).dot(normal_W_);
   }
@@ -158,11 +168,13 @@ OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
     const Eigen::Vector3d road = model_.contacts_[i].load_N * model_.now_.wheels[i].normal_W + Holding(i);
     const double strut = model_.StrutExtra(i) + car().suspension[i / 2].spring_Npm * model_.Travel(i);
     residual[3 + static_cast<int>(i)] = (road + weight).dot(up) - strut;
-    // ODE lets a joint's reaction across the strut act on the chassis where the wheel is at rest, not where it has travelled to.
+    // ODE lets a joint's reaction across the strut act on the chassis where the wheel is at rest, not where it has
+    // travelled to.
     const Eigen::Vector3d across = (road + weight) - (road + weight).dot(up) * up;
     force += road + weight;
     moment -= model_.Travel(i) * up.cross(across);
-    moment += (model_.contacts_[i].point_W - chassis.p_WG_W).cross(road) + (model_.now_.bodies[i].p_WG_W - chassis.p_WG_W).cross(weight);
+    moment += (model_.contacts_[i].point_W - chassis.p_WG_W).cross(road) +
+              (model_.now_.bodies[i].p_WG_W - chassis.p_WG_W).cross(weight);
   }
   const Eigen::Vector3d moment_B = chassis.q_WG.conjugate() * moment;
   residual.head<3>() = Eigen::Vector3d(force.dot(up), moment_B.y(), moment_B.x());
@@ -196,8 +208,8 @@ OdeEquilibrium::Vector OdeEquilibrium::Balance(Vector unknowns) {
 base::Status OdeEquilibrium::Find(ground::Ground& ground) {
   const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}", initial_.x_m,
-                                        initial_.y_m, initial_.heading_rad, what));
+    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+                                        initial_.x_m, initial_.y_m, initial_.heading_rad, what));
   };
   if (!start.inside) return refusal("that is outside of the world");
   Vector unknowns = Vector::Zero();
@@ -239,11 +251,13 @@ void OdeEquilibrium::SetInMotion() {
     wheel.spin_radps = 0.0;
     if (cruises && contact.load_N > 0.0) {
       const TyreForces wanted{Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)};
-      const TyreMotion motion = wheel.tyre.SetToRollAndBear(tyre, wanted, model_.MotionOf(i, contact).vx_mps, contact.load_N, wheel.friction, contact.camber_rad);
+      const TyreMotion motion = wheel.tyre.SetToRollAndBear(tyre, wanted, model_.MotionOf(i, contact).vx_mps,
+                                                            contact.load_N, wheel.friction, contact.camber_rad);
       wheel.spin_radps = (motion.vx_mps - motion.vsx_mps) / car().wheel.rolling_radius_m;
       model_.now_.bodies[i].w_WG_G.y() += wheel.spin_radps;
     } else if (rests && load_N_ > 0.0) {
-      wheel.tyre.SetToBear(tyre, {Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)}, contact.load_N, wheel.friction, contact.camber_rad);
+      wheel.tyre.SetToBear(tyre, {Holding(i).dot(contact.along_W), Holding(i).dot(contact.across_W)}, contact.load_N,
+                           wheel.friction, contact.camber_rad);
     } else {
       wheel.spin_radps = model_.MotionOf(i, contact).vx_mps / car().wheel.rolling_radius_m;
       model_.now_.bodies[i].w_WG_G.y() += wheel.spin_radps;
@@ -253,8 +267,10 @@ void OdeEquilibrium::SetInMotion() {
   }
   const std::size_t driven = car().front_driven ? kFrontLeft : kRearLeft;
   const double turning = 0.5 * (model_.now_.wheels[driven].spin_radps + model_.now_.wheels[driven + 1].spin_radps);
-  if (cruises) model_.now_.powertrain.StartSteadily(car().powertrain, turning, cruise_.at_wheel_Nm);
-  else model_.now_.powertrain.Start(car().powertrain, rests ? 0.0 : turning);
+  if (cruises)
+    model_.now_.powertrain.StartSteadily(car().powertrain, turning, cruise_.at_wheel_Nm);
+  else
+    model_.now_.powertrain.Start(car().powertrain, rests ? 0.0 : turning);
   model_.now_.forward_mps2 = 0.0;
 }
 

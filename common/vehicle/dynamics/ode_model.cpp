@@ -28,7 +28,8 @@ Eigen::Vector3d OdeModel::p_WB_W() const { return chassis().p_WG_W - chassis().q
 
 double OdeModel::SteerAngle(std::size_t wheel, double steering_wheel_rad) const {
   const SteeringSettings& steering = settings_.car.steering;
-  return AxleOf(wheel) == 0 ? std::clamp(steering_wheel_rad, -steering.limit_rad, steering.limit_rad) / steering.ratio : 0.0;
+  return AxleOf(wheel) == 0 ? std::clamp(steering_wheel_rad, -steering.limit_rad, steering.limit_rad) / steering.ratio
+                            : 0.0;
 }
 
 double OdeModel::Travel(std::size_t wheel) const {
@@ -45,7 +46,8 @@ double OdeModel::StrutExtra(std::size_t wheel) const {
   const SuspensionSettings& suspension = settings_.car.suspension[AxleOf(wheel)];
   const double travel = Travel(wheel);
   const double beyond = travel - std::clamp(travel, -suspension.rebound_m, suspension.bump_m);
-  return PreloadOf(settings_, wheel) + suspension.anti_roll_Npm * (travel - Travel(wheel ^ 1u)) + settings_.stop_Npm * beyond;
+  return PreloadOf(settings_, wheel) + suspension.anti_roll_Npm * (travel - Travel(wheel ^ 1u)) +
+         settings_.stop_Npm * beyond;
 }
 
 void OdeModel::AskGround(ground::Ground& ground) {
@@ -64,11 +66,13 @@ OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
   const Wheel& w = now_.wheels[wheel];
   const RigidBody& hub = now_.bodies[wheel];
   Contact contact;
-  static_cast<DiscContact&>(contact) = MeetPlane(hub.p_WG_W, hub.q_WG * Eigen::Vector3d::UnitY(), tyre.radius_m, w.plane_W, w.normal_W);
+  static_cast<DiscContact&>(contact) =
+      MeetPlane(hub.p_WG_W, hub.q_WG * Eigen::Vector3d::UnitY(), tyre.radius_m, w.plane_W, w.normal_W);
   const double pressed = std::min(contact.deflection_m, kBottom * tyre.radius_m);
   if (pressed > 0.0) {
     const double closing = -hub.v_WG_W.dot(w.normal_W) / contact.lean;
-    contact.load_N = std::clamp(tyre.vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0, tyre.vertical_Npm * kBottom * tyre.radius_m);
+    contact.load_N = std::clamp(tyre.vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0,
+                                tyre.vertical_Npm * kBottom * tyre.radius_m);
   }
   return contact;
 }
@@ -104,13 +108,16 @@ void OdeModel::Substep(const Controls& controls, double dt_s) {
   const BicycleSettings& car = settings_.car;
   for (std::size_t i = 0; i < kWheels; ++i) {
     contacts_[i] = ContactOf(i);
-    contacts_[i].forces = now_.wheels[i].tyre.Forces(tyres_[i], MotionOf(i, contacts_[i]), contacts_[i].load_N, now_.wheels[i].friction);
+    contacts_[i].forces =
+        now_.wheels[i].tyre.Forces(tyres_[i], MotionOf(i, contacts_[i]), contacts_[i].load_N, now_.wheels[i].friction);
   }
   torques_ = TurnWheels(controls, contacts_, dt_s);
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Contact& contact = contacts_[i];
-    car_->Push(i, contact.load_N * now_.wheels[i].normal_W + contact.forces.longitudinal_N * contact.along_W + contact.forces.lateral_N * contact.across_W,
-              contact.point_W);
+    car_->Push(i,
+               contact.load_N * now_.wheels[i].normal_W + contact.forces.longitudinal_N * contact.along_W +
+                   contact.forces.lateral_N * contact.across_W,
+               contact.point_W);
     car_->Strut(i, StrutExtra(i));
     car_->TurnWheel(i, SteerAngle(i, controls.steering_wheel_rad), now_.wheels[i].spin_radps);
   }
@@ -160,7 +167,8 @@ OdeModel::WheelTorques OdeModel::TurnWheels(const Controls& controls, const Cont
     now_.wheels[driven + i].spin_radps = motion.wheel_radps[i];
     torques.drive_Nm[driven + i] = motion.shaft_torque_Nm()[i];
     Wheel& rolling = now_.wheels[free + i];
-    rolling.spin_radps = StepFreeWheel(rolling.spin_radps, car.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
+    rolling.spin_radps =
+        StepFreeWheel(rolling.spin_radps, car.wheel.inertia_kgm2, road[free + i], friction[free + i], dt_s);
   }
   return torques;
 }

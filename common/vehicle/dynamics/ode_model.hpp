@@ -13,10 +13,11 @@
 
 namespace rodeira::dynamics {
 
-// The car as five rigid bodies in the Open Dynamics Engine (ode_car.hpp): chassis and wheels with mass on hinge-2 joints. Tyres are no
-// contact joints of ODE's: their forces, by slip curve or Magic Formula with transient slip, are pushed onto the wheels where these
-// meet SUELO's planes. Contact joints serve collisions only: those of the body's box with the ground, so that the car may
-// fall over and lies on its roof. Engine, clutch, gearbox, differential and brakes are those of the other models.
+// The car as five rigid bodies in the Open Dynamics Engine (ode_car.hpp): chassis and wheels with mass on hinge-2
+// joints. Tyres are no contact joints of ODE's: their forces, by slip curve or Magic Formula with transient slip, are
+// pushed onto the wheels where these meet SUELO's planes. Contact joints serve collisions only: those of the body's box
+// with the ground, so that the car may fall over and lies on its roof. Engine, clutch, gearbox, differential and brakes
+// are those of the other models.
 class OdeModel final : public VehicleModel {
  public:
   // Nothing but Build may be called before Build.

@@ -16,7 +16,8 @@ double OdeModel::SteeringTorque() const {
     const double load = contacts_[i].load_N;
     const double peak = LateralPeak(tyre, load, now_.wheels[i].friction);
     const double stiffness = std::max(1.0, CorneringStiffness(tyre, load));
-    const double sliding = peak > 0.0 ? std::min(1.0, std::fabs(now_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
+    const double sliding =
+        peak > 0.0 ? std::min(1.0, std::fabs(now_.wheels[i].tyre.slip_angle_tan()) * stiffness / (3.0 * peak)) : 1.0;
     const double trail = steering.mechanical_trail_m + steering.pneumatic_trail_m * (1.0 - sliding);
     torque -= trail * contacts_[i].forces.lateral_N / steering.ratio;
   }
@@ -64,7 +65,8 @@ void OdeModel::Publish(const Controls& controls, double dt_s) {
   }
   PublishPowertrain(now_.powertrain, s);
   s.brake = controls.brake;
-  s.steering_wheel_rad = std::clamp(controls.steering_wheel_rad, -settings_.car.steering.limit_rad, settings_.car.steering.limit_rad);
+  s.steering_wheel_rad =
+      std::clamp(controls.steering_wheel_rad, -settings_.car.steering.limit_rad, settings_.car.steering.limit_rad);
   s.steering_torque_Nm = SteeringTorque();
   s.drag_N = drag_N_;
 }

@@ -21,13 +21,15 @@ Eigen::Vector3d HubAtRest_B(const BicycleSettings& car, std::size_t wheel) {
   const bool front = wheel < kRearLeft;
   const double half_track = 0.5 * (front ? car.dimensions.track_front_m : car.dimensions.track_rear_m);
   const double sunk = LoadAtRest(car, wheel) / car.wheel.vertical_Npm;
-  return {(front ? 0.5 : -0.5) * car.body.wheelbase_m, wheel % 2 == 0 ? half_track : -half_track, car.wheel.radius_m - sunk};
+  return {(front ? 0.5 : -0.5) * car.body.wheelbase_m, wheel % 2 == 0 ? half_track : -half_track,
+          car.wheel.radius_m - sunk};
 }
 
 // The wheels' masses and inertias are taken from those of the whole car.
 OdeChassis ChassisOf(const OdeSettings& settings) {
   const BodySettings& body = settings.car.body;
-  const Eigen::Vector3d p_BT_B(0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m);  // of the whole car
+  const Eigen::Vector3d p_BT_B(0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0,
+                               body.cg_height_m);  // of the whole car
   OdeChassis chassis;
   chassis.mass_kg = body.mass_kg - 4.0 * settings.wheel_mass_kg;
   chassis.p_BG_B = body.mass_kg * p_BT_B;
@@ -40,7 +42,8 @@ OdeChassis ChassisOf(const OdeSettings& settings) {
   const double across = settings.wheel_across_kgm2;
   chassis.inertia_kgm2 = {body.roll_inertia_kgm2, body.pitch_inertia_kgm2, body.yaw_inertia_kgm2};
   for (std::size_t i = 0; i < kWheels; ++i) {
-    chassis.inertia_kgm2 -= steiner(settings.wheel_mass_kg, HubAtRest_B(settings.car, i)) + Eigen::Vector3d(across, settings.car.wheel.inertia_kgm2, across);
+    chassis.inertia_kgm2 -= steiner(settings.wheel_mass_kg, HubAtRest_B(settings.car, i)) +
+                            Eigen::Vector3d(across, settings.car.wheel.inertia_kgm2, across);
   }
   chassis.inertia_kgm2 -= steiner(chassis.mass_kg, chassis.p_BG_B);
   return chassis;
@@ -58,14 +61,19 @@ OdeSettings ReadOde(const config::Map& root) {
   ode.body_friction = map.Number("body_friction", {0.0, 2.0});
   ode.longest_substep_s = map.Number("longest_substep_s", {1e-5, 0.005}, ode.longest_substep_s);
   // Numbers that are wrong by themselves have been told of: what follows needs sound ones.
-  if (!(ode.car.body.mass_kg > 0.0 && ode.wheel_mass_kg > 0.0 && ode.car.body.wheelbase_m > 0.0 && ode.car.wheel.vertical_Npm > 0.0)) return ode;
+  if (!(ode.car.body.mass_kg > 0.0 && ode.wheel_mass_kg > 0.0 && ode.car.body.wheelbase_m > 0.0 &&
+        ode.car.wheel.vertical_Npm > 0.0))
+    return ode;
   const OdeChassis chassis = ChassisOf(ode);
   if (!(chassis.mass_kg > 0.0)) {
     map.Problem("wheel_mass_kg", "four times 'ode.wheel_mass_kg' is not below 'body.mass_kg', the whole car's");
   } else if (!(chassis.inertia_kgm2.minCoeff() > 0.0)) {
-    map.Problem("wheel_mass_kg", "the wheels alone have more inertia about the car's centre of gravity than 'body' says of the whole car");
+    map.Problem(
+        "wheel_mass_kg",
+        "the wheels alone have more inertia about the car's centre of gravity than 'body' says of the whole car");
   }
-  if (ode.clearance_m >= ode.car.dimensions.height_m) map.Problem("clearance_m", "'ode.clearance_m' is not below 'dimensions.height_m'");
+  if (ode.clearance_m >= ode.car.dimensions.height_m)
+    map.Problem("clearance_m", "'ode.clearance_m' is not below 'dimensions.height_m'");
   return ode;
 }
 

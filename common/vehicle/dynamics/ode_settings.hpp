@@ -6,15 +6,16 @@
 
 namespace rodeira::dynamics {
 
-// All that a vehicle file of model `ode` says: the measures of model `bicycle`, of the whole car with its wheels, and these.
+// All that a vehicle file of model `ode` says: the measures of model `bicycle`, of the whole car with its wheels, and
+// these.
 struct OdeSettings {
   BicycleSettings car;
-  double wheel_mass_kg = 15.0;          // each, with hub, brake and what swings with it
-  double wheel_across_kgm2 = 0.5;       // inertia of a wheel about an axis across its axle
-  double tyre_damping_Nspm = 500.0;     // vertical
-  double stop_Npm = 200000.0;           // of the suspension's bump and rebound stops
-  double clearance_m = 0.15;            // from the road to the underside of the body, which is a box up to its height
-  double body_friction = 0.5;           // of that box on what it touches
+  double wheel_mass_kg = 15.0;       // each, with hub, brake and what swings with it
+  double wheel_across_kgm2 = 0.5;    // inertia of a wheel about an axis across its axle
+  double tyre_damping_Nspm = 500.0;  // vertical
+  double stop_Npm = 200000.0;        // of the suspension's bump and rebound stops
+  double clearance_m = 0.15;         // from the road to the underside of the body, which is a box up to its height
+  double body_friction = 0.5;        // of that box on what it touches
   double longest_substep_s = 0.001;
 };
 

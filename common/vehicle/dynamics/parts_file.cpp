@@ -21,7 +21,8 @@ double Rpm(const Map& map, const char* key, double otherwise_radps) {
 
 // Loads and pressures, which a factor or a shift is not.
 bool IsSize(std::string_view coefficient) {
-  return coefficient == "FNOMIN" || coefficient == "FZMAX" || coefficient == "NOMPRES" || coefficient == "INFLPRES" || coefficient == "LFZO";
+  return coefficient == "FNOMIN" || coefficient == "FZMAX" || coefficient == "NOMPRES" || coefficient == "INFLPRES" ||
+         coefficient == "LFZO";
 }
 
 std::vector<TorqueSample> ReadCurve(const Map& map) {
@@ -31,11 +32,14 @@ std::vector<TorqueSample> ReadCurve(const Map& map) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     const std::vector<double> pair = items.Numbers(i);
     if (pair.size() != 2) {
-      items.Problem(i, fmt::format("item {} of 'engine.{}' holds {} numbers; [rpm, Nm] was expected", i + 1, kKey, pair.size()));
+      items.Problem(
+          i, fmt::format("item {} of 'engine.{}' holds {} numbers; [rpm, Nm] was expected", i + 1, kKey, pair.size()));
       continue;
     }
     if (pair[0] <= 0.0 || (!samples.empty() && pair[0] * kRadpsPerRpm <= samples.back().speed_radps)) {
-      items.Problem(i, fmt::format("item {} of 'engine.{}' is at {} rpm; speeds over 0 in ascending order were expected", i + 1, kKey, pair[0]));
+      items.Problem(
+          i, fmt::format("item {} of 'engine.{}' is at {} rpm; speeds over 0 in ascending order were expected", i + 1,
+                         kKey, pair[0]));
       continue;
     }
     samples.push_back({pair[0] * kRadpsPerRpm, pair[1]});
@@ -47,7 +51,8 @@ std::vector<TorqueSample> ReadCurve(const Map& map) {
 EngineSettings ReadEngine(const Map& map) {
   EngineSettings engine;
   engine.full_load = ReadCurve(map);
-  if (map.Choice("curve", {"linear", "smooth"}, "linear") == "smooth") engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
+  if (map.Choice("curve", {"linear", "smooth"}, "linear") == "smooth")
+    engine.full_load_Nmspr = SmoothSlopes(engine.full_load);
   engine.inertia_kgm2 = map.Number("inertia_kgm2", Range::Positive());
   engine.drag_Nm = map.Number("drag_Nm", Range::Positive());
   engine.drag_Nmspr = map.Number("drag_Nmspr", Range::NotNegative());
@@ -58,9 +63,12 @@ EngineSettings ReadEngine(const Map& map) {
   engine.starter_Nm = map.Number("starter_Nm", Range::Positive(), engine.starter_Nm);
   engine.indicated_efficiency = map.Number("indicated_efficiency", {0.05, 0.7}, engine.indicated_efficiency);
   engine.heating_value_Jpkg = map.Number("heating_value_Jpkg", {1e6, 2e8}, engine.heating_value_Jpkg);
-  if (map.Has("throttle_fuel_lph")) engine.throttle_fuel_kgps = map.Number("throttle_fuel_lph", {0.1, 1000.0}) * kPetrol_kgpl / 3600.0;
-  if (engine.stall_radps >= engine.idle_radps) map.Problem("stall_rpm", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
-  if (engine.resume_radps >= engine.cut_radps) map.Problem("resume_rpm", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
+  if (map.Has("throttle_fuel_lph"))
+    engine.throttle_fuel_kgps = map.Number("throttle_fuel_lph", {0.1, 1000.0}) * kPetrol_kgpl / 3600.0;
+  if (engine.stall_radps >= engine.idle_radps)
+    map.Problem("stall_rpm", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
+  if (engine.resume_radps >= engine.cut_radps)
+    map.Problem("resume_rpm", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
   return engine;
 }
 
@@ -71,7 +79,8 @@ GearboxSettings ReadGearbox(const Map& map) {
   gearbox.forward = map.Numbers("forward", Range::Positive());
   if (gearbox.forward.empty()) map.Problem("forward", "'gearbox.forward' is empty; at least one ratio was expected");
   for (std::size_t i = 1; i < gearbox.forward.size(); ++i) {
-    if (gearbox.forward[i] >= gearbox.forward[i - 1]) map.Problem("forward", "'gearbox.forward' does not fall from gear to gear");
+    if (gearbox.forward[i] >= gearbox.forward[i - 1])
+      map.Problem("forward", "'gearbox.forward' does not fall from gear to gear");
   }
   gearbox.reverse = map.Number("reverse", Range::Positive());
   gearbox.final_drive = map.Number("final_drive", Range::Positive());
@@ -103,7 +112,8 @@ AutomaticSettings ReadAutomatic(const Map& map) {
   automatic.release_s = map.Number("release_s", {0.0, 20.0}, automatic.release_s);
   automatic.bite_radps = Rpm(map, "bite_rpm", automatic.bite_radps);
   automatic.closed_radps = Rpm(map, "closed_rpm", automatic.closed_radps);
-  if (automatic.closed_radps <= automatic.bite_radps) map.Problem("closed_rpm", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
+  if (automatic.closed_radps <= automatic.bite_radps)
+    map.Problem("closed_rpm", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
   return automatic;
 }
 
@@ -113,8 +123,10 @@ SlipCurve ReadSlipCurve(const Map& map) {
   curve.extremum_value = map.Number("extremum_value", {0.05, 5.0});
   curve.asymptote_slip = map.Number("asymptote_slip", {0.005, 10.0});
   curve.asymptote_value = map.Number("asymptote_value", {0.0, 5.0});
-  if (curve.asymptote_slip <= curve.extremum_slip) map.Problem("asymptote_slip", "'asymptote_slip' is not above 'extremum_slip'");
-  if (curve.asymptote_value > curve.extremum_value) map.Problem("asymptote_value", "'asymptote_value' is above 'extremum_value', the largest");
+  if (curve.asymptote_slip <= curve.extremum_slip)
+    map.Problem("asymptote_slip", "'asymptote_slip' is not above 'extremum_slip'");
+  if (curve.asymptote_value > curve.extremum_value)
+    map.Problem("asymptote_value", "'asymptote_value' is above 'extremum_value', the largest");
   return curve;
 }
 
@@ -172,17 +184,21 @@ TyreSettings ReadTyre(const Map& map) {
   tyre.low_speed_damping_Nspm = map.Number("low_speed_damping_Nspm", {0.0, 8000.0}, tyre.low_speed_damping_Nspm);
   if (map.Has("slip_curve")) {
     for (const char* other : {"tir", "magic_formula"}) {
-      if (map.Has(other)) map.Problem(other, fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
+      if (map.Has(other))
+        map.Problem(other, fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
     }
     const Map curve = map.Child("slip_curve");
-    tyre.slip_curve = SlipCurveSettings{ReadSlipCurve(curve.Child("longitudinal")), ReadSlipCurve(curve.Child("lateral"))};
+    tyre.slip_curve =
+        SlipCurveSettings{ReadSlipCurve(curve.Child("longitudinal")), ReadSlipCurve(curve.Child("lateral"))};
     return tyre;
   }
   // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
   if (const auto tir = map.OptionalPath("tir")) {
     auto formula = LoadTir(*tir);
-    if (formula) tyre.formula = formula.value();
-    else map.Problem("tir", formula.error().Text());
+    if (formula)
+      tyre.formula = formula.value();
+    else
+      map.Problem("tir", formula.error().Text());
   }
   const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");
   for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {

@@ -31,17 +31,17 @@ void Powertrain::StartSteadily(const PowertrainSettings& settings, double wheel_
   engine_.Hold(settings.engine, motion_.clutch_torque_Nm);
 }
 
-const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, const Controls& controls, const PowertrainInput& input,
-                                        double dt_s) {
+const DrivelineMotion& Powertrain::Step(const PowertrainSettings& settings, const Controls& controls,
+                                        const PowertrainInput& input, double dt_s) {
   const double wheel_radps = 0.5 * (input.wheel_radps[0] + input.wheel_radps[1]);
   double throttle = controls.throttle;
   bool starter = controls.starter;
   if (controls.gearbox == GearboxMode::kAutomatic) {
     if (mode_ != GearboxMode::kAutomatic) automatic_.Adopt(gear_);
     const double load_Nm = 2.0 * motion_.drive_torque_Nm - input.inertia_torque_Nm;
-    const AutomaticOutput output =
-        automatic_.Step(settings.automatic, settings.gearbox, settings.engine,
-                        {controls.gear, controls.throttle, engine_.speed_radps(), wheel_radps, input.speed_mps, load_Nm}, dt_s);
+    const AutomaticOutput output = automatic_.Step(
+        settings.automatic, settings.gearbox, settings.engine,
+        {controls.gear, controls.throttle, engine_.speed_radps(), wheel_radps, input.speed_mps, load_Nm}, dt_s);
     gear_ = output.gear;
     clutch_ = output.clutch;
     throttle = output.throttle;

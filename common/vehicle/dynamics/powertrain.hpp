@@ -30,7 +30,8 @@ struct PowertrainInput {
   double inertia_torque_Nm = 0.0;              // mass × radius × forward acceleration, of the last step
 };
 
-// Torque of a shaft of which its wheel gets `at_wheel_Nm` when it turns onward (1) or backward (-1): the gears' losses are dry friction by it.
+// Torque of a shaft of which its wheel gets `at_wheel_Nm` when it turns onward (1) or backward (-1): the gears' losses
+// are dry friction by it.
 double ShaftTorque(const GearboxSettings& gearbox, double at_wheel_Nm, double onward);
 
 // Engine, clutch, gearbox worked by hand or by the car, final drive and differential to two wheels.
@@ -38,10 +39,12 @@ class Powertrain {
  public:
   // The engine runs; where the wheels turn fast enough it turns with them in a gear that suits.
   void Start(const PowertrainSettings& settings, double wheel_radps);
-  // The same at a speed that it keeps: each driven wheel gets this torque of its shaft less the gears' losses, by an engine whose throttle is open
-  // as far as that takes. Not more than Start where the wheels turn too slowly for a closed clutch.
+  // The same at a speed that it keeps: each driven wheel gets this torque of its shaft less the gears' losses, by an
+  // engine whose throttle is open as far as that takes. Not more than Start where the wheels turn too slowly for a
+  // closed clutch.
   void StartSteadily(const PowertrainSettings& settings, double wheel_radps, double at_wheel_Nm);
-  const DrivelineMotion& Step(const PowertrainSettings& settings, const Controls& controls, const PowertrainInput& input, double dt_s);
+  const DrivelineMotion& Step(const PowertrainSettings& settings, const Controls& controls,
+                              const PowertrainInput& input, double dt_s);
 
   const Engine& engine() const { return engine_; }
   const DrivelineMotion& motion() const { return motion_; }

@@ -4,8 +4,8 @@
 
 namespace rodeira::dynamics {
 
-void StepPowertrains(std::span<const PowertrainSettings* const> settings, std::span<const Controls> controls, std::span<const PowertrainInput> inputs,
-                     double dt_s, std::span<Powertrain> cars) {
+void StepPowertrains(std::span<const PowertrainSettings* const> settings, std::span<const Controls> controls,
+                     std::span<const PowertrainInput> inputs, double dt_s, std::span<Powertrain> cars) {
   RODEIRA_ASSERT(settings.size() == cars.size() && controls.size() == cars.size() && inputs.size() == cars.size());
   for (std::size_t i = 0; i < cars.size(); ++i) (void)cars[i].Step(*settings[i], controls[i], inputs[i], dt_s);
 }

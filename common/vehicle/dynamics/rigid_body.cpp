@@ -16,8 +16,8 @@ Eigen::Quaterniond Turn(const Eigen::Vector3d& angle) {
 
 }  // namespace
 
-void RigidBody::Push(const Eigen::Vector3d& force_W, const Eigen::Vector3d& moment_W, double mass_kg, const Eigen::Vector3d& inertia_kgm2,
-                     double dt_s) {
+void RigidBody::Push(const Eigen::Vector3d& force_W, const Eigen::Vector3d& moment_W, double mass_kg,
+                     const Eigen::Vector3d& inertia_kgm2, double dt_s) {
   v_WG_W += dt_s / mass_kg * force_W;
   const Eigen::Vector3d moment_G = q_WG.conjugate() * moment_W - w_WG_G.cross(inertia_kgm2.cwiseProduct(w_WG_G));
   w_WG_G += dt_s * moment_G.cwiseQuotient(inertia_kgm2);

@@ -19,7 +19,8 @@ struct RigidBody {
   Eigen::Vector3d VelocityAt(const Eigen::Vector3d& p_W) const { return v_WG_W + w_WG_W().cross(p_W - p_WG_W); }
 
   // Velocities first, from force and moment about G; then the pose with the new velocities. Inertia: principal, in G.
-  void Push(const Eigen::Vector3d& force_W, const Eigen::Vector3d& moment_W, double mass_kg, const Eigen::Vector3d& inertia_kgm2, double dt_s);
+  void Push(const Eigen::Vector3d& force_W, const Eigen::Vector3d& moment_W, double mass_kg,
+            const Eigen::Vector3d& inertia_kgm2, double dt_s);
   void Move(double dt_s);
 
   void Save(base::StateWriter& writer) const;

@@ -35,8 +35,12 @@ TyreForces SteadyForces(const SlipCurveSettings& tyre, const TyreSlip& slip, dou
           -bears * Evaluate(tyre.lateral, s * tyre.lateral.extremum_slip) * (y / s)};
 }
 
-double LongitudinalStiffness(const SlipCurveSettings& tyre, double load_N) { return std::max(0.0, load_N) * Slope(tyre.longitudinal); }
-double CorneringStiffness(const SlipCurveSettings& tyre, double load_N) { return std::max(0.0, load_N) * Slope(tyre.lateral); }
+double LongitudinalStiffness(const SlipCurveSettings& tyre, double load_N) {
+  return std::max(0.0, load_N) * Slope(tyre.longitudinal);
+}
+double CorneringStiffness(const SlipCurveSettings& tyre, double load_N) {
+  return std::max(0.0, load_N) * Slope(tyre.lateral);
+}
 double LongitudinalPeak(const SlipCurveSettings& tyre, double load_N, double friction) {
   return friction * std::max(0.0, load_N) * tyre.longitudinal.extremum_value;
 }

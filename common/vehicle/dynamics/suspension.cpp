@@ -23,7 +23,9 @@ void Corner::Step(const SuspensionSettings& suspension, const CornerInput& input
   Bear(suspension, input, suspension.damper_Nspm / dt_s, travel_m_);
 }
 
-void Corner::Settle(const SuspensionSettings& suspension, const CornerInput& input) { Bear(suspension, input, 0.0, 0.0); }
+void Corner::Settle(const SuspensionSettings& suspension, const CornerInput& input) {
+  Bear(suspension, input, 0.0, 0.0);
+}
 
 void Corner::Save(base::StateWriter& writer) const {
   writer.Put("travel_m", travel_m_);

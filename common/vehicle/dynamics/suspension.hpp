@@ -15,16 +15,16 @@ struct SuspensionSettings {
 
 // What acts on one wheel carrier during a step.
 struct CornerInput {
-  double static_load_N = 0.0;      // spring's preload: what it bears at zero travel
-  double tyre_Npm = 180000.0;      // vertical stiffness
-  double free_gap_m = 0.0;         // tyre deflection that zero travel would give, negative in the air; along the strut
-  double lean = 1.0;               // cosine between strut and ground normal
-  double other_travel_m = 0.0;     // of the axle's other wheel, at the beginning of the step
-  double bottom_m = 0.15;          // deflection of the tyre at which the rim bears; the load grows no further
+  double static_load_N = 0.0;   // spring's preload: what it bears at zero travel
+  double tyre_Npm = 180000.0;   // vertical stiffness
+  double free_gap_m = 0.0;      // tyre deflection that zero travel would give, negative in the air; along the strut
+  double lean = 1.0;            // cosine between strut and ground normal
+  double other_travel_m = 0.0;  // of the axle's other wheel, at the beginning of the step
+  double bottom_m = 0.15;       // deflection of the tyre at which the rim bears; the load grows no further
 };
 
-// A wheel carrier without mass between tyre and strut: spring, damper and anti-roll bar balance the tyre's force at each
-// instant. Its travel (compression positive, 0 at rest) is its only state; implicit, so no rate is too stiff.
+// A wheel carrier without mass between tyre and strut: spring, damper and anti-roll bar balance the tyre's force at
+// each instant. Its travel (compression positive, 0 at rest) is its only state; implicit, so no rate is too stiff.
 class Corner {
  public:
   void Step(const SuspensionSettings& suspension, const CornerInput& input, double dt_s);

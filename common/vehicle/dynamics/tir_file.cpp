@@ -18,13 +18,16 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;
-constexpr auto kNeeded = std::to_array<std::string_view>({"FITTYP", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
+constexpr auto kNeeded =
+    std::to_array<std::string_view>({"FITTYP", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
 constexpr auto kUnits = std::to_array<std::pair<std::string_view, std::string_view>>(
     {{"LENGTH", "meter"}, {"FORCE", "newton"}, {"ANGLE", "radians"}, {"MASS", "kg"}, {"TIME", "second"}});
 
-// Coefficients of the directions and scales that the forces here have no use for: relaxation, moments, turn slip, structure.
-constexpr auto kUnused = std::to_array<std::string_view>({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LCZ", "LGAZ", "LGYR", "LKZC", "LMP", "LMUV", "LMX", "LMY", "LRES", "LS",
-                                                          "LSGAL", "LSGKP", "LTR", "LVMX"});
+// Coefficients of the directions and scales that the forces here have no use for: relaxation, moments, turn slip,
+// structure.
+constexpr auto kUnused =
+    std::to_array<std::string_view>({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LCZ", "LGAZ", "LGYR", "LKZC", "LMP",
+                                     "LMUV", "LMX", "LMY", "LRES", "LS", "LSGAL", "LSGKP", "LTR", "LVMX"});
 
 std::string_view Trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\f\v";
@@ -35,7 +38,8 @@ std::string_view Trimmed(std::string_view text) {
 
 std::string Upper(std::string_view text) {
   std::string upper(text);
-  std::transform(upper.begin(), upper.end(), upper.begin(), [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
+  std::transform(upper.begin(), upper.end(), upper.begin(),
+                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
   return upper;
 }
 
@@ -65,13 +69,17 @@ class Reader {
       begin = end + 1;
     }
     for (const std::string_view key : kNeeded) {
-      if (!lines_.contains(key)) return base::WrongInput(fmt::format("a tyre property file with '{}' was expected, and there is none", key), std::string(name_));
+      if (!lines_.contains(key))
+        return base::WrongInput(fmt::format("a tyre property file with '{}' was expected, and there is none", key),
+                                std::string(name_));
     }
     return Checked();
   }
 
  private:
-  base::Error Wrong(std::string_view message, int line) const { return base::WrongInput(message, fmt::format("{}:{}", name_, line)); }
+  base::Error Wrong(std::string_view message, int line) const {
+    return base::WrongInput(message, fmt::format("{}:{}", name_, line));
+  }
 
   base::Status Line(std::string_view line) {
     line = Trimmed(line.substr(0, line.find_first_of("$!")));
@@ -94,8 +102,9 @@ class Reader {
       std::erase(found, '\'');
       std::erase(found, '"');
       const std::string expected = Upper(unit);
-      if (found == expected || found + "S" == expected || found == expected + "S" || (key == "LENGTH" && found == "M") || (key == "FORCE" && found == "N") ||
-          (key == "ANGLE" && found == "RAD") || (key == "TIME" && (found == "S" || found == "SEC")) || (key == "MASS" && found == "KILOGRAM")) {
+      if (found == expected || found + "S" == expected || found == expected + "S" ||
+          (key == "LENGTH" && found == "M") || (key == "FORCE" && found == "N") || (key == "ANGLE" && found == "RAD") ||
+          (key == "TIME" && (found == "S" || found == "SEC")) || (key == "MASS" && found == "KILOGRAM")) {
         return {};
       }
       return Wrong(fmt::format("{} is given in {}; '{}' was expected: SI units are read", key, value, unit), line_);
@@ -109,7 +118,8 @@ class Reader {
     if (coefficient == nullptr && key != "FITTYP") return Unused(key);
     const auto number = Number(value);
     if (!number) return Wrong(fmt::format("'{}' is '{}'; a number was expected", key, value), line_);
-    if (const auto [first, is_new] = lines_.emplace(key, line_); !is_new) return Wrong(fmt::format("'{}' stands in line {} already", key, first->second), line_);
+    if (const auto [first, is_new] = lines_.emplace(key, line_); !is_new)
+      return Wrong(fmt::format("'{}' stands in line {} already", key, first->second), line_);
     (coefficient != nullptr ? tyre_.*coefficient->member : fit_type_) = *number;
     return {};
   }
@@ -118,34 +128,46 @@ class Reader {
     std::string found = Upper(value);
     std::erase(found, '\'');
     std::erase(found, '"');
-    if (found != "LEFT" && found != "RIGHT") return Wrong(fmt::format("TYRESIDE is {}; 'LEFT' or 'RIGHT' was expected", value), line_);
+    if (found != "LEFT" && found != "RIGHT")
+      return Wrong(fmt::format("TYRESIDE is {}; 'LEFT' or 'RIGHT' was expected", value), line_);
     tyre_.measured_on = found == "LEFT" ? TyreSide::kLeft : TyreSide::kRight;
     return {};
   }
 
-  // Among the coefficients of the two directions and their scales there is none that nobody knows: it would be a slip of the pen.
+  // Among the coefficients of the two directions and their scales there is none that nobody knows: it would be a slip
+  // of the pen.
   base::Status Unused(const std::string& key) const {
-    const bool strict = section_.starts_with("LONGITUDINAL") || section_.starts_with("LATERAL") || section_.starts_with("SCALING");
+    const bool strict =
+        section_.starts_with("LONGITUDINAL") || section_.starts_with("LATERAL") || section_.starts_with("SCALING");
     if (!strict || std::ranges::find(kUnused, key) != kUnused.end()) return {};
     std::vector<std::string> known(kUnused.begin(), kUnused.end());
     for (const auto& each : MagicFormulaCoefficients()) known.emplace_back(each.name);
-    return Wrong(fmt::format("'{}' is no coefficient of the Magic Formula{}", key, base::DidYouMean(key, known)), line_);
+    return Wrong(fmt::format("'{}' is no coefficient of the Magic Formula{}", key, base::DidYouMean(key, known)),
+                 line_);
   }
 
   base::Result<MagicFormulaSettings> Checked() {
     constexpr std::array kOld{5.0, 6.0, 51.0, 52.0};
     constexpr std::array kNew{60.0, 61.0, 62.0};
-    const auto is_one_of = [this](const auto& types) { return std::find(types.begin(), types.end(), fit_type_) != types.end(); };
+    const auto is_one_of = [this](const auto& types) {
+      return std::find(types.begin(), types.end(), fit_type_) != types.end();
+    };
     if (!is_one_of(kOld) && !is_one_of(kNew)) {
-      return Wrong(fmt::format("FITTYP is {}; 5, 6, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected", fit_type_), lines_.at("FITTYP"));
+      return Wrong(
+          fmt::format("FITTYP is {}; 5, 6, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected", fit_type_),
+          lines_.at("FITTYP"));
     }
     tyre_.version = is_one_of(kOld) ? MagicFormulaVersion::k52 : MagicFormulaVersion::k61;
     for (const char* key : {"FNOMIN", "FZMAX", "NOMPRES", "INFLPRES", "LFZO", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1"}) {
       const double value = tyre_.*Coefficient(key)->member;
-      if (lines_.contains(key) && !(value > 0.0)) return Wrong(fmt::format("'{}' is {}; more than 0 was expected", key, value), lines_.at(key));
+      if (lines_.contains(key) && !(value > 0.0))
+        return Wrong(fmt::format("'{}' is {}; more than 0 was expected", key, value), lines_.at(key));
     }
     if (!(tyre_.pky1 < 0.0)) {
-      return Wrong(fmt::format("'PKY1' is {}; a negative number was expected: a positive slip angle gives a force to the right", tyre_.pky1), lines_.at("PKY1"));
+      return Wrong(
+          fmt::format("'PKY1' is {}; a negative number was expected: a positive slip angle gives a force to the right",
+                      tyre_.pky1),
+          lines_.at("PKY1"));
     }
     return tyre_;
   }
@@ -160,7 +182,9 @@ class Reader {
 
 }  // namespace
 
-base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_view name) { return Reader(name).Read(text); }
+base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_view name) {
+  return Reader(name).Read(text);
+}
 
 base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path) {
   const auto text = base::ReadText(path, kMostBytes);

@@ -6,8 +6,8 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kPeakReach = 3.0;      // peaks lie at two to three times D / K
-constexpr double kSpeedReach = 20.0;    // how far past the peak the deflection may go, a low_speed of motion
+constexpr double kPeakReach = 3.0;    // peaks lie at two to three times D / K
+constexpr double kSpeedReach = 20.0;  // how far past the peak the deflection may go, a low_speed of motion
 constexpr double kFadeInAir_s = 0.01;
 constexpr double kTiny_N = 1.0;
 
@@ -34,26 +34,31 @@ std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles) {
 }
 
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
-  return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction) : SteadyForces(tyre.formula, slip, load_N, friction);
+  return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction)
+                         : SteadyForces(tyre.formula, slip, load_N, friction);
 }
 double LongitudinalStiffness(const TyreSettings& tyre, double load_N) {
-  return tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N) : LongitudinalStiffness(tyre.formula, load_N);
+  return tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N)
+                         : LongitudinalStiffness(tyre.formula, load_N);
 }
 double CorneringStiffness(const TyreSettings& tyre, double load_N) {
   return tyre.slip_curve ? CorneringStiffness(*tyre.slip_curve, load_N) : CorneringStiffness(tyre.formula, load_N);
 }
 double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction) {
-  return tyre.slip_curve ? LongitudinalPeak(*tyre.slip_curve, load_N, friction) : LongitudinalPeak(tyre.formula, load_N, friction);
+  return tyre.slip_curve ? LongitudinalPeak(*tyre.slip_curve, load_N, friction)
+                         : LongitudinalPeak(tyre.formula, load_N, friction);
 }
 double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
-  return tyre.slip_curve ? LateralPeak(*tyre.slip_curve, load_N, friction) : LateralPeak(tyre.formula, load_N, friction);
+  return tyre.slip_curve ? LateralPeak(*tyre.slip_curve, load_N, friction)
+                         : LateralPeak(tyre.formula, load_N, friction);
 }
 
 TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double load_N) {
   const double speed = std::fabs(motion.vx_mps);
   const double damping_N = speed * tyre.low_speed_damping_Nspm * LowSpeedShare(tyre, motion.vx_mps);
   return {-motion.vsx_mps / speed * (1.0 + damping_N / std::max(LongitudinalStiffness(tyre, load_N), kTiny_N)),
-          motion.vsy_mps / speed * (1.0 + damping_N / std::max(CorneringStiffness(tyre, load_N), kTiny_N)), motion.camber_rad};
+          motion.vsy_mps / speed * (1.0 + damping_N / std::max(CorneringStiffness(tyre, load_N), kTiny_N)),
+          motion.camber_rad};
 }
 
 TyreForces Tyre::Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
@@ -80,7 +85,8 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& motion, double lo
   CutNearThePeak(tyre, motion, load_N, friction);
 }
 
-void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction, double dt_s) {
+void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N,
+                   double friction, double dt_s) {
   if (!(load_N > 0.0)) return FadeInAir(dt_s);
   const double half_s = 0.5 * dt_s;
   const double rolled = half_s * std::fabs(before.vx_mps), rolls = half_s * std::fabs(after.vx_mps);
@@ -91,8 +97,8 @@ void Tyre::Advance(const TyreSettings& tyre, const TyreMotion& before, const Tyr
   CutNearThePeak(tyre, after, load_N, friction);
 }
 
-TyreForces Tyre::ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction,
-                             double dt_s) {
+TyreForces Tyre::ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N,
+                             double friction, double dt_s) {
   Tyre then = *this;
   then.Advance(tyre, before, after, load_N, friction, dt_s);
   const TyreForces forces = then.Forces(tyre, after, load_N, friction);
@@ -109,15 +115,18 @@ void Tyre::FadeInAir(double dt_s) {
 
 void Tyre::CutNearThePeak(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction) {
   const double moving = std::max({std::fabs(motion.vx_mps), std::fabs(motion.vsx_mps), std::fabs(motion.vsy_mps)});
-  const double u_most = tyre.relaxation_longitudinal_m * SlipBound(LongitudinalPeak(tyre, load_N, friction),
-                                                                   LongitudinalStiffness(tyre, load_N), moving, tyre.low_speed_mps);
-  const double v_most = tyre.relaxation_lateral_m * SlipBound(LateralPeak(tyre, load_N, friction),
-                                                              CorneringStiffness(tyre, load_N), moving, tyre.low_speed_mps);
+  const double u_most =
+      tyre.relaxation_longitudinal_m * SlipBound(LongitudinalPeak(tyre, load_N, friction),
+                                                 LongitudinalStiffness(tyre, load_N), moving, tyre.low_speed_mps);
+  const double v_most =
+      tyre.relaxation_lateral_m *
+      SlipBound(LateralPeak(tyre, load_N, friction), CorneringStiffness(tyre, load_N), moving, tyre.low_speed_mps);
   u_m_ = std::clamp(u_m_, -u_most, u_most);
   v_m_ = std::clamp(v_m_, -v_most, v_most);
 }
 
-void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad) {
+void Tyre::SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction,
+                     double camber_rad) {
   Reset();
   if (!(load_N > 0.0)) return;
   const double along = std::max(LongitudinalStiffness(tyre, load_N), kTiny_N);
@@ -145,7 +154,8 @@ void Tyre::SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double 
   Advance(tyre, motion, load_N, friction, 0.0);  // for the bounds
 }
 
-TyreMotion Tyre::SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction, double camber_rad) {
+TyreMotion Tyre::SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N,
+                                  double friction, double camber_rad) {
   SetToBear(tyre, forces, load_N, friction, camber_rad);
   if (!(load_N > 0.0)) return {vx_mps, 0.0, 0.0, camber_rad};
   // Forces() adds the damping's part to the deflections' slip.

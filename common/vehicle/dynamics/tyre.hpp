@@ -12,13 +12,14 @@ namespace rodeira::dynamics {
 struct TyreSettings {
   MagicFormulaSettings formula;
   std::optional<SlipCurveSettings> slip_curve = std::nullopt;  // where it is there, in the formula's place
-  double relaxation_longitudinal_m = 0.2;  // sigma_kappa
-  double relaxation_lateral_m = 0.4;       // sigma_alpha
-  double low_speed_mps = 2.5;              // below it the damping fades in and the deflection is held to what friction bears
+  double relaxation_longitudinal_m = 0.2;                      // sigma_kappa
+  double relaxation_lateral_m = 0.4;                           // sigma_alpha
+  double low_speed_mps = 2.5;  // below it the damping fades in and the deflection is held to what friction bears
   double low_speed_damping_Nspm = 3000.0;  // force a slip speed at standstill, while the tyre does not slide
 };
 
-// The tyres of the axles on their wheels, in the order of WheelIndex: one that was measured on the other side of a car is mirrored.
+// The tyres of the axles on their wheels, in the order of WheelIndex: one that was measured on the other side of a car
+// is mirrored.
 std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles);
 
 // Of the formula or of the slip curve, as in magic_formula.hpp.
@@ -30,9 +31,9 @@ double LateralPeak(const TyreSettings& tyre, double load_N, double friction);
 
 // How the wheel moves over the ground, in its contact frame.
 struct TyreMotion {
-  double vx_mps = 0.0;   // of the hub along the wheel
-  double vsx_mps = 0.0;  // slip speed along the wheel: vx - spin · rolling radius; positive when braked
-  double vsy_mps = 0.0;  // slip speed to the left
+  double vx_mps = 0.0;      // of the hub along the wheel
+  double vsx_mps = 0.0;     // slip speed along the wheel: vx - spin · rolling radius; positive when braked
+  double vsy_mps = 0.0;     // slip speed to the left
   double camber_rad = 0.0;  // about the contact's x axis: positive when the wheel leans to the right
 };
 
@@ -40,29 +41,34 @@ struct TyreMotion {
 TyreSlip SteadySlip(const TyreSettings& tyre, const TyreMotion& motion, double load_N);
 
 // The transient of the formula (or curve) by relaxation of the contact patch's deflections u and v:
-//   sigma_k du/dt + |vx| u = -sigma_k vsx,   sigma_a dv/dt + |vx| v = sigma_a vsy,   kappa' = u/sigma_k, tan alpha' = v/sigma_a.
-// The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope without
-// creeping; below low_speed a damper is added inside of the formula (so friction bounds it too), and the deflections are
-// cut near the peak, so that a car that has slid comes to rest without springing back.
+//   sigma_k du/dt + |vx| u = -sigma_k vsx,   sigma_a dv/dt + |vx| v = sigma_a vsy,   kappa' = u/sigma_k, tan alpha' =
+//   v/sigma_a.
+// The steady state is the static table. At standstill the patch is a spring, so that a braked car rests on a slope
+// without creeping; below low_speed a damper is added inside of the formula (so friction bounds it too), and the
+// deflections are cut near the peak, so that a car that has slid comes to rest without springing back.
 class Tyre {
  public:
   // The forces at the present deflections. Keeps the slips for slip() and slip_angle_tan().
   TyreForces Forces(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
-  // Advances the deflections with the motion at the end of the step (implicit in u and v). Without load they fade in 10 ms.
+  // Advances the deflections with the motion at the end of the step (implicit in u and v). Without load they fade in 10
+  // ms.
   void Advance(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction, double dt_s);
   // The same to second order (trapezoidal rule), from the motion at the step's beginning to the one at its end.
-  void Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction, double dt_s);
+  void Advance(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N,
+               double friction, double dt_s);
   // The forces at that step's end: the deflections stay, slip() and slip_angle_tan() are those then.
-  TyreForces ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N, double friction,
-                         double dt_s);
+  TyreForces ForcesAfter(const TyreSettings& tyre, const TyreMotion& before, const TyreMotion& after, double load_N,
+                         double friction, double dt_s);
   // Deflections at which the tyre bears these forces steadily at standstill, as near as friction allows (inverse of the
   // pure formulas below the peaks).
-  void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction, double camber_rad = 0.0);
+  void SetToBear(const TyreSettings& tyre, const TyreForces& forces, double load_N, double friction,
+                 double camber_rad = 0.0);
   // Deflections of steady rolling with this motion.
   void SetToRoll(const TyreSettings& tyre, const TyreMotion& motion, double load_N, double friction);
-  // Deflections of steady rolling at vx_mps (not 0) that bear these forces, as near as friction allows. Returns how the wheel must move for
-  // that.
-  TyreMotion SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N, double friction, double camber_rad = 0.0);
+  // Deflections of steady rolling at vx_mps (not 0) that bear these forces, as near as friction allows. Returns how the
+  // wheel must move for that.
+  TyreMotion SetToRollAndBear(const TyreSettings& tyre, const TyreForces& forces, double vx_mps, double load_N,
+                              double friction, double camber_rad = 0.0);
   void Reset() { *this = Tyre(); }
 
   double slip() const { return slip_; }

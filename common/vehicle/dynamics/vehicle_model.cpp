@@ -15,8 +15,9 @@
 namespace rodeira::dynamics {
 
 bool IsFinite(const InitialCondition& initial) {
-  return std::isfinite(initial.x_m) && std::isfinite(initial.y_m) && std::isfinite(initial.heading_rad) && std::isfinite(initial.speed_mps) &&
-         std::isfinite(initial.lateral_speed_mps) && std::isfinite(initial.yaw_rate_radps) && !std::isinf(initial.z_hint_m);
+  return std::isfinite(initial.x_m) && std::isfinite(initial.y_m) && std::isfinite(initial.heading_rad) &&
+         std::isfinite(initial.speed_mps) && std::isfinite(initial.lateral_speed_mps) &&
+         std::isfinite(initial.yaw_rate_radps) && !std::isinf(initial.z_hint_m);
 }
 
 InitialCondition FromState(const VehicleState& state) {
@@ -36,8 +37,10 @@ namespace {
 
 std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
   std::vector<ModelKind> kinds;
-  kinds.push_back({"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
-  kinds.push_back({"multibody", [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
+  kinds.push_back(
+      {"bicycle", [](const config::Map& root) { return std::make_unique<BicycleModel>(ReadBicycle(root)); }});
+  kinds.push_back({"multibody",
+                   [](const config::Map& root) { return std::make_unique<MultibodyModel>(ReadMultibody(root)); },
                    [](VehicleModel& model, const config::Map& root) {
                      auto& car = static_cast<MultibodyModel&>(model);
                      if (auto status = car.Build(); !status) return status;
@@ -73,12 +76,16 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   const std::string own = root.Choice("model", names);
   const auto models = ReadModels(root.OptionalChild("models"));
   if (!wanted.empty() && wanted != own) {
-    if (named) return base::WrongInput(fmt::format("'model' is '{}'; '{}' was expected of a file that another one names for it", own, wanted), root.Place("model"));
+    if (named)
+      return base::WrongInput(
+          fmt::format("'model' is '{}'; '{}' was expected of a file that another one names for it", own, wanted),
+          root.Place("model"));
     const auto other = models.find(std::string(wanted));
     if (other == models.end()) {
       std::vector<std::string> known{own};
       for (const auto& [name, where] : models) known.push_back(name);
-      return base::WrongInput(fmt::format("this car is wanted as model '{}'{}", wanted, base::DidYouMean(wanted, known)), path.string());
+      return base::WrongInput(
+          fmt::format("this car is wanted as model '{}'{}", wanted, base::DidYouMean(wanted, known)), path.string());
     }
     return Load(other->second, wanted, true, more);
   }
@@ -89,7 +96,8 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
     if (const base::Status status = file.value().Finish(); !status) return status.error();
     if (kind.complete) {
       if (const base::Status status = kind.complete(*model, root); !status) {
-        return status.error().context.empty() ? base::Error{status.error().code, status.error().message, path.string()} : status.error();
+        return status.error().context.empty() ? base::Error{status.error().code, status.error().message, path.string()}
+                                              : status.error();
       }
       if (const base::Status status = file.value().Finish(); !status) return status.error();
     }
@@ -97,7 +105,8 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   }
   // Without a known model nobody can say which other keys are known.
   for (const base::Error& problem : file.value().Problems()) {
-    if (problem.message.find("'rodeira'") != std::string::npos || problem.message.find("'model'") != std::string::npos) return problem;
+    if (problem.message.find("'rodeira'") != std::string::npos || problem.message.find("'model'") != std::string::npos)
+      return problem;
   }
   return base::WrongInput("'model' is not known", root.Place("model"));
 }

@@ -46,7 +46,7 @@ struct VehicleDimensions {
   double width_m = 0.0;  // without mirrors
   double height_m = 0.0;
   double mass_kg = 0.0;
-  double steering_ratio = 1.0;           // angle of the steering wheel for one of the front wheels
+  double steering_ratio = 1.0;            // angle of the steering wheel for one of the front wheels
   double steering_wheel_limit_rad = 0.0;  // stop, each side
   int forward_gears = 0;
 };
@@ -65,17 +65,17 @@ class VehicleModel {
  public:
   virtual ~VehicleModel() = default;
 
-  // INI: places the car in equilibrium on the ground. The engine idles or turns with the wheels in a gear that suits the
-  // speed; counters are zero. May ask the ground several times. Refused where a wheel would stand outside the world or a
-  // number is not finite; the model is then as before.
+  // INI: places the car in equilibrium on the ground. The engine idles or turns with the wheels in a gear that suits
+  // the speed; counters are zero. May ask the ground several times. Refused where a wheel would stand outside the world
+  // or a number is not finite; the model is then as before.
   virtual base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) = 0;
 
-  // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch for
-  // four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
+  // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch
+  // for four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
   virtual void Step(const Controls& controls, ground::Ground& ground, double dt_s) = 0;
 
-  // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is gone: no part
-  // of the state. A model that cannot be pushed takes no notice.
+  // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is
+  // gone: no part of the state. A model that cannot be pushed takes no notice.
   virtual void SetPush(const Wrench& /*push*/) {}
   virtual bool can_be_pushed() const { return false; }
 
@@ -85,10 +85,11 @@ class VehicleModel {
   // The whole state; Restore is meant for a model of the same file. Problems are the reader's (StateReader::Finish).
   virtual void Save(base::StateWriter& writer) const = 0;
   virtual void Restore(base::StateReader& reader) = 0;
-  // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with this car is
-  // computed again from its first step only.
+  // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with
+  // this car is computed again from its first step only.
   virtual bool can_save() const { return true; }
-  // What the car's file asks for beside the state (`outputs`: forces within a mechanism): names with their units, and the values now.
+  // What the car's file asks for beside the state (`outputs`: forces within a mechanism): names with their units, and
+  // the values now.
   virtual std::vector<std::string> output_names() const { return {}; }
   virtual std::vector<double> Outputs() const { return {}; }
   // Why the last Step was not made (a laboratory's own model has failed): the car stays where it is. Ok otherwise.
@@ -96,17 +97,18 @@ class VehicleModel {
 };
 
 // A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file
-// are left in its collection (config::File); `make` may then return anything, even null. `complete`, where there is one,
-// is called when the file has no problems: what takes sound numbers to build, and what can be read only then.
+// are left in its collection (config::File); `make` may then return anything, even null. `complete`, where there is
+// one, is called when the file has no problems: what takes sound numbers to build, and what can be read only then.
 struct ModelKind {
   std::string name;
   std::function<std::unique_ptr<VehicleModel>(const config::Map& root)> make;
   std::function<base::Status(VehicleModel& model, const config::Map& root)> complete = nullptr;
 };
 
-// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file names the one
-// in which that is, `models: {ode: FILE}`. Wrong input, with file:line, where it cannot be read, a key is unknown or out of range,
-// or the model's name is unknown (the nearest is given). `more`: kinds beyond this library's own.
+// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file
+// names the one in which that is, `models: {ode: FILE}`. Wrong input, with file:line, where it cannot be read, a key is
+// unknown or out of range, or the model's name is unknown (the nearest is given). `more`: kinds beyond this library's
+// own.
 base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted = {},
                                                         std::span<const ModelKind> more = {});
 

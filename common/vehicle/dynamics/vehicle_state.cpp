@@ -63,8 +63,10 @@ struct Writing {
   base::StateWriter& writer;
   template <class T>
   void operator()(const char* name, const T& field) const {
-    if constexpr (requires { field.data(); }) writer.Put(name, std::span<const double>(field.data(), static_cast<std::size_t>(field.size())));
-    else writer.Put(name, field);
+    if constexpr (requires { field.data(); })
+      writer.Put(name, std::span<const double>(field.data(), static_cast<std::size_t>(field.size())));
+    else
+      writer.Put(name, field);
   }
 };
 
@@ -72,8 +74,10 @@ struct Reading {
   base::StateReader& reader;
   template <class T>
   void operator()(const char* name, T& field) const {
-    if constexpr (requires { field.data(); }) reader.Get(name, std::span<double>(field.data(), static_cast<std::size_t>(field.size())));
-    else reader.Get(name, field);
+    if constexpr (requires { field.data(); })
+      reader.Get(name, std::span<double>(field.data(), static_cast<std::size_t>(field.size())));
+    else
+      reader.Get(name, field);
   }
 };
 

@@ -11,7 +11,7 @@ enum class Enveloping {
 };
 
 struct WheelSettings {
-  double radius_m = 0.29;          // unloaded
+  double radius_m = 0.29;           // unloaded
   double rolling_radius_m = 0.283;  // distance rolled for a radian, and lever arm of the longitudinal force
   double width_m = 0.175;
   double inertia_kgm2 = 0.8;  // about the axle, with hub and brake disc

@@ -29,7 +29,8 @@ void WheelGround::Take(const ground::GroundQuery& query, const ground::GroundPoi
   friction = point.friction;
 }
 
-void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels) {
+void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
+               const std::array<WheelGround*, kWheels>& wheels) {
   std::array<ground::GroundQuery, kWheels> queries;
   std::array<ground::GroundPoint, kWheels> points;
   for (std::size_t i = 0; i < kWheels; ++i) queries[i] = {hubs_W[i].x(), hubs_W[i].y(), hubs_W[i].z()};

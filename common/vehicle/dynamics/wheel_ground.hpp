@@ -24,17 +24,18 @@ struct WheelGround {
   void Restore(base::StateReader& reader);
 };
 
-// Asks for the ground under the four hubs (m, in W), one batch (law L4). Outside of the world a wheel goes on upon the plane
-// that it knows.
-void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W, const std::array<WheelGround*, kWheels>& wheels);
+// Asks for the ground under the four hubs (m, in W), one batch (law L4). Outside of the world a wheel goes on upon the
+// plane that it knows.
+void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
+               const std::array<WheelGround*, kWheels>& wheels);
 
 struct Plane {
   Eigen::Vector3d point_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
 };
 
-// The ground under the car for its body: through the middle of the ground under the wheels, parallel to both diagonals of those
-// points; level where they stand too steeply for a ground.
+// The ground under the car for its body: through the middle of the ground under the wheels, parallel to both diagonals
+// of those points; level where they stand too steeply for a ground.
 Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels);
 
 }  // namespace rodeira::dynamics

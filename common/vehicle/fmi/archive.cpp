@@ -53,18 +53,22 @@ base::Result<base::TemporaryFolder> Unpack(const fs::path& path) {
   auto folder = base::TemporaryFolder::Make("fmu");
   if (!folder) return folder;
   std::uint64_t left = kMostBytes;
-  for (int more = unzGoToFirstFile(archive.get()); more != UNZ_END_OF_LIST_OF_FILE; more = unzGoToNextFile(archive.get())) {
+  for (int more = unzGoToFirstFile(archive.get()); more != UNZ_END_OF_LIST_OF_FILE;
+       more = unzGoToNextFile(archive.get())) {
     std::array<char, 4096> text{};
     unz_file_info64 info{};
-    if (more != UNZ_OK || unzGetCurrentFileInfo64(archive.get(), &info, text.data(), text.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
+    if (more != UNZ_OK ||
+        unzGetCurrentFileInfo64(archive.get(), &info, text.data(), text.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
       return base::WrongInput("the archive is damaged", path.string());
     }
     const fs::path name(text.data());
-    if (LeadsOut(name)) return base::WrongInput(fmt::format("the archive's '{}' leads out of its folder", text.data()), path.string());
+    if (LeadsOut(name))
+      return base::WrongInput(fmt::format("the archive's '{}' leads out of its folder", text.data()), path.string());
     const fs::path to = folder.value().path() / name;
     fs::create_directories(name.has_filename() ? to.parent_path() : to, problem);
     if (!name.has_filename()) continue;
-    if (!Write(archive.get(), to, left)) return base::WrongInput(fmt::format("the archive's '{}' is damaged or too large", text.data()), path.string());
+    if (!Write(archive.get(), to, left))
+      return base::WrongInput(fmt::format("the archive's '{}' is damaged or too large", text.data()), path.string());
   }
   return folder;
 }

@@ -7,8 +7,8 @@
 
 namespace rodeira::fmi {
 
-// Lays a ZIP archive's files out in a new folder. Wrong input where it is none, is damaged, holds more than 1 GiB, or a name in it
-// leads out of the folder.
+// Lays a ZIP archive's files out in a new folder. Wrong input where it is none, is damaged, holds more than 1 GiB, or a
+// name in it leads out of the folder.
 base::Result<base::TemporaryFolder> Unpack(const std::filesystem::path& archive);
 
 }  // namespace rodeira::fmi

@@ -24,7 +24,7 @@ struct Variable {
 struct Description {
   std::string model_name;
   std::string guid;
-  std::string identifier;  // of the binary
+  std::string identifier;            // of the binary
   bool can_get_state = false;        // canGetAndSetFMUstate
   bool can_serialize_state = false;  // canSerializeFMUstate
   std::vector<Variable> variables;
@@ -32,8 +32,8 @@ struct Description {
   const Variable* Find(std::string_view name) const;  // null: there is none
 };
 
-// Wrong input where the file is no XML, is not FMI 2.0, or offers no co-simulation without another program. `context` stands before
-// the sentence.
+// Wrong input where the file is no XML, is not FMI 2.0, or offers no co-simulation without another program. `context`
+// stands before the sentence.
 base::Result<Description> ReadDescription(const std::filesystem::path& file, const std::string& context);
 
 }  // namespace rodeira::fmi

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-// The binary interface of FMI 2.0 (Functional Mock-up Interface for Model Exchange and Co-Simulation, version 2.0.4, chapters 2.1 and
-// 4.2.2), as far as a master of co-simulation needs it. Names are the standard's.
+// The binary interface of FMI 2.0 (Functional Mock-up Interface for Model Exchange and Co-Simulation, version 2.0.4,
+// chapters 2.1 and 4.2.2), as far as a master of co-simulation needs it. Names are the standard's.
 namespace rodeira::fmi {
 
 using fmi2Component = void*;
@@ -20,18 +20,19 @@ enum fmi2Status { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pe
 enum fmi2Type { fmi2ModelExchange, fmi2CoSimulation };
 
 struct fmi2CallbackFunctions {
-  void (*logger)(fmi2ComponentEnvironment, fmi2String instance, fmi2Status, fmi2String category, fmi2String message, ...);
+  void (*logger)(fmi2ComponentEnvironment, fmi2String instance, fmi2Status, fmi2String category, fmi2String message,
+                 ...);
   void* (*allocateMemory)(std::size_t count, std::size_t size);
   void (*freeMemory)(void*);
   void (*stepFinished)(fmi2ComponentEnvironment, fmi2Status);
   fmi2ComponentEnvironment componentEnvironment;
 };
 
-using InstantiateFunction = fmi2Component(fmi2String name, fmi2Type, fmi2String guid, fmi2String resources, const fmi2CallbackFunctions*,
-                                          fmi2Boolean visible, fmi2Boolean logging);
+using InstantiateFunction = fmi2Component(fmi2String name, fmi2Type, fmi2String guid, fmi2String resources,
+                                          const fmi2CallbackFunctions*, fmi2Boolean visible, fmi2Boolean logging);
 using FreeInstanceFunction = void(fmi2Component);
-using SetupExperimentFunction = fmi2Status(fmi2Component, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start, fmi2Boolean has_stop,
-                                           fmi2Real stop);
+using SetupExperimentFunction = fmi2Status(fmi2Component, fmi2Boolean has_tolerance, fmi2Real tolerance, fmi2Real start,
+                                           fmi2Boolean has_stop, fmi2Real stop);
 using ComponentFunction = fmi2Status(fmi2Component);
 using GetRealFunction = fmi2Status(fmi2Component, const fmi2ValueReference*, std::size_t, fmi2Real*);
 using SetRealFunction = fmi2Status(fmi2Component, const fmi2ValueReference*, std::size_t, const fmi2Real*);

@@ -40,9 +40,11 @@ base::Status TryInChild(const std::function<void()>& code, unsigned most_s) {
   if (!WIFSIGNALED(status)) return {};
   const int signal = WTERMSIG(status);
   if (signal == SIGXCPU || signal == SIGALRM)
-    return base::WrongInput(fmt::format("its binary does not come back within {} s as it is loaded and makes an instance of itself",
-                                        signal == SIGXCPU ? most_s : 10 * most_s));
-  return base::WrongInput(fmt::format("its binary crashes (signal {}) as it is loaded and makes an instance of itself", signal));
+    return base::WrongInput(
+        fmt::format("its binary does not come back within {} s as it is loaded and makes an instance of itself",
+                    signal == SIGXCPU ? most_s : 10 * most_s));
+  return base::WrongInput(
+      fmt::format("its binary crashes (signal {}) as it is loaded and makes an instance of itself", signal));
 }
 
 }  // namespace rodeira::fmi

@@ -6,8 +6,9 @@
 
 namespace rodeira::fmi {
 
-// Runs foreign code in a child of this process and throws away what it did: wrong input where it is killed by a signal, or has computed for
-// `most_s` seconds (waited for ten times as long) and is not back. What it returns itself is for the caller to find again.
+// Runs foreign code in a child of this process and throws away what it did: wrong input where it is killed by a signal,
+// or has computed for `most_s` seconds (waited for ten times as long) and is not back. What it returns itself is for
+// the caller to find again.
 base::Status TryInChild(const std::function<void()>& code, unsigned most_s = 10);
 
 }  // namespace rodeira::fmi

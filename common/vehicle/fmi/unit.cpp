@@ -95,14 +95,22 @@ class LoadedInstance final : public Instance {
   base::Status Make(const std::string& name, const fs::path& resources) {
     callbacks_ = {&Log, &std::calloc, &std::free, nullptr, &said_};
     const std::string where = "file://" + resources.string();
-    const int signal = CallGuarded([&] { component_ = f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0); });
+    const int signal = CallGuarded([&] {
+      component_ =
+          f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0);
+    });
     if (signal != 0) return Crashed("fmi2Instantiate", signal);
     if (component_ != nullptr) return {};
-    return base::WrongInput(fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_), file_);
+    return base::WrongInput(
+        fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_),
+        file_);
   }
 
   base::Status EnterInitialisation(double time_s) override {
-    if (auto status = Call("fmi2SetupExperiment", [&] { return f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0); }); !status) return status;
+    if (auto status =
+            Call("fmi2SetupExperiment", [&] { return f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0); });
+        !status)
+      return status;
     return Call("fmi2EnterInitializationMode", [&] { return f_.enter_initialisation(component_); });
   }
   base::Status ExitInitialisation() override {
@@ -111,40 +119,63 @@ class LoadedInstance final : public Instance {
   }
   base::Status Set(const Variable& variable, double value) override {
     const fmi2ValueReference reference = variable.reference;
-    if (variable.type == VariableType::kReal) return Call("fmi2SetReal", [&] { return f_.set_real(component_, &reference, 1, &value); }, &variable);
+    if (variable.type == VariableType::kReal)
+      return Call(
+          "fmi2SetReal", [&] { return f_.set_real(component_, &reference, 1, &value); }, &variable);
     const auto whole = static_cast<fmi2Integer>(std::lround(std::clamp(value, -1e9, 1e9)));
-    if (variable.type == VariableType::kInteger) return Call("fmi2SetInteger", [&] { return f_.set_integer(component_, &reference, 1, &whole); }, &variable);
+    if (variable.type == VariableType::kInteger)
+      return Call(
+          "fmi2SetInteger", [&] { return f_.set_integer(component_, &reference, 1, &whole); }, &variable);
     const fmi2Boolean truth = value != 0.0;
-    return Call("fmi2SetBoolean", [&] { return f_.set_boolean(component_, &reference, 1, &truth); }, &variable);
+    return Call(
+        "fmi2SetBoolean", [&] { return f_.set_boolean(component_, &reference, 1, &truth); }, &variable);
   }
   base::Result<double> Get(const Variable& variable) override {
     const fmi2ValueReference reference = variable.reference;
     double real = 0.0;
     int whole = 0;
     base::Status status;
-    if (variable.type == VariableType::kReal) status = Call("fmi2GetReal", [&] { return f_.get_real(component_, &reference, 1, &real); }, &variable);
-    else if (variable.type == VariableType::kInteger) status = Call("fmi2GetInteger", [&] { return f_.get_integer(component_, &reference, 1, &whole); }, &variable);
-    else status = Call("fmi2GetBoolean", [&] { return f_.get_boolean(component_, &reference, 1, &whole); }, &variable);
+    if (variable.type == VariableType::kReal)
+      status = Call(
+          "fmi2GetReal", [&] { return f_.get_real(component_, &reference, 1, &real); }, &variable);
+    else if (variable.type == VariableType::kInteger)
+      status = Call(
+          "fmi2GetInteger", [&] { return f_.get_integer(component_, &reference, 1, &whole); }, &variable);
+    else
+      status = Call(
+          "fmi2GetBoolean", [&] { return f_.get_boolean(component_, &reference, 1, &whole); }, &variable);
     if (!status) return status.error();
     return variable.type == VariableType::kReal ? real : static_cast<double>(whole);
   }
-  base::Status DoStep(double time_s, double step_s) override { return Call("fmi2DoStep", [&] { return f_.do_step(component_, time_s, step_s, 0); }); }
+  base::Status DoStep(double time_s, double step_s) override {
+    return Call("fmi2DoStep", [&] { return f_.do_step(component_, time_s, step_s, 0); });
+  }
 
   base::Result<base::Bytes> State() override {
     fmi2FMUstate state = nullptr;
     std::size_t size = 0;
-    if (auto status = Call("fmi2GetFMUstate", [&] { return f_.get_state(component_, &state); }); !status) return status.error();
-    if (auto status = Call("fmi2SerializedFMUstateSize", [&] { return f_.state_size(component_, state, &size); }); !status) return status.error();
-    base::Bytes bytes(size);
-    if (auto status = Call("fmi2SerializeFMUstate", [&] { return f_.serialize(component_, state, reinterpret_cast<fmi2Byte*>(bytes.data()), size); }); !status)
+    if (auto status = Call("fmi2GetFMUstate", [&] { return f_.get_state(component_, &state); }); !status)
       return status.error();
-    if (auto status = Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); }); !status) return status.error();
+    if (auto status = Call("fmi2SerializedFMUstateSize", [&] { return f_.state_size(component_, state, &size); });
+        !status)
+      return status.error();
+    base::Bytes bytes(size);
+    if (auto status =
+            Call("fmi2SerializeFMUstate",
+                 [&] { return f_.serialize(component_, state, reinterpret_cast<fmi2Byte*>(bytes.data()), size); });
+        !status)
+      return status.error();
+    if (auto status = Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); }); !status)
+      return status.error();
     return bytes;
   }
   base::Status SetState(std::span<const std::byte> bytes) override {
     fmi2FMUstate state = nullptr;
     const auto* raw = reinterpret_cast<const fmi2Byte*>(bytes.data());
-    if (auto status = Call("fmi2DeSerializeFMUstate", [&] { return f_.deserialize(component_, raw, bytes.size(), &state); }); !status) return status;
+    if (auto status =
+            Call("fmi2DeSerializeFMUstate", [&] { return f_.deserialize(component_, raw, bytes.size(), &state); });
+        !status)
+      return status;
     if (auto status = Call("fmi2SetFMUstate", [&] { return f_.set_state(component_, state); }); !status) return status;
     return Call("fmi2FreeFMUstate", [&] { return f_.free_state(component_, &state); });
   }
@@ -152,17 +183,22 @@ class LoadedInstance final : public Instance {
  private:
   template <class Function>
   base::Status Call(const char* name, const Function& function, const Variable* variable = nullptr) {
-    if (dead_) return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
+    if (dead_)
+      return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
     fmi2Status status = fmi2OK;
     if (const int signal = CallGuarded([&] { status = function(); }); signal != 0) return Crashed(name, signal);
     if (status == fmi2OK || status == fmi2Warning) return {};
     failed_ = true;
     dead_ = status == fmi2Fatal;
-    return base::Failed(fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'", Word(status), said_.empty() ? "" : ": " + said_), file_);
+    return base::Failed(fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'",
+                                    Word(status), said_.empty() ? "" : ": " + said_),
+                        file_);
   }
   base::Status Crashed(const char* name, int signal) {
     dead_ = f_.crashed = true;
-    return base::Failed(fmt::format("{}: it crashes (signal {}){}", name, signal, said_.empty() ? "" : "; before, it said: " + said_), file_);
+    return base::Failed(
+        fmt::format("{}: it crashes (signal {}){}", name, signal, said_.empty() ? "" : "; before, it said: " + said_),
+        file_);
   }
 
   Functions& f_;
@@ -180,7 +216,8 @@ class LoadedInstance final : public Instance {
 std::string Platforms(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code problem;
-  for (const auto& entry : fs::directory_iterator(folder / "binaries", problem)) names.push_back(entry.path().filename().string());
+  for (const auto& entry : fs::directory_iterator(folder / "binaries", problem))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
 }
@@ -199,11 +236,14 @@ class LoadedUnit final : public Unit {
     const fs::path binary = folder_.path() / "binaries/linux64" / (description_.identifier + ".so");
     std::error_code problem;
     if (!fs::is_regular_file(binary, problem)) {
-      return base::WrongInput(fmt::format("this FMU has no binaries/linux64/{}.so; the platforms that it has binaries for: {}", description_.identifier,
-                                          Platforms(folder_.path())), file_);
+      return base::WrongInput(
+          fmt::format("this FMU has no binaries/linux64/{}.so; the platforms that it has binaries for: {}",
+                      description_.identifier, Platforms(folder_.path())),
+          file_);
     }
     library_ = ::dlopen(binary.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (library_ == nullptr) return base::WrongInput(fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
+    if (library_ == nullptr)
+      return base::WrongInput(fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
     Find("fmi2Instantiate", f_.instantiate);
     Find("fmi2FreeInstance", f_.free_instance);
     Find("fmi2SetupExperiment", f_.setup_experiment);

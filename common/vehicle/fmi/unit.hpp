@@ -11,8 +11,9 @@
 
 namespace rodeira::fmi {
 
-// One running instance of an FMU. Every call may fail: what it says then is "fmi2DoStep: error: WHAT THE FMU LOGGED". After a failure
-// nothing but the destructor may be called. What its code does besides (hang, crash) nobody can keep it from.
+// One running instance of an FMU. Every call may fail: what it says then is "fmi2DoStep: error: WHAT THE FMU LOGGED".
+// After a failure nothing but the destructor may be called. What its code does besides (hang, crash) nobody can keep it
+// from.
 class Instance {
  public:
   virtual ~Instance() = default;

@@ -21,13 +21,14 @@ struct AxisUse {
   std::string place;  // file:line, for people
 };
 
-// A raw number with two sides as -1 … 1: linear from the centre to either end, behind the dead zone, raised to the exponent.
+// A raw number with two sides as -1 … 1: linear from the centre to either end, behind the dead zone, raised to the
+// exponent.
 double TwoSided(const AxisUse& use, double raw);
 // A pedal's as 0 (released, `min`) … 1 (to the floor, `max`; the other way round where inverted).
 double OneSided(const AxisUse& use, double raw);
 
-// Drivers give any number for an axis until it first moves (a pedal half down, a wheel at its stop): until then it counts as
-// at rest.
+// Drivers give any number for an axis until it first moves (a pedal half down, a wheel at its stop): until then it
+// counts as at rest.
 class AxisWatch {
  public:
   // Whether this number, or one before it, lies away from the first.

@@ -15,8 +15,8 @@ struct LeverRequests {
   std::int32_t engaged = 0;  // the gear that is in, as the car says it
 };
 
-// The lever of a gearbox worked by buttons. Automatic: R, N, D (-1, 0, 1). Manual: R, N, 1 … forward_gears; it begins with
-// the gear that is in, so that asking for the manual mode changes none.
+// The lever of a gearbox worked by buttons. Automatic: R, N, D (-1, 0, 1). Manual: R, N, 1 … forward_gears; it begins
+// with the gear that is in, so that asking for the manual mode changes none.
 class GearSelector {
  public:
   explicit GearSelector(std::int32_t forward_gears, dynamics::GearboxMode mode = dynamics::GearboxMode::kAutomatic)

@@ -87,8 +87,10 @@ constexpr std::array kWindow = std::to_array<WindowKey>({
 
 std::vector<std::pair<Key, std::string>> AllNames() {
   std::vector<std::pair<Key, std::string>> all;
-  for (char letter = 'a'; letter <= 'z'; ++letter) all.emplace_back(static_cast<Key>(4 + letter - 'a'), std::string(1, letter));
-  for (char digit = '1'; digit <= '9'; ++digit) all.emplace_back(static_cast<Key>(30 + digit - '1'), std::string(1, digit));
+  for (char letter = 'a'; letter <= 'z'; ++letter)
+    all.emplace_back(static_cast<Key>(4 + letter - 'a'), std::string(1, letter));
+  for (char digit = '1'; digit <= '9'; ++digit)
+    all.emplace_back(static_cast<Key>(30 + digit - '1'), std::string(1, digit));
   all.emplace_back(39, "0");
   for (Key f = 1; f <= 12; ++f) all.emplace_back(57 + f, "f" + std::to_string(f));
   for (const Named& named : kNamed) all.emplace_back(named.key, named.name);
@@ -103,12 +105,14 @@ const std::vector<std::pair<Key, std::string>>& Names() {
 }  // namespace
 
 std::optional<Key> KeyOf(std::string_view name) {
-  const auto found = std::find_if(Names().begin(), Names().end(), [name](const auto& entry) { return entry.second == name; });
+  const auto found =
+      std::find_if(Names().begin(), Names().end(), [name](const auto& entry) { return entry.second == name; });
   return found == Names().end() ? std::nullopt : std::optional(found->first);
 }
 
 std::string NameOf(Key key) {
-  const auto found = std::find_if(Names().begin(), Names().end(), [key](const auto& entry) { return entry.first == key; });
+  const auto found =
+      std::find_if(Names().begin(), Names().end(), [key](const auto& entry) { return entry.first == key; });
   return found == Names().end() ? "?" : found->second;
 }
 
@@ -135,7 +139,8 @@ std::string WindowKeysText(const std::function<bool(const WindowKey&)>& wanted) 
 }
 
 const WindowKey* FindWindowKey(Key key) {
-  const auto found = std::find_if(kWindow.begin(), kWindow.end(), [key](const WindowKey& window) { return window.key == key; });
+  const auto found =
+      std::find_if(kWindow.begin(), kWindow.end(), [key](const WindowKey& window) { return window.key == key; });
   return found == kWindow.end() ? nullptr : &*found;
 }
 

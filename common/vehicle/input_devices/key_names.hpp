@@ -10,8 +10,9 @@
 
 namespace rodeira::input_devices {
 
-// A key by its place on the keyboard: the usage number of page 7 of the USB HID tables, which is SDL's scancode too. Names
-// are those of a US keyboard: where a French one prints z and q, w and a are found. From kMouse on: buttons of the mouse.
+// A key by its place on the keyboard: the usage number of page 7 of the USB HID tables, which is SDL's scancode too.
+// Names are those of a US keyboard: where a French one prints z and q, w and a are found. From kMouse on: buttons of
+// the mouse.
 using Key = std::uint32_t;
 inline constexpr Key kMouse = 512;  // + 1 left, 2 middle, 3 right, 4 and 5 the thumb's
 

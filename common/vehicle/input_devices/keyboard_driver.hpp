@@ -8,10 +8,10 @@
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
 #include "common/core/config/config.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
 #include "common/vehicle/input_devices/gear_selector.hpp"
 #include "common/vehicle/input_devices/key_names.hpp"
 #include "common/vehicle/input_devices/signals.hpp"
-#include "common/vehicle/dynamics/controls.hpp"
 
 namespace rodeira::input_devices {
 
@@ -71,14 +71,16 @@ struct KeyboardInput {
   double speed_mps = 0.0;  // of the car, forward
 };
 
-// Drives with keys that are either down or up. Steering: a held key turns the wheel towards the lock of the present speed,
+// Drives with keys that are either down or up. Steering: a held key turns the wheel towards the lock of the present
+// speed,
 //   lock(v) = lock / (1 + (v / half_lock_speed)²),
-// which is about the same lateral acceleration at all speeds from walking pace on, at the rate lock(v) / turn_s; let go, the
-// wheel comes back at lock(v) / centre_s and stands at exactly 0. So the same tap is a smaller correction the faster the car
-// goes. Pedals go down and up at constant rates.
+// which is about the same lateral acceleration at all speeds from walking pace on, at the rate lock(v) / turn_s; let
+// go, the wheel comes back at lock(v) / centre_s and stands at exactly 0. So the same tap is a smaller correction the
+// faster the car goes. Pedals go down and up at constant rates.
 class KeyboardDriver {
  public:
-  explicit KeyboardDriver(const KeyboardSettings& settings) : settings_(settings), lever_(settings.gears, settings.gearbox) {}
+  explicit KeyboardDriver(const KeyboardSettings& settings)
+      : settings_(settings), lever_(settings.gears, settings.gearbox) {}
 
   // The controls dt_s (over 0) later.
   dynamics::Controls Step(const KeyboardInput& input, double dt_s);

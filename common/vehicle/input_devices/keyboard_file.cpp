@@ -11,13 +11,25 @@
 namespace rodeira::input_devices {
 namespace {
 
-constexpr std::array<const char*, kActions> kNames{"steer_left",   "steer_right",   "throttle",       "brake",  "clutch",
-                                                   "handbrake",    "starter",       "gear_up",        "gear_down", "gearbox_mode",
-                                                   "indicate_left", "indicate_right", "hazard_lights", "headlights", "horn"};
-constexpr std::array<const char*, kActions> kHelp{"steer left",      "steer right",    "throttle",       "brake",
-                                                  "clutch",          "handbrake",      "starter",        "gear up (R N D)",
-                                                  "gear down",       "automatic or manual", "indicator left", "indicator right",
-                                                  "hazard lights",   "headlights: off, dipped, full", "horn"};
+constexpr std::array<const char*, kActions> kNames{"steer_left",    "steer_right",  "throttle",      "brake",
+                                                   "clutch",        "handbrake",    "starter",       "gear_up",
+                                                   "gear_down",     "gearbox_mode", "indicate_left", "indicate_right",
+                                                   "hazard_lights", "headlights",   "horn"};
+constexpr std::array<const char*, kActions> kHelp{"steer left",
+                                                  "steer right",
+                                                  "throttle",
+                                                  "brake",
+                                                  "clutch",
+                                                  "handbrake",
+                                                  "starter",
+                                                  "gear up (R N D)",
+                                                  "gear down",
+                                                  "automatic or manual",
+                                                  "indicator left",
+                                                  "indicator right",
+                                                  "hazard lights",
+                                                  "headlights: off, dipped, full",
+                                                  "horn"};
 
 // Which keys do what; a key does one thing, and not what the window keeps for itself.
 void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
@@ -63,7 +75,8 @@ KeyboardSettings ReadKeyboard(const config::Map& root) {
   const config::Map keys = root.Child("keys");
   if (root.Has("keys")) ReadKeys(keys, s);
   const config::Map steering = root.OptionalChild("steering");
-  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  s.lock_rad =
+      steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
   s.half_lock_speed_mps = steering.Number("half_lock_speed_mps", {0.5, 200.0}, s.half_lock_speed_mps);
   s.turn_s = steering.Number("turn_s", {0.05, 10.0}, s.turn_s);
   s.centre_s = steering.Number("centre_s", {0.05, 10.0}, s.centre_s);

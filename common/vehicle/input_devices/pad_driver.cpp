@@ -29,8 +29,10 @@ dynamics::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, 
     return controls_;
   }
   const double lock_rad = LockAt(settings_.lock_rad, speed_mps, settings_.half_lock_speed_mps);
-  const double share = std::copysign(std::pow(Behind(settings_.stick_dead_zone, std::fabs(pad.stick)), settings_.stick_exponent), -pad.stick);
-  controls_.steering_wheel_rad = TurnWheel(controls_.steering_wheel_rad, share == 0.0 ? 0.0 : share * lock_rad, lock_rad / settings_.turn_s, lock_rad / settings_.centre_s, dt_s);
+  const double share = std::copysign(
+      std::pow(Behind(settings_.stick_dead_zone, std::fabs(pad.stick)), settings_.stick_exponent), -pad.stick);
+  controls_.steering_wheel_rad = TurnWheel(controls_.steering_wheel_rad, share == 0.0 ? 0.0 : share * lock_rad,
+                                           lock_rad / settings_.turn_s, lock_rad / settings_.centre_s, dt_s);
   controls_.throttle = Behind(settings_.trigger_dead_zone, pad.throttle);
   controls_.brake = Behind(settings_.trigger_dead_zone, pad.brake);
   controls_.handbrake = pad.Down(PadButton::kHandbrake) ? 1.0 : 0.0;

@@ -3,21 +3,32 @@
 #include <cstdint>
 
 #include "common/core/base/state.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
 #include "common/vehicle/input_devices/gear_selector.hpp"
 #include "common/vehicle/input_devices/signals.hpp"
-#include "common/vehicle/dynamics/controls.hpp"
 
 namespace rodeira::input_devices {
 
 enum class PadButton : std::size_t {
-  kGearUp, kGearDown, kGearboxMode, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kCamera, kPause
+  kGearUp,
+  kGearDown,
+  kGearboxMode,
+  kHandbrake,
+  kStarter,
+  kIndicateLeft,
+  kIndicateRight,
+  kHazard,
+  kHeadlights,
+  kHorn,
+  kCamera,
+  kPause
 };
 inline constexpr std::size_t kPadButtons = 12;
 
 // What a game pad says now.
 struct PadReading {
   bool connected = false;
-  double stick = 0.0;                // -1 left … 1 right
+  double stick = 0.0;                  // -1 left … 1 right
   double throttle = 0.0, brake = 0.0;  // 0 … 1
   bool down[kPadButtons] = {};
 
@@ -36,12 +47,15 @@ struct PadSettings {
   std::int32_t gears = 5;
 };
 
-// Drives with thumbs. The stick says where between the locks of the present speed (LockAt) the wheel is to be; the wheel goes there at no more
-// than lock(v) / turn_s outwards and lock(v) / centre_s back, and stands at exactly 0 when the stick is let go. Triggers are pedals. Where the
-// pad is away the pedals are released and the steering stays as it is.
+// Drives with thumbs. The stick says where between the locks of the present speed (LockAt) the wheel is to be; the
+// wheel goes there at no more than lock(v) / turn_s outwards and lock(v) / centre_s back, and stands at exactly 0 when
+// the stick is let go. Triggers are pedals. Where the pad is away the pedals are released and the steering stays as it
+// is.
 class PadDriver {
  public:
-  explicit PadDriver(const PadSettings& settings = {}) : settings_(settings), lever_(settings.gears) { lever_.Show(controls_); }
+  explicit PadDriver(const PadSettings& settings = {}) : settings_(settings), lever_(settings.gears) {
+    lever_.Show(controls_);
+  }
 
   // The controls dt_s (over 0) later; `engaged` is the gear that is in, `speed_mps` the car's, forward.
   dynamics::Controls Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s);

@@ -39,7 +39,9 @@ std::optional<WheelSettings> PlainWheel(const DeviceUse& device, std::size_t axe
 std::string AxesText(const WheelSettings& settings) {
   std::string text;
   for (std::size_t i = 0; i < kWheelAxes; ++i) {
-    if (settings.axes[i]) text += text.empty() ? fmt::format("{} on axis {}", kAxisNames[i], settings.axes[i]->axis) : fmt::format(", {} on {}", kAxisNames[i], settings.axes[i]->axis);
+    if (settings.axes[i])
+      text += text.empty() ? fmt::format("{} on axis {}", kAxisNames[i], settings.axes[i]->axis)
+                           : fmt::format(", {} on {}", kAxisNames[i], settings.axes[i]->axis);
   }
   return text;
 }

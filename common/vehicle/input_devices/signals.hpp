@@ -24,9 +24,10 @@ struct SignalRequests {
   bool horn = false;
 };
 
-// The lever of the indicators and the light switch. A press to a side begins it, another one ends it; turning back from a bend ends it
-// too: once the steering wheel was more than kBend_rad on that side, it goes out within kBack_rad of straight ahead. The hazard lights
-// stand above the lever, which stays where it is. Headlights go round: off, dipped, full.
+// The lever of the indicators and the light switch. A press to a side begins it, another one ends it; turning back from
+// a bend ends it too: once the steering wheel was more than kBend_rad on that side, it goes out within kBack_rad of
+// straight ahead. The hazard lights stand above the lever, which stays where it is. Headlights go round: off, dipped,
+// full.
 class SignalSwitch {
  public:
   static constexpr double kBend_rad = 0.70, kBack_rad = 0.175;  // 40 and 10 degrees: choices of this project

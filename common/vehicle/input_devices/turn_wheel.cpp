@@ -15,7 +15,8 @@ double TurnWheel(double wheel_rad, double target_rad, double out_radps, double b
     dt_s -= needed_s;
   }
   if (wheel_rad == target_rad) return wheel_rad;
-  return wheel_rad + std::copysign(std::min(out_radps * dt_s, std::fabs(target_rad - wheel_rad)), target_rad - wheel_rad);
+  return wheel_rad +
+         std::copysign(std::min(out_radps * dt_s, std::fabs(target_rad - wheel_rad)), target_rad - wheel_rad);
 }
 
 double LockAt(double lock_rad, double speed_mps, double half_lock_speed_mps) {

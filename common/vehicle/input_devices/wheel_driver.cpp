@@ -85,7 +85,8 @@ void WheelDriver::StepLever(std::span<const DeviceReading> devices, std::int32_t
   requests.mode = Pressed(devices, WheelButton::kGearboxMode) ? 1 : 0;
   requests.engaged = engaged;
   lever_.Step(requests);
-  for (const auto& [button, gear] : {std::pair(WheelButton::kReverse, -1), std::pair(WheelButton::kNeutral, 0), std::pair(WheelButton::kDrive, 1)}) {
+  for (const auto& [button, gear] :
+       {std::pair(WheelButton::kReverse, -1), std::pair(WheelButton::kNeutral, 0), std::pair(WheelButton::kDrive, 1)}) {
     if (Pressed(devices, button)) lever_.Put(gear);
   }
   if (!settings_.lever.empty()) {

@@ -12,11 +12,11 @@
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
 #include "common/core/config/config.hpp"
+#include "common/vehicle/dynamics/controls.hpp"
 #include "common/vehicle/input_devices/axis.hpp"
 #include "common/vehicle/input_devices/force_feedback.hpp"
 #include "common/vehicle/input_devices/gear_selector.hpp"
 #include "common/vehicle/input_devices/signals.hpp"
-#include "common/vehicle/dynamics/controls.hpp"
 
 namespace rodeira::input_devices {
 
@@ -38,7 +38,22 @@ enum class WheelAxis : std::size_t { kSteering, kThrottle, kBrake, kClutch, kHan
 inline constexpr std::size_t kWheelAxes = 6;
 // kCamera is the window's and kPause the operator's: they do nothing to the controls.
 enum class WheelButton : std::size_t {
-  kGearUp, kGearDown, kGearboxMode, kClutch, kHandbrake, kStarter, kIndicateLeft, kIndicateRight, kHazard, kHeadlights, kHorn, kReverse, kNeutral, kDrive, kCamera, kPause
+  kGearUp,
+  kGearDown,
+  kGearboxMode,
+  kClutch,
+  kHandbrake,
+  kStarter,
+  kIndicateLeft,
+  kIndicateRight,
+  kHazard,
+  kHeadlights,
+  kHorn,
+  kReverse,
+  kNeutral,
+  kDrive,
+  kCamera,
+  kPause
 };
 inline constexpr std::size_t kWheelButtons = 16;
 
@@ -51,9 +66,9 @@ struct WheelSettings {
   double lock_rad = 7.85;                   // of the car's steering wheel where the axis is at its end
   std::int32_t gears = 5;
   dynamics::GearboxMode gearbox = dynamics::GearboxMode::kAutomatic;
-  ForceSettings force;          // of the steering's device, where it has motors
+  ForceSettings force;           // of the steering's device, where it has motors
   double force_lock_rad = 7.85;  // where they hold the wheel: at the car's own lock
-  bool has_force = true;        // false: its motors rest
+  bool has_force = true;         // false: its motors rest
   bool force_inverted = false;
 
   const std::optional<AxisUse>& AxisOf(WheelAxis axis) const { return axes[static_cast<std::size_t>(axis)]; }
@@ -64,9 +79,10 @@ WheelSettings ReadWheel(const config::Map& root);
 base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path);
 // 32 hexadecimal digits.
 bool IsGuid(std::string_view text);
-// The wheel of an input node that names this file, in place of whose GUIDs the launch file may say others: `other_guid` of a device's name, if
-// it does. Nothing where the file cannot be read: that is the input's to say.
-std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path, const std::function<std::optional<std::string>(const std::string&)>& other_guid);
+// The wheel of an input node that names this file, in place of whose GUIDs the launch file may say others: `other_guid`
+// of a device's name, if it does. Nothing where the file cannot be read: that is the input's to say.
+std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path,
+                                       const std::function<std::optional<std::string>(const std::string&)>& other_guid);
 
 // What one device says now.
 struct DeviceReading {
@@ -75,21 +91,21 @@ struct DeviceReading {
   std::vector<std::uint8_t> buttons;
 };
 
-// Steering wheel, pedals and lever of flesh and plastic. Where one of its devices is unplugged the pedals are released, the
-// steering stays as it is, and the run goes on; plugged in again, each of its axes counts from its first move on.
+// Steering wheel, pedals and lever of flesh and plastic. Where one of its devices is unplugged the pedals are released,
+// the steering stays as it is, and the run goes on; plugged in again, each of its axes counts from its first move on.
 class WheelDriver {
  public:
   explicit WheelDriver(const WheelSettings& settings) : settings_(settings), lever_(settings.gears, settings.gearbox) {}
 
-  // From the readings of all devices, in the settings' order; `engaged` is the gear that is in. Steering is positive to the
-  // left, a device's axis to the right.
+  // From the readings of all devices, in the settings' order; `engaged` is the gear that is in. Steering is positive to
+  // the left, a device's axis to the right.
   dynamics::Controls Step(std::span<const DeviceReading> devices, std::int32_t engaged);
   const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
   // Of the rim itself, from its axis, beyond the car's lock too; nothing before it has moved.
   std::optional<double> rim_rad() const { return rim_rad_; }
-  // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals are
-  // released.
+  // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals
+  // are released.
   void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;

@@ -12,13 +12,15 @@
 namespace rodeira::input_devices {
 namespace {
 
-constexpr const char* kNoGuid = "'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them";
+constexpr const char* kNoGuid =
+    "'{}' is '{}'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them";
 
 std::vector<DeviceUse> ReadDevices(const config::Map& map) {
   std::vector<DeviceUse> devices;
   for (const std::string& name : map.Keys()) {
     std::string guid = map.Text(name);
-    std::transform(guid.begin(), guid.end(), guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(guid.begin(), guid.end(), guid.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (!IsGuid(guid)) map.Problem(name, fmt::format(kNoGuid, "devices." + name, guid));
     devices.push_back({name, guid, map.Place(name)});
   }
@@ -34,7 +36,8 @@ std::size_t ReadDevice(const config::Map& map, const std::vector<DeviceUse>& dev
   const std::string name = map.Text("device");
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
-    if (map.Has("device")) map.Problem("device", fmt::format("there is no device '{}'{}", name, base::DidYouMean(name, names)));
+    if (map.Has("device"))
+      map.Problem("device", fmt::format("there is no device '{}'{}", name, base::DidYouMean(name, names)));
     return 0;
   }
   return static_cast<std::size_t>(found - names.begin());
@@ -53,7 +56,8 @@ AxisUse ReadAxis(const config::Map& map, const std::vector<DeviceUse>& devices, 
   use.exponent = map.Number("exponent", {0.2, 5.0}, use.exponent);
   use.inverted = map.Flag("inverted", use.inverted);
   if (use.max <= use.min) {
-    constexpr const char* kOrder = "'max' is {} and 'min' {}; a larger 'max' was expected ('inverted: true' turns an axis round)";
+    constexpr const char* kOrder =
+        "'max' is {} and 'min' {}; a larger 'max' was expected ('inverted: true' turns an axis round)";
     map.Problem("max", fmt::format(kOrder, use.max, use.min));
   } else if (two_sided && (use.centre <= use.min || use.centre >= use.max)) {
     constexpr const char* kBetween = "'centre' is {}; a number between 'min' ({}) and 'max' ({}) was expected";
@@ -85,7 +89,8 @@ void ReadForce(const config::Map& force, WheelSettings& settings) {
   ForceSettings& f = settings.force;
   settings.has_force = force.Flag("on", true);
   settings.force_inverted = force.Flag("inverted", false);
-  settings.force_lock_rad = force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  settings.force_lock_rad =
+      force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
   f.device_Nm = force.Number("device_Nm", {0.1, 50.0}, f.device_Nm);
   f.most_Nm = force.Number("most_Nm", {0.0, f.device_Nm}, std::min(f.most_Nm, f.device_Nm));
   f.share = force.Number("share", {0.0, 2.0}, f.share);
@@ -99,7 +104,8 @@ void ReadForce(const config::Map& force, WheelSettings& settings) {
 }  // namespace
 
 bool IsGuid(std::string_view text) {
-  return text.size() == 32 && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
+  return text.size() == 32 &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
 }
 
 WheelSettings ReadWheel(const config::Map& root) {
@@ -110,32 +116,39 @@ WheelSettings ReadWheel(const config::Map& root) {
   const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
   s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   s.devices = ReadDevices(root.Child("devices"));
-  if (root.Has("devices") && s.devices.empty()) root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
+  if (root.Has("devices") && s.devices.empty())
+    root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
   const config::Map steering = root.Child("steering");
-  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  s.lock_rad =
+      steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
   s.axes[0] = ReadAxis(steering, s.devices, true);
   for (std::size_t axis = 1; axis < kWheelAxes; ++axis) {
     const bool pedals = axis == static_cast<std::size_t>(WheelAxis::kPedals);
     if (root.Has(kAxisNames[axis])) s.axes[axis] = ReadAxis(root.Child(kAxisNames[axis]), s.devices, pedals);
   }
   if (s.AxisOf(WheelAxis::kPedals) && (s.AxisOf(WheelAxis::kThrottle) || s.AxisOf(WheelAxis::kBrake))) {
-    root.Problem("pedals", "'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
+    root.Problem("pedals",
+                 "'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
   }
   const config::Map buttons = root.OptionalChild("buttons");
   for (std::size_t button = 0; button < kWheelButtons; ++button) {
-    if (buttons.Has(kButtonNames[button])) s.buttons[button] = ReadButton(buttons.Child(kButtonNames[button]), s.devices);
+    if (buttons.Has(kButtonNames[button]))
+      s.buttons[button] = ReadButton(buttons.Child(kButtonNames[button]), s.devices);
   }
   ReadLever(root.OptionalChild("lever"), s);
   ReadForce(root.OptionalChild("force"), s);
   return s;
 }
 
-std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path, const std::function<std::optional<std::string>(const std::string&)>& other_guid) {
+std::optional<WheelSettings> PeekWheel(
+    const std::filesystem::path& path,
+    const std::function<std::optional<std::string>(const std::string&)>& other_guid) {
   auto settings = LoadWheel(path);
   if (!settings) return std::nullopt;
   for (DeviceUse& device : settings.value().devices) {
     if (auto other = other_guid(device.name); other && IsGuid(*other)) device.guid = std::move(*other);
-    std::transform(device.guid.begin(), device.guid.end(), device.guid.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::transform(device.guid.begin(), device.guid.end(), device.guid.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   }
   return std::move(settings).value();
 }

@@ -9,14 +9,14 @@
 namespace rodeira::input_devices {
 namespace {
 
-constexpr double kWhole = 65535.0;            // an axis' whole range
-constexpr double kFar = 0.20 * kWhole;        // from where it stood: a movement with a direction
-constexpr double kEnough = 0.25 * kWhole;     // of a way: less is an accident
+constexpr double kWhole = 65535.0;         // an axis' whole range
+constexpr double kFar = 0.20 * kWhole;     // from where it stood: a movement with a direction
+constexpr double kEnough = 0.25 * kWhole;  // of a way: less is an accident
 constexpr double kNoise = 0.01 * kWhole;
-constexpr double kBack = 0.15;                // share of its way: back at an end, or (from half of it) in the middle
-constexpr double kTurn = 0.05 * kWhole;       // back from a leg's end: the next leg
-constexpr double kMost = 0.75;                // share of its way: there and back
-constexpr double kMargin = 0.02;              // of a pedal's way: the floor is reached before its very end
+constexpr double kBack = 0.15;           // share of its way: back at an end, or (from half of it) in the middle
+constexpr double kTurn = 0.05 * kWhole;  // back from a leg's end: the next leg
+constexpr double kMost = 0.75;           // share of its way: there and back
+constexpr double kMargin = 0.02;         // of a pedal's way: the floor is reached before its very end
 constexpr double kDeadZone = 0.02;
 constexpr double kStill_s = 0.5;
 
@@ -66,14 +66,23 @@ WheelSetup::WheelSetup(std::vector<DeviceUse> devices, double lock_rad) {
 
 std::string WheelSetup::Prompt() const {
   switch (stage_) {
-    case Stage::kSteering: return "Turn the steering wheel to the left as far as it goes, then to the right, then back to the middle, and let go.";
-    case Stage::kThrottle: return "Press the throttle to the floor and release it.";
-    case Stage::kBrake: return "Press the brake to the floor and release it.";
-    case Stage::kClutch: return "Press the clutch to the floor and release it. There is none? Press any button.";
-    case Stage::kGears: return "Press the button for a higher gear, then the one for a lower gear. There are none? Press the throttle and release it.";
+    case Stage::kSteering:
+      return "Turn the steering wheel to the left as far as it goes, then to the right, then back to the middle, and "
+             "let go.";
+    case Stage::kThrottle:
+      return "Press the throttle to the floor and release it.";
+    case Stage::kBrake:
+      return "Press the brake to the floor and release it.";
+    case Stage::kClutch:
+      return "Press the clutch to the floor and release it. There is none? Press any button.";
+    case Stage::kGears:
+      return "Press the button for a higher gear, then the one for a lower gear. There are none? Press the throttle "
+             "and release it.";
     case Stage::kWindow:
-      return "Press the button for another camera, then the one that pauses the run and lets it go on. There are none? Press the throttle and release it.";
-    case Stage::kDone: break;
+      return "Press the button for another camera, then the one that pauses the run and lets it go on. There are none? "
+             "Press the throttle and release it.";
+    case Stage::kDone:
+      break;
   }
   return "";
 }
@@ -125,13 +134,15 @@ void WheelSetup::Follow(std::span<const DeviceReading> devices) {
     track.low = std::min(track.low, track.now);
     track.high = std::max(track.high, track.now);
     track.Go();
-    if (track.first == 0.0 && std::fabs(track.now - track.begin) > kFar) track.first = track.now > track.begin ? 1.0 : -1.0;
+    if (track.first == 0.0 && std::fabs(track.now - track.begin) > kFar)
+      track.first = track.now > track.begin ? 1.0 : -1.0;
   }
 }
 
 // The axis that moved most; null where none moved enough.
 const WheelSetup::Track* WheelSetup::Widest() const {
-  const auto widest = std::max_element(tracks_.begin(), tracks_.end(), [](const Track& a, const Track& b) { return a.way() < b.way(); });
+  const auto widest = std::max_element(tracks_.begin(), tracks_.end(),
+                                       [](const Track& a, const Track& b) { return a.way() < b.way(); });
   return widest == tracks_.end() || widest->way() < kEnough ? nullptr : &*widest;
 }
 
@@ -148,7 +159,8 @@ bool WheelSetup::IsTaken(const Track& track, WheelAxis axis) const {
 
 void WheelSetup::TakeSteering(const Track& track) {
   const double middle = (track.now - track.low) / track.way();
-  if (middle < 0.5 - kBack || middle > 0.5 + kBack) return Refuse("The wheel was not turned to both sides and back; once more.");
+  if (middle < 0.5 - kBack || middle > 0.5 + kBack)
+    return Refuse("The wheel was not turned to both sides and back; once more.");
   AxisUse use;
   use.device = track.device;
   use.axis = track.axis;
@@ -161,27 +173,33 @@ void WheelSetup::TakeSteering(const Track& track) {
 }
 
 void WheelSetup::TakeThrottle(const Track& track) {
-  if (IsTaken(track, WheelAxis::kSteering)) return Refuse("That was the steering wheel; the throttle alone was asked for.");
+  if (IsTaken(track, WheelAxis::kSteering))
+    return Refuse("That was the steering wheel; the throttle alone was asked for.");
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The throttle was not released; once more.");
   if (!IsReleased(track, "throttle")) return;
-  settings_.axes[static_cast<std::size_t>(WheelAxis::kThrottle)] = PedalUse(track.device, track.axis, ends->first, ends->second);
+  settings_.axes[static_cast<std::size_t>(WheelAxis::kThrottle)] =
+      PedalUse(track.device, track.axis, ends->first, ends->second);
   Begin(Stage::kBrake);
 }
 
 void WheelSetup::TakeBrake(const Track& track) {
-  if (IsTaken(track, WheelAxis::kSteering)) return Refuse("That was the steering wheel; the brake alone was asked for.");
+  if (IsTaken(track, WheelAxis::kSteering))
+    return Refuse("That was the steering wheel; the brake alone was asked for.");
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The brake was not released; once more.");
   if (!IsReleased(track, "brake")) return;
   if (!IsTaken(track, WheelAxis::kThrottle)) {
-    settings_.axes[static_cast<std::size_t>(WheelAxis::kBrake)] = PedalUse(track.device, track.axis, ends->first, ends->second);
+    settings_.axes[static_cast<std::size_t>(WheelAxis::kBrake)] =
+        PedalUse(track.device, track.axis, ends->first, ends->second);
     return Begin(Stage::kClutch);
   }
   // Both on one axis, at rest in its middle: `pedals`.
   auto& throttle = settings_.axes[static_cast<std::size_t>(WheelAxis::kThrottle)];
-  const double throttle_floor = throttle->inverted ? throttle->min : throttle->max, brake_floor = ends->second - kMargin * (ends->second - ends->first);
-  if ((throttle_floor > ends->first) == (brake_floor > ends->first)) return Refuse("That was the throttle again; the brake was asked for.");
+  const double throttle_floor = throttle->inverted ? throttle->min : throttle->max,
+               brake_floor = ends->second - kMargin * (ends->second - ends->first);
+  if ((throttle_floor > ends->first) == (brake_floor > ends->first))
+    return Refuse("That was the throttle again; the brake was asked for.");
   AxisUse both;
   both.device = track.device;
   both.axis = track.axis;
@@ -202,7 +220,8 @@ void WheelSetup::TakeClutch(const Track& track) {
   const auto ends = ReleasedAndPressed(track.low, track.high, track.now);
   if (!ends) return Refuse("The clutch was not released; once more.");
   if (!IsReleased(track, "clutch")) return;
-  settings_.axes[static_cast<std::size_t>(WheelAxis::kClutch)] = PedalUse(track.device, track.axis, ends->first, ends->second);
+  settings_.axes[static_cast<std::size_t>(WheelAxis::kClutch)] =
+      PedalUse(track.device, track.axis, ends->first, ends->second);
   Begin(Stage::kGears);
 }
 
@@ -224,7 +243,8 @@ void WheelSetup::TakeButton(const ButtonUse& pressed) {
   if (stage_ == Stage::kClutch) return Begin(Stage::kGears);
   if (stage_ == Stage::kGears) return TakePair(pressed, WheelButton::kGearUp, WheelButton::kGearDown, Stage::kWindow);
   if (stage_ != Stage::kWindow) return;
-  if (!Is(pressed, WheelButton::kGearUp) && !Is(pressed, WheelButton::kGearDown)) return TakePair(pressed, WheelButton::kCamera, WheelButton::kPause, Stage::kDone);
+  if (!Is(pressed, WheelButton::kGearUp) && !Is(pressed, WheelButton::kGearDown))
+    return TakePair(pressed, WheelButton::kCamera, WheelButton::kPause, Stage::kDone);
   remark_ = "That button changes gears; another one was asked for.";
 }
 
@@ -255,15 +275,21 @@ void WheelSetup::Step(std::span<const DeviceReading> devices, double dt_s) {
   if (moved == nullptr) return;
   const Track track = *moved;
   switch (stage_) {
-    case Stage::kSteering: return TakeSteering(track);
-    case Stage::kThrottle: return TakeThrottle(track);
-    case Stage::kBrake: return TakeBrake(track);
-    case Stage::kClutch: return TakeClutch(track);
+    case Stage::kSteering:
+      return TakeSteering(track);
+    case Stage::kThrottle:
+      return TakeThrottle(track);
+    case Stage::kBrake:
+      return TakeBrake(track);
+    case Stage::kClutch:
+      return TakeClutch(track);
     case Stage::kGears:
       settings_.buttons[static_cast<std::size_t>(WheelButton::kGearUp)].reset();  // one alone is none
       return Begin(Stage::kWindow);
-    case Stage::kWindow: return Begin(Stage::kDone);  // with the camera's alone, if that was pressed
-    case Stage::kDone: break;
+    case Stage::kWindow:
+      return Begin(Stage::kDone);  // with the camera's alone, if that was pressed
+    case Stage::kDone:
+      break;
   }
 }
 
@@ -274,7 +300,8 @@ WheelSettings WheelSetup::settings() const {
   out.devices.clear();
   const auto used = [&](std::size_t device) {
     const auto is = [device](const auto& use) { return use && use->device == device; };
-    return std::any_of(std::begin(settings_.axes), std::end(settings_.axes), is) || std::any_of(std::begin(settings_.buttons), std::end(settings_.buttons), is);
+    return std::any_of(std::begin(settings_.axes), std::end(settings_.axes), is) ||
+           std::any_of(std::begin(settings_.buttons), std::end(settings_.buttons), is);
   };
   for (std::size_t device = 0; device < settings_.devices.size(); ++device) {
     place[device] = out.devices.size();

@@ -10,9 +10,9 @@
 
 namespace rodeira::input_devices {
 
-// Finds out what turns, what is pressed and where its ends are, by asking for one movement after the other. A movement counts when
-// everything has stood still for half a second after it; no key is needed. What a device says before it first moves is not believed.
-// A pedal that is held down is waited for: released is where it comes back to.
+// Finds out what turns, what is pressed and where its ends are, by asking for one movement after the other. A movement
+// counts when everything has stood still for half a second after it; no key is needed. What a device says before it
+// first moves is not believed. A pedal that is held down is waited for: released is where it comes back to.
 class WheelSetup {
  public:
   enum class Stage { kSteering, kThrottle, kBrake, kClutch, kGears, kWindow, kDone };
@@ -36,12 +36,13 @@ class WheelSetup {
     double low = 0.0, high = 0.0, now = 0.0;
     double first = 0.0;  // +1 or -1: where it first went far; 0: nowhere yet
     double begin = 0.0;
-    // It goes to and fro in legs: where this one began and how far it has come, and the longest one before it of each direction.
+    // It goes to and fro in legs: where this one began and how far it has come, and the longest one before it of each
+    // direction.
     double leg_from = 0.0, leg_to = 0.0, longest_up = 0.0, longest_down = 0.0;
 
     double way() const { return high - low; }
-    void Go();                    // by `now`
-    bool has_come_back() const;   // over most of its way, after it went there
+    void Go();                   // by `now`
+    bool has_come_back() const;  // over most of its way, after it went there
   };
   void Begin(Stage stage);
   bool Still(std::span<const DeviceReading> devices, double dt_s);
@@ -74,8 +75,8 @@ class WheelSetup {
 // The settings as a wheel file, which LoadWheel reads as the same.
 std::string WheelText(const WheelSettings& settings, const std::string& name);
 
-// Where files made by setting up lie: $XDG_CONFIG_HOME/rodeira/wheels, else ~/.config/rodeira/wheels; named by the steering
-// device's GUID.
+// Where files made by setting up lie: $XDG_CONFIG_HOME/rodeira/wheels, else ~/.config/rodeira/wheels; named by the
+// steering device's GUID.
 std::filesystem::path WheelFolder();
 std::filesystem::path WheelFileOf(const std::string& guid);
 

@@ -92,7 +92,8 @@ void BlockLdlt::Analyse(int entities, std::span<const int> free, std::span<const
     longest = std::max(longest, rows.size());
     for (std::size_t a = 0; a < rows.size(); ++a) {
       for (std::size_t b = 0; b <= a; ++b) {
-        targets_.push_back(Find(order_[static_cast<std::size_t>(rows[a])], order_[static_cast<std::size_t>(rows[b])]).block);
+        targets_.push_back(
+            Find(order_[static_cast<std::size_t>(rows[a])], order_[static_cast<std::size_t>(rows[b])]).block);
       }
     }
   }
@@ -204,7 +205,8 @@ std::vector<OuterPair> OuterPairs(const BlockLdlt& matrix, std::span<const int> 
   std::vector<OuterPair> pairs;
   for (int a = 0; a < static_cast<int>(entities.size()); ++a) {
     for (int b = 0; b <= a; ++b) {
-      const BlockLdlt::Place place = matrix.Find(entities[static_cast<std::size_t>(a)], entities[static_cast<std::size_t>(b)]);
+      const BlockLdlt::Place place =
+          matrix.Find(entities[static_cast<std::size_t>(a)], entities[static_cast<std::size_t>(b)]);
       pairs.push_back(place.flipped ? OuterPair{place.block, b, a} : OuterPair{place.block, a, b});
     }
   }

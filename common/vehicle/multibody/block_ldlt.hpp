@@ -40,7 +40,8 @@ class BlockLdlt {
   std::vector<Block>& values() { return values_; }
   // False where a pivot is not positive: the matrix is singular, or not finite.
   [[nodiscard]] bool Factorise();
-  // x = A⁻¹ b; both hold three numbers an entity and may be the same; those of entities without a block row stay as they are.
+  // x = A⁻¹ b; both hold three numbers an entity and may be the same; those of entities without a block row stay as
+  // they are.
   void Solve(const double* b, double* x);
 
   int blocks() const { return static_cast<int>(order_.size()); }

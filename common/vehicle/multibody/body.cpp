@@ -31,9 +31,9 @@ std::vector<Direction> DirectionsOf(const BodyDrawing& body, const std::vector<d
   }
   for (std::size_t i = 1; i < body.points.size(); ++i) {
     const Form way = Sum(Single(body.points[i]), Single(body.points[0]), -1.0);
-    directions.push_back({way, At(at, body.points[i]) - At(at, body.points[0]),
-                          names[static_cast<std::size_t>(body.points[0])] + "-" + names[static_cast<std::size_t>(body.points[i])],
-                          -1});
+    directions.push_back(
+        {way, At(at, body.points[i]) - At(at, body.points[0]),
+         names[static_cast<std::size_t>(body.points[0])] + "-" + names[static_cast<std::size_t>(body.points[i])], -1});
   }
   return directions;
 }
@@ -55,8 +55,8 @@ std::vector<std::size_t> Basis(const std::vector<Direction>& directions, std::si
 
 RowDrawing KeepDot(const BodyDrawing& body, const Direction& a, const Direction& b) {
   RowDrawing row;
-  row.name =
-      &a == &b ? fmt::format("{} (length {})", body.name, a.name) : fmt::format("{} (angle {} to {})", body.name, a.name, b.name);
+  row.name = &a == &b ? fmt::format("{} (length {})", body.name, a.name)
+                      : fmt::format("{} (angle {} to {})", body.name, a.name, b.name);
   row.place = body.place;
   row.kind = RowKind::kDot;
   row.v = a.form;
@@ -73,8 +73,8 @@ Eigen::Matrix4d PseudoInertia(const BodyDrawing& body, const Vector3d& origin) {
   j(0, 0) = body.mass_kg;
   j.block<3, 1>(1, 0) = body.mass_kg * c;
   j.block<1, 3>(0, 1) = body.mass_kg * c.transpose();
-  j.block<3, 3>(1, 1) =
-      0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2 + body.mass_kg * c * c.transpose();
+  j.block<3, 3>(1, 1) = 0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2 +
+                        body.mass_kg * c * c.transpose();
   return j;
 }
 
@@ -110,7 +110,8 @@ base::Error Refuse(const BodyDrawing& body, const std::string& what) {
   return base::WrongInput(fmt::format("body '{}' {}", body.name, what), body.place);
 }
 
-base::Status CheckMass(const BodyDrawing& body, const Vector3d& line_origin, const Vector3d& line, const Vector3d& normal) {
+base::Status CheckMass(const BodyDrawing& body, const Vector3d& line_origin, const Vector3d& line,
+                       const Vector3d& normal) {
   if (body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle) {
     const Vector3d off = body.centre_m - line_origin;
     const Vector3d beside = line.isZero() ? off : Vector3d(off - off.dot(line) / line.squaredNorm() * line);
@@ -123,11 +124,12 @@ base::Status CheckMass(const BodyDrawing& body, const Vector3d& line_origin, con
       std::fabs((body.centre_m - line_origin).dot(normal)) > 1e-9 * (1.0 + (body.centre_m - line_origin).norm())) {
     return Refuse(body, "has its centre beside the plane of its points; a general body can have that");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() -
-                                                              body.inertia_kgm2);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
+      0.5 * body.inertia_kgm2.trace() * Eigen::Matrix3d::Identity() - body.inertia_kgm2);
   if (solver.eigenvalues().minCoeff() < -1e-9 * (1e-12 + body.inertia_kgm2.norm())) {
-    return Refuse(body,
-                  "has moments of inertia that no mass has: each of the principal ones must be at most the sum of the other two");
+    return Refuse(
+        body,
+        "has moments of inertia that no mass has: each of the principal ones must be at most the sum of the other two");
   }
   return {};
 }
@@ -158,8 +160,9 @@ Form Frame::DirectionOf(const Vector3d& drawn) const {
   for (int c = 0; c < 3; ++c) {
     if (drawn[c] != 0.0) form = Sum(form, axes[static_cast<std::size_t>(c)], drawn[c]);
   }
-  std::erase_if(form.terms,
-                [&drawn](const Term& term) { return std::fabs(term.a) + std::fabs(term.b) < 1e-15 * (1.0 + drawn.norm()); });
+  std::erase_if(form.terms, [&drawn](const Term& term) {
+    return std::fabs(term.a) + std::fabs(term.b) < 1e-15 * (1.0 + drawn.norm());
+  });
   return form;
 }
 
@@ -175,7 +178,8 @@ void PushTorque(const Frame& frame, const Vector3d& torque_W, const double* q, d
   for (const Form& axis : frame.axes) Push(axis, 0.5 * torque_W.cross(Evaluate(axis, q)), out);
 }
 
-base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<double>& at, const std::vector<std::string>& names) {
+base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<double>& at,
+                                 const std::vector<std::string>& names) {
   BodyParts parts;
   parts.mass_kg = body.mass_kg;
   parts.turns = body.kind == BodyKind::kGeneral || body.kind == BodyKind::kPlanar;
@@ -195,9 +199,10 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
   const std::vector<std::size_t> basis = Basis(directions, wanted);
   if (basis.size() < wanted) {
     if (wanted == 2) return Refuse(body, "is a plate, but its points lie on a line");
-    return Refuse(body, wanted == 3 ? "has no three independent directions; it needs one more point or vector that does not lie "
-                                      "in the plane (or on the line) of the others"
-                                    : "needs two points that do not coincide");
+    return Refuse(
+        body, wanted == 3 ? "has no three independent directions; it needs one more point or vector that does not lie "
+                            "in the plane (or on the line) of the others"
+                          : "needs two points that do not coincide");
   }
   Vector3d normal = Vector3d::Zero();
   if (body.kind == BodyKind::kPlate) {
@@ -214,7 +219,8 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
   } else if (body.kind == BodyKind::kGeneral) {
     Eigen::Matrix3d drawn;
     for (int k = 0; k < 3; ++k) drawn.col(k) = directions[basis[static_cast<std::size_t>(k)]].drawn;
-    parts.frame.axes = AxesFrom({directions[basis[0]].form, directions[basis[1]].form, directions[basis[2]].form}, drawn);
+    parts.frame.axes =
+        AxesFrom({directions[basis[0]].form, directions[basis[1]].form, directions[basis[2]].form}, drawn);
   } else {
     const Direction& first = directions[basis[0]];
     const double size2 = first.drawn.squaredNorm();
@@ -227,7 +233,8 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
       parts.frame.axes[0] = x;
       parts.frame.axes[1] = TurnedAboutZ(x);
     } else {  // rod: only the way along it means anything
-      for (int c = 0; c < 3; ++c) parts.frame.axes[static_cast<std::size_t>(c)] = Sum(Form{}, first.form, first.drawn[c] / size2);
+      for (int c = 0; c < 3; ++c)
+        parts.frame.axes[static_cast<std::size_t>(c)] = Sum(Form{}, first.form, first.drawn[c] / size2);
     }
   }
   const Vector3d line = directions[basis[0]].drawn;
@@ -251,10 +258,12 @@ base::Result<BodyParts> MakeBody(const BodyDrawing& body, const std::vector<doub
     }
   }
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    if (body.kind == BodyKind::kPlate && std::fabs(directions[i].drawn.dot(normal)) > 1e-9 * directions[i].drawn.norm()) {
+    if (body.kind == BodyKind::kPlate &&
+        std::fabs(directions[i].drawn.dot(normal)) > 1e-9 * directions[i].drawn.norm()) {
       return Refuse(body, "is a plate, but its points do not lie in one plane");
     }
-    if (std::find(basis.begin(), basis.end(), i) == basis.end()) parts.ties.push_back(TieTo(body, parts.frame, directions[i]));
+    if (std::find(basis.begin(), basis.end(), i) == basis.end())
+      parts.ties.push_back(TieTo(body, parts.frame, directions[i]));
   }
   return parts;
 }

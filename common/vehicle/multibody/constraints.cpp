@@ -2,7 +2,8 @@
 
 namespace rodeira::multibody {
 
-Constraints::Constraints(const std::vector<RowDrawing>& rows, const std::vector<Tie>& ties, const std::vector<double>& free)
+Constraints::Constraints(const std::vector<RowDrawing>& rows, const std::vector<Tie>& ties,
+                         const std::vector<double>& free)
     : free_(free), ties_(ties) {
   std::size_t first = 0;
   for (const RowDrawing& drawing : rows) {
@@ -50,7 +51,8 @@ const std::string& Constraints::place(int index) const {
 }
 
 void Constraints::Evaluate(const double* q, double time_s) {
-  for (std::size_t i = 0; i < rows_.size(); ++i) values_[i] = rows_[i].Evaluate(q, time_s, gradients_.data() + first_[i]);
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    values_[i] = rows_[i].Evaluate(q, time_s, gradients_.data() + first_[i]);
   double* out = values_.data() + rows_.size();
   TieValues(q, out);
 }
@@ -136,8 +138,8 @@ void Constraints::AddTies(const BlockLdlt& matrix, double weight, Block* blocks)
     for (int component = 0; component < 3; ++component) {
       std::vector<Triple> gradients;
       for (const Term& term : terms) {
-        const Vector3d g =
-            Transposed(term, Vector3d::Unit(component)).cwiseProduct(Eigen::Map<const Vector3d>(free_.data() + 3 * term.entity));
+        const Vector3d g = Transposed(term, Vector3d::Unit(component))
+                               .cwiseProduct(Eigen::Map<const Vector3d>(free_.data() + 3 * term.entity));
         gradients.push_back({{g.x(), g.y(), g.z(), 0.0}});
       }
       AddOuter(pairs, gradients.data(), weight, blocks);

@@ -85,7 +85,8 @@ void DrawingReader::ReadDistances(const Map& root) {
     } else {
       row.kind = RowKind::kSquare;
       if (at < kShort) {
-        map.Problem("points", "the points coincide: their distance has no derivative there; 'along' a direction it has");
+        map.Problem("points",
+                    "the points coincide: their distance has no derivative there; 'along' a direction it has");
         continue;
       }
       row.scale = 0.5 / at;
@@ -100,7 +101,8 @@ void DrawingReader::ReadDistances(const Map& root) {
 std::optional<DrawingReader::Coordinate> DrawingReader::CoordinateNamed(const Map& map, std::string_view key,
                                                                         const std::string& name) const {
   const auto dot = name.rfind('.');
-  if (dot != std::string::npos && dot + 2 == name.size() && std::string("xyz").find(name[dot + 1]) != std::string::npos) {
+  if (dot != std::string::npos && dot + 2 == name.size() &&
+      std::string("xyz").find(name[dot + 1]) != std::string::npos) {
     const auto entity = Entity(map, key, name.substr(0, dot), false);
     if (!entity) return std::nullopt;
     return Coordinate{*entity, static_cast<int>(std::string("xyz").find(name[dot + 1]))};
@@ -131,7 +133,8 @@ void DrawingReader::ReadConstraints(const Map& root) {
 
 void DrawingReader::ReadConstraint(const Map& constraints, const std::string& name) {
   const Map map = constraints.Child(name);
-  const std::string kind = map.Choice("kind", {"distance", "perpendicular", "dot", "coplanar", "same", "drive", "linear"});
+  const std::string kind =
+      map.Choice("kind", {"distance", "perpendicular", "dot", "coplanar", "same", "drive", "linear"});
   RowDrawing row;
   row.name = name;
   row.place = constraints.Place(name);
@@ -154,8 +157,9 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     if (!(sizes > kShort * kShort)) return map.Problem("a", "a direction has no length");
     row.v = *a;
     row.w = *b;
-    row.value =
-        kind == "perpendicular" ? 0.0 : (map.Has("value_m2") ? map.Number("value_m2", {-1e12, 1e12}) : Drawn(*a).dot(Drawn(*b)));
+    row.value = kind == "perpendicular"
+                    ? 0.0
+                    : (map.Has("value_m2") ? map.Number("value_m2", {-1e12, 1e12}) : Drawn(*a).dot(Drawn(*b)));
     row.scale = 1.0 / std::sqrt(sizes);
     return drawing_.rows.push_back(row);
   }

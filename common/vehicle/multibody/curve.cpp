@@ -11,7 +11,8 @@ Curve::Curve(std::vector<Sample> samples) : samples_(std::move(samples)) {
   integral_.push_back(0.0);
   for (std::size_t i = 1; i < samples_.size(); ++i) {
     RODEIRA_ASSERT(samples_[i].x > samples_[i - 1].x);
-    integral_.push_back(integral_.back() + 0.5 * (samples_[i].y + samples_[i - 1].y) * (samples_[i].x - samples_[i - 1].x));
+    integral_.push_back(integral_.back() +
+                        0.5 * (samples_[i].y + samples_[i - 1].y) * (samples_[i].x - samples_[i - 1].x));
   }
 }
 
@@ -30,7 +31,8 @@ double Curve::Slope(double x) const {
 double Curve::Value(double x) const {
   if (samples_.empty()) return 0.0;
   const std::size_t i = Segment(x);
-  return samples_[i].y + (samples_[i + 1].y - samples_[i].y) / (samples_[i + 1].x - samples_[i].x) * (x - samples_[i].x);
+  return samples_[i].y +
+         (samples_[i + 1].y - samples_[i].y) / (samples_[i + 1].x - samples_[i].x) * (x - samples_[i].x);
 }
 
 double Curve::FromFirst(double x) const {

@@ -26,8 +26,9 @@ DrawingReader::DrawingReader(const Map& root) {
   planar_ = root.Flag("planar", false);
   drawing_.redundant = root.Flag("redundant", false);
   if (root.Has("gravity_mps2")) drawing_.gravity_mps2 = ThreeNumbers(root, "gravity_mps2", 1e4);
-  for (const auto& [name, direction] : {std::pair("world x", Vector3d::UnitX()), std::pair("world y", Vector3d::UnitY()),
-                                        std::pair("world z", Vector3d::UnitZ())}) {
+  for (const auto& [name, direction] :
+       {std::pair("world x", Vector3d::UnitX()), std::pair("world y", Vector3d::UnitY()),
+        std::pair("world z", Vector3d::UnitZ())}) {
     const int entity = AddEntity(root, name, EntityKind::kVector, direction);
     drawing_.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
     if (name == std::string("world x")) world_x_ = entity;
@@ -119,7 +120,8 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   BodyDrawing body;
   body.name = name;
   body.place = bodies.Place(name);
-  const std::string kind = map.Choice("kind", {"general", "plate", "planar", "rod", "particle"}, planar_ ? "planar" : "general");
+  const std::string kind =
+      map.Choice("kind", {"general", "plate", "planar", "rod", "particle"}, planar_ ? "planar" : "general");
   body.kind = kind == "planar"     ? BodyKind::kPlanar
               : kind == "plate"    ? BodyKind::kPlate
               : kind == "rod"      ? BodyKind::kRod
@@ -133,8 +135,8 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
       const auto found = entities_.find(entity);
       if (found == entities_.end() || drawing_.entities[static_cast<std::size_t>(found->second)].kind != wanted) {
         list.Problem(i, fmt::format("'{}' is no {}{}", entity, wanted == EntityKind::kPoint ? "point" : "vector",
-                                    base::DidYouMean(
-                                        entity, NamesOf(wanted == EntityKind::kPoint, wanted == EntityKind::kVector, false))));
+                                    base::DidYouMean(entity, NamesOf(wanted == EntityKind::kPoint,
+                                                                     wanted == EntityKind::kVector, false))));
         good = false;
         continue;
       }
@@ -168,15 +170,18 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   } else if (body.kind == BodyKind::kRod && good && body.points.size() == 2) {
     const Vector3d way = at(body.points[1]) - at(body.points[0]);
     const double inertia = map.Number("inertia_kgm2", {0.0, 1e12}, body.mass_kg * way.squaredNorm() / 12.0);
-    if (way.norm() > 0.0) body.inertia_kgm2 = inertia * (Eigen::Matrix3d::Identity() - way * way.transpose() / way.squaredNorm());
+    if (way.norm() > 0.0)
+      body.inertia_kgm2 = inertia * (Eigen::Matrix3d::Identity() - way * way.transpose() / way.squaredNorm());
   } else if (body.kind == BodyKind::kPlate && !map.Has("inertia_kgm2")) {
     body.inertia_kgm2.setZero();  // as if all of its mass were in its centre
   } else if (body.kind == BodyKind::kGeneral || body.kind == BodyKind::kPlate) {
     const std::vector<double> i = map.Numbers("inertia_kgm2", {-1e12, 1e12});
     if (map.Has("inertia_kgm2") && i.size() != 6 && i.size() != 3) {
-      map.Problem("inertia_kgm2",
-                  fmt::format("'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected",
-                              i.size()));
+      map.Problem(
+          "inertia_kgm2",
+          fmt::format(
+              "'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected",
+              i.size()));
       good = false;
     }
     if (i.size() == 3) body.inertia_kgm2 = Vector3d(i[0], i[1], i[2]).asDiagonal();
@@ -203,7 +208,9 @@ void DrawingReader::ReadMarkers(const Map& root) {
 std::vector<std::string> DrawingReader::NamesOf(bool points, bool vectors, bool scalars) const {
   std::vector<std::string> names;
   for (const EntityDrawing& entity : drawing_.entities) {
-    const bool wanted = entity.kind == EntityKind::kPoint ? points : entity.kind == EntityKind::kVector ? vectors : scalars;
+    const bool wanted = entity.kind == EntityKind::kPoint    ? points
+                        : entity.kind == EntityKind::kVector ? vectors
+                                                             : scalars;
     if (wanted) names.push_back(entity.name);
   }
   if (points) {
@@ -212,7 +219,8 @@ std::vector<std::string> DrawingReader::NamesOf(bool points, bool vectors, bool 
   return names;
 }
 
-std::optional<int> DrawingReader::Entity(const Map& map, std::string_view key, const std::string& name, bool scalar) const {
+std::optional<int> DrawingReader::Entity(const Map& map, std::string_view key, const std::string& name,
+                                         bool scalar) const {
   const auto found = entities_.find(name);
   if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].is_scalar() == scalar)
     return found->second;
@@ -236,7 +244,8 @@ std::optional<int> DrawingReader::Body(const Map& map, std::string_view key) con
   for (std::size_t i = 0; i < drawing_.body_names.size(); ++i) {
     if (drawing_.body_names[i] == name) return static_cast<int>(i);
   }
-  if (map.Has(key)) map.Problem(key, fmt::format("'{}' is no body{}", name, base::DidYouMean(name, drawing_.body_names)));
+  if (map.Has(key))
+    map.Problem(key, fmt::format("'{}' is no body{}", name, base::DidYouMean(name, drawing_.body_names)));
   return std::nullopt;
 }
 
@@ -268,7 +277,8 @@ std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view ke
   if (list.size() == 1) {
     const std::string name = list.Text(0);
     const auto found = entities_.find(name);
-    if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kVector)
+    if (found != entities_.end() &&
+        drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kVector)
       return Single(found->second);
     map.Problem(key, fmt::format("'{}' is no vector{}", name, base::DidYouMean(name, NamesOf(false, true, false))));
     return std::nullopt;

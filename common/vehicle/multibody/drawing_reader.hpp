@@ -11,9 +11,9 @@ namespace rodeira::multibody {
 
 struct SpringLaw;
 
-// Reads the parts of a mechanism from a mapping: points, vectors, angles, distances, bodies, markers, constraints, forces
-// (docs/formats.md). Problems stay in the file's collection; the drawing is good only where there are none. Afterwards it
-// answers what a name means, for what else a file says about the mechanism.
+// Reads the parts of a mechanism from a mapping: points, vectors, angles, distances, bodies, markers, constraints,
+// forces (docs/formats.md). Problems stay in the file's collection; the drawing is good only where there are none.
+// Afterwards it answers what a name means, for what else a file says about the mechanism.
 class DrawingReader {
  public:
   explicit DrawingReader(const config::Map& root);
@@ -52,7 +52,8 @@ class DrawingReader {
 
   int AddEntity(const config::Map& map, const std::string& name, EntityKind kind, const Vector3d& at);
   bool IsNew(const config::Map& map, const std::string& name);
-  std::optional<Coordinate> CoordinateNamed(const config::Map& map, std::string_view key, const std::string& name) const;
+  std::optional<Coordinate> CoordinateNamed(const config::Map& map, std::string_view key,
+                                            const std::string& name) const;
   std::optional<std::array<Form, 2>> TwoPoints(const config::Map& map, std::string_view key) const;
   Law ReadLaw(const config::Map& map, std::string_view value_key) const;
   std::vector<std::string> NamesOf(bool points, bool vectors, bool scalars) const;

@@ -24,9 +24,11 @@ Curve ReadCurve(const Map& map, std::string_view curve_key, std::string_view slo
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> pair = list.Numbers(i);
     if (pair.size() != 2) {
-      list.Problem(i, fmt::format("item {} of '{}' holds {} numbers; two were expected", i + 1, curve_key, pair.size()));
+      list.Problem(i,
+                   fmt::format("item {} of '{}' holds {} numbers; two were expected", i + 1, curve_key, pair.size()));
     } else if (!samples.empty() && !(pair[0] > samples.back().x)) {
-      list.Problem(i, fmt::format("item {} of '{}' is at {}; ascending numbers were expected", i + 1, curve_key, pair[0]));
+      list.Problem(i,
+                   fmt::format("item {} of '{}' is at {}; ascending numbers were expected", i + 1, curve_key, pair[0]));
     } else if (!(std::fabs(pair[0]) < kStiffest && std::fabs(pair[1]) < kStiffest)) {
       list.Problem(i, fmt::format("item {} of '{}' is no reasonable number", i + 1, curve_key));
     } else {
@@ -40,9 +42,11 @@ Curve ReadCurve(const Map& map, std::string_view curve_key, std::string_view slo
 
 // Names of a spring's keys: with lengths, or with angles.
 struct Keys {
-  const char *stiffness, *damping, *free, *preload, *spring_curve, *damper_curve, *stops, *stop_stiffness, *stop_damping;
+  const char *stiffness, *damping, *free, *preload, *spring_curve, *damper_curve, *stops, *stop_stiffness,
+      *stop_damping;
 };
-constexpr Keys kLengths = {"stiffness_Npm", "damping_Nspm",       "free_m",           "preload_N", "spring_m_N", "damper_mps_N",
+constexpr Keys kLengths = {"stiffness_Npm", "damping_Nspm",       "free_m",
+                           "preload_N",     "spring_m_N",         "damper_mps_N",
                            "stops_m",       "stop_stiffness_Npm", "stop_damping_Nspm"};
 constexpr Keys kAngles = {"stiffness_Nmprad", "damping_Nmsprad",       "free_rad",
                           "preload_Nm",       "spring_rad_Nm",         "damper_radps_Nm",
@@ -74,7 +78,8 @@ void DrawingReader::ReadForces(const Map& root) {
   const Map forces = root.OptionalChild("forces");
   for (const std::string& name : forces.Keys()) {
     const Map map = forces.Child(name);
-    const std::string kind = map.Choice("kind", {"spring", "torsion", "anti_roll", "force", "torque", "coordinate", "drag", "bushing"});
+    const std::string kind =
+        map.Choice("kind", {"spring", "torsion", "anti_roll", "force", "torque", "coordinate", "drag", "bushing"});
     if (auto load = ReadForce(map, kind)) drawing_.loads.push_back({name, std::move(load)});
   }
 }
@@ -87,8 +92,8 @@ std::shared_ptr<Load> DrawingReader::ReadSpring(const Map& map, bool torsion) {
     if (!coordinate) return nullptr;
     const bool angle = drawing_.entities[static_cast<std::size_t>(*coordinate)].kind == EntityKind::kAngle;
     if (angle != torsion) {
-      map.Problem("coordinate",
-                  angle ? "this is an angle; 'kind: torsion' was expected" : "this is a distance; 'kind: spring' was expected");
+      map.Problem("coordinate", angle ? "this is an angle; 'kind: torsion' was expected"
+                                      : "this is a distance; 'kind: spring' was expected");
       return nullptr;
     }
     return std::make_shared<CoordinateSpring>(*coordinate, law);
@@ -105,7 +110,8 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
   if (kind == "anti_roll") return ReadAntiRollBar(map);
   if (kind == "coordinate") {
     const auto coordinate = Entity(map, "coordinate", map.Text("coordinate"), true);
-    const bool angle = coordinate && drawing_.entities[static_cast<std::size_t>(*coordinate)].kind == EntityKind::kAngle;
+    const bool angle =
+        coordinate && drawing_.entities[static_cast<std::size_t>(*coordinate)].kind == EntityKind::kAngle;
     const Law law = ReadLaw(map, angle ? "torque_Nm" : "force_N");
     if (!coordinate) return nullptr;
     return std::make_shared<CoordinateForce>(*coordinate, law);
@@ -134,7 +140,8 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
       if (map.Has("axis")) map.Problem("axis", "'axis' has no length");
       return nullptr;
     }
-    return std::make_shared<GivenTorque>(drawing_.bodies[static_cast<std::size_t>(*body)].frame, axis.normalized(), law);
+    return std::make_shared<GivenTorque>(drawing_.bodies[static_cast<std::size_t>(*body)].frame, axis.normalized(),
+                                         law);
   }
   if (kind == "drag") {
     const auto point = Point(map, "point", map.Text("point"));
@@ -149,7 +156,8 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
 std::shared_ptr<Load> DrawingReader::ReadAntiRollBar(const Map& map) {
   const List list = map.Items("coordinates");
   if (list.size() != 2) {
-    if (map.Has("coordinates")) map.Problem("coordinates", fmt::format("'coordinates' names {}; two were expected", list.size()));
+    if (map.Has("coordinates"))
+      map.Problem("coordinates", fmt::format("'coordinates' names {}; two were expected", list.size()));
     return nullptr;
   }
   const auto a = Entity(map, "coordinates", list.Text(0), true);
@@ -186,7 +194,8 @@ std::shared_ptr<Load> DrawingReader::ReadBushing(const Map& map) {
   if (map.Has("point")) {
     const auto point = Point(map, "point", map.Text("point"));
     if (!first || !point) return nullptr;
-    return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame, *point, Drawn(*point), settings);
+    return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame, *point, Drawn(*point),
+                                     settings);
   }
   const auto second = Body(map, "second");
   const Vector3d at = ThreeNumbers(map, "at_m", 1e6);

@@ -8,16 +8,16 @@ namespace rodeira::multibody {
 
 using Eigen::Vector3d;
 
-// One summand of a form: a e + b (z × e), where e is the entity's triple of coordinates. b is 0 except on planar bodies,
-// whose second axis is the first one turned.
+// One summand of a form: a e + b (z × e), where e is the entity's triple of coordinates. b is 0 except on planar
+// bodies, whose second axis is the first one turned.
 struct Term {
   int entity = 0;
   double a = 0.0;
   double b = 0.0;
 };
 
-// A point or a direction as a linear function of the coordinates: the sum of its terms. In natural coordinates everything
-// that is fixed to a rigid body is one, which is why mass matrices are constant.
+// A point or a direction as a linear function of the coordinates: the sum of its terms. In natural coordinates
+// everything that is fixed to a rigid body is one, which is why mass matrices are constant.
 struct Form {
   std::vector<Term> terms;
 };

@@ -22,7 +22,8 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   const BodyParts& parts = drawing.bodies[static_cast<std::size_t>(body)];
   const std::string& name = drawing.body_names[static_cast<std::size_t>(body)];
   if (std::find(parts.entities.begin(), parts.entities.end(), point) == parts.entities.end()) {
-    return base::WrongInput(fmt::format("'{}' is no point of body '{}'", drawing.entities[static_cast<std::size_t>(point)].name, name));
+    return base::WrongInput(
+        fmt::format("'{}' is no point of body '{}'", drawing.entities[static_cast<std::size_t>(point)].name, name));
   }
   const std::vector<double> all_free(system.q().size(), 1.0);  // a fixed point too is pulled at
   JointForce force;
@@ -33,8 +34,10 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   for (const RowDrawing& row : parts.rows) force.rows_.emplace_back(Row(row, all_free), Find(system, row.name));
   for (const Tie& tie : parts.ties) force.ties_.emplace_back(tie, Find(system, tie.name));
   const auto unknown = [](const auto& each) { return each.second < 0; };
-  if (std::any_of(force.rows_.begin(), force.rows_.end(), unknown) || std::any_of(force.ties_.begin(), force.ties_.end(), unknown)) {
-    return base::WrongInput(fmt::format("body '{}' is kept rigid by another body that has its points too: their forces cannot be told apart", name));
+  if (std::any_of(force.rows_.begin(), force.rows_.end(), unknown) ||
+      std::any_of(force.ties_.begin(), force.ties_.end(), unknown)) {
+    return base::WrongInput(fmt::format(
+        "body '{}' is kept rigid by another body that has its points too: their forces cannot be told apart", name));
   }
   return force;
 }
@@ -57,13 +60,15 @@ Vector3d JointForce::Now(const System& system) const {
     (void)row.Evaluate(system.q().data(), system.time_s(), gradients.data());
     for (std::size_t k = 0; k < gradients.size(); ++k) {
       const auto& g = gradients[k].v;
-      if (row.entities()[k] == point_) force += multipliers[static_cast<std::size_t>(index)] * Vector3d(g[0], g[1], g[2]);
+      if (row.entities()[k] == point_)
+        force += multipliers[static_cast<std::size_t>(index)] * Vector3d(g[0], g[1], g[2]);
     }
   }
   for (const auto& [tie, index] : ties_) {
     const auto first = static_cast<std::size_t>(index);
     for (const Term& term : tie.terms) {
-      if (term.entity == point_) force += Transposed(term, Vector3d(multipliers[first], multipliers[first + 1], multipliers[first + 2]));
+      if (term.entity == point_)
+        force += Transposed(term, Vector3d(multipliers[first], multipliers[first + 1], multipliers[first + 2]));
     }
   }
   return force;

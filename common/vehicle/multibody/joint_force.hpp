@@ -8,11 +8,13 @@
 
 namespace rodeira::multibody {
 
-// What acts on one body at one of its points, from outside of it: joints with others, the ground, forces that are applied there. From the
-// body's own equations of motion, F = (M qdd + Φqᵀ λ - Q)_point with its mass, its weight and the constraints that keep it rigid.
+// What acts on one body at one of its points, from outside of it: joints with others, the ground, forces that are
+// applied there. From the body's own equations of motion, F = (M qdd + Φqᵀ λ - Q)_point with its mass, its weight and
+// the constraints that keep it rigid.
 class JointForce {
  public:
-  // Wrong input where another body, which shares the points, keeps this one rigid as well: the two cannot be told apart.
+  // Wrong input where another body, which shares the points, keeps this one rigid as well: the two cannot be told
+  // apart.
   static base::Result<JointForce> Make(const System& system, int body, int point);
   // In N, in the world's axes.
   Vector3d Now(const System& system) const;

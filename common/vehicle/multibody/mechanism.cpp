@@ -28,7 +28,8 @@ base::Result<Mechanism> LoadMechanism(const std::filesystem::path& path, const S
   return Read(file.value(), settings);
 }
 
-base::Result<Mechanism> ParseMechanism(std::string_view text, const std::filesystem::path& name, const SystemSettings& settings) {
+base::Result<Mechanism> ParseMechanism(std::string_view text, const std::filesystem::path& name,
+                                       const SystemSettings& settings) {
   auto file = config::File::Parse(text, name);
   if (!file) return file.error();
   return Read(file.value(), settings);

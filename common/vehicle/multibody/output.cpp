@@ -61,11 +61,9 @@ class OutputReader {
       if (!FindIndex(name, what, output)) return;
     } else if (what.size() != 1 || !FindOne(name, what[0], output)) {
       if (what.size() != 1)
-        outputs_.Problem(
-            name,
-            fmt::format(
-                "'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, force NAME, joint BODY P.x or angle P Q was expected",
-                outputs_.Text(name)));
+        outputs_.Problem(name, fmt::format("'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, "
+                                           "force NAME, joint BODY P.x or angle P Q was expected",
+                                           outputs_.Text(name)));
       return;
     }
     found.push_back(output);
@@ -104,14 +102,15 @@ class OutputReader {
     const bool force = what[0] == "force";
     const int count = force ? static_cast<int>(system_.drawing().loads.size()) : system_.constraints().count();
     for (int i = 0; i < count; ++i) {
-      names.push_back(force ? system_.drawing().loads[static_cast<std::size_t>(i)].name : system_.constraints().name(i));
+      names.push_back(force ? system_.drawing().loads[static_cast<std::size_t>(i)].name
+                            : system_.constraints().name(i));
       if (names.back() != wanted) continue;
       output.kind_ = force ? Output::Kind::kForce : Output::Kind::kReaction;
       output.index_ = i;
       return true;
     }
-    outputs_.Problem(name,
-                     fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
+    outputs_.Problem(
+        name, fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
     return false;
   }
 
@@ -119,10 +118,12 @@ class OutputReader {
   bool FindJoint(const std::string& name, const std::string& body, const std::string& at, Output& output) {
     const std::vector<std::string>& names = system_.drawing().body_names;
     const auto which = std::find(names.begin(), names.end(), body);
-    const std::size_t component = at.size() > 2 && at[at.size() - 2] == '.' ? std::string("xyz").find(at.back()) : std::string::npos;
+    const std::size_t component =
+        at.size() > 2 && at[at.size() - 2] == '.' ? std::string("xyz").find(at.back()) : std::string::npos;
     if (which == names.end() || component == std::string::npos) {
-      outputs_.Problem(name, which == names.end() ? fmt::format("'{}' is no body{}", body, base::DidYouMean(body, names))
-                                            : fmt::format("'{}' was found; a point and .x, .y or .z was expected", at));
+      outputs_.Problem(name, which == names.end()
+                                 ? fmt::format("'{}' is no body{}", body, base::DidYouMean(body, names))
+                                 : fmt::format("'{}' was found; a point and .x, .y or .z was expected", at));
       return false;
     }
     const auto point = reader_.Entity(outputs_, name, at.substr(0, at.size() - 2), false);
@@ -160,13 +161,15 @@ class OutputReader {
     const std::size_t component = std::string("xyz").find(part.back());
     const std::string kind = part.substr(0, part.size() - 1);
     if (component == std::string::npos || (kind != "" && kind != "v" && kind != "a")) {
-      outputs_.Problem(name,
-                       fmt::format("'{}' was found after the dot; x, y, z, vx … az, rate or acceleration was expected", part));
+      outputs_.Problem(
+          name, fmt::format("'{}' was found after the dot; x, y, z, vx … az, rate or acceleration was expected", part));
       return false;
     }
     const auto point = reader_.Point(outputs_, name, of);
     if (!point) return false;
-    output.kind_ = kind.empty() ? Output::Kind::kPosition : kind == "v" ? Output::Kind::kVelocity : Output::Kind::kAcceleration;
+    output.kind_ = kind.empty()  ? Output::Kind::kPosition
+                   : kind == "v" ? Output::Kind::kVelocity
+                                 : Output::Kind::kAcceleration;
     output.form_ = *point;
     output.component_ = static_cast<int>(component);
     return true;

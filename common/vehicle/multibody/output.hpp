@@ -19,7 +19,18 @@ class Output {
 
  private:
   friend class OutputReader;
-  enum class Kind { kPosition, kVelocity, kAcceleration, kAngle, kEnergy, kKinetic, kPotential, kReaction, kForce, kJoint };
+  enum class Kind {
+    kPosition,
+    kVelocity,
+    kAcceleration,
+    kAngle,
+    kEnergy,
+    kKinetic,
+    kPotential,
+    kReaction,
+    kForce,
+    kJoint
+  };
   Kind kind_ = Kind::kEnergy;
   Form form_;
   int component_ = 0;
@@ -27,9 +38,10 @@ class Output {
   std::optional<JointForce> joint_;
 };
 
-// Outputs of a file: NAME: WHAT, where WHAT is "P.x", "P.vx", "P.ax" (y, z likewise), a coordinate "beta", "beta.rate" or
-// "beta.acceleration", "angle P Q" (in the plane, from world x, within ±pi), "energy", "kinetic", "potential",
-// "reaction CONSTRAINT", "force FORCE" or "joint BODY P.x" (what acts on the body at its point, y, z likewise). Without outputs: every point that moves, every coordinate, energy.
+// Outputs of a file: NAME: WHAT, where WHAT is "P.x", "P.vx", "P.ax" (y, z likewise), a coordinate "beta", "beta.rate"
+// or "beta.acceleration", "angle P Q" (in the plane, from world x, within ±pi), "energy", "kinetic", "potential",
+// "reaction CONSTRAINT", "force FORCE" or "joint BODY P.x" (what acts on the body at its point, y, z likewise). Without
+// outputs: every point that moves, every coordinate, energy.
 std::vector<Output> ReadOutputs(const config::Map& root, const DrawingReader& reader, const System& system);
 
 }  // namespace rodeira::multibody

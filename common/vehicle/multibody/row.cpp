@@ -133,8 +133,8 @@ double Row::Evaluate(const double* q, double time_s, Triple* gradients) const {
   }
   const double sine = std::sin(s), cosine = std::cos(s);
   const double uw = u.dot(w), uv = u.dot(v);
-  Gradients({scale_ * (cosine * w - sine * v), -scale_ * sine * u, scale_ * cosine * u}, -scale_ * (uw * sine + uv * cosine),
-            gradients);
+  Gradients({scale_ * (cosine * w - sine * v), -scale_ * sine * u, scale_ * cosine * u},
+            -scale_ * (uw * sine + uv * cosine), gradients);
   return scale_ * (uw * cosine - uv * sine);
 }
 
@@ -147,13 +147,14 @@ double Row::Bias(const double* q, const double* qd, double time_s) const {
   const auto [ud, vd, wd] = DirectionsAt(qd);
   if (kind_ == RowKind::kDot || kind_ == RowKind::kSlide) return 2.0 * scale_ * vd.dot(wd);
   const auto [u, v, w] = DirectionsAt(q);
-  if (kind_ == RowKind::kTriple) return 2.0 * scale_ * (ud.cross(vd).dot(w) + ud.cross(v).dot(wd) + u.cross(vd).dot(wd));
+  if (kind_ == RowKind::kTriple)
+    return 2.0 * scale_ * (ud.cross(vd).dot(w) + ud.cross(v).dot(wd) + u.cross(vd).dot(wd));
   const double sd = qd[3 * coordinate_];
   const double sine = std::sin(q[3 * coordinate_]), cosine = std::cos(q[3 * coordinate_]);
   const double uw = u.dot(w), uv = u.dot(v);
   const double uw_rate = ud.dot(w) + u.dot(wd), uv_rate = ud.dot(v) + u.dot(vd);
-  return scale_ * (2.0 * ud.dot(wd) * cosine - 2.0 * ud.dot(vd) * sine - 2.0 * sd * (uw_rate * sine + uv_rate * cosine) -
-                   sd * sd * (uw * cosine - uv * sine));
+  return scale_ * (2.0 * ud.dot(wd) * cosine - 2.0 * ud.dot(vd) * sine -
+                   2.0 * sd * (uw_rate * sine + uv_rate * cosine) - sd * sd * (uw * cosine - uv * sine));
 }
 
 }  // namespace rodeira::multibody

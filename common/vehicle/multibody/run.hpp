@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
-#include "common/vehicle/multibody/mechanism.hpp"
 #include "common/core/plot/table.hpp"
+#include "common/vehicle/multibody/mechanism.hpp"
 
 namespace rodeira::multibody {
 
@@ -23,8 +23,8 @@ struct RunSummary {
 };
 
 // Runs until `until_s` in steps of `step_s`; `table` gets the outputs at the beginning and after every step;
-// `progress` is called now and then with a share from 0 to 1. Wrong input for times that make no sense or a table beyond 100
-// million values; failed, with the time, where a step does not converge (the table then ends there).
+// `progress` is called now and then with a share from 0 to 1. Wrong input for times that make no sense or a table
+// beyond 100 million values; failed, with the time, where a step does not converge (the table then ends there).
 base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, plot::Table& table, RunSummary& summary,
                           const std::function<void(double)>& progress = {});
 

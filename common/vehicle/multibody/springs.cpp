@@ -17,7 +17,9 @@ double SpringLaw::Force(double x, double rate) const {
   return force;
 }
 
-double SpringLaw::Stiffness(double x) const { return spring.Slope(x - free) + (x > high || x < low ? stop_stiffness : 0.0); }
+double SpringLaw::Stiffness(double x) const {
+  return spring.Slope(x - free) + (x > high || x < low ? stop_stiffness : 0.0);
+}
 
 double SpringLaw::Damping(double x, double rate) const {
   return damper.Slope(rate) + ((x > high && rate > 0.0) || (x < low && rate < 0.0) ? stop_damping : 0.0);
@@ -28,7 +30,8 @@ double SpringLaw::Energy(double x) const {
   return preload * (x - free) + spring.Integral(x - free) + 0.5 * stop_stiffness * beyond * beyond;
 }
 
-PointSpring::PointSpring(const Form& from, const Form& to, SpringLaw law) : way_(Sum(to, from, -1.0)), law_(std::move(law)) {}
+PointSpring::PointSpring(const Form& from, const Form& to, SpringLaw law)
+    : way_(Sum(to, from, -1.0)), law_(std::move(law)) {}
 
 std::vector<int> PointSpring::Stiffens() const { return EntitiesOf(way_); }
 

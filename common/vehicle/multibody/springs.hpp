@@ -10,7 +10,8 @@
 
 namespace rodeira::multibody {
 
-// Force over a length (or angle) x and its rate: spring, damper, stops. Tension, or pull back towards less x, is positive.
+// Force over a length (or angle) x and its rate: spring, damper, stops. Tension, or pull back towards less x, is
+// positive.
 struct SpringLaw {
   Curve spring;                                           // over x - free
   double free = 0.0;                                      // x without spring force
@@ -48,7 +49,9 @@ class CoordinateSpring final : public Load {
   std::vector<int> Stiffens() const override { return {coordinate_}; }
   void Add(const Motion& motion, Sink& sink) const override;
   double Energy(const Motion& motion) const override { return law_.Energy(motion.q[3 * coordinate_]); }
-  double Force(const Motion& motion) const override { return law_.Force(motion.q[3 * coordinate_], motion.qd[3 * coordinate_]); }
+  double Force(const Motion& motion) const override {
+    return law_.Force(motion.q[3 * coordinate_], motion.qd[3 * coordinate_]);
+  }
   double ForceAtRest(const Motion& motion) const override { return law_.Force(motion.q[3 * coordinate_], 0.0); }
 
  private:
@@ -56,8 +59,8 @@ class CoordinateSpring final : public Load {
   SpringLaw law_;
 };
 
-// An anti-roll bar between two coordinates of one kind, distances or angles: it pushes both by the difference of what they
-// have moved since they were drawn, F = k ((b - b0) - (a - a0)) + c (bd - ad), a by +F and b by -F.
+// An anti-roll bar between two coordinates of one kind, distances or angles: it pushes both by the difference of what
+// they have moved since they were drawn, F = k ((b - b0) - (a - a0)) + c (bd - ad), a by +F and b by -F.
 class AntiRollBar final : public Load {
  public:
   struct Settings {
@@ -84,7 +87,9 @@ class GivenForce final : public Load {
  public:
   GivenForce(Form point, const Vector3d& direction, const Law& law)
       : point_(std::move(point)), direction_(direction), law_(law) {}
-  void Add(const Motion& motion, Sink& sink) const override { sink.Push(point_, law_.Value(motion.time_s) * direction_); }
+  void Add(const Motion& motion, Sink& sink) const override {
+    sink.Push(point_, law_.Value(motion.time_s) * direction_);
+  }
   double Force(const Motion& motion) const override { return law_.Value(motion.time_s) * direction_.norm(); }
 
  private:
@@ -124,7 +129,9 @@ class Drag final : public Load {
  public:
   Drag(Form point, double half_rho_area_kgpm) : point_(std::move(point)), half_rho_area_kgpm_(half_rho_area_kgpm) {}
   void Add(const Motion& motion, Sink& sink) const override;
-  double Force(const Motion& motion) const override { return half_rho_area_kgpm_ * Evaluate(point_, motion.qd).squaredNorm(); }
+  double Force(const Motion& motion) const override {
+    return half_rho_area_kgpm_ * Evaluate(point_, motion.qd).squaredNorm();
+  }
 
  private:
   Form point_;

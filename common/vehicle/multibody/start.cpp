@@ -49,8 +49,8 @@ base::Status System::Assemble() {
   for (int turn = 0; turn < kAssemblyTurns && violation > kAssembled_m; ++turn) {
     const Eigen::MatrixXd jacobian = Jacobian(constraints_, columns, q_.size());
     const auto values = constraints_.values();
-    const Eigen::VectorXd step =
-        jacobian.completeOrthogonalDecomposition().solve(Eigen::Map<const Eigen::VectorXd>(values.data(), constraints_.count()));
+    const Eigen::VectorXd step = jacobian.completeOrthogonalDecomposition().solve(
+        Eigen::Map<const Eigen::VectorXd>(values.data(), constraints_.count()));
     if (!step.allFinite()) break;
     // Shortened where the whole step would not help.
     const std::vector<double> before = q_;
@@ -75,11 +75,13 @@ base::Status System::Assemble() {
   int worst = 0;
   const auto values = constraints_.values();
   for (int i = 1; i < constraints_.count(); ++i) {
-    if (!(std::fabs(values[static_cast<std::size_t>(i)]) <= std::fabs(values[static_cast<std::size_t>(worst)]))) worst = i;
+    if (!(std::fabs(values[static_cast<std::size_t>(i)]) <= std::fabs(values[static_cast<std::size_t>(worst)])))
+      worst = i;
   }
   return base::WrongInput(
-      fmt::format("the mechanism cannot be assembled: at the nearest position found, '{}' is still off by {:.3g} (m or rad)",
-                  constraints_.name(worst), std::fabs(values[static_cast<std::size_t>(worst)])),
+      fmt::format(
+          "the mechanism cannot be assembled: at the nearest position found, '{}' is still off by {:.3g} (m or rad)",
+          constraints_.name(worst), std::fabs(values[static_cast<std::size_t>(worst)])),
       constraints_.place(worst));
 }
 
@@ -106,13 +108,14 @@ base::Status System::CheckIndependence() const {
       const double size = rest.norm();
       const bool tie_of_fixed = row >= constraints.rows() && size == 0.0;  // a planar mechanism's z
       if (tie_of_fixed) continue;
-      for (int twice = 0; twice < 2; ++twice) rest -= basis.leftCols(known) * (basis.leftCols(known).transpose() * rest);
+      for (int twice = 0; twice < 2; ++twice)
+        rest -= basis.leftCols(known) * (basis.leftCols(known).transpose() * rest);
       if (!(rest.norm() > kDependent * size)) {
         return base::WrongInput(
-            fmt::format(
-                "constraint '{}' says nothing that the others do not say already at this position (it is redundant, or the "
-                "position is singular); leave it out, move the position, or say 'redundant: true'",
-                constraints.name(row)),
+            fmt::format("constraint '{}' says nothing that the others do not say already at this position (it is "
+                        "redundant, or the "
+                        "position is singular); leave it out, move the position, or say 'redundant: true'",
+                        constraints.name(row)),
             constraints.place(row));
       }
       basis.col(known++) = rest.normalized();
@@ -122,7 +125,8 @@ base::Status System::CheckIndependence() const {
   double largest = 0.0;
   for (const MassTerm& term : mass_) largest = std::max(largest, std::fabs(term.a));
   std::vector<Eigen::Index> column(q_.size(), -1);
-  for (std::size_t k = 0; k < columns.size(); ++k) column[static_cast<std::size_t>(columns[k])] = static_cast<Eigen::Index>(k);
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    column[static_cast<std::size_t>(columns[k])] = static_cast<Eigen::Index>(k);
   for (const MassTerm& term : mass_) {
     for (int c = 0; c < 3; ++c) {
       for (int d = 0; d < 2 || d == c; ++d) {
@@ -139,9 +143,10 @@ base::Status System::CheckIndependence() const {
   if (eigen.eigenvalues()[0] > kMassless * eigen.eigenvalues().tail(1)[0]) return {};
   Eigen::Index loose = 0;
   eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&loose);
-  const EntityDrawing& entity = drawing_.entities[static_cast<std::size_t>(columns[static_cast<std::size_t>(loose)] / 3)];
-  return base::WrongInput(fmt::format("'{}' can move but has no mass: no body and no constraint gives it any", entity.name),
-                          entity.place);
+  const EntityDrawing& entity =
+      drawing_.entities[static_cast<std::size_t>(columns[static_cast<std::size_t>(loose)] / 3)];
+  return base::WrongInput(
+      fmt::format("'{}' can move but has no mass: no body and no constraint gives it any", entity.name), entity.place);
 }
 
 base::Status System::FindVelocities() {
@@ -232,8 +237,8 @@ base::Status System::Start() {
   return {};
 }
 
-// Backward Euler in pseudo-time: (M/τ² + K + Φqᵀ w Φq) Δ = -(R), velocities zero; τ grows while the residual falls, until
-// the mass no longer matters.
+// Backward Euler in pseudo-time: (M/τ² + K + Φqᵀ w Φq) Δ = -(R), velocities zero; τ grows while the residual falls,
+// until the mass no longer matters.
 bool System::FindEquilibrium(double residual_mps2, int most_iterations) {
   std::fill(qd_.begin(), qd_.end(), 0.0);
   double pseudo_s = 0.01;

@@ -13,8 +13,8 @@ constexpr double kRounding = 5e-16;     // far from the world's origin a length 
 constexpr double kSettledShare = 0.01;  // a projection ends when its next turn would be this small against its first
 constexpr double kNearer = 0.3;         // a turn that leaves more than this has got no nearer
 constexpr double kDoubt = 1.05;         // a contraction that was not measured is trusted that much less a step
-constexpr double kCarried = 0.1;        // of what a change may be, where its contraction was measured in an earlier step
-constexpr double kLeast = 1e-6;         // and none below this, which would be rounding
+constexpr double kCarried = 0.1;  // of what a change may be, where its contraction was measured in an earlier step
+constexpr double kLeast = 1e-6;   // and none below this, which would be rounding
 
 }  // namespace
 
@@ -141,8 +141,9 @@ bool System::Refresh(double dt_s, StepReport& report) {
   return Factorise(dt_s);
 }
 
-// The v nearest to the given one in the metric of M that fulfils Φq v + bias = 0 (bias_ holds it): M (v - v*) + Φqᵀ nu = 0 by
-// augmented Lagrangian, so that the result does not depend on the matrix having been made at exactly these coordinates. nu_ holds nu then.
+// The v nearest to the given one in the metric of M that fulfils Φq v + bias = 0 (bias_ holds it): M (v - v*) + Φqᵀ nu
+// = 0 by augmented Lagrangian, so that the result does not depend on the matrix having been made at exactly these
+// coordinates. nu_ holds nu then.
 bool System::Project(std::vector<double>& v, double wanted, double accepted, StepReport& report) {
   std::copy(v.begin(), v.end(), way_.begin());
   std::fill(nu_.begin(), nu_.end(), 0.0);
@@ -155,7 +156,8 @@ bool System::Project(std::vector<double>& v, double wanted, double accepted, Ste
     for (std::size_t i = 0; i < mu_.size(); ++i) mu_[i] += bias_[i];
     const double violation = LargestOf(mu_);
     const bool settled = turn == 0 || (turn > 1 && changed * changed <= kSettledShare * first * changed_before);
-    const bool done = (violation <= wanted && settled) || (violation <= accepted && violation > kNearer * before && turn > 2);
+    const bool done =
+        (violation <= wanted && settled) || (violation <= accepted && violation > kNearer * before && turn > 2);
     if (done) {
       for (std::size_t i = 0; turn > 0 && i < mu_.size(); ++i) nu_[i] += weight_ * mu_[i];
       return true;

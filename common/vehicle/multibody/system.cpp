@@ -21,8 +21,10 @@ double LargestOf(std::span<const double> values) {
   Pair first{}, second{}, nothing{};  // the last stays 0 unless something is not finite
   const std::size_t even = values.size() / 4 * 4;
   for (std::size_t i = 0; i < even; i += 4) {
-    const Pair a = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i)) & kWithoutSign);
-    const Pair b = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i + 2)) & kWithoutSign);
+    const Pair a = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i)) &
+                                          kWithoutSign);
+    const Pair b = reinterpret_cast<Pair>(
+        reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i + 2)) & kWithoutSign);
     first = a > first ? a : first;
     second = b > second ? b : second;
     nothing += 0.0 * a + 0.0 * b;
@@ -80,7 +82,8 @@ base::Status System::Compile() {
       return std::any_of(drawing_.bodies.begin(), drawing_.bodies.begin() + static_cast<std::ptrdiff_t>(b),
                          [&both](const BodyParts& other) {
                            return std::all_of(both.terms.begin(), both.terms.end(), [&other](const Term& term) {
-                             return std::find(other.entities.begin(), other.entities.end(), term.entity) != other.entities.end();
+                             return std::find(other.entities.begin(), other.entities.end(), term.entity) !=
+                                    other.entities.end();
                            });
                          });
     };
@@ -90,7 +93,8 @@ base::Status System::Compile() {
     ties.insert(ties.end(), body.ties.begin(), body.ties.end());
   }
   rows.insert(rows.end(), drawing_.rows.begin(), drawing_.rows.end());
-  // Bodies that share two points or vectors keep the same length: once is enough. A row between fixed entities says nothing.
+  // Bodies that share two points or vectors keep the same length: once is enough. A row between fixed entities says
+  // nothing.
   std::vector<RowDrawing> different;
   for (const RowDrawing& row : rows) {
     if (Row(row, free_).entities().empty()) continue;
@@ -127,7 +131,8 @@ base::Status System::Compile() {
   constraints_ = Constraints(different, ties, free_);
 
   const std::size_t size = q_.size();
-  for (auto* each : {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &earlier_, &earlier0_, &way_, &forces_, &residual_, &change_, &weight_force_})
+  for (auto* each :
+       {&qd_, &qdd_, &q0_, &qd0_, &qdd0_, &earlier_, &earlier0_, &way_, &forces_, &residual_, &change_, &weight_force_})
     each->assign(size, 0.0);
   lambda_.assign(static_cast<std::size_t>(constraints_.count()), 0.0);
   mu_.assign(lambda_.size(), 0.0);
@@ -163,8 +168,10 @@ base::Status System::CompileMass() {
   constraints_.Bind(matrix_);
   BindLoads();
 
-  // Terms between fixed entities move nothing; those of a fixed and a free one neither, as the fixed one has no acceleration.
-  std::erase_if(mass_, [this](const MassTerm& term) { return !matrix_.IsFree(term.row) || !matrix_.IsFree(term.column); });
+  // Terms between fixed entities move nothing; those of a fixed and a free one neither, as the fixed one has no
+  // acceleration.
+  std::erase_if(mass_,
+                [this](const MassTerm& term) { return !matrix_.IsFree(term.row) || !matrix_.IsFree(term.column); });
   double largest = 0.0;
   constant_.assign(matrix_.values().size(), Block{});
   for (const MassTerm& term : mass_) {
@@ -196,7 +203,8 @@ base::Status System::CompileMass() {
     }
   }
   constraints_.AddTies(matrix_, weight_, constant_.data());
-  for (const BodyParts& body : drawing_.bodies) Push(body.centre, body.mass_kg * drawing_.gravity_mps2, weight_force_.data());
+  for (const BodyParts& body : drawing_.bodies)
+    Push(body.centre, body.mass_kg * drawing_.gravity_mps2, weight_force_.data());
   return {};
 }
 

@@ -21,8 +21,8 @@ struct SystemSettings {
   double violation_m = 1e-10;   // … and no constraint is off by more
   double violation_mps = 1e-7;  // the projections end below these
   double violation_mps2 = 1e-4;
-  // Where an iteration gets no nearer (at singular positions constraints become dependent, and their multipliers converge
-  // slowly) this is still accepted; accelerations are accepted as they are.
+  // Where an iteration gets no nearer (at singular positions constraints become dependent, and their multipliers
+  // converge slowly) this is still accepted; accelerations are accepted as they are.
   double accepted_m = 1e-8;
   double accepted_mps = 1e-6;
   int most_iterations = 30;
@@ -41,9 +41,9 @@ struct StepReport {
   int factorisations = 0;
 };
 
-// How much of the error a turn of Newton's method leaves: measured where two changes of one step are known, carried along to
-// steps that have one as yet, where its product with the change says whether a second turn would bring anything. What is
-// not measured anew is trusted less from step to step.
+// How much of the error a turn of Newton's method leaves: measured where two changes of one step are known, carried
+// along to steps that have one as yet, where its product with the change says whether a second turn would bring
+// anything. What is not measured anew is trusted less from step to step.
 struct Contraction {
   double rate = 1.0;
 
@@ -60,15 +60,15 @@ struct Contraction {
 // (2000) 55-73):
 //   M qdd + Φqᵀ(αΦ + λ) = Q,   λ += αΦ,   qd and qdd brought onto Φq qd + Φt = 0 and its derivative.
 // Coordinates stand in triples, entity after entity; those that are fixed stand among them. M is constant, the matrix
-// M + h/2 C + h²/4 (K + Φqᵀ α Φq) is made of 3 × 3 blocks whose pattern is found once. After Make, no call allocates but
-// Assemble, CheckIndependence and FindVelocities. Same calls, same bits.
+// M + h/2 C + h²/4 (K + Φqᵀ α Φq) is made of 3 × 3 blocks whose pattern is found once. After Make, no call allocates
+// but Assemble, CheckIndependence and FindVelocities. Same calls, same bits.
 class System {
  public:
   // Compiles the drawing; nothing is solved yet. Wrong input where nothing can move or nothing has mass.
   static base::Result<std::unique_ptr<System>> Make(const Drawing& drawing, const SystemSettings& settings = {});
 
-  // The initial position problem: the nearest coordinates that fulfil all constraints. Wrong input, naming the constraint
-  // with the largest violation, where none are found.
+  // The initial position problem: the nearest coordinates that fulfil all constraints. Wrong input, naming the
+  // constraint with the largest violation, where none are found.
   base::Status Assemble();
   // Wrong input where a constraint follows from the others at this position (unless the drawing allows it), or where a
   // coordinate has neither mass nor constraint.
@@ -80,8 +80,8 @@ class System {
   // All four.
   base::Status Start();
 
-  // Coordinates and velocities in dt_s if the accelerations stay as they are: what a load that must be set before a step may act on. Three
-  // numbers an entity each.
+  // Coordinates and velocities in dt_s if the accelerations stay as they are: what a load that must be set before a
+  // step may act on. Three numbers an entity each.
   void Foresee(double dt_s, std::span<double> q, std::span<double> qd) const;
 
   // Advances by dt_s over 0. Where it does not converge the state is what the last iteration left.
@@ -106,8 +106,8 @@ class System {
   Motion motion() const { return {q_.data(), qd_.data(), time_s_}; }
   Motion acceleration() const { return {q_.data(), qdd_.data(), time_s_}; }  // At: position, RateOf: acceleration
   Motion velocity_and_acceleration() const { return {qd_.data(), qdd_.data(), time_s_}; }
-  // Forces (torques) of the constraints, in the constraints' order; positive pulls the row's value down. They belong to qdd() as it has been
-  // projected: M qdd + Φqᵀ multipliers = Q. After Restore: from the next step on.
+  // Forces (torques) of the constraints, in the constraints' order; positive pulls the row's value down. They belong to
+  // qdd() as it has been projected: M qdd + Φqᵀ multipliers = Q. After Restore: from the next step on.
   std::span<const double> multipliers() const { return reactions_; }
   double KineticEnergy() const;
   // Of weight and of the loads that have one.
@@ -118,7 +118,8 @@ class System {
   double RateViolation();
 
   // Static equilibrium from the present position, velocities zero, by Newton's method in pseudo-time: a step of growing
-  // length with damping. True where the residual acceleration is below `residual_mps2`; multipliers are then those of rest.
+  // length with damping. True where the residual acceleration is below `residual_mps2`; multipliers are then those of
+  // rest.
   [[nodiscard]] bool FindEquilibrium(double residual_mps2, int most_iterations = 500);
 
   void Save(base::StateWriter& writer) const;
@@ -164,7 +165,8 @@ class System {
   double earlier0_s_ = 0.0;
   Contraction newton0_;
   // Scratch, of no meaning between calls.
-  std::vector<double> q0_, qd0_, qdd0_, lambda0_, earlier0_, way_, forces_, residual_, change_, mu_, nu_, bias_, reactions_;
+  std::vector<double> q0_, qd0_, qdd0_, lambda0_, earlier0_, way_, forces_, residual_, change_, mu_, nu_, bias_,
+      reactions_;
 };
 
 }  // namespace rodeira::multibody

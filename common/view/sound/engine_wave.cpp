@@ -12,11 +12,14 @@ EngineWave::EngineWave(double load) {
   std::array<double, kPoints> wave{};
   for (int k = 1; k <= kHarmonics; ++k) {
     const bool firing = k % kFirings == 0;
-    const double amplitude = firing ? std::pow(static_cast<double>(k) / kFirings, -1.7 + 0.9 * load) : 0.11 * std::pow(k, -0.6);
+    const double amplitude =
+        firing ? std::pow(static_cast<double>(k) / kFirings, -1.7 + 0.9 * load) : 0.11 * std::pow(k, -0.6);
     const double phase = base::RandomUniform({17, static_cast<std::uint64_t>(k)}, 0.0, 2.0 * std::numbers::pi);
-    for (std::size_t i = 0; i < kPoints; ++i) wave[i] += amplitude * std::sin(2.0 * std::numbers::pi * k * static_cast<double>(i) / kPoints + phase);
+    for (std::size_t i = 0; i < kPoints; ++i)
+      wave[i] += amplitude * std::sin(2.0 * std::numbers::pi * k * static_cast<double>(i) / kPoints + phase);
   }
-  const double most = std::fabs(*std::max_element(wave.begin(), wave.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
+  const double most = std::fabs(
+      *std::max_element(wave.begin(), wave.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));
   for (std::size_t i = 0; i < kPoints; ++i) wave_[i] = static_cast<float>(wave[i] / most);
   wave_[kPoints] = wave_[0];
 }

@@ -5,8 +5,9 @@
 
 namespace rodeira::sound {
 
-// One cycle (two turns) of a four-stroke engine with four cylinders as a wave, without its mean, at most 1: it fires four times, so that the
-// fourth harmonic of the cycle leads; the others are the unevenness of its cylinders. The more load, the more of the high ones.
+// One cycle (two turns) of a four-stroke engine with four cylinders as a wave, without its mean, at most 1: it fires
+// four times, so that the fourth harmonic of the cycle leads; the others are the unevenness of its cylinders. The more
+// load, the more of the high ones.
 class EngineWave {
  public:
   explicit EngineWave(double load);

@@ -18,8 +18,12 @@ double PoleOf(double cut_Hz) { return 1.0 - std::exp(-2.0 * std::numbers::pi * c
 double Between(double a, double b, double share) { return a + (b - a) * share; }
 
 Voice Between(const Voice& a, const Voice& b, double share) {
-  return {Between(a.engine_rpm, b.engine_rpm, share), Between(a.load, b.load, share), Between(a.speed_mps, b.speed_mps, share),
-          Between(a.sliding, b.sliding, share),       Between(a.gain, b.gain, share), Between(a.pan, b.pan, share),
+  return {Between(a.engine_rpm, b.engine_rpm, share),
+          Between(a.load, b.load, share),
+          Between(a.speed_mps, b.speed_mps, share),
+          Between(a.sliding, b.sliding, share),
+          Between(a.gain, b.gain, share),
+          Between(a.pan, b.pan, share),
           Between(a.horn, b.horn, share)};
 }
 
@@ -28,7 +32,8 @@ double HornNote(double& cycle, double frequency_Hz) {
   cycle += frequency_Hz * kSample_s;
   cycle -= std::floor(cycle);
   double note = 0.0;
-  for (int overtone = 1; overtone <= 8; ++overtone) note += std::sin(2.0 * std::numbers::pi * overtone * cycle) / overtone;
+  for (int overtone = 1; overtone <= 8; ++overtone)
+    note += std::sin(2.0 * std::numbers::pi * overtone * cycle) / overtone;
   return note;
 }
 
@@ -44,7 +49,8 @@ double Synth::OneSample(const Voice& voice, State& state) {
   state.cycle += voice.engine_rpm / 120.0 * kSample_s;
   state.cycle -= std::floor(state.cycle);
   const double running = std::clamp(voice.engine_rpm / kIdle_rpm - 1.0, 0.0, 1.0);
-  const double tone = Between(static_cast<double>(coasting_.At(state.cycle)), static_cast<double>(pulling_.At(state.cycle)), voice.load);
+  const double tone = Between(static_cast<double>(coasting_.At(state.cycle)),
+                              static_cast<double>(pulling_.At(state.cycle)), voice.load);
   double out = running * (0.10 + 0.16 * voice.load + 0.10 * std::min(voice.engine_rpm / 6000.0, 1.0)) * tone;
 
   const double fast = std::min(std::fabs(voice.speed_mps) / 40.0, 1.5);
@@ -58,7 +64,8 @@ double Synth::OneSample(const Voice& voice, State& state) {
   q.second += kTune * q.band;
   q.band += kTune * (Noise() - q.second - q.band / kSquealSharpness);
   out += 0.32 * voice.sliding * q.band;
-  if (voice.horn > 0.0) out += 0.22 * voice.horn * (HornNote(state.low_horn, kLowHorn_Hz) + HornNote(state.high_horn, kHighHorn_Hz));
+  if (voice.horn > 0.0)
+    out += 0.22 * voice.horn * (HornNote(state.low_horn, kLowHorn_Hz) + HornNote(state.high_horn, kHighHorn_Hz));
   return voice.gain * out;
 }
 
@@ -70,7 +77,8 @@ void Synth::Render(const Heard& heard, std::span<float> stereo) {
     state.last = voice;
     state.last.gain = 0.0;
   }
-  static const double kWindPole = PoleOf(700.0), kCrashPole = PoleOf(1400.0), kRainPole = PoleOf(2500.0), kCrashFall = std::exp(-kSample_s / kCrashDecay_s);
+  static const double kWindPole = PoleOf(700.0), kCrashPole = PoleOf(1400.0), kRainPole = PoleOf(2500.0),
+                      kCrashFall = std::exp(-kSample_s / kCrashDecay_s);
   crash_ = std::max(crash_, heard.crash);
   for (std::size_t i = 0; i < count; ++i) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(count);
@@ -92,7 +100,8 @@ void Synth::Render(const Heard& heard, std::span<float> stereo) {
     rain_ += kRainPole * (Noise() - rain_);
     crash_low_ += kCrashPole * (Noise() - crash_low_);
     const double drops = 0.10 * Between(last_.rain, heard.rain, share) * (Noise() - rain_);
-    const double everywhere = 0.55 * std::min(fast * fast, 2.0) * wind_ * heard.own.gain + drops + 2.2 * crash_ * crash_low_;
+    const double everywhere =
+        0.55 * std::min(fast * fast, 2.0) * wind_ * heard.own.gain + drops + 2.2 * crash_ * crash_low_;
     crash_ *= kCrashFall;
     const double volume = Between(last_.volume, heard.volume, share);
     stereo[2 * i] = static_cast<float>(std::tanh(volume * (left + everywhere)));

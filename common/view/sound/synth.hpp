@@ -17,22 +17,23 @@ struct Voice {
   double engine_rpm = 0.0;  // 0: it stands still
   double load = 0.0;        // 0 … 1
   double speed_mps = 0.0;
-  double sliding = 0.0;     // of its tyres: 0 they roll … 1
-  double gain = 1.0;        // 1: as loud as from inside of it
-  double pan = 0.0;         // -1 left … 1 right
-  double horn = 0.0;        // 0 … 1: it sounds
+  double sliding = 0.0;  // of its tyres: 0 they roll … 1
+  double gain = 1.0;     // 1: as loud as from inside of it
+  double pan = 0.0;      // -1 left … 1 right
+  double horn = 0.0;     // 0 … 1: it sounds
 };
 
 struct Heard {
-  Voice own;                               // its wind is heard too
-  std::map<std::uint64_t, Voice> others;   // by id
-  double rain = 0.0;                       // 0 … 1
-  double crash = 0.0;                      // of a blow now: 0 none … 1
+  Voice own;                              // its wind is heard too
+  std::map<std::uint64_t, Voice> others;  // by id
+  double rain = 0.0;                      // 0 … 1
+  double crash = 0.0;                     // of a blow now: 0 none … 1
   double volume = 1.0;
 };
 
-// From numbers to samples. What changes between two calls changes evenly over the samples of the later one, so that nothing clicks; who
-// comes fades in, who goes fades out. Where nothing changes, the samples do not depend on how many are asked for at once.
+// From numbers to samples. What changes between two calls changes evenly over the samples of the later one, so that
+// nothing clicks; who comes fades in, who goes fades out. Where nothing changes, the samples do not depend on how many
+// are asked for at once.
 class Synth {
  public:
   // Left and right in turn, each in [-1, 1].
@@ -44,7 +45,7 @@ class Synth {
   };
   struct State {
     Voice last;
-    double cycle = 0.0;  // share of the engine's
+    double cycle = 0.0;                      // share of the engine's
     double low_horn = 0.0, high_horn = 0.0;  // shares of the two notes' cycles
     Filtered road, squeal;
   };

@@ -15,7 +15,9 @@ struct Image {
   int height_px = 0;
   std::vector<std::uint8_t> rgb;
 
-  const std::uint8_t* At(int x, int y) const { return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x))]; }
+  const std::uint8_t* At(int x, int y) const {
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x))];
+  }
   bool operator==(const Image&) const = default;
 };
 

@@ -34,10 +34,14 @@ constexpr std::array<std::pair<ImGuiKey, SDL_Scancode>, 22> kKeys = {{{ImGuiKey_
 
 int ButtonOf(const SDL_MouseButtonEvent& event) {
   switch (event.button) {
-    case SDL_BUTTON_LEFT: return 0;
-    case SDL_BUTTON_RIGHT: return 1;
-    case SDL_BUTTON_MIDDLE: return 2;
-    default: return -1;
+    case SDL_BUTTON_LEFT:
+      return 0;
+    case SDL_BUTTON_RIGHT:
+      return 1;
+    case SDL_BUTTON_MIDDLE:
+      return 2;
+    default:
+      return -1;
   }
 }
 
@@ -100,9 +104,15 @@ bool Input::Take(int wait_ms) {
 bool Input::Give(const SDL_Event& event) {
   ImGuiIO& io = ImGui::GetIO();
   switch (event.type) {
-    case SDL_QUIT: closing_ = true; return true;
-    case SDL_MOUSEMOTION: io.MousePos = ImVec2(static_cast<float>(event.motion.x), static_cast<float>(event.motion.y)); return false;
-    case SDL_MOUSEWHEEL: io.MouseWheel += event.wheel.preciseY != 0.0f ? event.wheel.preciseY : static_cast<float>(event.wheel.y); return false;
+    case SDL_QUIT:
+      closing_ = true;
+      return true;
+    case SDL_MOUSEMOTION:
+      io.MousePos = ImVec2(static_cast<float>(event.motion.x), static_cast<float>(event.motion.y));
+      return false;
+    case SDL_MOUSEWHEEL:
+      io.MouseWheel += event.wheel.preciseY != 0.0f ? event.wheel.preciseY : static_cast<float>(event.wheel.y);
+      return false;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP: {
       const int button = ButtonOf(event.button);
@@ -110,14 +120,19 @@ bool Input::Give(const SDL_Event& event) {
       if (button >= 0) io.MouseDown[button] = event.type == SDL_MOUSEBUTTONDOWN;
       return button >= 0;
     }
-    case SDL_TEXTINPUT: io.AddInputCharactersUTF8(event.text.text); return false;
+    case SDL_TEXTINPUT:
+      io.AddInputCharactersUTF8(event.text.text);
+      return false;
     case SDL_KEYDOWN:
-    case SDL_KEYUP: TakeKey(io, event.key); return true;
+    case SDL_KEYUP:
+      TakeKey(io, event.key);
+      return true;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_CLOSE) closing_ = true;
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) ReleaseAll(io);
       return false;
-    default: return false;
+    default:
+      return false;
   }
 }
 

@@ -44,12 +44,15 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the program's
   SDL_SetMainReady();
   if (SDL_VideoInit(wanted ? nullptr : "offscreen") != 0) {
-    return base::WrongInput(wanted ? std::string("a window is wanted, but no display answers (") + SDL_GetError() + "); set DISPLAY"
-                                   : std::string("OpenGL without a display does not start (") + SDL_GetError() + "); the packages libegl1 and libegl-mesa0 were expected");
+    return base::WrongInput(wanted ? std::string("a window is wanted, but no display answers (") + SDL_GetError() +
+                                         "); set DISPLAY"
+                                   : std::string("OpenGL without a display does not start (") + SDL_GetError() +
+                                         "); the packages libegl1 and libegl-mesa0 were expected");
   }
   window->video_ = true;
   if (wanted && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + NamedDisplay() + "); another DISPLAY was expected");
+    return base::WrongInput("a window is wanted, but no display answers (" + NamedDisplay() +
+                            "); another DISPLAY was expected");
   }
   if (auto status = window->Make(settings); !status) return status.error();
   return window;
@@ -59,9 +62,12 @@ base::Status Window::Make(const Settings& settings) {
   AskForContext();
   Uint32 flags = SDL_WINDOW_OPENGL | SDL_WINDOW_RESIZABLE;
   if (kind_ == Kind::kWindow) flags |= SDL_WINDOW_SHOWN;
-  window_ = SDL_CreateWindow(settings.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, settings.width_px, settings.height_px, flags);
+  window_ = SDL_CreateWindow(settings.title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, settings.width_px,
+                             settings.height_px, flags);
   if (window_ != nullptr) gl_ = SDL_GL_CreateContext(window_);
-  if (gl_ == nullptr) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
+  if (gl_ == nullptr)
+    return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() +
+                            "); the package libgl1-mesa-dri was expected");
   if (kind_ == Kind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   renderer_ = renderer != nullptr ? renderer : "";
@@ -96,7 +102,8 @@ bool Window::BeginFrame(int wait_ms) {
   SDL_GetWindowSize(window_, &width, &height);
   io.DisplaySize = ImVec2(static_cast<float>(width), static_cast<float>(height));
   if (width > 0 && height > 0) {
-    io.DisplayFramebufferScale = ImVec2(static_cast<float>(width_px()) / io.DisplaySize.x, static_cast<float>(height_px()) / io.DisplaySize.y);
+    io.DisplayFramebufferScale =
+        ImVec2(static_cast<float>(width_px()) / io.DisplaySize.x, static_cast<float>(height_px()) / io.DisplaySize.y);
   }
   glViewport(0, 0, width_px(), height_px());
   glClearColor(0.16f, 0.17f, 0.19f, 1.0f);
@@ -115,7 +122,8 @@ void Window::EndFrame(Image* seen) {
 
 Image Window::Read() const {
   Image image{width_px(), height_px(), {}};
-  const std::size_t row = 3 * static_cast<std::size_t>(image.width_px), rows = static_cast<std::size_t>(image.height_px);
+  const std::size_t row = 3 * static_cast<std::size_t>(image.width_px),
+                    rows = static_cast<std::size_t>(image.height_px);
   std::vector<std::uint8_t> upward(row * rows);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, image.width_px, image.height_px, GL_RGB, GL_UNSIGNED_BYTE, upward.data());

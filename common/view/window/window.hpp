@@ -26,8 +26,8 @@ struct Settings {
   std::filesystem::path font = FontFile();
 };
 
-// A window with panels: SDL2, an OpenGL 2 context, Dear ImGui. Made, used and destroyed on one thread, where its contexts
-// are current all the while; at most one a process, and not beside another window of SDL's.
+// A window with panels: SDL2, an OpenGL 2 context, Dear ImGui. Made, used and destroyed on one thread, where its
+// contexts are current all the while; at most one a process, and not beside another window of SDL's.
 //
 //   while (window.BeginFrame(wait_ms)) {
 //     glClear(…); …              // what lies below the panels
@@ -36,15 +36,15 @@ struct Settings {
 //   }
 class Window {
  public:
-  // Off-screen it draws without a display (EGL); events are those that the program pushes (SDL_PushEvent). Wrong input where there is no
-  // display (kWindow) or no OpenGL: a sentence that says what is missing.
+  // Off-screen it draws without a display (EGL); events are those that the program pushes (SDL_PushEvent). Wrong input
+  // where there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
   static base::Result<std::unique_ptr<Window>> Open(const Settings& settings);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  // Takes the events, up to `wait_ms` for the first one, clears the picture and begins the panels. False where the window
-  // should close: the frame must then not be drawn. AskToStay takes that back.
+  // Takes the events, up to `wait_ms` for the first one, clears the picture and begins the panels. False where the
+  // window should close: the frame must then not be drawn. AskToStay takes that back.
   bool BeginFrame(int wait_ms);
   // Draws the panels over the picture and shows it; what is seen is written into `seen` too.
   void EndFrame(Image* seen = nullptr);
@@ -69,7 +69,7 @@ class Window {
   ImGuiContext* panels_ = nullptr;
   std::unique_ptr<Input> input_;
   bool video_ = false;
-  bool drawn_with_ = false;  // ImGui's OpenGL part is there
+  bool drawn_with_ = false;   // ImGui's OpenGL part is there
   std::uint64_t before_ = 0;  // the last frame's beginning, by SDL's counter
   std::string renderer_;
 };

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/world/design/element_name.hpp"
-#include "common/world/design/points.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/design/element_name.hpp"
+#include "common/world/design/points.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -26,8 +26,8 @@ constexpr double kKink_rad = 1e-3;
 double ReadCurvature(const Map& map, std::string_view key) {
   const double radius = map.Number(key);
   if (std::fabs(radius) >= kSmallestRadius_m && std::fabs(radius) <= 1e7) return 1.0 / radius;
-  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key, radius,
-                               kSmallestRadius_m));
+  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
+                               radius, kSmallestRadius_m));
   return 1.0 / 1e7;
 }
 
@@ -41,8 +41,8 @@ double ReadClothoidLength(const Map& map, double change_1pm) {
   const double a = map.Number("a_m", {0.1, 1e5});
   const double length = a * a * std::fabs(change_1pm);
   if (length >= kLength_m.low && length <= kLength_m.high) return length;
-  map.Problem("a_m", fmt::format("'a_m' {} makes the clothoid {:.4g} m long; {} m to {} m was expected", a, length, kLength_m.low,
-                                 kLength_m.high));
+  map.Problem("a_m", fmt::format("'a_m' {} makes the clothoid {:.4g} m long; {} m to {} m was expected", a, length,
+                                 kLength_m.low, kLength_m.high));
   return 1.0;
 }
 
@@ -61,7 +61,9 @@ PlanElement ReadElement(const Map& item) {
       const double turn = arc.Number("turn_deg", {0.001, 3600.0}) * geometry::kPi / 180.0;
       if (arc.Has("length_m")) arc.Problem("turn_deg", "an arc has either a 'length_m' or an angle 'turn_deg'");
       element.length_m = turn / std::fabs(element.curvature_start_1pm);
-      if (element.length_m > kLength_m.high) arc.Problem("turn_deg", fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m, kLength_m.high));
+      if (element.length_m > kLength_m.high)
+        arc.Problem("turn_deg", fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m,
+                                            kLength_m.high));
       element.length_m = std::min(element.length_m, kLength_m.high);
     } else {
       element.length_m = arc.Number("length_m", kLength_m);
@@ -79,7 +81,8 @@ PlanElement ReadElement(const Map& item) {
 }
 
 // Where an element that has coordinates of its own stands; gaps to the one before are closed or refused.
-void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, PlanElement& element, AxisReading& axis) {
+void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, PlanElement& element,
+               AxisReading& axis) {
   const Map from = item.Child("from");
   const Eigen::Vector2d p(from.Number("x_m", kCoordinate_m), from.Number("y_m", kCoordinate_m));
   const double heading = geometry::WrapAngle(from.Number("heading_deg", {-360.0, 360.0}) * geometry::kPi / 180.0);
@@ -88,31 +91,36 @@ void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, P
   element.heading_rad = before.heading_rad + geometry::WrapAngle(heading - before.heading_rad);
   if (first) return;
   if (gap > kGap_m || kink > kKink_rad) {
-    item.Problem("from", fmt::format("the element begins {:.3f} m and {:.4f} rad away from where the one before ends, at s = {:.3f} m "
-                                     "({:.3f}, {:.3f}); up to {} m and {} rad are closed",
-                                     gap, kink, element.s_m, before.p_W.x(), before.p_W.y(), kGap_m, kKink_rad));
+    item.Problem(
+        "from",
+        fmt::format("the element begins {:.3f} m and {:.4f} rad away from where the one before ends, at s = {:.3f} m "
+                    "({:.3f}, {:.3f}); up to {} m and {} rad are closed",
+                    gap, kink, element.s_m, before.p_W.x(), before.p_W.y(), kGap_m, kKink_rad));
   } else if (gap > 1e-6 || kink > 1e-6) {
-    axis.warnings.push_back(fmt::format("{}: a gap of {:.4f} m and {:.5f} rad at s = {:.3f} m is closed", item.Place("from"), gap, kink,
-                                        element.s_m));
+    axis.warnings.push_back(fmt::format("{}: a gap of {:.4f} m and {:.5f} rad at s = {:.3f} m is closed",
+                                        item.Place("from"), gap, kink, element.s_m));
   }
 }
 
 void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading& axis) {
   const config::List items = road.Items("axis");
-  if (road.Has("axis") && items.size() == 0) road.Problem("axis", "the axis has no elements; at least one was expected");
+  if (road.Has("axis") && items.size() == 0)
+    road.Problem("axis", "the axis has no elements; at least one was expected");
   geometry::PlanPoint end = start;
   double s = 0.0;
   for (std::size_t i = 0; i < items.size(); ++i) {
     const Map item = items.At(i);
     PlanElement element = ReadElement(item);
-    element.length_m = std::clamp(element.length_m, kLength_m.low, kLength_m.high);  // what is outside is a problem already
+    element.length_m =
+        std::clamp(element.length_m, kLength_m.low, kLength_m.high);  // what is outside is a problem already
     element.s_m = s;
     element.start_W = end.p_W;
     element.heading_rad = end.heading_rad;
     if (item.Has("from")) ReadPlace(item, end, i == 0, element, axis);
     const double jump = element.curvature_start_1pm - end.curvature_1pm;
     if (i > 0 && std::fabs(jump) > 1e-6 && element.length_m < kLength_m.high) {
-      axis.warnings.push_back(fmt::format("{}: the curvature jumps by {:.5f} 1/m at s = {:.3f} m", items.Place(i), jump, s));
+      axis.warnings.push_back(
+          fmt::format("{}: the curvature jumps by {:.5f} 1/m at s = {:.3f} m", items.Place(i), jump, s));
     }
     end = geometry::PlanAxis::End(element);
     s += element.length_m;
@@ -124,7 +132,8 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading
 
 AxisReading ReadAxis(const Map& road) {
   AxisReading axis;
-  if (road.Has("points") && road.Has("axis")) road.Problem("points", "a road has either an 'axis' of elements or 'points'");
+  if (road.Has("points") && road.Has("axis"))
+    road.Problem("points", "a road has either an 'axis' of elements or 'points'");
   if (road.Has("points")) {
     ReadPoints(road.Child("points"), axis);
     return axis;

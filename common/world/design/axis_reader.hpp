@@ -22,6 +22,7 @@ struct AxisReading {
 AxisReading ReadAxis(const config::Map& road);
 
 // The chain moved and turned as a whole, so that its point at `own_s_m` comes to `to_W` with the heading given.
-void Place(std::vector<geometry::PlanElement>& elements, double own_s_m, const Eigen::Vector2d& to_W, double heading_rad);
+void Place(std::vector<geometry::PlanElement>& elements, double own_s_m, const Eigen::Vector2d& to_W,
+           double heading_rad);
 
 }  // namespace rodeira::design

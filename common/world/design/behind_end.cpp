@@ -14,14 +14,16 @@ constexpr double kSlack_m = 1.0, kGradeSlack_m = 100.0;
 
 class Lists {
  public:
-  Lists(std::string id, double length_m, std::vector<std::string>& warnings) : id_(std::move(id)), length_m_(length_m), warnings_(warnings) {}
+  Lists(std::string id, double length_m, std::vector<std::string>& warnings)
+      : id_(std::move(id)), length_m_(length_m), warnings_(warnings) {}
 
   void Look(const Map& map, const char* key, double slack_m = kSlack_m) {
     const List points = map.OptionalItems(key);
     if (points.size() == 0) return;
     const double s_m = std::strtod(points.At(points.size() - 1).Peek({"s_m"}).value_or("0").c_str(), nullptr);
     if (!(s_m > length_m_ + slack_m)) return;
-    warnings_.push_back(fmt::format("{}: '{}' has a point at s = {} m; road '{}' is {:.1f} m long", points.Place(points.size() - 1), key, s_m, id_, length_m_));
+    warnings_.push_back(fmt::format("{}: '{}' has a point at s = {} m; road '{}' is {:.1f} m long",
+                                    points.Place(points.size() - 1), key, s_m, id_, length_m_));
   }
 
  private:
@@ -40,7 +42,8 @@ void WarnBehindEnd(const Map& road, double length_m, std::vector<std::string>& w
   for (const char* key : {"offsets", "crossfalls"}) lists.Look(section, key);
   const List lanes = section.OptionalItems("lanes");
   for (std::size_t i = 0; i < lanes.size(); ++i) lists.Look(lanes.At(i), "widths");
-  for (const char* side : {"left", "right"}) lists.Look(section.OptionalChild("shoulders").OptionalChild(side), "widths");
+  for (const char* side : {"left", "right"})
+    lists.Look(section.OptionalChild("shoulders").OptionalChild(side), "widths");
   lists.Look(section.OptionalChild("verge"), "widths");
 }
 

@@ -33,7 +33,8 @@ std::vector<double> Beside::Knots() const {
   return knots;
 }
 
-std::vector<Piece> StraightPieces(const std::vector<double>& s_m, const std::vector<double>& t_m, double within_m, bool chain) {
+std::vector<Piece> StraightPieces(const std::vector<double>& s_m, const std::vector<double>& t_m, double within_m,
+                                  bool chain) {
   std::vector<Piece> pieces, open{{0, s_m.size() - 1}};
   while (!open.empty()) {
     const auto [from, to] = open.back();

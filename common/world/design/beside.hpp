@@ -24,9 +24,11 @@ class Beside {
   double beside_m_ = 0.0;
 };
 
-// Straight pieces, first and last point, that pass none of the points farther than `within_m` beside it. A chain has each end for its next beginning, otherwise the next piece begins at the next
-// point. s ascends.
-std::vector<std::pair<std::size_t, std::size_t>> StraightPieces(const std::vector<double>& s_m, const std::vector<double>& t_m, double within_m, bool chain);
+// Straight pieces, first and last point, that pass none of the points farther than `within_m` beside it. A chain has
+// each end for its next beginning, otherwise the next piece begins at the next point. s ascends.
+std::vector<std::pair<std::size_t, std::size_t>> StraightPieces(const std::vector<double>& s_m,
+                                                                const std::vector<double>& t_m, double within_m,
+                                                                bool chain);
 
 // The lane that is driven on at (s, t) of a road that is not built yet; null where there is none within `reach_m`.
 const network::Lane* DrivenLaneAt(const network::RoadSpec& spec, double s_m, double t_m, double reach_m = 0.0);

@@ -43,7 +43,8 @@ motorway:
     - {lane: -2, kind: continuous, width_m: 0.3}
 )";
 
-const std::vector<Surface> kSurfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil};
+const std::vector<Surface> kSurfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass,
+                                        Surface::kSoil};
 
 }  // namespace
 
@@ -72,7 +73,8 @@ void ReadMaterials(const config::Map& map, Context& context) {
       if (!facts) context.missing.push_back(base::WrongInput(facts.error().message, item.Place("texture")));
       material.texture = std::filesystem::absolute(*texture).string();
       material.texture_width_m = item.Number("texture_m", {0.01, 10'000.0}, 4.0);
-      material.texture_height_m = facts ? material.texture_width_m * facts.value().height_px / facts.value().width_px : material.texture_width_m;
+      material.texture_height_m = facts ? material.texture_width_m * facts.value().height_px / facts.value().width_px
+                                        : material.texture_width_m;
     } else if (item.Has("texture_m")) {
       item.Problem("texture_m", "'texture_m' says how wide a 'texture' lies on the ground; there is none");
     }
@@ -81,7 +83,8 @@ void ReadMaterials(const config::Map& map, Context& context) {
 }
 
 config::Map UsualTemplates() {
-  const auto file = config::File::Parse(kTemplates, "templates of the program");  // each reader its own: it notes what is asked
+  const auto file =
+      config::File::Parse(kTemplates, "templates of the program");  // each reader its own: it notes what is asked
   RODEIRA_ASSERT(file.ok());
   return file.value().root();
 }

@@ -16,14 +16,14 @@ namespace rodeira::design {
 struct Material {
   ground::Surface surface = ground::Surface::kAsphalt;
   double friction = 1.0;
-  std::string texture;  // a picture's file; empty: the surface's usual look
+  std::string texture;                                   // a picture's file; empty: the surface's usual look
   double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground
 };
 
 // What the parts of a world file refer to.
 struct Context {
-  bool left_hand = false;                     // vehicles keep to the left
-  std::map<std::string, Material> materials;  // the surfaces by their names, and the file's own
+  bool left_hand = false;                        // vehicles keep to the left
+  std::map<std::string, Material> materials;     // the surfaces by their names, and the file's own
   std::map<std::string, config::Map> templates;  // by name: the mapping that has it
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
-#include "common/world/design/tables.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/design/tables.hpp"
 #include "common/world/network/strokes.hpp"
 
 namespace rodeira::design {
@@ -13,7 +13,8 @@ namespace {
 
 using geometry::PlanElement;
 
-constexpr double kBeyond_m = 1.0;  // how far a surface that goes on reaches over a part's end: over this length one that ends there fades
+constexpr double kBeyond_m =
+    1.0;  // how far a surface that goes on reaches over a part's end: over this length one that ends there fades
 
 // p of a cubic where the given part of its length is passed.
 double ParameterAt(const PlanElement& element, double part) {
@@ -30,7 +31,8 @@ double ParameterAt(const PlanElement& element, double part) {
 PlanElement CubicFrom(const PlanElement& element, double p, double p_end) {
   const Eigen::Vector2d ahead(std::cos(element.heading_rad), std::sin(element.heading_rad));
   const auto shifted = [p](const std::array<double, 4>& a) {
-    return std::array<double, 4>{a[0] + p * (a[1] + p * (a[2] + p * a[3])), a[1] + p * (2.0 * a[2] + 3.0 * p * a[3]), a[2] + 3.0 * p * a[3], a[3]};
+    return std::array<double, 4>{a[0] + p * (a[1] + p * (a[2] + p * a[3])), a[1] + p * (2.0 * a[2] + 3.0 * p * a[3]),
+                                 a[2] + 3.0 * p * a[3], a[3]};
   };
   const std::array<double, 4> u = shifted(element.u), v = shifted(element.v);
   PlanElement part = element;
@@ -113,7 +115,8 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
   part.objects.clear();
   for (network::Object object : whole.objects) {
     if (object.type == "roadSurface") {  // lies on a stretch about its place
-      const double begin = std::max(object.s_m - 0.5 * object.length_m, from_m), end = std::min(object.s_m + 0.5 * object.length_m, from_m + length_m);
+      const double begin = std::max(object.s_m - 0.5 * object.length_m, from_m),
+                   end = std::min(object.s_m + 0.5 * object.length_m, from_m + length_m);
       if (!(end > begin)) continue;
       if (end - begin < object.length_m) object.id += "@" + part.id;
       object.s_m = 0.5 * (begin + end) - from_m;
@@ -125,7 +128,8 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
       std::vector<network::Repeat> kept;
       for (network::Repeat repeat : object.repeats) {
         double begin = repeat.s_m;
-        if (repeat.distance_m > 0.0) begin += std::max(0.0, std::ceil((from_m - begin) / repeat.distance_m)) * repeat.distance_m;
+        if (repeat.distance_m > 0.0)
+          begin += std::max(0.0, std::ceil((from_m - begin) / repeat.distance_m)) * repeat.distance_m;
         begin = std::max(begin, from_m);
         const double end = std::min(repeat.s_m + repeat.length_m, from_m + length_m);
         if (end < begin) continue;
@@ -175,8 +179,8 @@ void CutFurniture(const network::RoadSpec& whole, double from_m, double length_m
   }
 }
 
-// A dashed line goes on as the strokes that it has there, one line each that is cut; else it keeps its own dashes from the
-// first whole stroke on.
+// A dashed line goes on as the strokes that it has there, one line each that is cut; else it keeps its own dashes from
+// the first whole stroke on.
 void CutLines(const network::Road& road, double from_m, double length_m, network::RoadSpec& part) {
   part.lines.clear();
   for (const network::PaintedLine& line : road.spec().lines) {

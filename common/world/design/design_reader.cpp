@@ -1,5 +1,5 @@
-#include "common/world/design/behind_end.hpp"
 #include "common/world/design/design_reader.hpp"
+#include "common/world/design/behind_end.hpp"
 
 #include <fmt/format.h>
 
@@ -9,10 +9,10 @@
 #include <set>
 
 #include "common/core/base/suggest.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/world/design/join_check.hpp"
 #include "common/world/design/junction_builder.hpp"
 #include "common/world/design/standing_reader.hpp"
-#include "common/core/geometry/angle.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -71,7 +71,8 @@ class Files {
       files_.push_back(std::move(file).value());
       roots_.push_back(files_.back().root());
       const std::string version = roots_.back().Text("rodeira");
-      if (version != "world/2" && roots_.back().Has("rodeira")) roots_.back().Problem("rodeira", fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
+      if (version != "world/2" && roots_.back().Has("rodeira"))
+        roots_.back().Problem("rodeira", fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
     }
   }
 
@@ -117,7 +118,8 @@ void JoinLanes(network::RoadSpec& own, End end, const network::RoadSpec& other, 
   }
 }
 
-void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout, std::vector<std::string>& warnings) {
+void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& designs, Layout& layout,
+               std::vector<std::string>& warnings) {
   std::set<std::pair<std::pair<std::size_t, End>, std::pair<std::size_t, End>>> seen;
   std::vector<network::RoadSpec> specs;
   for (const network::Road& road : layout.network.roads) specs.push_back(road.spec());
@@ -141,17 +143,20 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
     if (!own || !other) continue;
     const auto at = [&](std::size_t piece, End end) {
       const Piece& part = layout.pieces[piece];
-      return JoinEnd{layout.network.roads[piece], end, designs[part.design].spec.id, end == End::kStart ? part.from_s_m : part.to_s_m};
+      return JoinEnd{layout.network.roads[piece], end, designs[part.design].spec.id,
+                     end == End::kStart ? part.from_s_m : part.to_s_m};
     };
     // Said by both roads, it is looked at once.
     const auto pair = std::minmax({std::pair(link.road, link.end), std::pair(*target, link.contact)});
-    if (seen.insert(pair).second && !CheckJoin(link.map, at(*own, link.end), at(*other, link.contact), warnings)) continue;
+    if (seen.insert(pair).second && !CheckJoin(link.map, at(*own, link.end), at(*other, link.contact), warnings))
+      continue;
     join(*own, link.end, *other, link.contact);
     join(*other, link.contact, *own, link.end);
   }
   if (links.empty()) return;
   std::vector<network::Road> roads;
-  for (std::size_t i = 0; i < specs.size(); ++i) roads.emplace_back(std::move(specs[i]), layout.network.roads[i].axis());
+  for (std::size_t i = 0; i < specs.size(); ++i)
+    roads.emplace_back(std::move(specs[i]), layout.network.roads[i].axis());
   layout.network.roads = std::move(roads);
 }
 
@@ -160,13 +165,15 @@ std::string DrivenLanes(const network::RoadSpec& spec) {
   std::string lanes;
   for (const auto* side : {&spec.sections[0].right, &spec.sections[0].left}) {
     for (const network::Lane& lane : *side) {
-      if (network::IsDrivable(lane.type)) lanes += fmt::format("{}{}", lanes.empty() ? "; driven on are " : ", ", lane.id);
+      if (network::IsDrivable(lane.type))
+        lanes += fmt::format("{}{}", lanes.empty() ? "; driven on are " : ", ", lane.id);
     }
   }
   return lanes;
 }
 
-std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const std::vector<RoadDesign>& designs, const Layout& layout) {
+std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const std::vector<RoadDesign>& designs,
+                                    const Layout& layout) {
   std::vector<std::string> ids;
   std::optional<std::size_t> road;
   for (std::size_t i = 0; i < designs.size(); ++i) {
@@ -191,11 +198,14 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
     return std::nullopt;
   }
   if (!network::IsDrivable(found->type)) {
-    map.Problem(wish.lane ? "lane" : "", fmt::format("lane {} of road '{}' is one of the type '{}': nobody drives there{}", lane, spec.id, network::LaneTypeName(found->type), DrivenLanes(spec)));
+    map.Problem(wish.lane ? "lane" : "",
+                fmt::format("lane {} of road '{}' is one of the type '{}': nobody drives there{}", lane, spec.id,
+                            network::LaneTypeName(found->type), DrivenLanes(spec)));
     return std::nullopt;
   }
   const bool against = found->direction < 0;
-  const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m) : std::min(kFromStart_m, 0.5 * spec.length_m));
+  const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m)
+                                             : std::min(kFromStart_m, 0.5 * spec.length_m));
   if (s > spec.length_m) {
     map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
     return std::nullopt;
@@ -203,7 +213,8 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
   const auto at = [&](double station) -> std::optional<StartPlace> {
     for (std::size_t i = 0; i < layout.pieces.size(); ++i) {
       const Piece& piece = layout.pieces[i];
-      if (piece.design == *road && station >= piece.from_s_m && station <= piece.to_s_m) return StartPlace{static_cast<std::uint32_t>(i), lane, station - piece.from_s_m};
+      if (piece.design == *road && station >= piece.from_s_m && station <= piece.to_s_m)
+        return StartPlace{static_cast<std::uint32_t>(i), lane, station - piece.from_s_m};
     }
     return std::nullopt;
   };
@@ -217,11 +228,13 @@ std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const
     if (!behind || (against ? station > *behind : station < *behind)) behind = station;
   }
   if (behind && !wish.s_m) return at(*behind);
-  map.Problem(map.Has("s_m") ? "s_m" : "", fmt::format("'start.s_m' {} of road '{}' lies in a junction{}", s, spec.id, behind ? fmt::format("; {:.1f} is behind it", *behind) : ""));
+  map.Problem(map.Has("s_m") ? "s_m" : "", fmt::format("'start.s_m' {} of road '{}' lies in a junction{}", s, spec.id,
+                                                       behind ? fmt::format("; {:.1f} is behind it", *behind) : ""));
   return std::nullopt;
 }
 
-// Whether a bump can go on in a junction: there it lies on the lanes of its way through, and nothing of it is faded at the road's edges beside it.
+// Whether a bump can go on in a junction: there it lies on the lanes of its way through, and nothing of it is faded at
+// the road's edges beside it.
 bool GoesOn(const network::Bump& bump, const RoadDesign& design, const network::Road& way) {
   constexpr double kFades_m = 0.5, kRounding_m = 1e-6;
   const auto within = [&](const network::Road& road, double s_m, double inset_m) {
@@ -231,21 +244,27 @@ bool GoesOn(const network::Bump& bump, const RoadDesign& design, const network::
     return bump.piece.right_t_m >= right + inset_m - kRounding_m && bump.piece.left_t_m <= left - inset_m + kRounding_m;
   };
   const auto whole = BuildRoad(design);
-  return whole && within(way, 0.5 * way.length_m(), 0.0) && within(*whole, 0.5 * (bump.piece.from_s_m + bump.piece.to_s_m), kFades_m);
+  return whole && within(way, 0.5 * way.length_m(), 0.0) &&
+         within(*whole, 0.5 * (bump.piece.from_s_m + bump.piece.to_s_m), kFades_m);
 }
 
-// What is laid on the roads between junctions, and on the ways along them through junctions. A bump that lies elsewhere is a problem of its road.
+// What is laid on the roads between junctions, and on the ways along them through junctions. A bump that lies elsewhere
+// is a problem of its road.
 std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const Layout& layout) {
   std::vector<network::Laid> laid;
-  if (std::all_of(designs.begin(), designs.end(), [](const RoadDesign& road) { return road.laid.empty(); })) return laid;
+  if (std::all_of(designs.begin(), designs.end(), [](const RoadDesign& road) { return road.laid.empty(); }))
+    return laid;
   laid.resize(layout.network.roads.size());
-  const auto lay = [&](std::size_t road, const Piece& piece) { laid[road] = network::CutLaid(designs[piece.design].laid, piece.from_s_m, piece.to_s_m); };
+  const auto lay = [&](std::size_t road, const Piece& piece) {
+    laid[road] = network::CutLaid(designs[piece.design].laid, piece.from_s_m, piece.to_s_m);
+  };
   for (std::size_t i = 0; i < layout.pieces.size(); ++i) lay(i, layout.pieces[i]);
   for (const auto& [road, piece] : layout.along) lay(road, piece);
   for (std::size_t i = 0; i < designs.size(); ++i) {
     for (const network::Bump& bump : designs[i].laid.bumps) {
       const auto overlap = [&](const Piece& piece) {
-        const double from = std::max(piece.from_s_m, bump.piece.from_s_m), to = std::min(piece.to_s_m, bump.piece.to_s_m);
+        const double from = std::max(piece.from_s_m, bump.piece.from_s_m),
+                     to = std::min(piece.to_s_m, bump.piece.to_s_m);
         return piece.design == i ? std::max(0.0, to - from) : 0.0;
       };
       double length = 0.0;
@@ -258,8 +277,13 @@ std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const L
       }
       const bool whole = length > bump.piece.to_s_m - bump.piece.from_s_m - 1e-6;
       if (whole && goes_on) continue;
-      designs[i].map.Problem("bumps", fmt::format("the bump from s = {:g} to {:g} m reaches into a junction{}", bump.piece.from_s_m, bump.piece.to_s_m,
-                                                  whole ? "; there it was expected on lanes that are driven on, half a metre or more within the road's edges" : " at which its road ends"));
+      designs[i].map.Problem(
+          "bumps",
+          fmt::format(
+              "the bump from s = {:g} to {:g} m reaches into a junction{}", bump.piece.from_s_m, bump.piece.to_s_m,
+              whole
+                  ? "; there it was expected on lanes that are driven on, half a metre or more within the road's edges"
+                  : " at which its road ends"));
     }
   }
   return laid;
@@ -268,7 +292,8 @@ std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const L
 }  // namespace
 
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const Map& start_map, const TerrainIsAt& terrain_is_at) {
+                  const std::string& geo_reference, const StartWish& start, const Map& start_map,
+                  const TerrainIsAt& terrain_is_at) {
   Design design;
   const Files files(file);
   Context context;

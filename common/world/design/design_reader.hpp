@@ -31,20 +31,22 @@ struct StartPlace {
 // Roads and junctions of a world file of version 2.
 struct Design {
   std::shared_ptr<const network::Network> network;  // null: the file has no roads, or problems
-  std::vector<network::Laid> laid;  // by the network's road; empty: nothing is laid on any of them
+  std::vector<network::Laid> laid;                  // by the network's road; empty: nothing is laid on any of them
   std::vector<std::shared_ptr<const JunctionSurface>> junctions;
   network::Standing standing;  // what stands at no road
   std::optional<StartPlace> start;
   std::vector<std::string> warnings;
-  std::vector<std::string> road_places;  // "file:line" where the network's roads are said; those that lead through junctions, which come last, are not among them
-  std::vector<base::Error> missing;   // pictures: wrong, but the world can be driven without them
-  std::vector<base::Error> problems;  // of included files; those of the file itself are with it
+  std::vector<std::string> road_places;  // "file:line" where the network's roads are said; those that lead through
+                                         // junctions, which come last, are not among them
+  std::vector<base::Error> missing;      // pictures: wrong, but the world can be driven without them
+  std::vector<base::Error> problems;     // of included files; those of the file itself are with it
 };
 
-// Reads 'include', 'rule', 'materials', 'templates', 'roads', 'junctions' and 'objects' of a file and of all files that it includes.
-// `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions; `start_map` has it. Roads
-// must keep within the terrain, and clear of themselves (CheckFits).
+// Reads 'include', 'rule', 'materials', 'templates', 'roads', 'junctions' and 'objects' of a file and of all files that
+// it includes. `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions;
+// `start_map` has it. Roads must keep within the terrain, and clear of themselves (CheckFits).
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map, const TerrainIsAt& terrain_is_at = {});
+                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map,
+                  const TerrainIsAt& terrain_is_at = {});
 
 }  // namespace rodeira::design

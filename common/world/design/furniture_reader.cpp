@@ -8,10 +8,10 @@
 
 #include "common/core/base/nearest_file.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/world/design/beside.hpp"
 #include "common/world/design/object_reader.hpp"
 #include "common/world/design/tables.hpp"
-#include "common/core/geometry/angle.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -56,25 +56,33 @@ std::vector<double> StationsOf(const Stand& stand) {
 }
 
 // What stands where one drives is told, once for each item of the file.
-void WarnOnLanes(const Map& item, const std::string& what, const network::RoadSpec& spec, const std::vector<double>& stations, const Beside& beside, double reach_m, std::vector<std::string>& warnings) {
+void WarnOnLanes(const Map& item, const std::string& what, const network::RoadSpec& spec,
+                 const std::vector<double>& stations, const Beside& beside, double reach_m,
+                 std::vector<std::string>& warnings) {
   for (const double s : stations) {
     const double t = beside.At(s);
     const network::Lane* lane = DrivenLaneAt(spec, s, t, reach_m);
     if (lane == nullptr) continue;
-    warnings.push_back(fmt::format("{}: {} of road '{}' at s = {:.1f} m, t = {:.2f} m stands on lane {}, which is driven on", item.Place(), what, spec.id, s, t, lane->id));
+    warnings.push_back(
+        fmt::format("{}: {} of road '{}' at s = {:.1f} m, t = {:.2f} m stands on lane {}, which is driven on",
+                    item.Place(), what, spec.id, s, t, lane->id));
     return;
   }
 }
 
-double ReadRotation(const Map& item) { return item.Number("rotation_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0; }
+double ReadRotation(const Map& item) {
+  return item.Number("rotation_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0;
+}
 
-void ReadSign(const Map& item, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
+void ReadSign(const Map& item, const Context& context, double length_m, network::RoadSpec& spec,
+              std::vector<std::string>& warnings) {
   std::vector<std::string> names;
   for (const SignKind& kind : SignKinds()) names.emplace_back(kind.name);
   const std::string name = item.Text("type");
   const SignKind* kind = FindSign(name);
   if (kind == nullptr) {
-    if (item.Has("type")) item.Problem("type", fmt::format("there is no sign '{}'{}", name, base::DidYouMean(name, names)));
+    if (item.Has("type"))
+      item.Problem("type", fmt::format("there is no sign '{}'{}", name, base::DidYouMean(name, names)));
     kind = &SignKinds().front();
   }
   std::optional<double> value;
@@ -86,11 +94,15 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   const double rotation = ReadRotation(item), height = item.Number("z_m", {-50.0, 50.0}, 2.0);
   const double size = item.Number("height_m", {0.1, 10.0}, kind->height_m);
   const std::string text = item.Text("text", "");
-  if (text.empty() && (name == "town" || name == "end_of_town")) warnings.push_back(fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
-  if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
+  if (text.empty() && (name == "town" || name == "end_of_town"))
+    warnings.push_back(
+        fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
+  if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost)
+    return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
   const Beside beside(item, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);
-  if (height < kOverhead_m) WarnOnLanes(item, fmt::format("the sign '{}'", name), spec, stations, beside, 0.0, warnings);
+  if (height < kOverhead_m)
+    WarnOnLanes(item, fmt::format("the sign '{}'", name), spec, stations, beside, 0.0, warnings);
   for (const double s : stations) {
     network::Signal signal = MakeSign(*kind, value);
     signal.id = fmt::format("{}-sign{}", spec.id, spec.signals.size());
@@ -107,11 +119,13 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
 }
 
 // A row or a rail beside an edge that need not be straight: one repeat for each piece that is.
-std::vector<network::Repeat> RepeatsOf(const Stand& stand, bool continuous, const Beside& beside, const network::Object& object) {
+std::vector<network::Repeat> RepeatsOf(const Stand& stand, bool continuous, const Beside& beside,
+                                       const network::Object& object) {
   std::vector<double> stations;
   if (continuous) {
     const int steps = std::max(1, static_cast<int>(std::ceil((stand.to_s_m - stand.from_s_m) / kLook_m)));
-    for (int i = 0; i <= steps; ++i) stations.push_back(i == steps ? stand.to_s_m : stand.from_s_m + (stand.to_s_m - stand.from_s_m) * i / steps);
+    for (int i = 0; i <= steps; ++i)
+      stations.push_back(i == steps ? stand.to_s_m : stand.from_s_m + (stand.to_s_m - stand.from_s_m) * i / steps);
     for (const double s : beside.Knots()) {
       if (s > stand.from_s_m && s < stand.to_s_m) stations.push_back(s);
     }
@@ -119,7 +133,9 @@ std::vector<network::Repeat> RepeatsOf(const Stand& stand, bool continuous, cons
     stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
   } else {
     stations = StationsOf(stand);
-    if (stations.size() > 1 || stand.to_s_m > stand.from_s_m) stations.push_back(std::max(stand.to_s_m, stations.back()));  // the row says where it ends, whether one stands there or not
+    if (stations.size() > 1 || stand.to_s_m > stand.from_s_m)
+      stations.push_back(
+          std::max(stand.to_s_m, stations.back()));  // the row says where it ends, whether one stands there or not
   }
   std::vector<double> across;
   for (const double s : stations) across.push_back(beside.At(s));
@@ -151,7 +167,9 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
   } else {
     stand = ReadStand(item, length_m);
     sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
-    if (sound && stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost) return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
+    if (sound && stand.repeated && stand.every_m >= kNearest_m &&
+        (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost)
+      return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
   }
   const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);
   object.s_m = stand.s_m;
@@ -166,7 +184,8 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
     } else {
       stations = StationsOf(stand);
     }
-    WarnOnLanes(item, fmt::format("the {}", object.subtype), spec, stations, beside, building ? 0.5 * std::min(object.length_m, object.width_m) : 0.0, warnings);
+    WarnOnLanes(item, fmt::format("the {}", object.subtype), spec, stations, beside,
+                building ? 0.5 * std::min(object.length_m, object.width_m) : 0.0, warnings);
   }
   spec.objects.push_back(std::move(object));
 }
@@ -184,8 +203,11 @@ void ReadStructures(const Map& road, const char* key, bool bridge, double length
     structure.length_m = item.Number("to_s_m", {0.0, length_m}) - structure.s_m;
     if (!(structure.length_m > 0.0)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
     for (const network::Structure& other : spec.structures) {
-      const double from = std::max(structure.s_m, other.s_m), to = std::min(structure.s_m + structure.length_m, other.s_m + other.length_m);
-      if (other.bridge != bridge && from < to) item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to, other.bridge ? "bridge" : "tunnel"));
+      const double from = std::max(structure.s_m, other.s_m),
+                   to = std::min(structure.s_m + structure.length_m, other.s_m + other.length_m);
+      if (other.bridge != bridge && from < to)
+        item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to,
+                                             other.bridge ? "bridge" : "tunnel"));
     }
     spec.structures.push_back(std::move(structure));
   }
@@ -195,16 +217,20 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
   const List list = road.OptionalItems("surfaces");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Map item = list.At(i);
-    const double from = item.Number("from_s_m", {0.0, length_m}, 0.0), to = item.Number("to_s_m", {0.0, length_m}, length_m);
+    const double from = item.Number("from_s_m", {0.0, length_m}, 0.0),
+                 to = item.Number("to_s_m", {0.0, length_m}, length_m);
     if (!(to > from)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
     if (item.Has("crg") == item.Has("iso_8608")) {
-      item.Problem(item.Has("crg") ? "crg" : "", "a surface is either measured ('crg': a file) or made ('iso_8608': a class from A to H)");
+      item.Problem(item.Has("crg") ? "crg" : "",
+                   "a surface is either measured ('crg': a file) or made ('iso_8608': a class from A to H)");
     }
     if (item.Has("crg")) {
       network::CrgSurface crg;
       const std::filesystem::path file = item.Path("crg");
-      if (!file.empty()) crg.file = std::filesystem::absolute(file).string();  // not to be looked for from the world's folder once more
-      if (const std::string missing = base::NoSuchFile(file); !file.empty() && !missing.empty()) item.Problem("crg", fmt::format("'{}': {}", file.filename().string(), missing));
+      if (!file.empty())
+        crg.file = std::filesystem::absolute(file).string();  // not to be looked for from the world's folder once more
+      if (const std::string missing = base::NoSuchFile(file); !file.empty() && !missing.empty())
+        item.Problem("crg", fmt::format("'{}': {}", file.filename().string(), missing));
       crg.orientation = item.Choice("orientation", {"same", "opposite"}, "same");
       crg.mode = "attached";
       crg.purpose = "elevation";
@@ -281,7 +307,8 @@ network::Signal MakeSign(const SignKind& kind, std::optional<double> value) {
   return signal;
 }
 
-void ReadFurniture(const Map& road, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings) {
+void ReadFurniture(const Map& road, const Context& context, double length_m, network::RoadSpec& spec,
+                   std::vector<std::string>& warnings) {
   const List signs = road.OptionalItems("signs");
   for (std::size_t i = 0; i < signs.size(); ++i) ReadSign(signs.At(i), context, length_m, spec, warnings);
   const List objects = road.OptionalItems("objects");

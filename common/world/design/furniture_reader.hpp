@@ -10,10 +10,11 @@
 namespace rodeira::design {
 
 // 'signs', 'objects', 'bridges', 'tunnels' and 'surfaces' of a road. The road's lanes must be there already.
-void ReadFurniture(const config::Map& road, const Context& context, double length_m, network::RoadSpec& spec, std::vector<std::string>& warnings);
+void ReadFurniture(const config::Map& road, const Context& context, double length_m, network::RoadSpec& spec,
+                   std::vector<std::string>& warnings);
 
-// A sign by its name here, as a signal without its place: its number in the German catalogue (StVO), which most OpenDRIVE
-// files use. `value` (km/h, %, t …) where the sign shows one.
+// A sign by its name here, as a signal without its place: its number in the German catalogue (StVO), which most
+// OpenDRIVE files use. `value` (km/h, %, t …) where the sign shows one.
 struct SignKind {
   const char* name;
   const char* type;

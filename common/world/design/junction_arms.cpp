@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/world/design/section_reader.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/design/section_reader.hpp"
 
 namespace rodeira::design {
 namespace {

@@ -30,7 +30,8 @@ using Specs = std::vector<network::RoadSpec>;
 
 class Builder {
  public:
-  Builder(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads, const std::vector<JunctionWish>& junctions)
+  Builder(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
+          const std::vector<JunctionWish>& junctions)
       : designs_(designs), roads_(roads), junctions_(junctions), arms_(junctions.size()), gaps_(roads.size()) {}
 
   Layout Build() {
@@ -64,7 +65,8 @@ class Builder {
     const Gap* before = nullptr;
     const auto add = [&](double to, const Gap* after) {
       const std::string& id = designs_[road].spec.id;
-      const network::Road piece = gaps.empty() ? roads_[road] : Cut(roads_[road], from, to, fmt::format("{}/{}", id, ++count));
+      const network::Road piece =
+          gaps.empty() ? roads_[road] : Cut(roads_[road], from, to, fmt::format("{}/{}", id, ++count));
       const auto number = static_cast<std::uint32_t>(specs_.size());
       specs_.push_back(piece.spec());
       axes_.push_back(piece.axis());
@@ -94,9 +96,11 @@ class Builder {
 
   void Crowded(const Gap& gap, std::size_t road, double left_m) {
     const JunctionWish& junction = junctions_[gap.junction];
-    junction.map.Problem("roads", fmt::format("junction '{}' reaches from s = {:.1f} m to {:.1f} m of road '{}': {:.1f} m are left before the "
-                                              "road's end or its next junction; at least {} m were expected",
-                                              junction.id, gap.from_s_m, gap.to_s_m, designs_[road].spec.id, left_m, kShortest_m));
+    junction.map.Problem(
+        "roads",
+        fmt::format("junction '{}' reaches from s = {:.1f} m to {:.1f} m of road '{}': {:.1f} m are left before the "
+                    "road's end or its next junction; at least {} m were expected",
+                    junction.id, gap.from_s_m, gap.to_s_m, designs_[road].spec.id, left_m, kShortest_m));
   }
 
   network::Road Piece(std::uint32_t index) const { return {specs_[index], axes_[index]}; }
@@ -130,8 +134,8 @@ class Builder {
     junction.name = wish.name;
     junction.paved_W = MakeOutline(paved).corners_W;
     junction.outline_W = outline.corners_W;
-    const auto surface = std::make_shared<const JunctionSurface>(wish.id, std::move(sections), std::move(outline.corners_W), junction.paved_W,
-                                                                 std::move(outline.free_edges));
+    const auto surface = std::make_shared<const JunctionSurface>(
+        wish.id, std::move(sections), std::move(outline.corners_W), junction.paved_W, std::move(outline.free_edges));
     layout_.surfaces.push_back(surface);
     AddThrough(wish, arms, pieces, *surface, junction);
     AddTurns(wish, arms, pieces, *surface, junction);
@@ -169,13 +173,18 @@ class Builder {
       }
       if (from == arms.size() || to == arms.size()) continue;
       const double begin = layout_.pieces[arms[from].piece].to_s_m, end = layout_.pieces[arms[to].piece].from_s_m;
-      network::Road way = WayAlong(roads_[passing.road], begin, end, fmt::format("{}/{}", wish.id, designs_[passing.road].spec.id), wish.id, surface);
+      network::Road way = WayAlong(roads_[passing.road], begin, end,
+                                   fmt::format("{}/{}", wish.id, designs_[passing.road].spec.id), wish.id, surface);
       network::RoadSpec spec = way.spec();
       spec.predecessor = network::RoadLink{false, pieces[from].id(), End::kEnd};
       spec.successor = network::RoadLink{false, pieces[to].id(), End::kStart};
-      std::erase_if(spec.lines, [&](const network::PaintedLine& line) { return !KeepsLine(wish, arms, meeting, line, spec.lane_offset.Value(0.0)); });
-      network::JunctionConnection with{fmt::format("{}", junction.connections.size()), pieces[from].id(), spec.id, End::kStart, {}};
-      network::JunctionConnection against{fmt::format("{}", junction.connections.size() + 1), pieces[to].id(), spec.id, End::kEnd, {}};
+      std::erase_if(spec.lines, [&](const network::PaintedLine& line) {
+        return !KeepsLine(wish, arms, meeting, line, spec.lane_offset.Value(0.0));
+      });
+      network::JunctionConnection with{
+          fmt::format("{}", junction.connections.size()), pieces[from].id(), spec.id, End::kStart, {}};
+      network::JunctionConnection against{
+          fmt::format("{}", junction.connections.size() + 1), pieces[to].id(), spec.id, End::kEnd, {}};
       for (auto* side : {&spec.sections[0].left, &spec.sections[0].right}) {
         for (network::Lane& lane : *side) {
           lane.predecessors = lane.successors = {lane.id};
@@ -193,7 +202,8 @@ class Builder {
   }
 
   // Of a road with priority the middle line goes on, and the lines on a side without other roads; of others none.
-  bool KeepsLine(const JunctionWish& wish, const std::vector<Arm>& arms, std::size_t meeting, const network::PaintedLine& line, double centre) const {
+  bool KeepsLine(const JunctionWish& wish, const std::vector<Arm>& arms, std::size_t meeting,
+                 const network::PaintedLine& line, double centre) const {
     if (meeting != 0) return false;
     const double t = line.t.Value(0.5 * (line.from_s_m + line.to_s_m)) - centre;
     if (std::fabs(t) < 0.5) return line.gap_m > 0.0;
@@ -216,7 +226,8 @@ class Builder {
         if (from == to || arms[from].meeting == arms[to].meeting) continue;
         const auto in = LanesOf(pieces[from], arms[from].end, true), out = LanesOf(pieces[to], arms[to].end, false);
         if (in.empty() || out.empty()) continue;
-        const Eigen::Vector2d inward = -Outward(pieces[from], arms[from].end), outward = Outward(pieces[to], arms[to].end);
+        const Eigen::Vector2d inward = -Outward(pieces[from], arms[from].end),
+                              outward = Outward(pieces[to], arms[to].end);
         const bool left = inward.x() * outward.y() - inward.y() * outward.x() > 0.0;
         const ArmLane& lane = left ? in.front() : in.back();
         const ArmLane& target = left ? out.front() : out.back();
@@ -226,7 +237,8 @@ class Builder {
         network::RoadSpec spec = way->spec();
         spec.predecessor = network::RoadLink{false, pieces[from].id(), arms[from].end};
         spec.successor = network::RoadLink{false, pieces[to].id(), arms[to].end};
-        junction.connections.push_back({fmt::format("{}", junction.connections.size()), pieces[from].id(), id, End::kStart, {{lane.id, -1}}});
+        junction.connections.push_back(
+            {fmt::format("{}", junction.connections.size()), pieces[from].id(), id, End::kStart, {{lane.id, -1}}});
         AddWay(network::Road(std::move(spec), way->axis()), arms[from].meeting == 0, junction);
       }
     }
@@ -236,8 +248,10 @@ class Builder {
   void AddWay(network::Road way, bool major, network::Junction& junction) {
     for (const network::Road& other : ways_) {
       if (other.spec().junction != junction.id || major_.at(other.id()) == major) continue;
-      if (major) junction.priorities.push_back({way.id(), other.id()});
-      else junction.priorities.push_back({other.id(), way.id()});
+      if (major)
+        junction.priorities.push_back({way.id(), other.id()});
+      else
+        junction.priorities.push_back({other.id(), way.id()});
     }
     major_[way.id()] = major;
     ways_.push_back(std::move(way));

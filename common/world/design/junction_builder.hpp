@@ -21,12 +21,13 @@ struct Piece {
 struct Layout {
   network::NetworkSpec network;  // the pieces come first
   std::vector<Piece> pieces;
-  std::vector<std::pair<std::size_t, Piece>> along;  // roads that go straight on through a junction: which, and where they come from
+  std::vector<std::pair<std::size_t, Piece>>
+      along;  // roads that go straight on through a junction: which, and where they come from
   std::vector<std::shared_ptr<const JunctionSurface>> surfaces;
 };
 
-// Cuts the roads, makes the ways through the junctions (straight on along the road, otherwise cubics from lane to lane),
-// their surfaces, marks and signs. Problems where junctions leave no road between them.
+// Cuts the roads, makes the ways through the junctions (straight on along the road, otherwise cubics from lane to
+// lane), their surfaces, marks and signs. Problems where junctions leave no road between them.
 Layout BuildLayout(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
                    const std::vector<JunctionWish>& junctions);
 

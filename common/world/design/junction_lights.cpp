@@ -10,9 +10,9 @@
 namespace rodeira::design {
 namespace {
 
-constexpr double kLine_m = 1.0;   // before the junction: the middle of the stop line, and the light
-constexpr double kWide_m = 0.5;   // of the line
-constexpr double kBeside_m = 0.5; // of the outermost lane's edge
+constexpr double kLine_m = 1.0;    // before the junction: the middle of the stop line, and the light
+constexpr double kWide_m = 0.5;    // of the line
+constexpr double kBeside_m = 0.5;  // of the outermost lane's edge
 
 }  // namespace
 
@@ -28,11 +28,13 @@ std::optional<std::string> PutLight(network::RoadSpec& spec, network::End end) {
       const int incoming = starts ? -1 : 1;
       const int usual = (lane.id < 0) != spec.left_hand ? 1 : -1;
       if (!network::IsDrivable(lane.type) || (lane.direction != 0 ? lane.direction : usual) != incoming) continue;
-      const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(s), outer = EdgeOf(spec, lane.id).Value(s);
+      const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(s),
+                   outer = EdgeOf(spec, lane.id).Value(s);
       const double width = std::fabs(outer - inner);
       if (width < 1.0) continue;
       anybody = true;
-      spec.lines.push_back({s - 0.5 * kWide_m, s + 0.5 * kWide_m, Constant(0.5 * (inner + outer)), width - 0.2, 0.0, 0.0, "white"});
+      spec.lines.push_back(
+          {s - 0.5 * kWide_m, s + 0.5 * kWide_m, Constant(0.5 * (inner + outer)), width - 0.2, 0.0, 0.0, "white"});
     }
   }
   if (!anybody) return std::nullopt;

@@ -11,8 +11,8 @@ namespace {
 constexpr double kStep_m = 0.25;
 
 // The corner from one road's edge to the next one's, without its two ends.
-std::vector<Eigen::Vector2d> Corner(const Eigen::Vector2d& from, const Eigen::Vector2d& inward, const Eigen::Vector2d& to,
-                                    const Eigen::Vector2d& outward) {
+std::vector<Eigen::Vector2d> Corner(const Eigen::Vector2d& from, const Eigen::Vector2d& inward,
+                                    const Eigen::Vector2d& to, const Eigen::Vector2d& outward) {
   const Eigen::Vector2d chord = to - from;
   const double sine = geometry::Cross(inward, outward);
   double first = chord.norm() / 3.0, second = first;

@@ -4,8 +4,8 @@
 
 namespace rodeira::design {
 
-// Corners of a junction's area from the ends of its roads, which come counter-clockwise: from mouth to mouth a cubic that
-// leaves one road's edge and goes on into the next one's.
+// Corners of a junction's area from the ends of its roads, which come counter-clockwise: from mouth to mouth a cubic
+// that leaves one road's edge and goes on into the next one's.
 struct Outline {
   std::vector<Eigen::Vector2d> corners_W;
   std::vector<FreeEdge> free_edges;

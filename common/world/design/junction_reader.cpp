@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "common/core/base/suggest.hpp"
-#include "common/world/design/tables.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/design/tables.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -19,8 +19,10 @@ constexpr double kMeets_m = 0.5;
 constexpr double kFlattest_rad = 0.6;  // between the directions of two roads
 constexpr double kSteepFit = 0.12, kSteepestFit = 0.5;
 
-// Nothing where the road is not there. Without roads, because something is wrong with one of them, the rest is looked at all the same.
-std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads) {
+// Nothing where the road is not there. Without roads, because something is wrong with one of them, the rest is looked
+// at all the same.
+std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign>& designs,
+                                   const std::vector<network::Road>& roads) {
   Meeting meeting;
   const std::string id = item.Text("road");
   std::vector<std::string> ids;
@@ -32,7 +34,8 @@ std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign
   if (!found) item.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
   const double length = found && !roads.empty() ? roads[meeting.road].length_m() : 1e7;
   if (item.Has("end") == item.Has("s_m")) {
-    item.Problem(item.Has("end") ? "end" : "", "a road either passes a junction ('s_m') or has an 'end' there (start or end)");
+    item.Problem(item.Has("end") ? "end" : "",
+                 "a road either passes a junction ('s_m') or has an 'end' there (start or end)");
   }
   if (item.Has("end")) {
     meeting.before = item.Choice("end", {"start", "end"}) == "end";
@@ -55,7 +58,8 @@ void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, Junctio
   bool all_known = true;  // or who is green in no phase may be who is misspelt
   for (const std::string& name : names) {
     if (std::find(roads.begin(), roads.end(), name) != roads.end()) continue;
-    map.Problem("phases", fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
+    map.Problem("phases",
+                fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
     all_known = false;
   }
   if (!all_known) return;
@@ -87,22 +91,29 @@ void CheckMeets(const JunctionWish& junction, const std::vector<network::Road>& 
     const geometry::PlanPoint there = roads[other.road].axis().Evaluate(other.s_m);
     const double apart = (there.p_W - at.p_W).norm();
     if (apart > kMeets_m) {
-      items.Problem(i, fmt::format("road '{}' is {:.2f} m away from road '{}' there, at ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}); at most {} m "
-                                   "was expected",
-                                   roads[other.road].id(), apart, roads[first.road].id(), there.p_W.x(), there.p_W.y(), at.p_W.x(),
-                                   at.p_W.y(), kMeets_m));
+      items.Problem(
+          i,
+          fmt::format(
+              "road '{}' is {:.2f} m away from road '{}' there, at ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}); at most {} m "
+              "was expected",
+              roads[other.road].id(), apart, roads[first.road].id(), there.p_W.x(), there.p_W.y(), at.p_W.x(),
+              at.p_W.y(), kMeets_m));
     }
     const double sine = std::fabs(geometry::Cross(at.tangent_W, there.tangent_W));
     if (sine < std::sin(kFlattest_rad)) {
-      items.Problem(i, fmt::format("road '{}' meets road '{}' at an angle of {:.1f} degrees; at least {:.1f} was expected (slip roads, forks and merges are what OpenDRIVE files and traffic maps have)", roads[other.road].id(),
-                                   roads[first.road].id(), std::asin(sine) * 57.29577951308232, kFlattest_rad * 57.29577951308232));
+      items.Problem(i,
+                    fmt::format("road '{}' meets road '{}' at an angle of {:.1f} degrees; at least {:.1f} was expected "
+                                "(slip roads, forks and merges are what OpenDRIVE files and traffic maps have)",
+                                roads[other.road].id(), roads[first.road].id(), std::asin(sine) * 57.29577951308232,
+                                kFlattest_rad * 57.29577951308232));
     }
   }
 }
 
 }  // namespace
 
-std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads) {
+std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadDesign>& designs,
+                                        const std::vector<network::Road>& roads) {
   std::vector<JunctionWish> junctions;
   const config::List list = file.OptionalItems("junctions");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -113,7 +124,8 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
     for (const JunctionWish& other : junctions) {
       if (other.id == junction.id) item.Problem("id", fmt::format("there is a junction '{}' already", junction.id));
     }
-    if (junction.id.find('/') != std::string::npos) item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
+    if (junction.id.find('/') != std::string::npos)
+      item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
     const config::List meetings = item.Items("roads");
     for (std::size_t k = 0; k < meetings.size(); ++k) {
       if (const auto meeting = ReadMeeting(meetings.At(k), designs, roads)) junction.meetings.push_back(*meeting);
@@ -124,19 +136,23 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
                        : control == "none"   ? Control::kNone
                        : control == "lights" ? Control::kLights
                                              : Control::kGiveWay;
-    if (junction.control == Control::kLights && all_found) ReadLights(item, designs, junction);
-    else if (junction.control == Control::kLights) item.LeaveToOthers("lights");
+    if (junction.control == Control::kLights && all_found)
+      ReadLights(item, designs, junction);
+    else if (junction.control == Control::kLights)
+      item.LeaveToOthers("lights");
     junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
     junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
-    if (meetings.size() < 2) item.Problem("roads", "a junction has two roads or more");
-    else if (all_found && !roads.empty()) CheckMeets(junction, roads);
+    if (meetings.size() < 2)
+      item.Problem("roads", "a junction has two roads or more");
+    else if (all_found && !roads.empty())
+      CheckMeets(junction, roads);
     junctions.push_back(std::move(junction));
   }
   return junctions;
 }
 
-void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
-                std::vector<std::string>& warnings) {
+void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs,
+                const std::vector<network::Road>& roads, std::vector<std::string>& warnings) {
   for (const JunctionWish& junction : junctions) {
     const Meeting& first = junction.meetings[0];
     geometry::CubicPoint z = designs[first.road].spec.elevation.Evaluate(first.s_m);
@@ -162,11 +178,16 @@ void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesi
         const Hermite piece = before ? Hermite{far, minor.s_m, there.value, there.slope, z.value, slope}
                                      : Hermite{minor.s_m, far, z.value, slope, there.value, there.slope};
         spec.elevation = WithHermite(spec.elevation, piece);
-        const double steepest = 1.5 * std::fabs(z.value - there.value) / fit + 0.25 * (std::fabs(slope) + std::fabs(there.slope));
+        const double steepest =
+            1.5 * std::fabs(z.value - there.value) / fit + 0.25 * (std::fabs(slope) + std::fabs(there.slope));
         if (!(steepest > kSteepFit)) continue;
-        const std::string told = fmt::format("road '{}' changes its height by {:.2f} m within {:.1f} m to meet road '{}': up to {:.0f} % steep", spec.id, z.value - there.value, fit, roads[first.road].id(), 100.0 * steepest);
-        if (steepest > kSteepestFit) junction.map.Problem("roads", fmt::format("{}; at most {:.0f} % was expected", told, 100.0 * kSteepestFit));
-        else warnings.push_back(fmt::format("{}: {}", junction.map.Place("roads"), told));
+        const std::string told = fmt::format(
+            "road '{}' changes its height by {:.2f} m within {:.1f} m to meet road '{}': up to {:.0f} % steep", spec.id,
+            z.value - there.value, fit, roads[first.road].id(), 100.0 * steepest);
+        if (steepest > kSteepestFit)
+          junction.map.Problem("roads", fmt::format("{}; at most {:.0f} % was expected", told, 100.0 * kSteepestFit));
+        else
+          warnings.push_back(fmt::format("{}: {}", junction.map.Place("roads"), told));
       }
     }
   }

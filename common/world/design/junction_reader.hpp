@@ -34,9 +34,9 @@ struct JunctionWish {
 std::vector<JunctionWish> ReadJunctions(const config::Map& file, const std::vector<RoadDesign>& designs,
                                         const std::vector<network::Road>& roads);
 
-// Changes the heights of minor roads, so that they meet the first one at the height of its edges, with the slope that its axis
-// has in their direction.
-void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
-                std::vector<std::string>& warnings);
+// Changes the heights of minor roads, so that they meet the first one at the height of its edges, with the slope that
+// its axis has in their direction.
+void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs,
+                const std::vector<network::Road>& roads, std::vector<std::string>& warnings);
 
 }  // namespace rodeira::design

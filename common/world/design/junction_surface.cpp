@@ -19,7 +19,9 @@ struct Edge {
   bool paved;  // lanes on both sides that are paved, or the outermost such edge
 };
 
-bool IsPavedLane(network::LaneType type) { return type != network::LaneType::kNone && type != network::LaneType::kMedian; }
+bool IsPavedLane(network::LaneType type) {
+  return type != network::LaneType::kNone && type != network::LaneType::kMedian;
+}
 
 std::vector<Edge> EdgesOf(const network::Road& road, network::End end) {
   const double s = end == network::End::kStart ? 0.0 : road.length_m();
@@ -102,7 +104,11 @@ ArmSection SectionOf(const network::Road& road, network::End end, double weight)
 
 JunctionSurface::JunctionSurface(std::string id, std::vector<ArmSection> arms, std::vector<Eigen::Vector2d> outline,
                                  std::vector<Eigen::Vector2d> paved, std::vector<FreeEdge> free_edges)
-    : id_(std::move(id)), arms_(std::move(arms)), outline_(std::move(outline)), paved_(std::move(paved)), free_edges_(std::move(free_edges)) {
+    : id_(std::move(id)),
+      arms_(std::move(arms)),
+      outline_(std::move(outline)),
+      paved_(std::move(paved)),
+      free_edges_(std::move(free_edges)) {
   RODEIRA_ASSERT(arms_.size() >= 2 && outline_.size() >= 3);
   low_ = high_ = outline_[0];
   for (const Eigen::Vector2d& p : outline_) {

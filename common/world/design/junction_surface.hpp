@@ -34,8 +34,9 @@ struct FreeEdge {
   Eigen::Vector2d from_W, to_W;
 };
 
-// The one surface of a junction. Its height at p is the mean of what the roads' ends would have there, going on straight,
-// each weighted by weight / d^2 of its distance d: at a road's end it is that road, and neither height nor slope jumps.
+// The one surface of a junction. Its height at p is the mean of what the roads' ends would have there, going on
+// straight, each weighted by weight / d^2 of its distance d: at a road's end it is that road, and neither height nor
+// slope jumps.
 class JunctionSurface {
  public:
   // Corners counter-clockwise; free edges are those of the outline between two roads.

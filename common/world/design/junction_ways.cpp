@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/geometry/plane.hpp"
 #include "common/world/design/cut.hpp"
 #include "common/world/design/furniture_reader.hpp"
 #include "common/world/design/section_reader.hpp"
 #include "common/world/design/tables.hpp"
-#include "common/core/geometry/plane.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -26,7 +26,8 @@ std::array<double, 4> CubicThrough(const std::array<double, 4>& z, double width_
   if (width_m < 1e-3) return {z[0], 0.0, 0.0, 0.0};
   const double first = z[1] - z[0], second = z[2] - 2.0 * z[1] + z[0], third = z[3] - 3.0 * z[2] + 3.0 * z[1] - z[0];
   const double h = width_m / 3.0;  // Newton's form, multiplied out
-  return {z[0], (first - second / 2.0 + third / 3.0) / h, (second / 2.0 - third / 2.0) / (h * h), third / 6.0 / (h * h * h)};
+  return {z[0], (first - second / 2.0 + third / 3.0) / h, (second / 2.0 - third / 2.0) / (h * h),
+          third / 6.0 / (h * h * h)};
 }
 
 // Cubics through evenly spaced values, with the slopes of the values beside them.
@@ -45,8 +46,8 @@ CubicTable Followed(const std::vector<double>& s, const std::vector<double>& val
   return CubicTable(std::move(records));
 }
 
-// The heights of the junction's surface as the road's own: along its axis as cubics with the surface's slopes, across each
-// lane as a cubic through its edges and two points between them.
+// The heights of the junction's surface as the road's own: along its axis as cubics with the surface's slopes, across
+// each lane as a cubic through its edges and two points between them.
 void LayOn(const JunctionSurface& surface, const geometry::PlanAxis& axis, network::RoadSpec& spec) {
   network::LaneSection& section = spec.sections[0];
   const int steps = std::max(2, static_cast<int>(std::ceil(axis.length_m() / kStep_m)));
@@ -97,8 +98,8 @@ void LayOn(const JunctionSurface& surface, const geometry::PlanAxis& axis, netwo
 
 }  // namespace
 
-network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_m, const std::string& id, const std::string& junction,
-                       const JunctionSurface& surface) {
+network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_m, const std::string& id,
+                       const std::string& junction, const JunctionSurface& surface) {
   const network::Road part = Cut(whole, from_s_m, to_s_m, id);
   network::RoadSpec spec = part.spec();
   spec.junction = junction;
@@ -113,8 +114,9 @@ network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_
 }
 
 std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector2d& inward_W, const ArmLane& to,
-                                        const Eigen::Vector2d& outward_W, const std::string& id, const std::string& junction,
-                                        const JunctionSurface& surface, const network::Road& like) {
+                                        const Eigen::Vector2d& outward_W, const std::string& id,
+                                        const std::string& junction, const JunctionSurface& surface,
+                                        const network::Road& like) {
   const Eigen::Vector2d chord = to.left_W - from.left_W;
   const double turn = std::atan2(geometry::Cross(inward_W, outward_W), inward_W.dot(outward_W));
   // Handles as long as those of the arc that turns by this much over this chord.
@@ -124,7 +126,9 @@ std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector
   element.kind = geometry::PlanElement::Kind::kCubic;
   element.start_W = from.left_W;
   element.heading_rad = std::atan2(inward_W.y(), inward_W.x());
-  const auto local = [&](const Eigen::Vector2d& v) { return Eigen::Vector2d(v.dot(inward_W), geometry::Cross(inward_W, v)); };
+  const auto local = [&](const Eigen::Vector2d& v) {
+    return Eigen::Vector2d(v.dot(inward_W), geometry::Cross(inward_W, v));
+  };
   const Eigen::Vector2d end = local(chord), p1(handle, 0.0), p2 = end - handle * local(outward_W);
   for (int axis = 0; axis < 2; ++axis) {
     auto& a = axis == 0 ? element.u : element.v;
@@ -141,7 +145,8 @@ std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector
   spec.left_hand = like.spec().left_hand;
   spec.types = {{0.0, "rural", "", std::nullopt}};
   double sharpest = 0.0;
-  for (int i = 0; i <= 20; ++i) sharpest = std::max(sharpest, std::fabs(axis->Evaluate(length * i / 20.0).curvature_1pm));
+  for (int i = 0; i <= 20; ++i)
+    sharpest = std::max(sharpest, std::fabs(axis->Evaluate(length * i / 20.0).curvature_1pm));
   spec.types[0].speed_mps = std::sqrt(kSideways_mps2 / std::max(sharpest, 1e-3));
   if (!like.spec().types.empty() && like.spec().types[0].speed_mps) {
     spec.types[0].speed_mps = std::min(*spec.types[0].speed_mps, *like.spec().types[0].speed_mps);
@@ -186,7 +191,8 @@ void MarkArm(network::RoadSpec& spec, network::End end, Control control, bool ma
   for (const auto* side : {&section.left, &section.right}) {
     for (const network::Lane& lane : *side) {
       if (!network::IsDrivable(lane.type) || lane.direction == -incoming) continue;
-      const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(from), outer = EdgeOf(spec, lane.id).Value(from);
+      const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(from),
+                   outer = EdgeOf(spec, lane.id).Value(from);
       const double width = std::fabs(outer - inner);
       // Stop: one bar over the lane. Give way: strokes of 0.5 m across it with gaps of 0.3 m.
       const double stroke = control == Control::kStop ? width - 0.2 : 0.5, gap = 0.3;

@@ -45,8 +45,10 @@ LaidPiece ReadPiece(const Map& item, double length_m, const network::RoadSpec& s
   const auto [right, left] = Driven(spec, piece.from_s_m);
   piece.right_t_m = item.Number("from_t_m", {-200.0, 200.0}, right);
   piece.left_t_m = item.Number("to_t_m", {-200.0, 200.0}, left);
-  if (!(piece.left_t_m > piece.right_t_m)) item.Problem("to_t_m", "'to_t_m' must be above 'from_t_m': t grows to the left");
-  const int outer_right = -static_cast<int>(spec.sections[0].right.size()), outer_left = static_cast<int>(spec.sections[0].left.size());
+  if (!(piece.left_t_m > piece.right_t_m))
+    item.Problem("to_t_m", "'to_t_m' must be above 'from_t_m': t grows to the left");
+  const int outer_right = -static_cast<int>(spec.sections[0].right.size()),
+            outer_left = static_cast<int>(spec.sections[0].left.size());
   for (const double part : {0.0, 0.5, 1.0}) {
     const double s = piece.from_s_m + part * (piece.to_s_m - piece.from_s_m);
     const double low = EdgeOf(spec, outer_right).Value(s), high = EdgeOf(spec, outer_left).Value(s);
@@ -75,7 +77,8 @@ void AddObject(const char* subtype, const LaidPiece& piece, network::RoadSpec& s
 network::Patch ReadPatch(const Map& item, const Context& context, double length_m, network::RoadSpec& spec) {
   network::Patch patch;
   patch.piece = ReadPiece(item, length_m, spec);
-  if (!item.Has("material") && !item.Has("friction")) item.Problem("", "a patch is of another 'material', or has another 'friction', or both");
+  if (!item.Has("material") && !item.Has("friction"))
+    item.Problem("", "a patch is of another 'material', or has another 'friction', or both");
   if (item.Has("material")) {
     const Material& material = context.MaterialOf(item, "material", "asphalt");
     patch.surface = ground::SurfaceName(material.surface);
@@ -92,7 +95,8 @@ geometry::CubicTable ThroughKnots(const std::vector<Knot>& knots, bool straight)
   if (!straight) return Eased(knots);
   std::vector<geometry::Cubic> records;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    records.push_back({knots[i].s_m, knots[i].value, (knots[i + 1].value - knots[i].value) / (knots[i + 1].s_m - knots[i].s_m), 0.0, 0.0});
+    records.push_back({knots[i].s_m, knots[i].value,
+                       (knots[i + 1].value - knots[i].value) / (knots[i + 1].s_m - knots[i].s_m), 0.0, 0.0});
   }
   return geometry::CubicTable(std::move(records));
 }
@@ -107,13 +111,16 @@ geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
     const double height = item.Number("height_m", {-1.0, 1.0});
     const bool round = item.Choice("shape", {"round", "smooth"}, "round") == "round";
     if (!round) return Eased({{from, 0.0}, {from + 0.5 * length, height}, {from + length, 0.0}});
-    return geometry::CubicTable({{from, 0.0, 4.0 * height / length, -4.0 * height / (length * length), 0.0}});  // the parabola
+    return geometry::CubicTable(
+        {{from, 0.0, 4.0 * height / length, -4.0 * height / (length * length), 0.0}});  // the parabola
   }
   std::vector<Knot> knots = ReadKnots(item, "heights", "z_m", {-1.0, 1.0});
   const bool straight = item.Choice("shape", {"straight", "smooth"}, "straight") == "straight";
   const bool whole = knots.size() > 1 && knots.front().s_m == 0.0 && std::fabs(knots.back().s_m - length) < kRounding_m;
   if (!whole || knots.front().value != 0.0 || knots.back().value != 0.0) {
-    item.Problem("heights", fmt::format("'heights' must begin at s_m 0 and end at s_m {:g}, as the bump does, with z_m 0 at both", length));
+    item.Problem(
+        "heights",
+        fmt::format("'heights' must begin at s_m 0 and end at s_m {:g}, as the bump does, with z_m 0 at both", length));
     return Constant(0.0);
   }
   for (Knot& knot : knots) knot.s_m += from;
@@ -124,7 +131,8 @@ network::Bump ReadBump(const Map& item, double length_m, network::RoadSpec& spec
   network::Bump bump;
   bump.piece = ReadPiece(item, length_m, spec);
   bump.side_m = item.Number("side_m", {0.01, 50.0}, kSide_m);
-  if (2.0 * bump.side_m > bump.piece.left_t_m - bump.piece.right_t_m) item.Problem("side_m", "the bump is narrower than twice its 'side_m'");
+  if (2.0 * bump.side_m > bump.piece.left_t_m - bump.piece.right_t_m)
+    item.Problem("side_m", "the bump is narrower than twice its 'side_m'");
   bump.height = bump.piece.to_s_m > bump.piece.from_s_m ? ReadHeights(item, bump.piece) : Constant(0.0);
   AddObject("speedBump", bump.piece, spec);
   return bump;
@@ -135,7 +143,8 @@ network::Bump ReadBump(const Map& item, double length_m, network::RoadSpec& spec
 network::Laid ReadLaid(const Map& road, const Context& context, double length_m, network::RoadSpec& spec) {
   network::Laid laid;
   const List patches = road.OptionalItems("patches");
-  for (std::size_t i = 0; i < patches.size(); ++i) laid.patches.push_back(ReadPatch(patches.At(i), context, length_m, spec));
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    laid.patches.push_back(ReadPatch(patches.At(i), context, length_m, spec));
   const List bumps = road.OptionalItems("bumps");
   for (std::size_t i = 0; i < bumps.size(); ++i) laid.bumps.push_back(ReadBump(bumps.At(i), length_m, spec));
   return laid;

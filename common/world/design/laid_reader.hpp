@@ -7,8 +7,8 @@
 
 namespace rodeira::design {
 
-// Reads a road's 'patches' and 'bumps'. Each is an object of the road too (`roadSurface`, its outline in road coordinates), for what
-// only draws or exports it.
+// Reads a road's 'patches' and 'bumps'. Each is an object of the road too (`roadSurface`, its outline in road
+// coordinates), for what only draws or exports it.
 network::Laid ReadLaid(const config::Map& road, const Context& context, double length_m, network::RoadSpec& spec);
 
 }  // namespace rodeira::design

@@ -24,7 +24,8 @@ struct Stroke {
 geometry::CubicTable MiddleOf(const Map& item, const network::RoadSpec& spec) {
   const double offset = item.Number("offset_m", {-50.0, 50.0}, 0.0);
   if (item.Has("lane") == (item.Has("t_m") || item.Has("ts"))) {
-    item.Problem(item.Has("lane") ? "lane" : "", "a line lies on the outer edge of a 'lane' (0: between left and right) or at a 't_m'");
+    item.Problem(item.Has("lane") ? "lane" : "",
+                 "a line lies on the outer edge of a 'lane' (0: between left and right) or at a 't_m'");
   }
   if (!item.Has("lane")) return Sum(ReadTable(item, "t_m", "ts", "t_m", {-200.0, 200.0}, 0.0), Constant(offset));
   const int lane = static_cast<int>(item.Integer("lane", -30, 30));
@@ -41,7 +42,9 @@ Stroke ReadStroke(const Map& item, const LineKind& kind, bool dashed) {
 }
 
 void ReadLine(const Map& item, bool of_template, double length_m, network::RoadSpec& spec) {
-  if (of_template && item.Has("lane") && spec.sections[0].Find(static_cast<int>(item.Integer("lane", -30, 30))) == nullptr) return;
+  if (of_template && item.Has("lane") &&
+      spec.sections[0].Find(static_cast<int>(item.Integer("lane", -30, 30))) == nullptr)
+    return;
   std::vector<std::string> names;
   for (const LineKind& kind : network::kLineKinds) names.emplace_back(kind.name);
   const std::string name = item.Choice("kind", names);
@@ -52,13 +55,15 @@ void ReadLine(const Map& item, bool of_template, double length_m, network::RoadS
   line.from_s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
   line.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
   line.colour = item.Choice("colour", {"white", "yellow", "blue", "red", "orange"}, "white");
-  if (!(line.from_s_m < line.to_s_m)) item.Problem("to_s_m", "a line must end after its beginning: 'to_s_m' above 'from_s_m'");
+  if (!(line.from_s_m < line.to_s_m))
+    item.Problem("to_s_m", "a line must end after its beginning: 'to_s_m' above 'from_s_m'");
   bool dashed_left = kind.dashed_left, dashed_right = kind.dashed_right;
   if (name == "mixed") {
     dashed_left = item.Choice("left", {"continuous", "dashed"}, "continuous") == "dashed";
     dashed_right = item.Choice("right", {"continuous", "dashed"}, "dashed") == "dashed";
   }
-  const double apart = kind.lines == 2 ? 0.5 * (item.Number("apart_m", {0.02, 5.0}, network::kLinesApart_m) + line.width_m) : 0.0;
+  const double apart =
+      kind.lines == 2 ? 0.5 * (item.Number("apart_m", {0.02, 5.0}, network::kLinesApart_m) + line.width_m) : 0.0;
   for (int i = 0; i < kind.lines; ++i) {
     const Stroke stroke = ReadStroke(item, kind, i == 0 ? dashed_left : dashed_right);
     PaintedLine painted = line;

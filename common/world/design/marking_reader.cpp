@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/geometry/angle.hpp"
 #include "common/world/design/section_reader.hpp"
 #include "common/world/design/tables.hpp"
-#include "common/core/geometry/angle.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -16,7 +16,8 @@ namespace {
 using config::List;
 using config::Map;
 
-// Vienna Convention, annex 2: stripes of a crossing 0.4 to 0.6 m wide with gaps of one to two of them; a stop line of 0.2 to 0.6 m.
+// Vienna Convention, annex 2: stripes of a crossing 0.4 to 0.6 m wide with gaps of one to two of them; a stop line of
+// 0.2 to 0.6 m.
 constexpr double kStripe_m = 0.5, kStripeGap_m = 0.5;
 constexpr double kStopLine_m = 0.5, kBesideStopLine_m = 0.1;  // what stays free at each edge of the lane
 constexpr double kNarrowest_m = 0.3;
@@ -27,7 +28,8 @@ struct Edges {
 };
 
 Edges EdgesOf(const network::RoadSpec& spec, const network::Lane& lane, double s_m) {
-  const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(s_m), outer = EdgeOf(spec, lane.id).Value(s_m);
+  const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(s_m),
+               outer = EdgeOf(spec, lane.id).Value(s_m);
   return {std::min(inner, outer), std::max(inner, outer)};
 }
 
@@ -51,10 +53,13 @@ std::vector<const network::Lane*> LanesOf(const Map& item, const network::RoadSp
 
 void Paint(double s_m, double length_m, double road_m, const Edges& edges, network::RoadSpec& spec) {
   const double from = std::max(0.0, s_m - 0.5 * length_m), to = std::min(road_m, s_m + 0.5 * length_m);
-  if (from < to) spec.lines.push_back({from, to, Constant(0.5 * (edges.right_m + edges.left_m)), edges.width_m(), 0.0, 0.0, "white"});
+  if (from < to)
+    spec.lines.push_back(
+        {from, to, Constant(0.5 * (edges.right_m + edges.left_m)), edges.width_m(), 0.0, 0.0, "white"});
 }
 
-// Stripes along the road, spread evenly about the middle of all that is driven on; and an object that names the place, whose paint they are.
+// Stripes along the road, spread evenly about the middle of all that is driven on; and an object that names the place,
+// whose paint they are.
 void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double length = item.Number("length_m", {1.0, 20.0}, 4.0);
   Edges all{1e9, -1e9};
@@ -65,7 +70,8 @@ void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec&
   if (!(all.width_m() >= kStripe_m)) return;
   const double period = kStripe_m + kStripeGap_m, count = std::floor((all.width_m() + kStripeGap_m) / period + 1e-9);
   const double first = 0.5 * (all.right_m + all.left_m) - 0.5 * (count * period - kStripeGap_m);
-  for (double i = 0.0; i < count; i += 1.0) Paint(s_m, length, road_m, {first + i * period, first + i * period + kStripe_m}, spec);
+  for (double i = 0.0; i < count; i += 1.0)
+    Paint(s_m, length, road_m, {first + i * period, first + i * period + kStripe_m}, spec);
   network::Object object;
   object.id = fmt::format("{}-object{}", spec.id, spec.objects.size());
   object.type = "crosswalk";
@@ -95,16 +101,19 @@ void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
   (void)item.Integer("lane", -30, 30);
   std::string ways;
   const List said = item.Items("ways");
-  for (const auto& [word, part] : {std::pair("straight", "Straight"), std::pair("left", "Left"), std::pair("right", "Right")}) {
+  for (const auto& [word, part] :
+       {std::pair("straight", "Straight"), std::pair("left", "Left"), std::pair("right", "Right")}) {
     for (std::size_t i = 0; i < said.size(); ++i) {
       if (said.Text(i) == word && ways.find(part) == std::string::npos) ways += part;
     }
   }
   for (std::size_t i = 0; i < said.size(); ++i) {
     const std::string word = said.Text(i);
-    if (word != "straight" && word != "left" && word != "right") said.Problem(i, fmt::format("'{}' is no way that an arrow points; left, straight or right was expected", word));
+    if (word != "straight" && word != "left" && word != "right")
+      said.Problem(i, fmt::format("'{}' is no way that an arrow points; left, straight or right was expected", word));
   }
-  if (item.Has("ways") && said.size() == 0) item.Problem("ways", "an arrow points somewhere; left, straight or right was expected");
+  if (item.Has("ways") && said.size() == 0)
+    item.Problem("ways", "an arrow points somewhere; left, straight or right was expected");
   const double length = item.Number("length_m", {1.0, 20.0}, 5.0);
   if (!item.Has("lane")) return;
   for (const network::Lane* lane : LanesOf(item, spec)) {
@@ -130,9 +139,12 @@ void ReadMarkings(const Map& road, double length_m, network::RoadSpec& spec) {
     const Map item = list.At(i);
     const std::string type = item.Choice("type", {"crossing", "stop_line", "arrow"});
     const double s = item.Number("s_m", {0.0, length_m});
-    if (type == "crossing") ReadCrossing(item, s, length_m, spec);
-    else if (type == "stop_line") ReadStopLine(item, s, length_m, spec);
-    else if (type == "arrow") ReadArrow(item, s, spec);
+    if (type == "crossing")
+      ReadCrossing(item, s, length_m, spec);
+    else if (type == "stop_line")
+      ReadStopLine(item, s, length_m, spec);
+    else if (type == "arrow")
+      ReadArrow(item, s, spec);
   }
 }
 

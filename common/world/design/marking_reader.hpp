@@ -5,8 +5,8 @@
 
 namespace rodeira::design {
 
-// 'markings' of a road: zebra crossings and stop lines, which become painted lines (so that SUELO knows them), and arrows, which
-// become objects. The road's lanes must be there already.
+// 'markings' of a road: zebra crossings and stop lines, which become painted lines (so that SUELO knows them), and
+// arrows, which become objects. The road's lanes must be there already.
 void ReadMarkings(const config::Map& road, double length_m, network::RoadSpec& spec);
 
 }  // namespace rodeira::design

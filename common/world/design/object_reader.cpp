@@ -47,7 +47,8 @@ ObjectReading ReadObjectItself(const config::Map& item, std::string id) {
   object.name = item.Text("name", name);
   if (const auto model = item.OptionalPath("model")) {
     std::error_code problem;
-    if (!std::filesystem::is_regular_file(*model, problem)) item.Problem("model", fmt::format("there is no model file '{}'", model->string()));
+    if (!std::filesystem::is_regular_file(*model, problem))
+      item.Problem("model", fmt::format("there is no model file '{}'", model->string()));
     object.name = std::filesystem::absolute(*model).string();  // not to be looked for from where the program stands
   }
   object.length_m = item.Number("length_m", {0.0, 1000.0}, kind->length_m);

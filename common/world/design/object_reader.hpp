@@ -13,7 +13,8 @@ struct ObjectReading {
   bool continuous = false;  // a guard rail, a wall: it goes on from one place to another
 };
 
-// 'type', 'name', 'model', 'length_m', 'width_m', 'height_m', 'radius_m' and 'z_m' of an object, with the usual sizes of its type.
+// 'type', 'name', 'model', 'length_m', 'width_m', 'height_m', 'radius_m' and 'z_m' of an object, with the usual sizes
+// of its type.
 ObjectReading ReadObjectItself(const config::Map& item, std::string id);
 
 }  // namespace rodeira::design

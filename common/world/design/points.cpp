@@ -48,7 +48,8 @@ void Smooth(const Points& points, AxisReading& axis) {
   double s = 0.0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const double h = x[i + 1] - x[i];
-    const Eigen::Vector2d first = (plan[i + 1] - plan[i]) - h * h / 6.0 * (2.0 * bend[i] + bend[i + 1]);  // by p in [0, 1]
+    const Eigen::Vector2d first =
+        (plan[i + 1] - plan[i]) - h * h / 6.0 * (2.0 * bend[i] + bend[i + 1]);  // by p in [0, 1]
     const Eigen::Vector2d second = 0.5 * h * h * bend[i], third = h * h / 6.0 * (bend[i + 1] - bend[i]);
     PlanElement element;
     element.kind = PlanElement::Kind::kCubic;
@@ -133,7 +134,8 @@ Points ReadList(const config::Map& map, bool& has_z) {
 void ReadPoints(const config::Map& map, AxisReading& axis) {
   Points points;
   bool has_z = false;
-  if (map.Has("file") == map.Has("list")) map.Problem(map.Has("file") ? "file" : "", "'points' needs either a 'file' or a 'list'");
+  if (map.Has("file") == map.Has("list"))
+    map.Problem(map.Has("file") ? "file" : "", "'points' needs either a 'file' or a 'list'");
   if (map.Has("file")) {
     const auto path = map.Path("file");
     const auto text = base::ReadText(path);
@@ -152,13 +154,17 @@ void ReadPoints(const config::Map& map, AxisReading& axis) {
   const double within = map.Number("within_m", {0.001, 10.0}, 0.05);
   if (points.size() < 2) return map.Problem("", "two points or more were expected");
   for (std::size_t i = 2; i < points.size(); ++i) {
-    const Eigen::Vector2d before = (points[i - 1] - points[i - 2]).head<2>(), after = (points[i] - points[i - 1]).head<2>();
+    const Eigen::Vector2d before = (points[i - 1] - points[i - 2]).head<2>(),
+                          after = (points[i] - points[i - 1]).head<2>();
     if (before.normalized().dot(after.normalized()) < -0.9) {
-      return map.Problem("", fmt::format("the line turns back at point {} ({:.3f}, {:.3f})", i, points[i - 1].x(), points[i - 1].y()));
+      return map.Problem(
+          "", fmt::format("the line turns back at point {} ({:.3f}, {:.3f})", i, points[i - 1].x(), points[i - 1].y()));
     }
   }
-  if (smooth) Smooth(points, axis);
-  else AsTheyAre(points, within, axis);
+  if (smooth)
+    Smooth(points, axis);
+  else
+    AsTheyAre(points, within, axis);
   if (!has_z) return;
   std::vector<double> stations;
   if (smooth) {
@@ -167,8 +173,10 @@ void ReadPoints(const config::Map& map, AxisReading& axis) {
     stations.push_back(0.0);
     for (std::size_t i = 0; i + 1 < axis.elements.size(); ++i) {
       const PlanElement& element = axis.elements[i];
-      if (element.curvature_start_1pm != 0.0) stations.push_back(element.s_m + 0.5 * element.length_m);
-      else if (axis.elements[i + 1].curvature_start_1pm == 0.0) stations.push_back(element.s_m + element.length_m);
+      if (element.curvature_start_1pm != 0.0)
+        stations.push_back(element.s_m + 0.5 * element.length_m);
+      else if (axis.elements[i + 1].curvature_start_1pm == 0.0)
+        stations.push_back(element.s_m + element.length_m);
     }
   }
   stations.push_back(axis.elements.back().s_m + axis.elements.back().length_m);

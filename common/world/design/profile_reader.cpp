@@ -27,13 +27,16 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     const Map item = points.At(i);
     const geometry::GradePoint point{item.Number("s_m", kStation_m), item.Number("z_m", kHeight_m),
                                      item.Number("parabola_m", config::Range::NotNegative(), 0.0)};
-    if (i > 0 && point.s_m <= grades.back().s_m) item.Problem("s_m", "the points of 'vertical' must come in ascending 's_m'");
+    if (i > 0 && point.s_m <= grades.back().s_m)
+      item.Problem("s_m", "the points of 'vertical' must come in ascending 's_m'");
     if ((i == 0 || i + 1 == points.size()) && point.parabola_m > 0.0) {
-      item.Problem("parabola_m", "the first and the last point of 'vertical' have no parabola: no two grades meet there");
+      item.Problem("parabola_m",
+                   "the first and the last point of 'vertical' have no parabola: no two grades meet there");
     }
     grades.push_back(point);
   }
-  if (road.Has("vertical") && points.size() == 0) road.Problem("vertical", "'vertical' has no points; at least one was expected");
+  if (road.Has("vertical") && points.size() == 0)
+    road.Problem("vertical", "'vertical' has no points; at least one was expected");
   for (std::size_t i = 1; i < grades.size(); ++i) {
     const geometry::GradePoint& before = grades[i - 1];
     const geometry::GradePoint& here = grades[i];
@@ -41,11 +44,12 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     if (!(between > 0.0)) continue;  // told above
     const double grade = (here.z_m - before.z_m) / between;
     if (!(std::fabs(grade) <= kSteepestGrade)) {
-      points.Problem(i, fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected", grade, kSteepestGrade));
+      points.Problem(i, fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected",
+                                    grade, kSteepestGrade));
     }
     if (0.5 * (before.parabola_m + here.parabola_m) > between) {
-      points.Problem(i, fmt::format("the parabolas of {} m and {} m overlap: their points are only {} m apart", before.parabola_m,
-                                    here.parabola_m, between));
+      points.Problem(i, fmt::format("the parabolas of {} m and {} m overlap: their points are only {} m apart",
+                                    before.parabola_m, here.parabola_m, between));
     }
   }
   return grades;
@@ -56,9 +60,11 @@ std::vector<std::string> GradeWarnings(const Map& road, const std::vector<geomet
   const List points = road.Items("vertical");
   for (std::size_t i = 1; i + 1 < grades.size(); ++i) {
     const geometry::GradePoint &before = grades[i - 1], &here = grades[i], &behind = grades[i + 1];
-    const double kink = (behind.z_m - here.z_m) / (behind.s_m - here.s_m) - (here.z_m - before.z_m) / (here.s_m - before.s_m);
+    const double kink =
+        (behind.z_m - here.z_m) / (behind.s_m - here.s_m) - (here.z_m - before.z_m) / (here.s_m - before.s_m);
     if (here.parabola_m > 0.0 || !(std::fabs(kink) > kFeltKink)) continue;
-    warnings.push_back(fmt::format("{}: the grade kinks by {:.2f} % at s = {:.3f} m; a 'parabola_m' rounds it", points.Place(i), 100.0 * kink, here.s_m));
+    warnings.push_back(fmt::format("{}: the grade kinks by {:.2f} % at s = {:.3f} m; a 'parabola_m' rounds it",
+                                   points.Place(i), 100.0 * kink, here.s_m));
   }
   return warnings;
 }

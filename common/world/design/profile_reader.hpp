@@ -9,8 +9,8 @@
 
 namespace rodeira::design {
 
-// 'vertical': the points where two grades meet. What does not fit together is a problem of the map's file; then the points
-// must not be built into a profile.
+// 'vertical': the points where two grades meet. What does not fit together is a problem of the map's file; then the
+// points must not be built into a profile.
 std::vector<geometry::GradePoint> ReadGrades(const config::Map& road);
 
 // Of points that ascend: where two grades meet without a parabola and differ by more than 0.5 %.

@@ -7,6 +7,7 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/config/either.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/world/design/axis_reader.hpp"
 #include "common/world/design/furniture_reader.hpp"
 #include "common/world/design/laid_reader.hpp"
@@ -14,7 +15,6 @@
 #include "common/world/design/profile_reader.hpp"
 #include "common/world/design/section_reader.hpp"
 #include "common/world/design/tables.hpp"
-#include "common/core/geometry/angle.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -28,12 +28,14 @@ double LengthOf(const std::vector<geometry::PlanElement>& elements) {
 }
 
 // 'place': where on another road a station of this one lies, and how it is turned against it. Returns the height there.
-std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>& before, std::vector<geometry::PlanElement>& elements) {
+std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>& before,
+                                  std::vector<geometry::PlanElement>& elements) {
   if (!road.Has("place")) return std::nullopt;
   const Map place = road.Child("place");
   if (road.Has("start")) road.Problem("place", "a road has either a 'start' or a 'place' on another road");
   const std::string id = place.Text("road");
-  const double s = place.Number("s_m", {0.0, 1e7}), turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
+  const double s = place.Number("s_m", {0.0, 1e7}),
+               turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
   const double own_s = place.Number("own_s_m", {0.0, LengthOf(elements)}, 0.0);
   std::vector<std::string> ids;
   for (const RoadDesign& other : before) {
@@ -55,7 +57,8 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
 }
 
 void ReadSpeeds(const Map& road, network::RoadSpec& spec) {
-  const std::string kind = road.Choice("kind", {"rural", "town", "motorway", "lowSpeed", "pedestrian", "bicycle", "unknown"}, "rural");
+  const std::string kind =
+      road.Choice("kind", {"rural", "town", "motorway", "lowSpeed", "pedestrian", "bicycle", "unknown"}, "rural");
   const auto knots = ReadKnots(road, "speed_limits", "speed_kmh", {1.0, 400.0});
   network::RoadType type{0.0, kind, "", std::nullopt};
   if (road.Has("speed_limit_kmh")) type.speed_mps = road.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6;
@@ -74,7 +77,8 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   network::RoadSpec& spec = design.spec;
   spec.id = map.Text("id");
   spec.name = map.Text("name", spec.id);
-  if (spec.id.find('/') != std::string::npos) map.Problem("id", "a road's id holds no '/': the parts between junctions are named with it");
+  if (spec.id.find('/') != std::string::npos)
+    map.Problem("id", "a road's id holds no '/': the parts between junctions are named with it");
   for (const RoadDesign& other : before) {
     if (other.spec.id == spec.id) map.Problem("id", fmt::format("there is a road '{}' already", spec.id));
   }
@@ -135,16 +139,23 @@ void CheckBends(const RoadDesign& design, const network::Road& road) {
     std::string help;
     if (points && element.kind == geometry::PlanElement::Kind::kClothoid) {
       const double turn = std::fabs(k) * element.length_m, radius = std::fabs(inner) / kSharpest;
-      help = fmt::format("; a corner of {:.0f} degrees needs 'within_m' {:.2f} or more between longer pieces, or 'smooth: true'", turn * 180.0 / geometry::kPi, std::ceil(100.0 * radius * std::tan(0.5 * turn) * std::tan(0.25 * turn)) / 100.0);
+      help = fmt::format(
+          "; a corner of {:.0f} degrees needs 'within_m' {:.2f} or more between longer pieces, or 'smooth: true'",
+          turn * 180.0 / geometry::kPi,
+          std::ceil(100.0 * radius * std::tan(0.5 * turn) * std::tan(0.25 * turn)) / 100.0);
     }
-    design.map.Problem(points ? "points" : "axis",
-                       fmt::format("the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m{}",
-                                   design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k), help));
+    design.map.Problem(
+        points ? "points" : "axis",
+        fmt::format(
+            "the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m{}",
+            design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k), help));
     return true;
   };
   // Every metre, and at both ends of each element by its own formula, however short it is.
   for (const geometry::PlanElement& element : design.elements) {
-    if (element.kind == geometry::PlanElement::Kind::kClothoid && folds(element, element.s_m, element.curvature_start_1pm)) return;
+    if (element.kind == geometry::PlanElement::Kind::kClothoid &&
+        folds(element, element.s_m, element.curvature_start_1pm))
+      return;
     const int steps = std::max(1, static_cast<int>(std::ceil(element.length_m)));
     for (int i = 0; i < steps; ++i) {
       const double s = element.s_m + element.length_m * (i + 0.5) / steps;

@@ -14,12 +14,12 @@ namespace rodeira::design {
 struct RoadDesign {
   network::RoadSpec spec;
   std::vector<geometry::PlanElement> elements;
-  config::Map map;  // for what is found to be wrong later
+  config::Map map;          // for what is found to be wrong later
   network::Laid laid = {};  // on its surface
 };
 
-// Reads one road; `before` are those that it may be placed at. What is wrong is a problem of the map's file; where there is
-// any, the road must not be built.
+// Reads one road; `before` are those that it may be placed at. What is wrong is a problem of the map's file; where
+// there is any, the road must not be built.
 RoadDesign ReadRoad(const config::Map& map, Context& context, const std::vector<RoadDesign>& before);
 
 // The road as it stands, without junctions. Nothing, and a problem, where its axis cannot be.

@@ -55,7 +55,8 @@ Strip MakeStrip(LaneType type, CubicTable width, const Material& material, Cubic
   Strip strip;
   strip.lane.type = type;
   strip.lane.width = std::move(width);
-  strip.lane.materials.push_back({0.0, std::string(SurfaceName(material.surface)), material.friction, std::nullopt, material.texture, material.texture_width_m, material.texture_height_m});
+  strip.lane.materials.push_back({0.0, std::string(SurfaceName(material.surface)), material.friction, std::nullopt,
+                                  material.texture, material.texture_width_m, material.texture_height_m});
   strip.fall = std::move(fall);
   return strip;
 }
@@ -68,11 +69,14 @@ Strip ReadLane(const Map& item, int id, const Context& context, const Falls& fal
   const Material& material = context.MaterialOf(item, "material", !paved ? "grass" : walked ? "concrete" : "asphalt");
   CubicTable fall = id > 0 ? falls.left : falls.right;
   if (item.Has("fall")) fall = Constant(item.Number("fall", kFall));
-  Strip strip = MakeStrip(type, ReadTable(item, "width_m", "widths", "width_m", {0.0, 50.0}, std::nullopt), material, std::move(fall));
+  Strip strip = MakeStrip(type, ReadTable(item, "width_m", "widths", "width_m", {0.0, 50.0}, std::nullopt), material,
+                          std::move(fall));
   strip.kerb_m = item.Number("kerb_m", {-0.5, 0.5}, 0.0);
-  if (item.Has("speed_limit_kmh")) strip.lane.speeds.push_back({0.0, item.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6});
+  if (item.Has("speed_limit_kmh"))
+    strip.lane.speeds.push_back({0.0, item.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6});
   const bool with_s = (id < 0) != context.left_hand;
-  strip.lane.direction = item.Choice("direction", {"along", "against", "both"}, with_s ? "along" : "against") == "along" ? 1 : -1;
+  strip.lane.direction =
+      item.Choice("direction", {"along", "against", "both"}, with_s ? "along" : "against") == "along" ? 1 : -1;
   if (item.Has("direction") && item.Text("direction") == "both") strip.lane.direction = 0;
   return strip;
 }
@@ -87,8 +91,10 @@ Sides ReadLanes(const Keys& keys, const Context& context, const Falls& falls) {
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const Map item = lanes.At(i);
     const int id = static_cast<int>(item.Integer("id", -30, 30));
-    if (id == 0) item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
-    if (!sides.emplace(id, ReadLane(item, id, context, falls)).second) item.Problem("id", fmt::format("lane {} stands twice", id));
+    if (id == 0)
+      item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
+    if (!sides.emplace(id, ReadLane(item, id, context, falls)).second)
+      item.Problem("id", fmt::format("lane {} stands twice", id));
   }
   if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "a road needs at least one lane");
   for (const auto& [id, strip] : sides) {
@@ -115,7 +121,8 @@ void AddBorders(const Keys& keys, bool left, const Context& context, const Falls
 }
 
 // Numbers, heights and the surface across.
-void Lay(std::vector<Strip>& side, bool left, bool left_hand, network::LaneSection& section, network::CrossSectionSurface& surface) {
+void Lay(std::vector<Strip>& side, bool left, bool left_hand, network::LaneSection& section,
+         network::CrossSectionSurface& surface) {
   double raised = 0.0;
   int id = 0;
   for (Strip& strip : side) {
@@ -151,7 +158,8 @@ Keys FindKeys(const Map& road, const Context& context) {
   if (found != context.templates.end()) {
     // A road may say all of a template's keys itself: they are known even where nobody asks for them.
     const Map other = found->second.Child(name);
-    const std::vector<std::string> known = {"lanes", "crossfall", "crossfalls", "shoulders", "verge", "offset_m", "offsets", "slopes", "lines"};
+    const std::vector<std::string> known = {"lanes",    "crossfall", "crossfalls", "shoulders", "verge",
+                                            "offset_m", "offsets",   "slopes",     "lines"};
     for (const std::string& key : other.Keys()) {
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         other.Problem(key, fmt::format("'{}' is no key of a template{}", key, base::DidYouMean(key, known)));
@@ -163,7 +171,9 @@ Keys FindKeys(const Map& road, const Context& context) {
   for (const auto& [known, map] : context.templates) names.push_back(known);
   section.Problem("template", fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
   constexpr std::string_view kUsual = "rural";
-  return {section, context.templates.find(std::string(kUsual))->second.Child(kUsual)};  // what is missing for want of it is not told
+  return {
+      section,
+      context.templates.find(std::string(kUsual))->second.Child(kUsual)};  // what is missing for want of it is not told
 }
 
 }  // namespace
@@ -173,8 +183,8 @@ void ReadSection(const Map& road, Context& context, double length_m, network::Ro
   const Falls falls = ReadFalls(keys);
   Sides sides = ReadLanes(keys, context, falls);
   spec.left_hand = context.left_hand;
-  spec.lane_offset = ReadTable(keys.With("offset_m").Has("offset_m") ? keys.With("offset_m") : keys.With("offsets"), "offset_m", "offsets",
-                               "t_m", {-100.0, 100.0}, 0.0);
+  spec.lane_offset = ReadTable(keys.With("offset_m").Has("offset_m") ? keys.With("offset_m") : keys.With("offsets"),
+                               "offset_m", "offsets", "t_m", {-100.0, 100.0}, 0.0);
   spec.lateral.surface.t_offset = spec.lane_offset;
   network::LaneSection section;
   for (const bool left : {true, false}) {
@@ -186,14 +196,17 @@ void ReadSection(const Map& road, Context& context, double length_m, network::Ro
   spec.sections.assign(1, std::move(section));
   spec.earthwork.emplace();
   ReadEarthwork(keys, *spec.earthwork);
-  if (road.Has("lines")) ReadLines(road, false, length_m, spec);
-  else ReadLines(keys.With("lines"), !keys.own.Has("lines"), length_m, spec);
+  if (road.Has("lines"))
+    ReadLines(road, false, length_m, spec);
+  else
+    ReadLines(keys.With("lines"), !keys.own.Has("lines"), length_m, spec);
 }
 
 CubicTable EdgeOf(const network::RoadSpec& spec, int lane) {
   CubicTable edge = spec.lane_offset;
   const auto& side = lane > 0 ? spec.sections[0].left : spec.sections[0].right;
-  for (int i = 0; i < std::abs(lane); ++i) edge = Sum(edge, side[static_cast<std::size_t>(i)].width, lane > 0 ? 1.0 : -1.0);
+  for (int i = 0; i < std::abs(lane); ++i)
+    edge = Sum(edge, side[static_cast<std::size_t>(i)].width, lane > 0 ? 1.0 : -1.0);
   return edge;
 }
 

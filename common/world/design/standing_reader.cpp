@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/world/design/object_reader.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/world/design/object_reader.hpp"
 
 namespace rodeira::design {
 namespace {
@@ -40,7 +40,8 @@ std::vector<Vector2d> ReadLine(const Map& item) {
     }
     points.push_back(point);
   }
-  if (points.size() < 2) item.Problem("along", fmt::format("'along' has {} points; two or more were expected", points.size()));
+  if (points.size() < 2)
+    item.Problem("along", fmt::format("'along' has {} points; two or more were expected", points.size()));
   return points;
 }
 
@@ -64,7 +65,8 @@ void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t
       ++piece;
       way = line[piece] - line[piece - 1];
     }
-    standing.things.push_back({object, line[piece - 1] + (i * every - before) * way.normalized(), std::atan2(way.y(), way.x()) + turn});
+    standing.things.push_back(
+        {object, line[piece - 1] + (i * every - before) * way.normalized(), std::atan2(way.y(), way.x()) + turn});
   }
 }
 
@@ -79,19 +81,30 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
     std::vector<Vector2d> line = ReadLine(item);
     if (line.size() < 2) return;
     for (const Vector2d& p : line) {
-      if (terrain_is_at && !terrain_is_at(p.x(), p.y())) return item.Problem("along", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
+      if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
+        return item.Problem("along", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
     }
-    if (!continuous) StandInARow(item, line, index, standing);
-    else if (item.Has("every_m")) item.Problem("every_m", "what goes on has no 'every_m'");
-    else if (LengthOf(line) > kLongest_m) item.Problem("along", fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", LengthOf(line), kLongest_m));
-    else standing.runs.push_back({index, std::move(line)});
+    if (!continuous)
+      StandInARow(item, line, index, standing);
+    else if (item.Has("every_m"))
+      item.Problem("every_m", "what goes on has no 'every_m'");
+    else if (LengthOf(line) > kLongest_m)
+      item.Problem("along",
+                   fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", LengthOf(line), kLongest_m));
+    else
+      standing.runs.push_back({index, std::move(line)});
   } else {
-    standing.things.push_back({index, {item.Number("x_m", kPlace_m), item.Number("y_m", kPlace_m)}, Radians(item.Number("heading_deg", kTurn_deg, 0.0))});
-    if (item.Has("every_m")) item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
+    standing.things.push_back({index,
+                               {item.Number("x_m", kPlace_m), item.Number("y_m", kPlace_m)},
+                               Radians(item.Number("heading_deg", kTurn_deg, 0.0))});
+    if (item.Has("every_m"))
+      item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
   }
   for (std::size_t i = first; i < standing.things.size(); ++i) {
     const Vector2d& p = standing.things[i].at_W;
-    if (terrain_is_at && !terrain_is_at(p.x(), p.y())) return item.Problem(item.Has("along") ? "along" : "x_m", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
+    if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
+      return item.Problem(item.Has("along") ? "along" : "x_m",
+                          fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
   }
 }
 

@@ -6,7 +6,8 @@
 
 namespace rodeira::design {
 
-// 'objects' of a file: what stands at no road; added to `standing`. Where there is no terrain under it, it is a problem.
+// 'objects' of a file: what stands at no road; added to `standing`. Where there is no terrain under it, it is a
+// problem.
 void ReadStanding(const config::Map& file, const TerrainIsAt& terrain_is_at, network::Standing& standing);
 
 }  // namespace rodeira::design

@@ -71,7 +71,8 @@ CubicTable WithHermite(const CubicTable& table, const Hermite& piece) {
   for (const Cubic& cubic : table.records()) {
     if (cubic.from < piece.from_s_m) records.push_back(cubic);
   }
-  records.push_back(Between(piece.from_s_m, piece.from_value, piece.from_slope, piece.to_s_m, piece.to_value, piece.to_slope));
+  records.push_back(
+      Between(piece.from_s_m, piece.from_value, piece.from_slope, piece.to_s_m, piece.to_value, piece.to_slope));
   records.push_back(Moved(table, piece.to_s_m));
   for (const Cubic& cubic : table.records()) {
     if (cubic.from > piece.to_s_m) records.push_back(cubic);
@@ -79,7 +80,8 @@ CubicTable WithHermite(const CubicTable& table, const Hermite& piece) {
   return CubicTable(std::move(records));
 }
 
-std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key, config::Range range) {
+std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key,
+                            config::Range range) {
   std::vector<Knot> knots;
   const config::List list = map.OptionalItems(list_key);
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -94,10 +96,11 @@ std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, s
   return knots;
 }
 
-CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key, std::string_view value_key,
-                     config::Range range, std::optional<double> otherwise) {
+CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
+                     std::string_view value_key, config::Range range, std::optional<double> otherwise) {
   if (map.Has(list_key)) {
-    if (map.Has(key)) map.Problem(key, fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
+    if (map.Has(key))
+      map.Problem(key, fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
     const auto knots = ReadKnots(map, list_key, value_key, range);
     if (knots.empty()) map.Problem(list_key, fmt::format("'{}' has no points; at least one was expected", list_key));
     return Eased(knots);

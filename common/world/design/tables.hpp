@@ -14,8 +14,8 @@ struct Knot {
 };
 
 geometry::CubicTable Constant(double value);
-// Through the knots, which ascend from 0 on, level at each of them: between two it goes by 3 u^2 - 2 u^3. Before the first and behind
-// the last it is constant.
+// Through the knots, which ascend from 0 on, level at each of them: between two it goes by 3 u^2 - 2 u^3. Before the
+// first and behind the last it is constant.
 geometry::CubicTable Eased(const std::vector<Knot>& knots);
 // first + factor * second.
 geometry::CubicTable Sum(const geometry::CubicTable& first, const geometry::CubicTable& second, double factor = 1.0);
@@ -30,9 +30,10 @@ struct Hermite {
 geometry::CubicTable WithHermite(const geometry::CubicTable& table, const Hermite& piece);
 
 // `key` as one number, or as a list of {s_m, value_key}, ascending; `otherwise` where it is absent.
-geometry::CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key, std::string_view value_key,
-                               config::Range range, std::optional<double> otherwise);
+geometry::CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
+                               std::string_view value_key, config::Range range, std::optional<double> otherwise);
 // A list of {s_m, value_key}, ascending.
-std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key, config::Range range);
+std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key,
+                            config::Range range);
 
 }  // namespace rodeira::design

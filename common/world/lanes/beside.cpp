@@ -12,7 +12,8 @@ constexpr double kFeet_m = 2.0;  // apart; between them what lies beside changes
 
 }  // namespace
 
-// left: as the track's traffic sees it; same_way: of two that are driven the same way, else of two that are driven against one another.
+// left: as the track's traffic sees it; same_way: of two that are driven the same way, else of two that are driven
+// against one another.
 std::optional<std::uint32_t> Graph::BesideOf(const Track& track, bool left, bool same_way) const {
   const bool along_left = left == track.along;  // on the left as seen along s
   if (const auto own = along_left ? network_->Left(track.lane) : network_->Right(track.lane)) {
@@ -25,7 +26,9 @@ std::optional<std::uint32_t> Graph::BesideOf(const Track& track, bool left, bool
   return ((tracks_[*other].along == track.along) == sharing->same_way) == same_way ? other : std::nullopt;
 }
 
-std::optional<std::uint32_t> Graph::Oncoming(std::uint32_t track) const { return BesideOf(tracks_[track], !tracks_[track].left_hand, false); }
+std::optional<std::uint32_t> Graph::Oncoming(std::uint32_t track) const {
+  return BesideOf(tracks_[track], !tracks_[track].left_hand, false);
+}
 
 void Graph::AddAllFeet() {
   for (std::uint32_t i = 0; i < tracks_.size(); ++i) {
@@ -63,9 +66,12 @@ void Graph::AddFeet(std::uint32_t track, std::uint32_t beside, bool same_way) {
 double Graph::Across(std::uint32_t track, double d_m, std::uint32_t beside) const {
   const Curve& curve = tracks_[track].curve;
   const double within_m = std::clamp(d_m, 0.0, curve.length_m()), beyond_m = d_m - within_m;
-  if (tracks_[track].lane.road == tracks_[beside].lane.road) return tracks_[beside].curve.AtStation(curve.StationAt(d_m)) + beyond_m;
+  if (tracks_[track].lane.road == tracks_[beside].lane.road)
+    return tracks_[beside].curve.AtStation(curve.StationAt(d_m)) + beyond_m;
   const auto found = std::lower_bound(feet_.begin(), feet_.end(), std::pair(track, beside),
-                                      [](const Feet& feet, const std::pair<std::uint32_t, std::uint32_t>& wanted) { return std::pair(feet.track, feet.beside) < wanted; });
+                                      [](const Feet& feet, const std::pair<std::uint32_t, std::uint32_t>& wanted) {
+                                        return std::pair(feet.track, feet.beside) < wanted;
+                                      });
   RODEIRA_ASSERT(found != feet_.end() && found->track == track && found->beside == beside);
   const double at = within_m / found->apart_m;
   const auto k = std::min(static_cast<std::size_t>(at), found->d_m.size() - 2);

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kNode_m = 1.0;
 constexpr double kShortest_m = 1e-6;  // between nodes
-constexpr double kTold = 1e-6;         // m, and of directions, grades, banks; 1/m
-constexpr double kStraight = 1e-9;     // m a m, and 1/m: less is straight
+constexpr double kTold = 1e-6;        // m, and of directions, grades, banks; 1/m
+constexpr double kStraight = 1e-9;    // m a m, and 1/m: less is straight
 constexpr double kAside_m = 0.7;      // over twice this the bank is measured
 
 struct Motion {
@@ -25,7 +25,8 @@ constexpr double kInside_m = 1.25;  // beside the edge of a lane without width
 constexpr double kNarrow_m = 1.5;   // a lane that is somewhere narrower opens or ends
 constexpr int kWidthSamples = 20;
 
-// To which side traffic of a lane that opens or ends gives way: 1 to the inner edge, -1 to the outer one, 0 there is none.
+// To which side traffic of a lane that opens or ends gives way: 1 to the inner edge, -1 to the outer one, 0 there is
+// none.
 int GivesWay(const network::Network& network, const network::LaneKey& key) {
   const network::LaneSection& section = network.Section(key);
   double narrowest = kWide_m;
@@ -67,8 +68,10 @@ Motion MotionAt(const network::Network& network, const network::LaneKey& lane, i
 CurvePoint Between(const Curve::Node& a, const Curve::Node& b, double d_m) {
   const double h = b.d_m - a.d_m, x = (d_m - a.d_m) / h, y = 1.0 - x;
   CurvePoint point;
-  point.p_W = y * y * (1.0 + 2.0 * x) * a.p_W + x * x * (3.0 - 2.0 * x) * b.p_W + h * x * y * (y * a.along_W - x * b.along_W);
-  const Eigen::Vector3d v = 6.0 * x * y / h * (b.p_W - a.p_W) + y * (y - 2.0 * x) * a.along_W + x * (x - 2.0 * y) * b.along_W;
+  point.p_W =
+      y * y * (1.0 + 2.0 * x) * a.p_W + x * x * (3.0 - 2.0 * x) * b.p_W + h * x * y * (y * a.along_W - x * b.along_W);
+  const Eigen::Vector3d v =
+      6.0 * x * y / h * (b.p_W - a.p_W) + y * (y - 2.0 * x) * a.along_W + x * (x - 2.0 * y) * b.along_W;
   const double speed = std::max(1e-9, v.head<2>().norm());
   point.ahead_W = v.head<2>() / speed;
   point.rate = speed;
@@ -84,7 +87,9 @@ Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool
   const network::LaneSection& section = network.Section(lane);
   const double length = section.end_s_m - section.s_m;
   const int count = std::max(1, static_cast<int>(std::ceil(length / kNode_m)));
-  const auto station = [&](double i) { return along ? section.s_m + length * i / count : section.end_s_m - length * i / count; };
+  const auto station = [&](double i) {
+    return along ? section.s_m + length * i / count : section.end_s_m - length * i / count;
+  };
   const int gives_way = GivesWay(network, lane);
   double d = 0.0;
   for (int i = 0; i <= count; ++i) {
@@ -96,8 +101,8 @@ Curve::Curve(const network::Network& network, const network::LaneKey& lane, bool
     }
     const Motion at = MotionAt(network, lane, gives_way, station(i));
     const double speed = std::max(1e-9, at.v_W.head<2>().norm());
-    nodes_.push_back({d, station(i), at.p_W, (along ? at.v_W : Eigen::Vector3d(-at.v_W)) / speed, 0.0, along ? at.bank : -at.bank,
-                      at.width_m});
+    nodes_.push_back({d, station(i), at.p_W, (along ? at.v_W : Eigen::Vector3d(-at.v_W)) / speed, 0.0,
+                      along ? at.bank : -at.bank, at.width_m});
   }
   length_m_ = nodes_.back().d_m;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
@@ -122,9 +127,12 @@ bool Curve::Tells(std::size_t from, std::size_t to) const {
   for (std::size_t i = from + 1; i < to; ++i) {
     const CurvePoint at = Between(nodes_[from], nodes_[to], nodes_[i].d_m);
     const Node& node = nodes_[i];
-    if ((at.p_W - node.p_W).cwiseAbs().maxCoeff() > kTold || (at.ahead_W - node.along_W.head<2>()).cwiseAbs().maxCoeff() > kTold) return false;
+    if ((at.p_W - node.p_W).cwiseAbs().maxCoeff() > kTold ||
+        (at.ahead_W - node.along_W.head<2>()).cwiseAbs().maxCoeff() > kTold)
+      return false;
     if (std::fabs(at.grade - node.along_W.z()) > kTold || std::fabs(at.rate - 1.0) > kTold) return false;
-    if (std::fabs(at.curvature_1pm - node.curvature_1pm) > kTold || std::fabs(at.bank - node.bank) > kTold) return false;
+    if (std::fabs(at.curvature_1pm - node.curvature_1pm) > kTold || std::fabs(at.bank - node.bank) > kTold)
+      return false;
   }
   return true;
 }
@@ -147,7 +155,9 @@ void Curve::FindBends() {
   for (const Node& bend : bends_) bends_d_m_.push_back(bend.d_m);
   const Node &a = bends_.front(), &b = bends_.back();
   const double h = b.d_m - a.d_m;
-  const auto is_along = [&](const Eigen::Vector3d& along_W) { return ((b.p_W - a.p_W) / h - along_W).cwiseAbs().maxCoeff() < kStraight; };
+  const auto is_along = [&](const Eigen::Vector3d& along_W) {
+    return ((b.p_W - a.p_W) / h - along_W).cwiseAbs().maxCoeff() < kStraight;
+  };
   if (bends_.size() > 2 || !is_along(a.along_W) || !is_along(b.along_W)) return;
   if (std::fabs(a.curvature_1pm) > kStraight || std::fabs(b.curvature_1pm) > kStraight) return;
   straight_ = {a.p_W, a.along_W, a.bank, (b.bank - a.bank) / h, length_m_};
@@ -183,7 +193,8 @@ double Curve::StationAt(double d_m) const {
 
 double Curve::AtStation(double s_m) const {
   const bool grows = nodes_.back().s_m > nodes_.front().s_m;
-  const auto after = std::partition_point(nodes_.begin() + 1, nodes_.end() - 1, [&](const Node& node) { return grows ? node.s_m < s_m : node.s_m > s_m; });
+  const auto after = std::partition_point(nodes_.begin() + 1, nodes_.end() - 1,
+                                          [&](const Node& node) { return grows ? node.s_m < s_m : node.s_m > s_m; });
   const Node &a = *(after - 1), &b = *after;
   return a.d_m + std::clamp((s_m - a.s_m) / (b.s_m - a.s_m), 0.0, 1.0) * (b.d_m - a.d_m);
 }

@@ -11,7 +11,7 @@ namespace rodeira::lanes {
 
 // A point of a lane's middle, looking the way its traffic goes.
 struct CurvePoint {
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();      // on the surface
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();       // on the surface
   Eigen::Vector2d ahead_W = Eigen::Vector2d::UnitX();  // of unit length
   double curvature_1pm = 0.0;                          // positive to the left
   double grade = 0.0;                                  // rise over plan distance
@@ -21,17 +21,18 @@ struct CurvePoint {
   Eigen::Vector2d left_W() const { return {-ahead_W.y(), ahead_W.x()}; }
 };
 
-// The line on which a lane's traffic keeps, by its own length in plan, d = 0 where it enters: the middle of the lane; where the
-// lane opens beside another one of its direction, or narrows to nothing, so far towards that one that a car has room (at no
-// width 1.25 m beside the edge, from 3 m on the middle). Nodes at most a metre apart are exact; At is the cubic with the tangents
-// of as few of them as tell the others within 1e-6 (of a straight line the first and the last): within 1e-5 m for radii over 8 m.
+// The line on which a lane's traffic keeps, by its own length in plan, d = 0 where it enters: the middle of the lane;
+// where the lane opens beside another one of its direction, or narrows to nothing, so far towards that one that a car
+// has room (at no width 1.25 m beside the edge, from 3 m on the middle). Nodes at most a metre apart are exact; At is
+// the cubic with the tangents of as few of them as tell the others within 1e-6 (of a straight line the first and the
+// last): within 1e-5 m for radii over 8 m.
 class Curve {
  public:
   struct Node {
     double d_m = 0.0;
-    double s_m = 0.0;           // of the road
+    double s_m = 0.0;  // of the road
     Eigen::Vector3d p_W;
-    Eigen::Vector3d along_W;    // dp/dd: of unit length in plan
+    Eigen::Vector3d along_W;  // dp/dd: of unit length in plan
     double curvature_1pm = 0.0;
     double bank = 0.0;
     double width_m = 0.0;
@@ -58,7 +59,8 @@ class Curve {
     __builtin_prefetch(bends_d_m_.data());
     const double share = std::clamp(d_m / length_m_, 0.0, 1.0);
     const auto guess = static_cast<std::size_t>(share * static_cast<double>(bends_.size() - 1));
-    const auto *first = reinterpret_cast<const char*>(&bends_[guess == 0 ? 0 : guess - 1]), *end = reinterpret_cast<const char*>(bends_.data() + std::min(guess + 3, bends_.size()));
+    const auto *first = reinterpret_cast<const char*>(&bends_[guess == 0 ? 0 : guess - 1]),
+               *end = reinterpret_cast<const char*>(bends_.data() + std::min(guess + 3, bends_.size()));
     for (const char* at = first; at < end; at += kLine_bytes) __builtin_prefetch(at);
   }
   double WidthAt(double d_m) const;
@@ -73,14 +75,15 @@ class Curve {
   Foot FootNear(const Eigen::Vector2d& p_W, std::size_t node) const;
 
  private:
-  std::size_t Before(double d_m) const;  // the node at or before d, not the last
+  std::size_t Before(double d_m) const;                // the node at or before d, not the last
   bool Tells(std::size_t from, std::size_t to) const;  // the cubic from node to node tells those between
   void FindBends();
 
   std::vector<Node> nodes_;  // at least two
-  std::vector<Node> bends_;  // of them those that At needs: few where the line is straight, so that they stay in near memory
+  std::vector<Node>
+      bends_;  // of them those that At needs: few where the line is straight, so that they stay in near memory
   std::vector<double> bends_d_m_;
-  double length_m_ = 0.0;    // as the last node says: asked for far more often than that node
+  double length_m_ = 0.0;  // as the last node says: asked for far more often than that node
   std::optional<Straight> straight_;
 };
 

@@ -22,9 +22,11 @@ int EdgeLane(int a, int b) {
   return std::abs(a) < std::abs(b) ? a : b;
 }
 
-// What OpenDRIVE's laneChange says of crossing from lane `from` to lane `to` (ids grow to the left); nothing where it is silent
+// What OpenDRIVE's laneChange says of crossing from lane `from` to lane `to` (ids grow to the left); nothing where it
+// is silent
 // ("both" is what a file without it says, too).
-std::optional<bool> Said(const network::Road& road, const network::LaneSection& section, int edge, int from, int to, double s_m) {
+std::optional<bool> Said(const network::Road& road, const network::LaneSection& section, int edge, int from, int to,
+                         double s_m) {
   const network::Lane* lane = section.Find(edge);
   const network::RoadMark* mark = lane == nullptr ? nullptr : road.MarkAt(*lane, s_m);
   if (mark == nullptr || mark->lane_change.empty()) return std::nullopt;
@@ -35,14 +37,16 @@ std::optional<bool> Said(const network::Road& road, const network::LaneSection& 
 }
 
 // Whether the line nearest to the lane's own side is not continuous; nothing where there is none.
-std::optional<bool> Painted(const network::Road& road, const std::vector<Marking>& markings, double s_m, double edge_t_m, double own_t_m) {
+std::optional<bool> Painted(const network::Road& road, const std::vector<Marking>& markings, double s_m,
+                            double edge_t_m, double own_t_m) {
   const Marking* nearest = nullptr;
   double nearest_m = 0.0;
   for (const Marking& marking : markings) {
     if (s_m < marking.from_s_m || s_m > marking.to_s_m) continue;
     const double t = network::MarkingAt(road, marking, s_m).value;
     if (std::fabs(t - edge_t_m) > kAtEdge_m) continue;
-    if (nearest == nullptr || std::fabs(t - own_t_m) < nearest_m) nearest = &marking, nearest_m = std::fabs(t - own_t_m);
+    if (nearest == nullptr || std::fabs(t - own_t_m) < nearest_m)
+      nearest = &marking, nearest_m = std::fabs(t - own_t_m);
   }
   return nearest == nullptr ? std::nullopt : std::optional(nearest->gap_m > 0.0);
 }
@@ -63,7 +67,8 @@ class Lines {
 };
 
 // The lines at one side of a lane, on its own road.
-std::optional<bool> PaintedAt(const network::Network& network, Lines& lines, const LaneKey& key, bool left_along_s, double s_m) {
+std::optional<bool> PaintedAt(const network::Network& network, Lines& lines, const LaneKey& key, bool left_along_s,
+                              double s_m) {
   const auto span = network.Span(key, s_m);
   if (!span) return false;
   const double edge_t_m = (key.lane < 0) == left_along_s ? span->inner_t_m : span->outer_t_m;
@@ -92,7 +97,10 @@ EdgeMarks::EdgeMarks(const Graph& graph) : open_(graph.tracks().size()) {
         if (!beside) {
           const std::uint32_t other = *graph.Find(sharing->lane);
           const auto own = PaintedAt(network, lines, track.lane, left, s);
-          open.push_back(own ? *own : PaintedAt(network, lines, sharing->lane, left != sharing->same_way, graph[other].curve.StationAt(graph.Across(i, d, other))).value_or(true));
+          open.push_back(own ? *own
+                             : PaintedAt(network, lines, sharing->lane, left != sharing->same_way,
+                                         graph[other].curve.StationAt(graph.Across(i, d, other)))
+                                   .value_or(true));
           continue;
         }
         const auto own = network.Span(track.lane, s), other = network.Span(*beside, s);
@@ -101,9 +109,12 @@ EdgeMarks::EdgeMarks(const Graph& graph) : open_(graph.tracks().size()) {
           continue;
         }
         const int edge = EdgeLane(track.lane.lane, beside->lane);
-        const double edge_t = edge == track.lane.lane ? own->outer_t_m : edge == beside->lane ? other->outer_t_m : own->inner_t_m;
+        const double edge_t = edge == track.lane.lane ? own->outer_t_m
+                              : edge == beside->lane  ? other->outer_t_m
+                                                      : own->inner_t_m;
         const auto said = Said(road, section, edge, track.lane.lane, beside->lane, s);
-        open.push_back(said ? *said : Painted(road, lines.Of(track.lane.road), s, edge_t, own->centre_t_m()).value_or(true));
+        open.push_back(said ? *said
+                            : Painted(road, lines.Of(track.lane.road), s, edge_t, own->centre_t_m()).value_or(true));
       }
     }
   }
@@ -112,7 +123,9 @@ EdgeMarks::EdgeMarks(const Graph& graph) : open_(graph.tracks().size()) {
 bool EdgeMarks::MayCross(std::uint32_t track, Side side, double from_d_m, double to_d_m) const {
   const auto& open = open_[track][static_cast<std::size_t>(side)];
   if (open.empty()) return false;
-  const auto at = [&](double d_m) { return std::min(open.size() - 1, static_cast<std::size_t>(std::max(0.0, d_m) / kEvery_m)); };
+  const auto at = [&](double d_m) {
+    return std::min(open.size() - 1, static_cast<std::size_t>(std::max(0.0, d_m) / kEvery_m));
+  };
   for (std::size_t k = at(from_d_m); k <= std::min(open.size() - 1, at(to_d_m) + 1); ++k) {
     if (!open[k]) return false;
   }

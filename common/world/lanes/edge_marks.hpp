@@ -10,8 +10,9 @@ namespace rodeira::lanes {
 
 enum class Side : std::uint8_t { kLeft = 0, kRight = 1 };  // as the lane's traffic sees it
 
-// Where traffic may cross the edges of its lane, by what is painted there: of several lines the one on its own side counts,
-// broken or dotted ones may be crossed, continuous ones may not; no paint forbids nothing. Where the lane beside is another road's and none is painted on the own road, that one's counts. Where OpenDRIVE's `laneChange`
+// Where traffic may cross the edges of its lane, by what is painted there: of several lines the one on its own side
+// counts, broken or dotted ones may be crossed, continuous ones may not; no paint forbids nothing. Where the lane
+// beside is another road's and none is painted on the own road, that one's counts. Where OpenDRIVE's `laneChange`
 // forbids something, that counts. Looked at every two metres.
 class EdgeMarks {
  public:

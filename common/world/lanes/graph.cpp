@@ -48,15 +48,16 @@ void Graph::AddTracks() {
     if (!along || !(section.end_s_m > section.s_m)) continue;
     const network::RoadSpec& road = network_->roads()[key.road].spec();
     Track track{key, *along, Curve(*network_, key, *along), {}, {}, {}, {}, -1, false, road.left_hand};
-    if (const auto junction = network_->FindJunction(road.junction)) track.junction = static_cast<std::int32_t>(*junction);
+    if (const auto junction = network_->FindJunction(road.junction))
+      track.junction = static_cast<std::int32_t>(*junction);
     tracks_.push_back(std::move(track));
   }
   for (Track& track : tracks_) track.left = BesideOf(track, true, true), track.right = BesideOf(track, false, true);
 }
 
 std::optional<std::uint32_t> Graph::Find(const LaneKey& lane) const {
-  const auto at =
-      std::lower_bound(tracks_.begin(), tracks_.end(), lane, [](const Track& track, const LaneKey& key) { return track.lane < key; });
+  const auto at = std::lower_bound(tracks_.begin(), tracks_.end(), lane,
+                                   [](const Track& track, const LaneKey& key) { return track.lane < key; });
   if (at == tracks_.end() || at->lane != lane) return std::nullopt;
   return static_cast<std::uint32_t>(at - tracks_.begin());
 }
@@ -83,7 +84,8 @@ void Graph::BuildGrid() {
     const auto& nodes = tracks_[i].curve.nodes();
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       cells_.push_back({static_cast<std::int64_t>(std::floor(nodes[n].p_W.x() / kCell_m)),
-                        static_cast<std::int64_t>(std::floor(nodes[n].p_W.y() / kCell_m)), {i, n}});
+                        static_cast<std::int64_t>(std::floor(nodes[n].p_W.y() / kCell_m)),
+                        {i, n}});
     }
   }
   std::sort(cells_.begin(), cells_.end());

@@ -13,10 +13,10 @@ namespace rodeira::lanes {
 // How a track goes on: where its end lies in the frame of the next one's beginning.
 struct Link {
   std::uint32_t to = 0;
-  double from_d_m = 0.0;   // d on the next track beside this one's end; gaps of the file may make it other than 0
-  double offset_m = 0.0;   // this one's end lies so far to the left of the next one's middle
-  double slope = 0.0;      // tangent of the angle by which this one's end points farther to the left
-  bool joins = false;      // this lane ends, and its traffic goes over into the lane beside
+  double from_d_m = 0.0;  // d on the next track beside this one's end; gaps of the file may make it other than 0
+  double offset_m = 0.0;  // this one's end lies so far to the left of the next one's middle
+  double slope = 0.0;     // tangent of the angle by which this one's end points farther to the left
+  bool joins = false;     // this lane ends, and its traffic goes over into the lane beside
 };
 
 // A drivable lane of one lane section as its traffic uses it.
@@ -26,9 +26,10 @@ struct Track {
   Curve curve;
   std::vector<Link> next;             // ascending by `to`
   std::vector<std::uint32_t> before;  // tracks that lead here; ascending
-  std::optional<std::uint32_t> left, right;  // beside it in the same direction, on its own road or on one that shares that side
-  std::int32_t junction = -1;                // index into Network::junctions() for a connecting road's lane
-  bool entry = false;  // traffic may enter the network here, at its beginning
+  std::optional<std::uint32_t> left,
+      right;                   // beside it in the same direction, on its own road or on one that shares that side
+  std::int32_t junction = -1;  // index into Network::junctions() for a connecting road's lane
+  bool entry = false;          // traffic may enter the network here, at its beginning
   bool left_hand = false;
 
   double length_m() const { return curve.length_m(); }
@@ -42,9 +43,10 @@ struct NodeKey {
   auto operator<=>(const NodeKey&) const = default;
 };
 
-// The drivable lanes of a network as a directed graph. Lanes of both directions are driven on the side of the road's rule.
-// A lane that narrows to an end beside another one goes on into that one, and one that opens beside another is entered from
-// where that one is. A lane on which the network lets vehicles end goes on into nothing, whatever its file links it to. Immutable; the network must outlive it.
+// The drivable lanes of a network as a directed graph. Lanes of both directions are driven on the side of the road's
+// rule. A lane that narrows to an end beside another one goes on into that one, and one that opens beside another is
+// entered from where that one is. A lane on which the network lets vehicles end goes on into nothing, whatever its file
+// links it to. Immutable; the network must outlive it.
 class Graph {
  public:
   explicit Graph(const network::Network& network);
@@ -58,7 +60,8 @@ class Graph {
   // The limit at d, within what a car may drive where the network says none (50 km/h) or is without limit (130 km/h).
   double SpeedLimit_mps(std::uint32_t track, double d_m) const;
 
-  // The distance along a track beside it, of the same lane section or of a road that shares a side, that lies beside `d_m` of this one; beyond the ends as far as there.
+  // The distance along a track beside it, of the same lane section or of a road that shares a side, that lies beside
+  // `d_m` of this one; beyond the ends as far as there.
   double Across(std::uint32_t track, double d_m, std::uint32_t beside) const;
 
   // The track whose traffic comes towards this one's beside it on the left (in left-hand traffic: on the right).

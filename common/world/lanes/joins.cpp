@@ -1,4 +1,5 @@
-// How tracks go on where the file's lanes meet, where they end beside others, where vehicles are gone, and where traffic may enter.
+// How tracks go on where the file's lanes meet, where they end beside others, where vehicles are gone, and where
+// traffic may enter.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,7 @@
 namespace rodeira::lanes {
 namespace {
 
-constexpr double kBeside_m = 2.3;        // of the middles of a lane that has narrowed to nothing and its neighbour
+constexpr double kBeside_m = 2.3;         // of the middles of a lane that has narrowed to nothing and its neighbour
 constexpr double kEnteringWidth_m = 2.0;  // of a lane that traffic enters
 constexpr double kEnteringLength_m = 8.0;
 constexpr double kLongEnough_m = 40.0;  // of a track that is entered in the middle of the network
@@ -24,13 +25,14 @@ void Graph::AddLink(std::uint32_t from, std::uint32_t to, double to_d_m, bool jo
   const CurvePoint at = tracks_[to].curve.At(to_d_m);
   const Eigen::Vector2d between = (end.p_W - at.p_W).head<2>();
   const double turned = std::atan2(geometry::Cross(at.ahead_W, end.ahead_W), at.ahead_W.dot(end.ahead_W));
-  Link link{to, to_d_m + between.dot(at.ahead_W), geometry::Cross(at.ahead_W, between), std::tan(std::clamp(turned, -1.0, 1.0)), joins};
+  Link link{to, to_d_m + between.dot(at.ahead_W), geometry::Cross(at.ahead_W, between),
+            std::tan(std::clamp(turned, -1.0, 1.0)), joins};
   if (std::fabs(link.from_d_m) < 1e-9) link.from_d_m = 0.0;
   next.push_back(link);
 }
 
-// A lane without successor whose end lies on its neighbour goes on as the neighbour does; a lane without predecessor whose
-// beginning lies on its neighbour is entered by whoever enters that one.
+// A lane without successor whose end lies on its neighbour goes on as the neighbour does; a lane without predecessor
+// whose beginning lies on its neighbour is entered by whoever enters that one.
 void Graph::LinkEndingLanes() {
   struct Wanted {
     std::uint32_t from, to;
@@ -63,8 +65,8 @@ void Graph::LinkEndingLanes() {
   for (const Wanted& link : wanted) AddLink(link.from, link.to, 0.0, true);
 }
 
-// Where the network says it, traffic enters there. Where it says nothing and is open, traffic enters at its edge: where nothing leads to a road's lane. A closed one is entered on
-// any lane outside of junctions that is long enough.
+// Where the network says it, traffic enters there. Where it says nothing and is open, traffic enters at its edge: where
+// nothing leads to a road's lane. A closed one is entered on any lane outside of junctions that is long enough.
 void Graph::FindEntries() {
   for (Track& track : tracks_) {
     track.entry = network_->Find(track.lane)->traffic_begins;
@@ -76,12 +78,14 @@ void Graph::FindEntries() {
     const network::RoadSpec& road = network_->roads()[track.lane.road].spec();
     const bool outer = track.along ? track.lane.section == 0 : track.lane.section + 1 == road.sections.size();
     const auto& link = track.along ? road.predecessor : road.successor;
-    track.entry = track.before.empty() && outer && !link && track.junction < 0 && track.length_m() > kEnteringLength_m &&
-                  track.curve.nodes().front().width_m > kEnteringWidth_m;
+    track.entry = track.before.empty() && outer && !link && track.junction < 0 &&
+                  track.length_m() > kEnteringLength_m && track.curve.nodes().front().width_m > kEnteringWidth_m;
     any = any || track.entry;
   }
   for (Track& track : tracks_) {
-    if (!any) track.entry = track.junction < 0 && track.length_m() > kLongEnough_m && track.curve.nodes().front().width_m > kEnteringWidth_m;
+    if (!any)
+      track.entry = track.junction < 0 && track.length_m() > kLongEnough_m &&
+                    track.curve.nodes().front().width_m > kEnteringWidth_m;
   }
   any = std::any_of(tracks_.begin(), tracks_.end(), [](const Track& track) { return track.entry; });
   for (Track& track : tracks_) {

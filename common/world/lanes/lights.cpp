@@ -10,9 +10,9 @@ namespace rodeira::lanes {
 namespace {
 
 constexpr double kBack_m = 60.0;
-constexpr double kBehind_m = 1.0;     // a light at the end of a track may stand a little beyond where a zone begins
-constexpr double kAlike_rad = 0.45;   // approaches that point as nearly the same way share a light
-constexpr double kHeadOn_rad = 2.5;   // approaches farther apart than this meet head-on
+constexpr double kBehind_m = 1.0;    // a light at the end of a track may stand a little beyond where a zone begins
+constexpr double kAlike_rad = 0.45;  // approaches that point as nearly the same way share a light
+constexpr double kHeadOn_rad = 2.5;  // approaches farther apart than this meet head-on
 constexpr const char* kOnFoot = "1000002";
 
 // The controller with times that a signal obeys.
@@ -45,7 +45,8 @@ std::string Named(const Graph& graph, const LightPlace& light) {
 
 }  // namespace
 
-std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along, double low_s_m, double high_s_m) {
+std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along,
+                                    double low_s_m, double high_s_m) {
   std::vector<LaneLight> lights;
   if (network.controllers().empty()) return lights;
   const network::RoadSpec& road = network.roads()[lane.road].spec();
@@ -54,10 +55,12 @@ std::vector<LaneLight> LightsOfLane(const network::Network& network, const netwo
     if (controller && s_m >= low_s_m && s_m <= high_s_m) lights.push_back({s_m, *controller, id});
   };
   for (const network::Signal& signal : road.signals) {
-    if (signal.type != kOnFoot && HoldsFor(lane.lane, along, signal.orientation, signal.validity)) add(signal.id, signal.s_m);
+    if (signal.type != kOnFoot && HoldsFor(lane.lane, along, signal.orientation, signal.validity))
+      add(signal.id, signal.s_m);
   }
   for (const network::SignalReference& reference : road.signal_references) {
-    if (HoldsFor(lane.lane, along, reference.orientation, reference.validity) && !OnFoot(network, reference.id)) add(reference.id, reference.s_m);
+    if (HoldsFor(lane.lane, along, reference.orientation, reference.validity) && !OnFoot(network, reference.id))
+      add(reference.id, reference.s_m);
   }
   std::stable_sort(lights.begin(), lights.end(), [](const LaneLight& a, const LaneLight& b) { return a.s_m < b.s_m; });
   return lights;
@@ -68,9 +71,11 @@ std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track) {
   const double begin = t.curve.nodes().front().s_m, end = t.curve.nodes().back().s_m;
   std::vector<LightPlace> lights;
   for (LaneLight& light : LightsOfLane(graph.network(), t.lane, t.along, std::min(begin, end), std::max(begin, end))) {
-    lights.push_back({(light.s_m - begin) / (end - begin) * t.length_m(), light.controller, std::move(light.signal), track});
+    lights.push_back(
+        {(light.s_m - begin) / (end - begin) * t.length_m(), light.controller, std::move(light.signal), track});
   }
-  std::stable_sort(lights.begin(), lights.end(), [](const LightPlace& a, const LightPlace& b) { return a.d_m < b.d_m; });
+  std::stable_sort(lights.begin(), lights.end(),
+                   [](const LightPlace& a, const LightPlace& b) { return a.d_m < b.d_m; });
   return lights;
 }
 
@@ -95,12 +100,15 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
     if (!a || !b) continue;
     const auto& controllers = graph.network().controllers();
     if (!network::MeetGreen(*controllers[a->controller].times, *controllers[b->controller].times)) continue;
-    const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W, from_b = graph[b->track].curve.At(b->d_m).ahead_W;
+    const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W,
+                          from_b = graph[b->track].curve.At(b->d_m).ahead_W;
     const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
     if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
-    return GreenTogether{{a->controller, b->controller}, "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
-                            " are green or amber together, and their ways " +
-                            (zone.kind == ZoneKind::kMerge ? "merge" : "cross") + "; phases that do not meet were expected"};
+    return GreenTogether{{a->controller, b->controller},
+                         "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
+                             " are green or amber together, and their ways " +
+                             (zone.kind == ZoneKind::kMerge ? "merge" : "cross") +
+                             "; phases that do not meet were expected"};
   }
   return std::nullopt;
 }
@@ -109,7 +117,8 @@ base::Status CheckLights(const Graph& graph, const Zones& zones) {
   const auto together = FindGreenTogether(graph, zones);
   if (!together) return {};
   // At the later of the two: it is green although the other one is.
-  const std::string& place = graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
+  const std::string& place =
+      graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
   return base::WrongInput(together->sentence, place.empty() ? "network '" + graph.network().name() + "'" : place);
 }
 

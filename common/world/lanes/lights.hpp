@@ -18,8 +18,10 @@ struct LaneLight {
 };
 
 // The lights of a lane within [low_s_m, high_s_m] of its road: signals, and references to signals elsewhere, that a
-// controller with times controls; ascending. Lights for people on foot alone are none. along: its traffic goes with growing s.
-std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along, double low_s_m, double high_s_m);
+// controller with times controls; ascending. Lights for people on foot alone are none. along: its traffic goes with
+// growing s.
+std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along,
+                                    double low_s_m, double high_s_m);
 
 // A light for the traffic of a track: the line at which who may not go stands.
 struct LightPlace {
@@ -44,9 +46,9 @@ struct GreenTogether {
 // The first such two; nothing where there are none.
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
-// Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who turns
-// across the way of those who come towards him may be green with them: he yields. The two are named, with the line of the later one's
-// green where that is known.
+// Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who
+// turns across the way of those who come towards him may be green with them: he yields. The two are named, with the
+// line of the later one's green where that is known.
 base::Status CheckLights(const Graph& graph, const Zones& zones);
 
 }  // namespace rodeira::lanes

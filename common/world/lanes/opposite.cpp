@@ -24,18 +24,22 @@ std::vector<std::int64_t> Opposites(const Graph& graph) {
   return opposites;
 }
 
-NoOvertaking::NoOvertaking(const Graph& graph) : begins_(graph.tracks().size(), false), changes_(graph.tracks().size()) {
+NoOvertaking::NoOvertaking(const Graph& graph)
+    : begins_(graph.tracks().size(), false), changes_(graph.tracks().size()) {
   for (std::uint32_t i = 0; i < changes_.size(); ++i) {
     const Track& track = graph[i];
     if (track.junction >= 0) continue;
     const auto& nodes = track.curve.nodes();
-    const double low = std::min(nodes.front().s_m, nodes.back().s_m), high = std::max(nodes.front().s_m, nodes.back().s_m);
+    const double low = std::min(nodes.front().s_m, nodes.back().s_m),
+                 high = std::max(nodes.front().s_m, nodes.back().s_m);
     for (const network::Signal& signal : graph.network().roads()[track.lane.road].spec().signals) {
       const bool forbids = signal.type == "276", ends = signal.type == "280" || signal.type == "282";
       if ((!forbids && !ends) || signal.s_m < low || signal.s_m > high) continue;
-      if (HoldsFor(track.lane.lane, track.along, signal.orientation, signal.validity)) changes_[i].push_back({track.curve.AtStation(signal.s_m), forbids});
+      if (HoldsFor(track.lane.lane, track.along, signal.orientation, signal.validity))
+        changes_[i].push_back({track.curve.AtStation(signal.s_m), forbids});
     }
-    std::stable_sort(changes_[i].begin(), changes_[i].end(), [](const Change& a, const Change& b) { return a.d_m < b.d_m; });
+    std::stable_sort(changes_[i].begin(), changes_[i].end(),
+                     [](const Change& a, const Change& b) { return a.d_m < b.d_m; });
   }
   for (std::uint32_t i = 0; i < begins_.size(); ++i) {
     std::uint32_t at = i;

@@ -14,8 +14,8 @@
 namespace rodeira::lanes {
 namespace {
 
-constexpr double kAlike_rad = 0.45;   // approaches that point as nearly the same way merge rather than cross
-constexpr double kHeadOn_rad = 2.5;   // approaches farther apart than this meet head-on
+constexpr double kAlike_rad = 0.45;  // approaches that point as nearly the same way merge rather than cross
+constexpr double kHeadOn_rad = 2.5;  // approaches farther apart than this meet head-on
 constexpr double kSameTurn_rad = 0.1;
 
 // How far a track turns to the left from beginning to end.
@@ -37,13 +37,15 @@ int NamedBy(const network::Junction& junction, const std::string& id_a, const st
   return -1;
 }
 
-// The side whose road a junction names as higher than the other's, or -1. Past a junction in the middle of a road that road goes first, if the junction does not say otherwise.
+// The side whose road a junction names as higher than the other's, or -1. Past a junction in the middle of a road that
+// road goes first, if the junction does not say otherwise.
 int NamedFirst(const Graph& graph, const Zone& zone) {
   const Track &a = graph[zone.track[0]], &b = graph[zone.track[1]];
   const auto junctions = graph.network().junctions();
   const auto& id_a = graph.network().roads()[a.lane.road].id();
   const auto& id_b = graph.network().roads()[b.lane.road].id();
-  if (a.junction >= 0 && a.junction == b.junction) return NamedBy(junctions[static_cast<std::size_t>(a.junction)], id_a, id_b);
+  if (a.junction >= 0 && a.junction == b.junction)
+    return NamedBy(junctions[static_cast<std::size_t>(a.junction)], id_a, id_b);
   for (const auto& [in, id, first] : {std::tuple(a.junction, id_b, 1), std::tuple(b.junction, id_a, 0)}) {
     if (in < 0 || junctions[static_cast<std::size_t>(in)].main_road != id) continue;
     const int named = NamedBy(junctions[static_cast<std::size_t>(in)], id_a, id_b);
@@ -61,14 +63,17 @@ int FirstByRule(const Graph& graph, const Zone& zone) {
   const Track &a = graph[zone.track[0]], &b = graph[zone.track[1]];
   const bool ring_a = OnRing(graph, zone.track[0]), ring_b = OnRing(graph, zone.track[1]);
   if (ring_a != ring_b) return ring_a ? 0 : 1;
-  const Eigen::Vector2d from_a = a.curve.nodes().front().along_W.head<2>(), from_b = b.curve.nodes().front().along_W.head<2>();
+  const Eigen::Vector2d from_a = a.curve.nodes().front().along_W.head<2>(),
+                        from_b = b.curve.nodes().front().along_W.head<2>();
   // Positive: b points to the left of a, so that it comes from a's right.
   const double turned = std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b));
-  const double left_a = a.left_hand ? -Turn(a.curve) : Turn(a.curve), left_b = b.left_hand ? -Turn(b.curve) : Turn(b.curve);
+  const double left_a = a.left_hand ? -Turn(a.curve) : Turn(a.curve),
+               left_b = b.left_hand ? -Turn(b.curve) : Turn(b.curve);
   if (std::fabs(turned) < kAlike_rad) {
     const double end_a = a.curve.nodes().back().width_m, end_b = b.curve.nodes().back().width_m;
     if (zone.kind == ZoneKind::kMerge && std::fabs(end_a - end_b) > 1.0) return end_a > end_b ? 0 : 1;
-    if (std::fabs(std::fabs(left_a) - std::fabs(left_b)) > kSameTurn_rad) return std::fabs(left_a) < std::fabs(left_b) ? 0 : 1;
+    if (std::fabs(std::fabs(left_a) - std::fabs(left_b)) > kSameTurn_rad)
+      return std::fabs(left_a) < std::fabs(left_b) ? 0 : 1;
     return 0;
   }
   if (std::fabs(turned) > kHeadOn_rad) {
@@ -84,13 +89,17 @@ void Decide(const Graph& graph, Zone& zone) {
   const int sign_a = static_cast<int>(SignFor(graph, zone.track[0], zone.in_m[0]));
   const int sign_b = static_cast<int>(SignFor(graph, zone.track[1], zone.in_m[1]));
   zone.signed_ = true;
-  if (LightFor(graph, zone.track[0], zone.in_m[0]) && LightFor(graph, zone.track[1], zone.in_m[1])) {  // signs hold where lights are dark
+  if (LightFor(graph, zone.track[0], zone.in_m[0]) &&
+      LightFor(graph, zone.track[1], zone.in_m[1])) {  // signs hold where lights are dark
     zone.first = FirstByRule(graph, zone), zone.signed_ = false;
     return;
   }
-  if (sign_a != sign_b) zone.first = sign_a > sign_b ? 0 : 1;
-  else if (const int named = NamedFirst(graph, zone); named >= 0) zone.first = named;
-  else zone.first = FirstByRule(graph, zone), zone.signed_ = false;
+  if (sign_a != sign_b)
+    zone.first = sign_a > sign_b ? 0 : 1;
+  else if (const int named = NamedFirst(graph, zone); named >= 0)
+    zone.first = named;
+  else
+    zone.first = FirstByRule(graph, zone), zone.signed_ = false;
 }
 
 }  // namespace rodeira::lanes

@@ -17,7 +17,7 @@ constexpr double kBack_rad = 0.15;
 
 struct Bend {
   double turn_rad = 0.0;
-  double back_rad = 0.0;      // turned the wrong way
+  double back_rad = 0.0;  // turned the wrong way
   double straight_m = 0.0;
 };
 

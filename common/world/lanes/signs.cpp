@@ -31,11 +31,14 @@ std::vector<SignPlace> SignsOf(const Graph& graph, std::uint32_t track) {
   const Track& t = graph[track];
   const network::RoadSpec& road = graph.network().roads()[t.lane.road].spec();
   const auto& nodes = t.curve.nodes();
-  const double low = std::min(nodes.front().s_m, nodes.back().s_m), high = std::max(nodes.front().s_m, nodes.back().s_m);
+  const double low = std::min(nodes.front().s_m, nodes.back().s_m),
+               high = std::max(nodes.front().s_m, nodes.back().s_m);
   std::vector<SignPlace> signs;
   for (const network::Signal& signal : road.signals) {
     const auto sign = SignOf(signal);
-    if (!sign || signal.s_m < low || signal.s_m > high || !HoldsFor(t.lane.lane, t.along, signal.orientation, signal.validity)) continue;
+    if (!sign || signal.s_m < low || signal.s_m > high ||
+        !HoldsFor(t.lane.lane, t.along, signal.orientation, signal.validity))
+      continue;
     const double share = (signal.s_m - nodes.front().s_m) / (nodes.back().s_m - nodes.front().s_m);
     signs.push_back({share * t.length_m(), *sign});
   }

@@ -19,12 +19,12 @@ struct SignPlace {
 
 using network::HoldsFor;
 
-// STOP, give-way and priority signs (206, 205, 301, 306 and 307, which ends a priority road) for the traffic of a track, by
-// the Vienna Convention's German numbers, which OpenDRIVE files and this project use; ascending.
+// STOP, give-way and priority signs (206, 205, 301, 306 and 307, which ends a priority road) for the traffic of a
+// track, by the Vienna Convention's German numbers, which OpenDRIVE files and this project use; ascending.
 std::vector<SignPlace> SignsOf(const Graph& graph, std::uint32_t track);
 
-// The sign that holds at d of a track: the last one before it on the track, or, going back over tracks that are the only
-// way here, within 60 m.
+// The sign that holds at d of a track: the last one before it on the track, or, going back over tracks that are the
+// only way here, within 60 m.
 Sign SignFor(const Graph& graph, std::uint32_t track, double d_m);
 
 }  // namespace rodeira::lanes

@@ -10,14 +10,15 @@
 namespace rodeira::lanes {
 namespace {
 
-constexpr double kMargin_m = 0.15;     // between cars side by side
-constexpr double kSpacing_m = 1.0;     // of nodes
-constexpr double kApart_m = 8.0;       // two zones of one pair are as far apart
+constexpr double kMargin_m = 0.15;  // between cars side by side
+constexpr double kSpacing_m = 1.0;  // of nodes
+constexpr double kApart_m = 8.0;    // two zones of one pair are as far apart
 constexpr double kSamePlace_m = 1.0;
 constexpr double kSameHeading = 0.95;  // cosine
 constexpr double kFollowing_m = 12.0;  // tracks that follow within this distance are no conflict
 
-// Tracks and how much of a way was left where each was come to at best: rings of short lanes are gone round no second time.
+// Tracks and how much of a way was left where each was come to at best: rings of short lanes are gone round no second
+// time.
 using Reached = std::map<std::uint32_t, double>;
 bool IsNearer(Reached& reached, std::uint32_t track, double left_m) {
   const auto [at, is_new] = reached.try_emplace(track, left_m);
@@ -62,8 +63,8 @@ bool Meet(const Reached& a, const Reached& b) {
   return std::any_of(a.begin(), a.end(), [&](const auto& one) { return b.contains(one.first); });
 }
 
-// Whether two tracks that begin in one place are the ends of two ways that come together there, cut into short lane sections, and not the beginnings of two
-// that part: they come from different tracks, and go on into one.
+// Whether two tracks that begin in one place are the ends of two ways that come together there, cut into short lane
+// sections, and not the beginnings of two that part: they come from different tracks, and go on into one.
 bool ComeTogether(const Graph& graph, std::uint32_t a, std::uint32_t b) {
   if (graph[a].before.empty() || graph[b].before.empty()) return false;
   Reached from_a, from_b, to_a, to_b;
@@ -78,7 +79,8 @@ bool SamePlace(const CurvePoint& a, const CurvePoint& b) {
 }
 
 // How far the largest car reaches beside a node towards a point.
-double HalfTowards(const Curve::Node& node, std::size_t index, const Swings& swings, std::uint32_t track, const LargestCar& car, const Eigen::Vector3d& to_W) {
+double HalfTowards(const Curve::Node& node, std::size_t index, const Swings& swings, std::uint32_t track,
+                   const LargestCar& car, const Eigen::Vector3d& to_W) {
   const double half = HalfSwath_m(node.curvature_1pm, car);
   if (track >= swings.size() || swings[track].empty()) return half;
   const bool left = geometry::Cross(node.along_W.head<2>(), (to_W - node.p_W).head<2>()) > 0.0;
@@ -104,7 +106,8 @@ Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
         const Curve& other = graph[key.track].curve;
         const Curve::Node& beside = other.nodes()[key.node];
         if (key.track <= a || std::fabs(beside.p_W.z() - node.p_W.z()) > network::Network::kLevel_m) continue;
-        const double wide = HalfTowards(node, at, swings, a, car, beside.p_W) + HalfTowards(beside, key.node, swings, key.track, car, node.p_W) + kMargin_m;
+        const double wide = HalfTowards(node, at, swings, a, car, beside.p_W) +
+                            HalfTowards(beside, key.node, swings, key.track, car, node.p_W) + kMargin_m;
         if ((beside.p_W.head<2>() - p).norm() > wide + kSpacing_m) continue;
         const Curve::Foot foot = other.FootNear(p, key.node);
         if ((other.At(foot.d_m).p_W.head<2>() - p).norm() < wide) touches[key.track].push_back({node.d_m, foot.d_m});
@@ -123,12 +126,15 @@ Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
     }
   }
   for (std::uint32_t t = 0; t < all.size(); ++t) {
-    std::stable_sort(all[t].begin(), all[t].end(), [](const ZoneSide& x, const ZoneSide& y) { return x.in_m < y.in_m; });
+    std::stable_sort(all[t].begin(), all[t].end(),
+                     [](const ZoneSide& x, const ZoneSide& y) { return x.in_m < y.in_m; });
     for (const ZoneSide& part : all[t]) {
       const Zone& zone = zones_[part.zone];
       const auto theirs = static_cast<std::size_t>(1 - part.side);
-      if (part.kind == ZoneKind::kDiverge) partings[t].push_back({part.out_m, zone.track[theirs], zone.in_m[theirs], zone.out_m[theirs]});
-      else conflicts[t].push_back(part);
+      if (part.kind == ZoneKind::kDiverge)
+        partings[t].push_back({part.out_m, zone.track[theirs], zone.in_m[theirs], zone.out_m[theirs]});
+      else
+        conflicts[t].push_back(part);
     }
   }
   all_.Take(all), conflicts_.Take(conflicts), partings_.Take(partings);
@@ -156,7 +162,8 @@ void Zones::Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std
     const bool at_end = zone.out_m[0] >= one.length_m() && zone.out_m[1] >= other.length_m();
     if (at_start && (Share(graph[a].before, graph[b].before) || SamePlace(one.At(0.0), other.At(0.0))))
       zone.kind = ComeTogether(graph, a, b) ? ZoneKind::kMerge : ZoneKind::kDiverge;
-    else if (at_end && (Share(graph[a].next, graph[b].next) || SamePlace(one.At(one.length_m()), other.At(other.length_m()))))
+    else if (at_end &&
+             (Share(graph[a].next, graph[b].next) || SamePlace(one.At(one.length_m()), other.At(other.length_m()))))
       zone.kind = ZoneKind::kMerge;
     zones_.push_back(zone);
   }

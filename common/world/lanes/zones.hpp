@@ -23,7 +23,7 @@ struct Zone {
   std::array<std::uint32_t, 2> track{};  // ascending
   std::array<double, 2> in_m{}, out_m{};
   ZoneKind kind = ZoneKind::kCross;
-  int first = 0;        // the side that has the right of way
+  int first = 0;         // the side that has the right of way
   bool signed_ = false;  // by sign, light or the file's priority, not by the rule of the side
 };
 
@@ -54,7 +54,9 @@ class ByTrack {
     begins_.push_back(static_cast<std::uint32_t>(items_.size()));
     base::PreferHugePages(items_);
   }
-  std::span<const Item> Of(std::uint32_t track) const { return {items_.data() + begins_[track], items_.data() + begins_[track + 1]}; }
+  std::span<const Item> Of(std::uint32_t track) const {
+    return {items_.data() + begins_[track], items_.data() + begins_[track + 1]};
+  }
 
  private:
   std::vector<Item> items_;
@@ -71,7 +73,8 @@ using Swings = std::vector<std::vector<Swing>>;
 // All conflict zones of a network's tracks, and for each track those that it leads through, by where they begin.
 class Zones {
  public:
-  // For cars as large as this one: what touches is told from HalfSwath_m of both tracks' curvatures, or a swing to the other one's side that is larger.
+  // For cars as large as this one: what touches is told from HalfSwath_m of both tracks' curvatures, or a swing to the
+  // other one's side that is larger.
   explicit Zones(const Graph& graph, const LargestCar& car = {}, const Swings& swings = {});
 
   const std::vector<Zone>& zones() const { return zones_; }
@@ -85,7 +88,8 @@ class Zones {
   struct Touch {
     double a_m, b_m;  // along both tracks
   };
-  void Pair(const Graph& graph, std::uint32_t a, std::uint32_t b, const std::vector<Touch>& touches);  // ascending in a_m
+  void Pair(const Graph& graph, std::uint32_t a, std::uint32_t b,
+            const std::vector<Touch>& touches);  // ascending in a_m
 
   std::vector<Zone> zones_;
   ByTrack<ZoneSide> all_, conflicts_;

@@ -65,7 +65,9 @@ LightPlan ReadLightPlan(const config::Map& map) {
   if (plan.phases.empty() && map.Has("phases")) map.Problem("phases", "there is no phase; one or more were expected");
   for (const std::string& name : plan.Names()) {
     if (Begins(plan, name) > 1)
-      map.Problem("phases", fmt::format("'{}' becomes green more than once in a cycle; put its phases one after the other", name));
+      map.Problem(
+          "phases",
+          fmt::format("'{}' becomes green more than once in a cycle; put its phases one after the other", name));
   }
   return plan;
 }

@@ -17,8 +17,8 @@ struct Phase {
   std::string place;  // "file:line"
 };
 
-// The lights of one junction as a person writes them: phases one after the other, each with its green; between two of them
-// amber and red for all. Who is green in a phase and in the next one stays green between them.
+// The lights of one junction as a person writes them: phases one after the other, each with its green; between two of
+// them amber and red for all. Who is green in a phase and in the next one stays green between them.
 struct LightPlan {
   double offset_s = 0.0;  // when the first phase begins
   double amber_s = 3.0;
@@ -30,8 +30,8 @@ struct LightPlan {
   std::vector<std::string> Names() const;  // each once, in the order of the phases
 };
 
-// Reads `offset_s`, `amber_s`, `all_red_s`, `red_amber_s` and `phases: [{green: [NAME, …], for_s}]`. A name that is green,
-// waits, and is green again in one cycle is a problem, as is a red with amber longer than amber and red for all.
+// Reads `offset_s`, `amber_s`, `all_red_s`, `red_amber_s` and `phases: [{green: [NAME, …], for_s}]`. A name that is
+// green, waits, and is green again in one cycle is a problem, as is a red with amber longer than amber and red for all.
 LightPlan ReadLightPlan(const config::Map& map);
 
 // Where the first phase in which a name is green is written down, "file:line"; empty where it is in no phase.

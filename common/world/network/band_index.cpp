@@ -18,7 +18,8 @@ double ClosedBetween(const geometry::PlanAxis& axis, std::size_t before, double 
   constexpr double kSmooth = 1e-9;  // metres, and radians
   const auto& panels = axis.panels();
   if (before + 1 >= panels.size()) return closed_m;
-  const geometry::PlanPoint end = axis.At(panels[before], panels[before].half_m), begin = axis.At(panels[before + 1], -panels[before + 1].half_m);
+  const geometry::PlanPoint end = axis.At(panels[before], panels[before].half_m),
+                            begin = axis.At(panels[before + 1], -panels[before + 1].half_m);
   const bool smooth = (end.p_W - begin.p_W).norm() < kSmooth && (end.tangent_W - begin.tangent_W).norm() < kSmooth;
   return smooth ? kSlack_m : closed_m;
 }
@@ -39,7 +40,8 @@ double SteepestSine(const geometry::CubicTable& height, double low_s_m, double h
     const double from = i == 0 ? low_s_m : std::max(low_s_m, records[i].from);
     const double to = i + 1 < records.size() ? std::min(high_s_m, records[i + 1].from) : high_s_m;
     if (from > to) continue;
-    const double flex = records[i].d == 0.0 ? from : std::clamp(records[i].from - records[i].c / (3.0 * records[i].d), from, to);
+    const double flex =
+        records[i].d == 0.0 ? from : std::clamp(records[i].from - records[i].c / (3.0 * records[i].d), from, to);
     for (const double s : {from, flex, to}) steepest = std::max(steepest, std::fabs(records[i].Slope(s)));
   }
   return steepest / std::sqrt(1.0 + steepest * steepest);
@@ -76,22 +78,29 @@ Band MakeBand(const Road& road, std::uint32_t road_index, std::uint32_t panel_in
   const double reach = std::max(std::fabs(left), std::fabs(right));
   const double bulge = axis.Bulge(panel) + kSlack_m;
   double along = turn * reach + bulge + closed_m;
-  double low = std::min(right, right * std::sqrt(1.0 - turn * turn)), high = std::max(left, left * std::sqrt(1.0 - turn * turn));
+  double low = std::min(right, right * std::sqrt(1.0 - turn * turn)),
+         high = std::max(left, left * std::sqrt(1.0 - turn * turn));
   const double from_s = std::max(panel.begin_s_m(), 0.0), to_s = std::min(panel.end_s_m(), road.length_m());
   if (road.LeansBetween(from_s, to_s)) {  // the section leans forward on a slope, and is narrower seen from above
-    along += reach * LargestSine(road.spec().superelevation, from_s, to_s) * SteepestSine(road.spec().elevation, from_s, to_s);
+    along += reach * LargestSine(road.spec().superelevation, from_s, to_s) *
+             SteepestSine(road.spec().elevation, from_s, to_s);
     low = std::min(low, 0.0), high = std::max(high, 0.0);
   }
   band.centre_W = 0.5 * (begin + end) + 0.5 * (low + high) * geometry::Left(band.along_W);
   band.half_along_m = 0.5 * length + along;
   band.half_across_m = 0.5 * (high - low) + bulge + turn * closed_m;
-  const auto at_end = [&](const auto& link) { return link ? closed_m : kSlack_m; };  // where it leads nowhere, there is no gap
-  band.closed_before_m = panel_index == 0 ? at_end(road.spec().predecessor) : ClosedBetween(axis, panel_index - 1, closed_m);
-  band.closed_behind_m = panel.end_s_m() >= road.length_m() ? at_end(road.spec().successor) : ClosedBetween(axis, panel_index, closed_m);
+  const auto at_end = [&](const auto& link) {
+    return link ? closed_m : kSlack_m;
+  };  // where it leads nowhere, there is no gap
+  band.closed_before_m =
+      panel_index == 0 ? at_end(road.spec().predecessor) : ClosedBetween(axis, panel_index - 1, closed_m);
+  band.closed_behind_m =
+      panel.end_s_m() >= road.length_m() ? at_end(road.spec().successor) : ClosedBetween(axis, panel_index, closed_m);
   return band;
 }
 
-// How far the middle of a square of the grid may be from that of a band's rectangle, along the sides of both, where they may touch.
+// How far the middle of a square of the grid may be from that of a band's rectangle, along the sides of both, where
+// they may touch.
 struct Reach {
   Reach(const Band& band, double half_m) {
     const Eigen::Vector2d along = band.along_W.cwiseAbs();
@@ -103,12 +112,14 @@ struct Reach {
   double along_m, across_m, x_m, y_m;
 };
 
-// Whether a band's rectangle and a square of the grid may have a point in common: where no line along a side of either parts them.
+// Whether a band's rectangle and a square of the grid may have a point in common: where no line along a side of either
+// parts them.
 bool Touches(const Band& band, const Eigen::Vector2d& centre_W, double half_m) {
   const Eigen::Vector2d away = centre_W - band.centre_W;
   const Reach reach(band, half_m);
-  return std::fabs(away.dot(band.along_W)) <= reach.along_m && std::fabs(geometry::Cross(band.along_W, away)) <= reach.across_m &&
-         std::fabs(away.x()) <= reach.x_m && std::fabs(away.y()) <= reach.y_m;
+  return std::fabs(away.dot(band.along_W)) <= reach.along_m &&
+         std::fabs(geometry::Cross(band.along_W, away)) <= reach.across_m && std::fabs(away.x()) <= reach.x_m &&
+         std::fabs(away.y()) <= reach.y_m;
 }
 
 }  // namespace
@@ -166,7 +177,8 @@ void BandIndex::BuildGrid() {
     const double row_high = index(band.centre_W.y() + reach.y(), low.y(), rows_),
                  column_high = index(band.centre_W.x() + reach.x(), low.x(), columns_);
     for (double row = index(band.centre_W.y() - reach.y(), low.y(), rows_); row <= row_high; row += 1.0) {
-      for (double column = index(band.centre_W.x() - reach.x(), low.x(), columns_); column <= column_high; column += 1.0) {
+      for (double column = index(band.centre_W.x() - reach.x(), low.x(), columns_); column <= column_high;
+           column += 1.0) {
         const Eigen::Vector2d centre = origin_W_ + cell_m_ * Eigen::Vector2d(column + 0.5, row + 0.5);
         if (Touches(band, centre, 0.5 * cell_m_)) use(column, row, centre);
       }
@@ -182,19 +194,23 @@ void BandIndex::BuildGrid() {
   std::uint32_t blocks = 0;
   for (std::uint32_t& block : blocks_) block = block == 0 ? 0 : ++blocks;
   first_.assign(blocks * kBlock * kBlock + 1, 0);
-  for (const Band& band : bands_) each_cell(band, [&](double column, double row, const Eigen::Vector2d&) { ++first_[CellOf(column, row)]; });
+  for (const Band& band : bands_)
+    each_cell(band, [&](double column, double row, const Eigen::Vector2d&) { ++first_[CellOf(column, row)]; });
   for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) first_[cell + 1] += first_[cell];
   cell_bands_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
   for (std::uint32_t i = 0; i < bands_.size(); ++i) {
-    each_cell(bands_[i], [&](double column, double row, const Eigen::Vector2d& centre) { cell_bands_[next[CellOf(column, row) - 1]++] = {i, PartsOf(bands_[i], centre)}; });
+    each_cell(bands_[i], [&](double column, double row, const Eigen::Vector2d& centre) {
+      cell_bands_[next[CellOf(column, row) - 1]++] = {i, PartsOf(bands_[i], centre)};
+    });
   }
 }
 
 // As Touches says of each square of a cell.
 std::uint32_t BandIndex::PartsOf(const Band& band, const Eigen::Vector2d& cell_centre_W) const {
   const double part_m = cell_m_ / kParts;
-  const Eigen::Vector2d first = cell_centre_W - Eigen::Vector2d::Constant(0.5 * (cell_m_ - part_m)) - band.centre_W;  // the first square's centre
+  const Eigen::Vector2d first =
+      cell_centre_W - Eigen::Vector2d::Constant(0.5 * (cell_m_ - part_m)) - band.centre_W;  // the first square's centre
   const Reach reach(band, 0.5 * part_m);
   const double ahead = first.dot(band.along_W), aside = geometry::Cross(band.along_W, first);
   std::uint32_t parts = 0;
@@ -203,7 +219,8 @@ std::uint32_t BandIndex::PartsOf(const Band& band, const Eigen::Vector2d& cell_c
     if (std::fabs(first.y() + up) > reach.y_m) continue;
     for (std::uint32_t column = 0; column < kParts; ++column) {
       const double right = part_m * column;
-      const bool touches = std::fabs(first.x() + right) <= reach.x_m && std::fabs(ahead + right * band.along_W.x() + up * band.along_W.y()) <= reach.along_m &&
+      const bool touches = std::fabs(first.x() + right) <= reach.x_m &&
+                           std::fabs(ahead + right * band.along_W.x() + up * band.along_W.y()) <= reach.along_m &&
                            std::fabs(aside + up * band.along_W.x() - right * band.along_W.y()) <= reach.across_m;
       parts |= std::uint32_t{touches} << (row * kParts + column);
     }
@@ -217,8 +234,10 @@ std::optional<std::uint32_t> BandIndex::OnlyOne(const Eigen::Vector2d& low_W, co
   const double radius = 0.5 * size.norm() + kSlack_m;
   std::optional<std::uint32_t> only;
   // A cell is wider than the box: what holds some of it is known in a corner's cell.
-  for (const Eigen::Vector2d& corner : {low_W, high_W, Eigen::Vector2d(low_W.x(), high_W.y()), Eigen::Vector2d(high_W.x(), low_W.y())}) {
-    for (const CellBand& listed : Listed((corner.x() - origin_W_.x()) / cell_m_, (corner.y() - origin_W_.y()) / cell_m_)) {
+  for (const Eigen::Vector2d& corner :
+       {low_W, high_W, Eigen::Vector2d(low_W.x(), high_W.y()), Eigen::Vector2d(high_W.x(), low_W.y())}) {
+    for (const CellBand& listed :
+         Listed((corner.x() - origin_W_.x()) / cell_m_, (corner.y() - origin_W_.y()) / cell_m_)) {
       const std::uint32_t index = listed.band;
       if (only == index) continue;
       const Band& band = bands_[index];
@@ -251,10 +270,11 @@ std::uint32_t BandIndex::BuildTree(std::uint32_t first, std::uint32_t last, std:
   const Eigen::Vector2d size = node_high - node_low;
   const int axis = size.x() >= size.y() ? 0 : 1;
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last, [&](std::uint32_t a, std::uint32_t b) {
-    const double at_a = bands_[a].centre_W[axis], at_b = bands_[b].centre_W[axis];
-    return at_a < at_b || (at_a == at_b && a < b);
-  });
+  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
+                   [&](std::uint32_t a, std::uint32_t b) {
+                     const double at_a = bands_[a].centre_W[axis], at_b = bands_[b].centre_W[axis];
+                     return at_a < at_b || (at_a == at_b && a < b);
+                   });
   BuildTree(first, middle, low, high);
   nodes_[index].right = BuildTree(middle, last, low, high);
   return index;

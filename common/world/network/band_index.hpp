@@ -19,8 +19,9 @@ struct Band {
   Eigen::Vector2d centre_W;
   Eigen::Vector2d along_W;  // unit length
   double half_along_m = 0.0, half_across_m = 0.0;
-  // How far beyond its ends a point still belongs to it: what is closed at gaps and kinks of the reference line and where another road
-  // goes on; no more than rounding where the next panel goes on smoothly, and knows the lanes' edges better, or nothing goes on.
+  // How far beyond its ends a point still belongs to it: what is closed at gaps and kinks of the reference line and
+  // where another road goes on; no more than rounding where the next panel goes on smoothly, and knows the lanes' edges
+  // better, or nothing goes on.
   double closed_before_m = 0.0, closed_behind_m = 0.0;
 
   // How far a point lies outside the rectangle: nothing of the band is nearer.
@@ -55,8 +56,8 @@ class BandIndex {
       if ((band.parts & here) != 0) visit(band.band);
     }
   }
-  // The one band whose rectangle holds all of a box that is no wider than kWidest_m, where no other band holds any of it; otherwise
-  // nothing, and maybe nothing too where a band's edge is near.
+  // The one band whose rectangle holds all of a box that is no wider than kWidest_m, where no other band holds any of
+  // it; otherwise nothing, and maybe nothing too where a band's edge is near.
   static constexpr double kWidest_m = 2.0;
   std::optional<std::uint32_t> OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const;
 
@@ -76,8 +77,8 @@ class BandIndex {
 
     double Distance(const Eigen::Vector2d& p_W) const { return (low - p_W).cwiseMax(p_W - high).cwiseMax(0.0).norm(); }
   };
-  // A band that lies in a cell, and in which of its kParts x kParts squares (row by row, a bit each): most that lie in a cell are not at a point
-  // of it, and this tells so without another place in memory.
+  // A band that lies in a cell, and in which of its kParts x kParts squares (row by row, a bit each): most that lie in
+  // a cell are not at a point of it, and this tells so without another place in memory.
   struct CellBand {
     std::uint32_t band = 0, parts = 0;
   };
@@ -94,7 +95,8 @@ class BandIndex {
   std::span<const CellBand> Listed(double column, double row) const {
     if (!(column >= 0.0 && column < columns_ && row >= 0.0 && row < rows_)) return {};
     const std::size_t cell = CellOf(column, row);
-    return cell == 0 ? std::span<const CellBand>() : std::span(cell_bands_).subspan(first_[cell - 1], first_[cell] - first_[cell - 1]);
+    return cell == 0 ? std::span<const CellBand>()
+                     : std::span(cell_bands_).subspan(first_[cell - 1], first_[cell] - first_[cell - 1]);
   }
   void AddBands(std::span<const Road> roads, double closed_m);
   void BuildGrid();
@@ -123,7 +125,8 @@ class BandIndex {
   double columns_ = 0.0, rows_ = 0.0;  // whole numbers
   std::size_t block_columns_ = 0;
   std::vector<std::uint32_t> blocks_;  // by row and column; 0: nothing lies in it, otherwise its number, from 1
-  std::vector<std::uint32_t> first_;   // per cell of those that hold something, where its bands begin in cell_bands_; one more at the end
+  std::vector<std::uint32_t>
+      first_;  // per cell of those that hold something, where its bands begin in cell_bands_; one more at the end
   std::vector<CellBand> cell_bands_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;

@@ -31,16 +31,19 @@ const Cubic& InForce(const CubicTable& table, double s_m, double& from_s_m, doub
 
 // About the panel's middle what holds the band's rectangle, in single numbers that are no smaller.
 void SetRectangle(const Band& band, BandRecord& record) {
-  const Eigen::Vector2d along = band.half_along_m * band.along_W, across = band.half_across_m * geometry::Left(band.along_W);
+  const Eigen::Vector2d along = band.half_along_m * band.along_W,
+                        across = band.half_across_m * geometry::Left(band.along_W);
   double half_along_m = 0.0, right_m = std::numeric_limits<double>::infinity(), left_m = -right_m;
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(along + across), Eigen::Vector2d(along - across), Eigen::Vector2d(-along + across), Eigen::Vector2d(-along - across)}) {
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(along + across), Eigen::Vector2d(along - across),
+                                        Eigen::Vector2d(-along + across), Eigen::Vector2d(-along - across)}) {
     const Eigen::Vector2d away = band.centre_W + corner - record.middle_W;
     const double aside_m = geometry::Cross(record.tangent_W, away);
     half_along_m = std::max(half_along_m, std::fabs(away.dot(record.tangent_W)));
     right_m = std::min(right_m, aside_m), left_m = std::max(left_m, aside_m);
   }
   // Both are found with a rounding of 2^-52 of the coordinates, and rounded to 2^-24 of themselves.
-  const double slack_m = std::ldexp(band.centre_W.cwiseAbs().sum(), -48) + std::ldexp(band.half_along_m + band.half_across_m, -20);
+  const double slack_m =
+      std::ldexp(band.centre_W.cwiseAbs().sum(), -48) + std::ldexp(band.half_along_m + band.half_across_m, -20);
   record.half_along_m = static_cast<float>(half_along_m + slack_m);
   record.right_m = static_cast<float>(right_m - slack_m), record.left_m = static_cast<float>(left_m + slack_m);
 }
@@ -49,13 +52,15 @@ void SetPanel(const geometry::AxisPanel& panel, BandRecord& record) {
   record.kind = static_cast<std::uint8_t>(panel.kind);
   record.middle_W = panel.middle_W, record.tangent_W = panel.tangent_W;
   record.half_m = panel.half_m, record.middle_s_m = panel.middle_s_m;
-  record.curvature_1pm = panel.kind <= geometry::AxisPanel::Kind::kArc ? panel.curvature_1pm : static_cast<double>(panel.detail);
+  record.curvature_1pm =
+      panel.kind <= geometry::AxisPanel::Kind::kArc ? panel.curvature_1pm : static_cast<double>(panel.detail);
 }
 
 // The same number everywhere, and no slope, to the last bit: without a zero that is negative.
 bool Constant(const Cubic& cubic) {
   const auto plain_zero = [](double value) { return value == 0.0 && !std::signbit(value); };
-  return plain_zero(cubic.b) && plain_zero(cubic.c) && plain_zero(cubic.d) && !(cubic.a == 0.0 && std::signbit(cubic.a));
+  return plain_zero(cubic.b) && plain_zero(cubic.c) && plain_zero(cubic.d) &&
+         !(cubic.a == 0.0 && std::signbit(cubic.a));
 }
 
 constexpr std::uint8_t kMostPieces = 64;   // of one panel: the road itself knows the others
@@ -66,7 +71,7 @@ constexpr std::size_t kMostOfASide = 255;  // of any
 
 // Where what was made already is.
 struct BandRecords::Known {
-  std::map<std::vector<const void*>, std::uint32_t> lanes;    // by section and cubics
+  std::map<std::vector<const void*>, std::uint32_t> lanes;      // by section and cubics
   std::map<std::vector<std::uint64_t>, std::uint32_t> numbers;  // by their bits
 };
 
@@ -79,7 +84,8 @@ BandRecords::BandRecords(std::span<const Road> roads, const BandIndex& index) {
     SetPanel(road.axis().panels()[band.panel], record);
     SetRectangle(band, record);
     record.high_s_m = std::min(road.axis().panels()[band.panel].end_s_m(), road.length_m());
-    record.closed_before = band.closed_before_m > BandIndex::kSlack_m, record.closed_behind = band.closed_behind_m > BandIndex::kSlack_m;
+    record.closed_before = band.closed_before_m > BandIndex::kSlack_m,
+    record.closed_behind = band.closed_behind_m > BandIndex::kSlack_m;
     record.road = band.road;
     const double low = record.low_s_m(), high = record.high_s_m;
     if (road.LeansBetween(low, high)) continue;
@@ -118,7 +124,8 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
     for (const Lane& lane : *side) {
       const bool bordered = lane.bordered();
       const Cubic& edge = InForce(bordered ? lane.border : lane.width, s_m, from, to);
-      const auto number = static_cast<int>(side == &section.left ? lanes.size() + 1 : lanes.size() - section.left.size() + 1);
+      const auto number =
+          static_cast<int>(side == &section.left ? lanes.size() + 1 : lanes.size() - section.left.size() + 1);
       piece.steady = piece.steady && Constant(edge) && lane.id == (side == &section.left ? number : -number);
       inner = OuterEdgeBy(bordered, Evaluate(edge, s_m), side == &section.left ? 1.0 : -1.0, inner);
       if (piece.steady) driven |= std::uint64_t{IsDrivable(lane.type)} << lanes.size();
@@ -127,7 +134,8 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
       by.push_back(&edge);
     }
   }
-  piece.left = static_cast<std::uint8_t>(section.left.size()), piece.right = static_cast<std::uint8_t>(section.right.size());
+  piece.left = static_cast<std::uint8_t>(section.left.size()),
+  piece.right = static_cast<std::uint8_t>(section.right.size());
   piece.from_s_m = from, piece.to_s_m = to;
   piece.level = Constant(elevation);
   if (piece.level) piece.height_m = elevation.a;
@@ -163,7 +171,9 @@ double BandRecords::Height(const BandPiece& piece, double s_m) const {
   return Cubic{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]}.Value(s_m);
 }
 
-BandRecords::LaneAt BandRecords::At(const BandPiece& piece, double s_m, double t_m) const { return piece.steady ? AtSteady(piece, t_m) : AtCubics(piece, s_m, t_m); }
+BandRecords::LaneAt BandRecords::At(const BandPiece& piece, double s_m, double t_m) const {
+  return piece.steady ? AtSteady(piece, t_m) : AtCubics(piece, s_m, t_m);
+}
 
 BandRecords::LaneAt BandRecords::AtSteady(const BandPiece& piece, double t_m) const {
   const double* numbers = &numbers_[piece.first];
@@ -182,7 +192,8 @@ BandRecords::LaneAt BandRecords::AtSteady(const BandPiece& piece, double t_m) co
     inner = outer;
   }
   at.outside_m = std::max(0.0, sign * (t_m - inner));
-  if (at.outside_m == 0.0 && count == 0 && to_left && piece.right > 0) return AtSteady(piece, std::nextafter(t_m, t_m - 1.0));
+  if (at.outside_m == 0.0 && count == 0 && to_left && piece.right > 0)
+    return AtSteady(piece, std::nextafter(t_m, t_m - 1.0));
   return at;
 }
 
@@ -191,7 +202,8 @@ BandRecords::LaneAt BandRecords::AtCubics(const BandPiece& piece, double s_m, do
   const CubicPoint centre = Evaluate(cubics.centre_t, s_m);
   const bool to_left = t_m >= centre.value;
   const double sign = to_left ? 1.0 : -1.0;
-  const std::span<const LaneRecord> side = std::span(lanes_).subspan(cubics.first_lane + (to_left ? 0u : piece.left), to_left ? piece.left : piece.right);
+  const std::span<const LaneRecord> side =
+      std::span(lanes_).subspan(cubics.first_lane + (to_left ? 0u : piece.left), to_left ? piece.left : piece.right);
   CubicPoint inner = centre;
   LaneAt at;
   for (const LaneRecord& lane : side) {
@@ -202,7 +214,8 @@ BandRecords::LaneAt BandRecords::AtCubics(const BandPiece& piece, double s_m, do
     inner = outer;
   }
   at.outside_m = std::max(0.0, sign * (t_m - inner.value));
-  if (at.outside_m == 0.0 && side.empty() && to_left && piece.right > 0) return AtCubics(piece, s_m, std::nextafter(t_m, t_m - 1.0));
+  if (at.outside_m == 0.0 && side.empty() && to_left && piece.right > 0)
+    return AtCubics(piece, s_m, std::nextafter(t_m, t_m - 1.0));
   return at;
 }
 

@@ -14,35 +14,36 @@
 
 namespace rodeira::network {
 
-// Between two stations of a road one cubic each is in force for the middle of the lanes, the height and every lane's edge. What of it is a
-// number there stands here or among the record's numbers, the rest among its cubics.
+// Between two stations of a road one cubic each is in force for the middle of the lanes, the height and every lane's
+// edge. What of it is a number there stands here or among the record's numbers, the rest among its cubics.
 struct BandPiece {
   double from_s_m = 0.0, to_s_m = -1.0;  // for these s, without the last
   double height_m = 0.0;                 // where level
   std::uint32_t section = 0;
-  std::uint32_t first = 0;               // steady: of BandRecords' numbers; otherwise of its cubics
-  std::uint8_t left = 0, right = 0;      // how many lanes
-  bool steady = false;                   // neither the middle of the lanes nor an edge of one changes along the road
-  bool level = false;                    // nor does the elevation
-  bool flat = false;                     // the elevation is all of the road's height
+  std::uint32_t first = 0;           // steady: of BandRecords' numbers; otherwise of its cubics
+  std::uint8_t left = 0, right = 0;  // how many lanes
+  bool steady = false;               // neither the middle of the lanes nor an edge of one changes along the road
+  bool level = false;                // nor does the elevation
+  bool flat = false;                 // the elevation is all of the road's height
 
   bool Holds(double s_m) const { return s_m >= from_s_m && s_m < to_s_m; }
 };
 
-// What is asked of a road where a point lies on one of its bands, side by side in two lines of a cache: copies of the panel, of the lanes
-// and of the height. Found through the road itself they are a dozen places far from one another.
+// What is asked of a road where a point lies on one of its bands, side by side in two lines of a cache: copies of the
+// panel, of the lanes and of the height. Found through the road itself they are a dozen places far from one another.
 struct alignas(128) BandRecord {
-  // The panel's, and about its middle the rectangle that holds the band, a little wider than it is for what these numbers round off.
+  // The panel's, and about its middle the rectangle that holds the band, a little wider than it is for what these
+  // numbers round off.
   Eigen::Vector2d middle_W, tangent_W;
   double half_m = 0.0, middle_s_m = 0.0;
   float half_along_m = 0.0f, right_m = 0.0f, left_m = 0.0f;  // along the tangent, to both sides; across, from and to
   std::uint32_t road = 0;
-  double curvature_1pm = 0.0;  // of a line or an arc; otherwise AxisPanel::detail
-  double high_s_m = 0.0;       // where the panel's part of the road ends
-  BandPiece piece;             // about the panel's middle; for no s where the road itself is to be asked
+  double curvature_1pm = 0.0;     // of a line or an arc; otherwise AxisPanel::detail
+  double high_s_m = 0.0;          // where the panel's part of the road ends
+  BandPiece piece;                // about the panel's middle; for no s where the road itself is to be asked
   std::uint32_t first_piece = 0;  // of BandRecords: those beside `piece`, ascending
   std::uint8_t pieces = 0;
-  std::uint8_t kind = 0;       // AxisPanel::Kind
+  std::uint8_t kind = 0;                              // AxisPanel::Kind
   bool closed_before = false, closed_behind = false;  // a gap is closed there
 
   double low_s_m() const { return std::max(middle_s_m - half_m, 0.0); }
@@ -50,13 +51,17 @@ struct alignas(128) BandRecord {
   geometry::AxisPanel Panel() const {
     const auto its_kind = static_cast<geometry::AxisPanel::Kind>(kind);
     const bool arc = its_kind <= geometry::AxisPanel::Kind::kArc;
-    return {its_kind, arc ? 0 : static_cast<std::uint32_t>(curvature_1pm), middle_s_m, half_m, 0.0, arc ? curvature_1pm : 0.0, middle_W, tangent_W};
+    return {its_kind,   arc ? 0 : static_cast<std::uint32_t>(curvature_1pm),
+            middle_s_m, half_m,
+            0.0,        arc ? curvature_1pm : 0.0,
+            middle_W,   tangent_W};
   }
   // True wherever the band's own Holds is.
   bool MayHold(const Eigen::Vector2d& p_W) const {
     const Eigen::Vector2d away = p_W - middle_W;
     const double across = geometry::Cross(tangent_W, away);
-    return std::fabs(away.dot(tangent_W)) <= static_cast<double>(half_along_m) && across >= static_cast<double>(right_m) && across <= static_cast<double>(left_m);
+    return std::fabs(away.dot(tangent_W)) <= static_cast<double>(half_along_m) &&
+           across >= static_cast<double>(right_m) && across <= static_cast<double>(left_m);
   }
 };
 static_assert(sizeof(BandRecord) == 128);
@@ -82,7 +87,8 @@ class BandRecords {
   }
   void FetchLanes(const BandRecord& record) const {
     if (!(record.piece.from_s_m < record.piece.to_s_m)) return;
-    const void* first = record.piece.steady ? static_cast<const void*>(numbers_.data() + record.piece.first) : static_cast<const void*>(cubics_.data() + record.piece.first);
+    const void* first = record.piece.steady ? static_cast<const void*>(numbers_.data() + record.piece.first)
+                                            : static_cast<const void*>(cubics_.data() + record.piece.first);
     __builtin_prefetch(first);
     if (!record.piece.level) __builtin_prefetch(static_cast<const char*>(first) + 64);
   }
@@ -120,8 +126,9 @@ class BandRecords {
 
   std::vector<BandRecord> records_;
   std::vector<BandPiece> pieces_;
-  // Of each steady piece which lanes are driven on, a bit each; where the middle of the lanes lies, the outer edges of those on the left outward,
-  // of those on the right; the elevation where it is not level. Pieces with the same numbers share theirs, as those with the same lanes do.
+  // Of each steady piece which lanes are driven on, a bit each; where the middle of the lanes lies, the outer edges of
+  // those on the left outward, of those on the right; the elevation where it is not level. Pieces with the same numbers
+  // share theirs, as those with the same lanes do.
   std::vector<double> numbers_;
   std::vector<Cubics> cubics_;
   std::vector<LaneRecord> lanes_;

@@ -1,5 +1,5 @@
-// What Surfaces says of a point, for many that lie close together: the band, the section and the records of all tables are looked up once,
-// then each step of the same formulas is made for all points.
+// What Surfaces says of a point, for many that lie close together: the band, the section and the records of all tables
+// are looked up once, then each step of the same formulas is made for all points.
 #include "common/world/network/cluster.hpp"
 
 #include <algorithm>
@@ -37,10 +37,12 @@ bool FindLanes(const Road& road, const LaneSection& section, Cluster& cluster) {
     return true;
   };
   int rightmost, leftmost;
-  if (!plain(cluster.low_s_m, cluster.low_t_m, rightmost) || !plain(cluster.high_s_m, cluster.high_t_m, leftmost)) return false;
+  if (!plain(cluster.low_s_m, cluster.low_t_m, rightmost) || !plain(cluster.high_s_m, cluster.high_t_m, leftmost))
+    return false;
   const auto constant = [&](const Lane& lane) { return IsConstant(lane, cluster); };
   const InForce centre(road.spec().lane_offset, cluster);
-  if (rightmost == leftmost && centre.common() && centre.constant() && std::all_of(section.left.begin(), section.left.end(), constant) &&
+  if (rightmost == leftmost && centre.common() && centre.constant() &&
+      std::all_of(section.left.begin(), section.left.end(), constant) &&
       std::all_of(section.right.begin(), section.right.end(), constant)) {
     cluster.lane = rightmost;  // the lanes' edges stand still: what lies between the outermost points is on it too
     return true;
@@ -66,7 +68,8 @@ void OneByOne(const LateralProfile& profile, const Cluster& cluster, Heights& he
   }
 }
 
-// Height of a strip at u outward, and its derivatives by s (at fixed u) and by u. False where a record ends among the points.
+// Height of a strip at u outward, and its derivatives by s (at fixed u) and by u. False where a record ends among the
+// points.
 bool OnStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numbers& u, Heights& heights) {
   const std::size_t count = cluster.feet.count;
   Numbers value, slope;
@@ -84,9 +87,14 @@ bool OnStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numbers& u
     }
     return record.common();
   };
-  return add(0, [](double) { return 1.0; }, [](double) { return 0.0; }) && add(1, [](double x) { return x; }, [](double) { return 1.0; }) &&
-         add(2, [](double x) { return x * x; }, [](double x) { return 2.0 * x; }) &&
-         add(3, [](double x) { return x * x * x; }, [](double x) { return 3.0 * x * x; });
+  return add(
+             0, [](double) { return 1.0; }, [](double) { return 0.0; }) &&
+         add(
+             1, [](double x) { return x; }, [](double) { return 1.0; }) &&
+         add(
+             2, [](double x) { return x * x; }, [](double x) { return 2.0 * x; }) &&
+         add(
+             3, [](double x) { return x * x * x; }, [](double x) { return 3.0 * x * x; });
 }
 
 // The strips of one side. False where the points lie on more than one of them, or a record ends among them.
@@ -141,15 +149,19 @@ bool OnStrips(const CrossSectionSurface& surface, const Cluster& cluster, Height
       u_slope[i] -= width_slope[i];
     }
   }
-  for (std::size_t i = 0; i < count; ++i) heights.z[i] = base_z[i], heights.by_s[i] = base_by_s[i], heights.by_t[i] = 0.0;
+  for (std::size_t i = 0; i < count; ++i)
+    heights.z[i] = base_z[i], heights.by_s[i] = base_by_s[i], heights.by_t[i] = 0.0;
   return true;
 }
 
 void SetLateral(const LateralProfile& profile, const Cluster& cluster, Heights& heights) {
-  const bool strips_alone = profile.shapes.empty() && profile.crossfall_left.empty() && profile.crossfall_right.empty() &&
+  const bool strips_alone = profile.shapes.empty() && profile.crossfall_left.empty() &&
+                            profile.crossfall_right.empty() &&
                             (!profile.surface.left.empty() || !profile.surface.right.empty());
-  if (profile.flat()) heights.z = heights.by_s = heights.by_t = {};
-  else if (!strips_alone || !OnStrips(profile.surface, cluster, heights)) OneByOne(profile, cluster, heights);
+  if (profile.flat())
+    heights.z = heights.by_s = heights.by_t = {};
+  else if (!strips_alone || !OnStrips(profile.surface, cluster, heights))
+    OneByOne(profile, cluster, heights);
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {  // both add up their parts from 0, so that a -0 becomes 0
     heights.z[i] = 0.0 + heights.z[i];
     heights.by_s[i] = 0.0 + (heights.by_s[i] + heights.by_t[i] * 0.0);
@@ -164,8 +176,10 @@ bool SetSurface(const Road& road, const ClusterLeans& leans, Cluster& cluster) {
   elevation.Evaluate(cluster, cluster.z_m, cluster.z_by_s);
   Heights heights;
   SetLateral(road.spec().lateral, cluster, heights);
-  if (cluster.leans) SetLeans(leans, cluster);
-  else std::fill_n(cluster.z_by_t.begin(), cluster.feet.count, 0.0);
+  if (cluster.leans)
+    SetLeans(leans, cluster);
+  else
+    std::fill_n(cluster.z_by_t.begin(), cluster.feet.count, 0.0);
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {
     cluster.z_m[i] += heights.z[i];
     cluster.z_by_s[i] += heights.by_s[i];
@@ -202,7 +216,8 @@ bool Network::Together(Cluster& cluster) const {
     const InForce superelevation(road.spec().superelevation, cluster);
     if (!superelevation.common()) return false;
     cluster.leans = !IsZero(superelevation.record());
-    if (cluster.leans && !(SettleTogether(road, panel, superelevation.record(), cluster, leans) && set_ranges())) return false;
+    if (cluster.leans && !(SettleTogether(road, panel, superelevation.record(), cluster, leans) && set_ranges()))
+      return false;
   }
   if (!IsApart(*found, index_, road, cluster)) return false;
   Range(feet.t_m, feet.count, cluster.low_t_m, cluster.high_t_m);

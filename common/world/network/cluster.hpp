@@ -17,10 +17,10 @@ struct Cluster {
   int lane = 0;  // of all of them; 0: each has its own
   std::array<int, kMost> lanes;
   Numbers s_m;
-  Numbers z_m, z_by_s, z_by_t;                      // of the surface
-  bool leans = false;                               // superelevated at all of them; then how a point moves with s and with t, seen from above
+  Numbers z_m, z_by_s, z_by_t;  // of the surface
+  bool leans = false;  // superelevated at all of them; then how a point moves with s and with t, seen from above
   Numbers ds_x, ds_y, dt_x, dt_y;
-  double low_s_m, high_s_m, low_t_m, high_t_m;      // the smallest and the largest
+  double low_s_m, high_s_m, low_t_m, high_t_m;  // the smallest and the largest
 
   int LaneOf(std::size_t point) const { return lane != 0 ? lane : lanes[point]; }
 };

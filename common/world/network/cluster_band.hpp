@@ -15,12 +15,14 @@ struct ClusterBand {
   bool before = false, behind = false;  // the panel before, the one behind
 };
 
-// Of points in a box that is no wider than BandIndex::kWidest_m. Nothing where another road's band, or one of another part of the road, holds
-// some of it, and maybe nothing where an edge of a band is near.
-std::optional<ClusterBand> FindBand(const BandIndex& index, std::span<const Road> roads, const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W);
+// Of points in a box that is no wider than BandIndex::kWidest_m. Nothing where another road's band, or one of another
+// part of the road, holds some of it, and maybe nothing where an edge of a band is near.
+std::optional<ClusterBand> FindBand(const BandIndex& index, std::span<const Road> roads, const Eigen::Vector2d& low_W,
+                                    const Eigen::Vector2d& high_W);
 
-// Whether the neighbours say nothing of any of the points, whose places on the band are known: all of them lie before, or behind, the line
-// across the road where the neighbour begins by kApart_m or more, and it does not turn back to them.
+// Whether the neighbours say nothing of any of the points, whose places on the band are known: all of them lie before,
+// or behind, the line across the road where the neighbour begins by kApart_m or more, and it does not turn back to
+// them.
 bool IsApart(const ClusterBand& found, const BandIndex& index, const Road& road, const Cluster& cluster);
 
 }  // namespace rodeira::network

@@ -1,5 +1,6 @@
-// Where the surface of a road that leans stands over many points that lie close together: the steps of Road::FootOnLean and of Road::Surface,
-// each made for all points. What is the same for all of them (a steady bank, a steady grade) is found once.
+// Where the surface of a road that leans stands over many points that lie close together: the steps of Road::FootOnLean
+// and of Road::Surface, each made for all points. What is the same for all of them (a steady bank, a steady grade) is
+// found once.
 #include "common/world/network/cluster_lean.hpp"
 
 #include <algorithm>
@@ -17,8 +18,12 @@ using Numbers = Cluster::Numbers;
 constexpr double kReach_m = 1.0;  // farther from their feet points are left to themselves
 
 bool IsPlainZero(double value) { return value == 0.0 && !std::signbit(value); }
-bool IsSteadyAngle(const Cubic& record) { return IsPlainZero(record.b) && IsPlainZero(record.c) && IsPlainZero(record.d); }
-bool IsSteadyGrade(const Cubic& record) { return !(record.b == 0.0 && std::signbit(record.b)) && IsPlainZero(record.c) && IsPlainZero(record.d); }
+bool IsSteadyAngle(const Cubic& record) {
+  return IsPlainZero(record.b) && IsPlainZero(record.c) && IsPlainZero(record.d);
+}
+bool IsSteadyGrade(const Cubic& record) {
+  return !(record.b == 0.0 && std::signbit(record.b)) && IsPlainZero(record.c) && IsPlainZero(record.d);
+}
 
 // Whether the series for small angles hold from one station to another.
 bool IsSmall(const geometry::CubicTable& angle, double low_s_m, double high_s_m) {
@@ -35,7 +40,8 @@ double Largest(const Numbers& numbers, std::size_t count) {
   return std::max(std::fabs(low), std::fabs(high));
 }
 
-// What is asked along the line: its roll, its climb and the way from the feet onward. Loops have copies of their own, which no store can reach.
+// What is asked along the line: its roll, its climb and the way from the feet onward. Loops have copies of their own,
+// which no store can reach.
 template <class RollOf, class ClimbOf, class WayOf>
 struct Along {
   RollOf roll;
@@ -45,7 +51,8 @@ struct Along {
   Lean LeanAt(double s_m) const { return LeanOf(roll(s_m), climb(s_m)); }
 };
 template <class RollOf, class ClimbOf, class WayOf>
-Along(RollOf, ClimbOf, WayOf) -> Along<RollOf, ClimbOf, WayOf>;  // clang, with which readers are fuzzed, finds it for aggregates from 17 on
+Along(RollOf, ClimbOf, WayOf)
+    -> Along<RollOf, ClimbOf, WayOf>;  // clang, with which readers are fuzzed, finds it for aggregates from 17 on
 
 // How far points have come from their feet, by the last step and in all, and -G' there.
 struct Steps {
@@ -56,18 +63,21 @@ template <class Line>
 void FirstSteps(const Line line, const Cluster& __restrict cluster, Steps& __restrict steps) {
   const std::size_t count = cluster.feet.count;
   for (std::size_t i = 0; i < count; ++i) {
-    const LeanStep step = FirstLeanStep(cluster.feet.t_m[i], cluster.feet.curvature_1pm[i], line.way.rate_1pm2, line.LeanAt(cluster.s_m[i]));
+    const LeanStep step = FirstLeanStep(cluster.feet.t_m[i], cluster.feet.curvature_1pm[i], line.way.rate_1pm2,
+                                        line.LeanAt(cluster.s_m[i]));
     steps.u_m[i] = steps.last_m[i] = step.step_m;
     steps.fall[i] = step.fall;
   }
 }
 
 template <class Line>
-void FindNextSteps(const Line line, const Cluster& __restrict cluster, const Steps& __restrict steps, Steps& __restrict next) {
+void FindNextSteps(const Line line, const Cluster& __restrict cluster, const Steps& __restrict steps,
+                   Steps& __restrict next) {
   const std::size_t count = cluster.feet.count;
   for (std::size_t i = 0; i < count; ++i) {
     const double k = cluster.feet.curvature_1pm[i], u = steps.u_m[i];
-    const LeanStep step = NextLeanStep(line.way(u, k), cluster.feet.t_m[i], k + line.way.rate_1pm2 * u, line.LeanAt(cluster.s_m[i] + u));
+    const LeanStep step =
+        NextLeanStep(line.way(u, k), cluster.feet.t_m[i], k + line.way.rate_1pm2 * u, line.LeanAt(cluster.s_m[i] + u));
     next.u_m[i] = u + step.step_m;
     next.last_m[i] = step.step_m;
     next.fall[i] = step.fall;
@@ -107,7 +117,8 @@ void Put(const Line line, const Steps& __restrict steps, Cluster& __restrict clu
   geometry::AxisFeet& feet = cluster.feet;
   const std::size_t count = feet.count;
   for (std::size_t i = 0; i < count; ++i) {
-    const double u = steps.u_m[i], k = feet.curvature_1pm[i], x = feet.tangent_x[i], y = feet.tangent_y[i], s = cluster.s_m[i] + u;
+    const double u = steps.u_m[i], k = feet.curvature_1pm[i], x = feet.tangent_x[i], y = feet.tangent_y[i],
+                 s = cluster.s_m[i] + u;
     const Onward way = line.way(u, k);
     const Lean lean = line.LeanAt(s);
     cluster.s_m[i] = s;
@@ -122,7 +133,8 @@ void Put(const Line line, const Steps& __restrict steps, Cluster& __restrict clu
 
 }  // namespace
 
-bool SettleTogether(const Road& road, const geometry::AxisPanel& panel, const Cubic& superelevation, Cluster& cluster, ClusterLeans& leans) {
+bool SettleTogether(const Road& road, const geometry::AxisPanel& panel, const Cubic& superelevation, Cluster& cluster,
+                    ClusterLeans& leans) {
   const std::optional<double> rate = road.axis().RateOf(panel);
   if (!rate) return false;
   const Cubic& elevation = InForce(road.spec().elevation, cluster).record();
@@ -135,19 +147,24 @@ bool SettleTogether(const Road& road, const geometry::AxisPanel& panel, const Cu
     Steps steps;
     double reach;
     if (!Arrive(line, cluster, steps, reach) || !(reach <= kReach_m)) return false;
-    if (!in_force(road.spec().superelevation, superelevation, reach) || !in_force(road.spec().elevation, elevation, reach)) return false;
+    if (!in_force(road.spec().superelevation, superelevation, reach) ||
+        !in_force(road.spec().elevation, elevation, reach))
+      return false;
     Put(line, steps, cluster, leans);
     return true;
   };
   const auto on_way = [&](const auto& roll, const auto& climb) {
-    return panel.kind == geometry::AxisPanel::Kind::kLine ? settle(roll, climb, StraightOn()) : settle(roll, climb, BentOn{*rate});
+    return panel.kind == geometry::AxisPanel::Kind::kLine ? settle(roll, climb, StraightOn())
+                                                          : settle(roll, climb, BentOn{*rate});
   };
   const auto with_roll = [&](const auto& roll) {
     if (!IsSteadyGrade(elevation)) return on_way(roll, [record = elevation](double s) { return ClimbAt(record, s); });
     return on_way(roll, [steady = ClimbAt(elevation, low)](double) { return steady; });
   };
-  if (IsSteadyAngle(superelevation)) return with_roll([steady = RollAt(superelevation, low)](double) { return steady; });
-  if (!IsSmall(road.spec().superelevation, low - kReach_m, high + kReach_m)) return with_roll([record = superelevation](double s) { return RollAt(record, s); });
+  if (IsSteadyAngle(superelevation))
+    return with_roll([steady = RollAt(superelevation, low)](double) { return steady; });
+  if (!IsSmall(road.spec().superelevation, low - kReach_m, high + kReach_m))
+    return with_roll([record = superelevation](double s) { return RollAt(record, s); });
   return with_roll([record = superelevation](double s) { return SmallRollAt(record, s); });
 }
 

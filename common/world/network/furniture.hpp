@@ -24,7 +24,8 @@ struct SeenAtRoad {
 };
 struct SeenInWorld {
   double x_m = 0.0, y_m = 0.0, z_m = 0.0;
-  double heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;  // the heading of the traffic that reads it, as offsets of headings are
+  double heading_rad = 0.0, pitch_rad = 0.0,
+         roll_rad = 0.0;  // the heading of the traffic that reads it, as offsets of headings are
 };
 
 struct Signal {
@@ -38,17 +39,20 @@ struct Signal {
   double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   std::vector<LaneValidity> validity;
   std::vector<std::string> depends_on;  // ids of signals
-  std::string priority;                 // what it means for who may go first, whatever its country calls it: stop, yield, priorityRoad …; empty: not said
+  std::string priority;  // what it means for who may go first, whatever its country calls it: stop, yield, priorityRoad
+                         // …; empty: not said
   std::variant<std::monostate, SeenAtRoad, SeenInWorld> seen;
-  // Of a sign or a display on a board: the board's signal. Its own place is the board's, and the middle of its lower edge lies so far to the left of the
-  // board's, as its reader sees it, and over the board's lower edge.
+  // Of a sign or a display on a board: the board's signal. Its own place is the board's, and the middle of its lower
+  // edge lies so far to the left of the board's, as its reader sees it, and over the board's lower edge.
   std::string board;
   double board_left_m = 0.0, board_up_m = 0.0;
 };
 
 // Boards hold signs and displays: a signal of one of these types is no sign itself.
 inline constexpr std::string_view kStaticBoard = "staticBoard", kDisplay = "vmsBoard", kMixedBoard = "multiBoard";
-inline bool IsBoard(const Signal& signal) { return signal.type == kStaticBoard || signal.type == kDisplay || signal.type == kMixedBoard; }
+inline bool IsBoard(const Signal& signal) {
+  return signal.type == kStaticBoard || signal.type == kDisplay || signal.type == kMixedBoard;
+}
 
 // A signal that stands at another road and is for this one.
 struct SignalReference {
@@ -96,7 +100,7 @@ struct ObjectBorder {
 
 // A point of a skeleton: round with a radius, otherwise a rectangle across the line.
 struct SkeletonPoint {
-  bool local = false;     // as of Corner
+  bool local = false;  // as of Corner
   double first_m = 0.0, second_m = 0.0, dz_m = 0.0;
   double radius_m = 0.0;
   double width_m = 0.0, length_m = 0.0;
@@ -111,11 +115,11 @@ struct ObjectMaterial {
 
 // A line of paint along a side of an object, or from corner to corner of its outline.
 struct ObjectMark {
-  std::string side;                  // "left", "right", "front" (where its x axis points) or "rear"; nothing where corners are named
+  std::string side;  // "left", "right", "front" (where its x axis points) or "rear"; nothing where corners are named
   std::vector<std::string> corners;  // their ids, in order
   std::string colour = "white";
   double width_m = 0.0;
-  double stroke_m = 0.0, gap_m = 0.0;                     // without gaps: one stroke
+  double stroke_m = 0.0, gap_m = 0.0;                // without gaps: one stroke
   double start_offset_m = 0.0, stop_offset_m = 0.0;  // from the line's beginning and end, which stay without paint
 };
 
@@ -133,7 +137,8 @@ struct Object {
   std::vector<ObjectBorder> borders;
   std::vector<SkeletonLine> skeleton;
   ObjectMaterial material;
-  std::string access;  // who may use it, of a parking place: all, car, women, handicapped, bus, truck, electric, residents; empty: not said
+  std::string access;  // who may use it, of a parking place: all, car, women, handicapped, bus, truck, electric,
+                       // residents; empty: not said
 };
 
 // It is part of the ground, however high a file says that it is: crossings, parking places, paint, patches.

@@ -30,12 +30,13 @@ struct JunctionPriority {
 struct Junction {
   std::string id, name;
   std::string type = "default";  // default, direct, virtual, crossing
-  std::string main_road;           // of a virtual junction: the road whose middle it lies at; empty: none
+  std::string main_road;         // of a virtual junction: the road whose middle it lies at; empty: none
   std::vector<JunctionConnection> connections;
   std::vector<JunctionPriority> priorities;
   std::vector<std::string> controllers;
   // Of a junction made by this program: the corners of its surface, counter-clockwise, without the first one again; the
-  // part that is paved, and all of it with the verges. Within it World::At says the height. Empty: what its roads cover.
+  // part that is paved, and all of it with the verges. Within it World::At says the height. Empty: what its roads
+  // cover.
   std::vector<Eigen::Vector2d> paved_W, outline_W;
   std::shared_ptr<const JunctionGround> ground;  // of a file's junction that has heights of its own; null: its roads'
 };

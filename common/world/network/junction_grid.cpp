@@ -14,12 +14,14 @@ using Pair = std::array<double, 2>;
 
 // The squares between two rows: from the first line of them on the right to the last one on the left.
 std::pair<int, int> LinesBetween(const JunctionGridRow& a, const JunctionGridRow& b) {
-  return {-static_cast<int>(std::min(a.right_m.size(), b.right_m.size())), static_cast<int>(std::min(a.left_m.size(), b.left_m.size()))};
+  return {-static_cast<int>(std::min(a.right_m.size(), b.right_m.size())),
+          static_cast<int>(std::min(a.left_m.size(), b.left_m.size()))};
 }
 
 // Slopes of the cubic through f(-1), f(0), f(1), f(2) at 0 and 1.
 Pair CubicSlopes(double before, double first, double second, double behind) {
-  return {(-2.0 * before - 3.0 * first + 6.0 * second - behind) / 6.0, (before - 6.0 * first + 3.0 * second + 2.0 * behind) / 6.0};
+  return {(-2.0 * before - 3.0 * first + 6.0 * second - behind) / 6.0,
+          (before - 6.0 * first + 3.0 * second + 2.0 * behind) / 6.0};
 }
 
 // Of a cubic between 0 and 1 by values and slopes there: what each counts at x, and how that changes.
@@ -43,7 +45,8 @@ double Hold(double& x) {
 
 }  // namespace
 
-std::optional<JunctionGrid> JunctionGrid::Make(geometry::PlanAxis line, double start_m, double spacing_m, std::vector<JunctionGridRow> rows) {
+std::optional<JunctionGrid> JunctionGrid::Make(geometry::PlanAxis line, double start_m, double spacing_m,
+                                               std::vector<JunctionGridRow> rows) {
   if (!(spacing_m > 0.0) || rows.size() < 2) return std::nullopt;
   for (std::size_t i = 0; i + 1 < rows.size(); ++i) {
     const auto [low, high] = LinesBetween(rows[i], rows[i + 1]);
@@ -60,7 +63,9 @@ base::Digest JunctionGrid::Digest() const {
   };
   put(std::array<double, 2>{start_m_, spacing_m_});
   for (const geometry::PlanElement& element : line_.elements()) {
-    put(std::array<double, 8>{element.s_m, element.length_m, element.start_W.x(), element.start_W.y(), element.heading_rad, element.curvature_start_1pm, element.curvature_end_1pm, element.p_end});
+    put(std::array<double, 8>{element.s_m, element.length_m, element.start_W.x(), element.start_W.y(),
+                              element.heading_rad, element.curvature_start_1pm, element.curvature_end_1pm,
+                              element.p_end});
     put(element.u), put(element.v);
   }
   for (const JunctionGridRow& row : rows_) put(std::array<double, 1>{row.centre_m}), put(row.left_m), put(row.right_m);
@@ -73,7 +78,8 @@ JunctionGrid::Spot JunctionGrid::Find(const Eigen::Vector2d& p_W) const {
   Eigen::Vector2d tangent = Eigen::Vector2d::UnitX();
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const geometry::AxisFoot foot = line_.Foot(panels[i], p_W);
-    const bool goes_on = (i == 0 && foot.beyond_m < 0.0) || (i + 1 == panels.size() && foot.beyond_m > 0.0);  // straight, beyond both ends
+    const bool goes_on = (i == 0 && foot.beyond_m < 0.0) ||
+                         (i + 1 == panels.size() && foot.beyond_m > 0.0);  // straight, beyond both ends
     const double distance = goes_on ? std::fabs(foot.t_m) : std::hypot(foot.t_m, foot.beyond_m);
     if (distance >= best_m) continue;
     best_m = distance;
@@ -119,7 +125,8 @@ GroundHeight JunctionGrid::At(const Eigen::Vector2d& p_W) const {
   const Spot spot = Find(p_W);
   const int row = static_cast<int>(std::clamp(std::floor(spot.row), 0.0, static_cast<double>(rows_.size() - 2)));
   const auto [low, high] = LinesBetween(rows_[static_cast<std::size_t>(row)], rows_[static_cast<std::size_t>(row) + 1]);
-  const int left = static_cast<int>(std::clamp(std::floor(spot.left), static_cast<double>(low), static_cast<double>(high - 1)));
+  const int left =
+      static_cast<int>(std::clamp(std::floor(spot.left), static_cast<double>(low), static_cast<double>(high - 1)));
   double x = spot.row - row, y = spot.left - left;
   const double x_moves = Hold(x), y_moves = Hold(y);
 
@@ -154,7 +161,8 @@ GroundHeight JunctionGrid::At(const Eigen::Vector2d& p_W) const {
     }
   }
   const Eigen::Vector2d left_W(-spot.tangent_W.y(), spot.tangent_W.x());
-  const Eigen::Vector2d slope = x_moves * z_row * spot.row_per_m * spot.tangent_W + y_moves * z_left / spacing_m_ * left_W;
+  const Eigen::Vector2d slope =
+      x_moves * z_row * spot.row_per_m * spot.tangent_W + y_moves * z_left / spacing_m_ * left_W;
   height.slope_x = slope.x(), height.slope_y = slope.y();
   return height;
 }

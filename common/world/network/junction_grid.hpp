@@ -20,12 +20,15 @@ struct JunctionGridRow {
   std::vector<double> left_m, right_m;
 };
 
-// The heights that an OpenDRIVE file gives to all of a junction (1.8, 12.11): a square grid beside the junction's reference line. Within a
-// square the height is bicubic by the cubics through the four heights along each of its lines, straight where there are not four.
+// The heights that an OpenDRIVE file gives to all of a junction (1.8, 12.11): a square grid beside the junction's
+// reference line. Within a square the height is bicubic by the cubics through the four heights along each of its lines,
+// straight where there are not four.
 class JunctionGrid {
  public:
-  // Rows a spacing apart from the line's s `start_m` on. Nothing where two neighbouring rows have no square between them.
-  static std::optional<JunctionGrid> Make(geometry::PlanAxis line, double start_m, double spacing_m, std::vector<JunctionGridRow> rows);
+  // Rows a spacing apart from the line's s `start_m` on. Nothing where two neighbouring rows have no square between
+  // them.
+  static std::optional<JunctionGrid> Make(geometry::PlanAxis line, double start_m, double spacing_m,
+                                          std::vector<JunctionGridRow> rows);
 
   // Of all of its numbers.
   base::Digest Digest() const;

@@ -13,14 +13,16 @@ namespace {
 constexpr double kStep_m = 1e-5;  // over which slopes within a mouth are found: its height has no simple derivative
 constexpr double kOnTheSide = 1e-9;
 
-// A point of a piece with four corners: `across` of the way from the first to the second, `inward` of the way from there to the other two.
+// A point of a piece with four corners: `across` of the way from the first to the second, `inward` of the way from
+// there to the other two.
 struct InPiece {
   double across = 0.5, inward = 0.5;
 };
 
 // False where it lies beside the piece.
 bool FindIn(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& p_W, InPiece& at) {
-  const Eigen::Vector2d twist = corners[2] - corners[3] - corners[1] + corners[0], over = corners[1] - corners[0], in = corners[3] - corners[0];
+  const Eigen::Vector2d twist = corners[2] - corners[3] - corners[1] + corners[0], over = corners[1] - corners[0],
+                        in = corners[3] - corners[0];
   for (int iteration = 0; iteration < 20; ++iteration) {
     const Eigen::Vector2d left = p_W - corners[0] - at.across * at.inward * twist - at.across * over - at.inward * in;
     const Eigen::Vector2d by_across = at.inward * twist + over, by_inward = at.across * twist + in;
@@ -36,7 +38,8 @@ bool FindIn(const std::vector<Eigen::Vector2d>& corners, const Eigen::Vector2d& 
 
 }  // namespace
 
-JunctionGround::JunctionGround(JunctionGrid grid, std::vector<Eigen::Vector2d> boundary_W, std::vector<JunctionMouth> mouths)
+JunctionGround::JunctionGround(JunctionGrid grid, std::vector<Eigen::Vector2d> boundary_W,
+                               std::vector<JunctionMouth> mouths)
     : grid_(std::move(grid)), boundary_(std::move(boundary_W)), mouths_(std::move(mouths)) {
   if (boundary_.empty()) return;
   low_ = high_ = boundary_[0];
@@ -58,7 +61,8 @@ base::Digest JunctionGround::Digest() const {
 }
 
 bool JunctionGround::Contains(const Eigen::Vector2d& p_W) const {
-  if (boundary_.empty() || p_W.x() < low_.x() || p_W.y() < low_.y() || p_W.x() > high_.x() || p_W.y() > high_.y()) return false;
+  if (boundary_.empty() || p_W.x() < low_.x() || p_W.y() < low_.y() || p_W.x() > high_.x() || p_W.y() > high_.y())
+    return false;
   return geometry::InPolygon(boundary_, p_W);
 }
 
@@ -66,8 +70,10 @@ bool JunctionGround::HeightIn(const JunctionMouth& mouth, const Eigen::Vector2d&
   const std::vector<Eigen::Vector2d>& corners = mouth.corners_W;
   InPiece at;
   if (!FindIn(corners, p_W, at)) return false;
-  const Eigen::Vector2d from = corners[0] + at.across * (corners[1] - corners[0]), to = corners[3] + at.across * (corners[2] - corners[3]);
-  const SurfaceSample road = mouth.road->Surface(mouth.s_m, mouth.first_t_m + at.across * (mouth.second_t_m - mouth.first_t_m));
+  const Eigen::Vector2d from = corners[0] + at.across * (corners[1] - corners[0]),
+                        to = corners[3] + at.across * (corners[2] - corners[3]);
+  const SurfaceSample road =
+      mouth.road->Surface(mouth.s_m, mouth.first_t_m + at.across * (mouth.second_t_m - mouth.first_t_m));
   const Eigen::Vector3d normal = road.ds_W.cross(road.dt_W);
   const GroundHeight grid = grid_.At(to);
   const double rise_from = -normal.head<2>().dot(to - from) / normal.z();
@@ -84,7 +90,8 @@ GroundHeight JunctionGround::At(const Eigen::Vector2d& p_W) const {
     // Within the piece on both sides where it is, otherwise to the side that is within it.
     const auto slope = [&](const Eigen::Vector2d& step) {
       double before = height.z_m, behind = height.z_m;
-      const double length = (HeightIn(mouth, p_W - step, before) ? kStep_m : 0.0) + (HeightIn(mouth, p_W + step, behind) ? kStep_m : 0.0);
+      const double length =
+          (HeightIn(mouth, p_W - step, before) ? kStep_m : 0.0) + (HeightIn(mouth, p_W + step, behind) ? kStep_m : 0.0);
       return length > 0.0 ? (behind - before) / length : 0.0;
     };
     height.slope_x = slope({kStep_m, 0.0});

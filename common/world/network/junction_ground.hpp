@@ -13,13 +13,14 @@ namespace rodeira::network {
 // Where a road comes in: over a piece of the junction's ground its height goes over into the grid's.
 struct JunctionMouth {
   std::shared_ptr<const Road> road;
-  double s_m = 0.0;                      // its end here
+  double s_m = 0.0;                          // its end here
   double first_t_m = 0.0, second_t_m = 0.0;  // of the first two corners, which lie on that end
-  std::vector<Eigen::Vector2d> corners_W;  // four; the third lies inward of the second, the fourth of the first
+  std::vector<Eigen::Vector2d> corners_W;    // four; the third lies inward of the second, the fourth of the first
 };
 
-// The one ground of a junction of an OpenDRIVE file that has heights of its own: it takes the place of its connecting roads' heights, and
-// lies between them too. From a mouth's end inward the height is a cubic by height and slope of the road and of the grid (1.8, 12.11.2).
+// The one ground of a junction of an OpenDRIVE file that has heights of its own: it takes the place of its connecting
+// roads' heights, and lies between them too. From a mouth's end inward the height is a cubic by height and slope of the
+// road and of the grid (1.8, 12.11.2).
 class JunctionGround {
  public:
   // boundary_W: corners, counter-clockwise; empty: only the connecting roads lie on it.

@@ -23,7 +23,8 @@ Bump::Height Bump::At(double s_m, double t_m) const {
   const geometry::CubicPoint along = height.Evaluate(s_m);
   const auto [right, right_slope] = Ease(t_m - piece.right_t_m, side_m);
   const auto [left, left_slope] = Ease(piece.left_t_m - t_m, side_m);
-  return {along.value * right * left, along.slope * right * left, along.value * (right_slope * left - right * left_slope)};
+  return {along.value * right * left, along.slope * right * left,
+          along.value * (right_slope * left - right * left_slope)};
 }
 
 Laid CutLaid(const Laid& whole, double from_m, double to_m) {

@@ -13,7 +13,9 @@ struct LaidPiece {
   double from_s_m = 0.0, to_s_m = 0.0;
   double right_t_m = 0.0, left_t_m = 0.0;
 
-  bool Holds(double s_m, double t_m) const { return s_m >= from_s_m && s_m <= to_s_m && t_m >= right_t_m && t_m <= left_t_m; }
+  bool Holds(double s_m, double t_m) const {
+    return s_m >= from_s_m && s_m <= to_s_m && t_m >= right_t_m && t_m <= left_t_m;
+  }
 };
 
 // Another ground: ice, sand, a mended place. It covers lanes and paint.

@@ -85,15 +85,20 @@ bool IsDrivable(LaneType type) {
     case LaneType::kTaxi:
     case LaneType::kHov:
     case LaneType::kMwyEntry:
-    case LaneType::kMwyExit: return true;
-    default: return false;
+    case LaneType::kMwyExit:
+      return true;
+    default:
+      return false;
   }
 }
 
 bool OpenToCars(const Lane& lane) {
   return std::none_of(lane.access.begin(), lane.access.end(), [](const LaneAccess& access) {
-    const bool names_cars = std::any_of(access.restrictions.begin(), access.restrictions.end(), [](const std::string& who) { return who == "passengerCar" || who == "autonomousTraffic"; });
-    return (access.rule == "deny" && names_cars) || (access.rule == "allow" && !access.restrictions.empty() && !names_cars);
+    const bool names_cars =
+        std::any_of(access.restrictions.begin(), access.restrictions.end(),
+                    [](const std::string& who) { return who == "passengerCar" || who == "autonomousTraffic"; });
+    return (access.rule == "deny" && names_cars) ||
+           (access.rule == "allow" && !access.restrictions.empty() && !names_cars);
   });
 }
 
@@ -148,8 +153,10 @@ void LaneSection::Bounds(const geometry::CubicTable& centre_t, double low_s_m, d
     for (const Lane& lane : *side) {
       double smallest, largest;
       (lane.bordered() ? lane.border : lane.width).Bounds(low_s_m, high_s_m, smallest, largest);
-      if (lane.bordered()) edge = is_left ? std::max(edge, largest) : std::min(edge, smallest);
-      else edge += (is_left ? 1.0 : -1.0) * std::max(0.0, largest);
+      if (lane.bordered())
+        edge = is_left ? std::max(edge, largest) : std::min(edge, smallest);
+      else
+        edge += (is_left ? 1.0 : -1.0) * std::max(0.0, largest);
     }
     (is_left ? left_t_m : right_t_m) = edge;
   }

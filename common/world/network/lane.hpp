@@ -12,9 +12,37 @@ namespace rodeira::network {
 
 // What a lane is for. The names are OpenDRIVE's.
 enum class LaneType : std::uint8_t {
-  kNone, kDriving, kStop, kShoulder, kBiking, kSidewalk, kWalking, kBorder, kRestricted, kParking, kBidirectional, kMedian, kCurb,
-  kEntry, kExit, kOnRamp, kOffRamp, kConnectingRamp, kSlipLane, kShared, kTram, kRail, kBus, kTaxi, kHov, kMwyEntry, kMwyExit,
-  kRoadWorks, kSpecial1, kSpecial2, kSpecial3,
+  kNone,
+  kDriving,
+  kStop,
+  kShoulder,
+  kBiking,
+  kSidewalk,
+  kWalking,
+  kBorder,
+  kRestricted,
+  kParking,
+  kBidirectional,
+  kMedian,
+  kCurb,
+  kEntry,
+  kExit,
+  kOnRamp,
+  kOffRamp,
+  kConnectingRamp,
+  kSlipLane,
+  kShared,
+  kTram,
+  kRail,
+  kBus,
+  kTaxi,
+  kHov,
+  kMwyEntry,
+  kMwyExit,
+  kRoadWorks,
+  kSpecial1,
+  kSpecial2,
+  kSpecial3,
 };
 
 std::string_view LaneTypeName(LaneType type);
@@ -63,7 +91,7 @@ struct LaneMaterial {
   std::string surface;
   std::optional<double> friction;
   std::optional<double> roughness;
-  std::string texture;  // a picture's file; empty: the surface's usual look
+  std::string texture;                                   // a picture's file; empty: the surface's usual look
   double texture_width_m = 0.0, texture_height_m = 0.0;  // of the picture on the ground; it repeats
 };
 
@@ -85,14 +113,16 @@ struct Lane {
   int id = 0;  // positive to the left of the centre, negative to its right, counted outward; 0: the centre itself
   LaneType type = LaneType::kNone;
   bool level = false;  // exempt from superelevation and cross-section
-  // What a network's file says of its traffic: vehicles begin where the lane's traffic comes onto it, and are gone where it leaves it. Where no lane of a network
-  // is one to begin on they come in at its edge.
+  // What a network's file says of its traffic: vehicles begin where the lane's traffic comes onto it, and are gone
+  // where it leaves it. Where no lane of a network is one to begin on they come in at its edge.
   bool traffic_begins = false, traffic_ends = false;
-  // Seen along s, the lane of another road that shares this side with it from end to end, as neighbours of a traffic map do. It counts where that one says so too.
+  // Seen along s, the lane of another road that shares this side with it from end to end, as neighbours of a traffic
+  // map do. It counts where that one says so too.
   std::optional<LaneName> left_beside, right_beside;
-  int direction = 1;   // of traffic: +1 along s, -1 against it, 0 both
-  geometry::CubicTable width;   // over s; empty where the lane has a border instead
-  geometry::CubicTable border;  // t of the outer edge over s, wherever the centre lane lies; it counts where there is no width
+  int direction = 1;           // of traffic: +1 along s, -1 against it, 0 both
+  geometry::CubicTable width;  // over s; empty where the lane has a border instead
+  geometry::CubicTable
+      border;  // t of the outer edge over s, wherever the centre lane lies; it counts where there is no width
   std::vector<LaneHeight> heights;
   std::vector<RoadMark> marks;
   std::vector<SpeedLimit> speeds;
@@ -104,8 +134,9 @@ struct Lane {
   bool bordered() const { return width.empty() && !border.empty(); }
 };
 
-// Whether cars may drive on a lane from its beginning to its end. Rules that name neither "passengerCar" nor "autonomousTraffic" are for others; one that
-// allows only others closes it. A rule that says neither "allow" nor "deny" is passed over.
+// Whether cars may drive on a lane from its beginning to its end. Rules that name neither "passengerCar" nor
+// "autonomousTraffic" are for others; one that allows only others closes it. A rule that says neither "allow" nor
+// "deny" is passed over.
 bool OpenToCars(const Lane& lane);
 
 // A lane at one s: its edges as t, positive to the left, and how they move with s.
@@ -134,7 +165,8 @@ struct LaneSection {
   // edge between two lanes: the inner one. outside_m: how far t lies beyond the lanes.
   LaneSpan At(double t_m, const geometry::CubicPoint& centre_t, double at_s_m, double& outside_m) const;
   // The smallest and the largest t of the lanes' edges in [low, high], by the sum of each part's extremes.
-  void Bounds(const geometry::CubicTable& centre_t, double low_s_m, double high_s_m, double& right_t_m, double& left_t_m) const;
+  void Bounds(const geometry::CubicTable& centre_t, double low_s_m, double high_s_m, double& right_t_m,
+              double& left_t_m) const;
 };
 
 }  // namespace rodeira::network

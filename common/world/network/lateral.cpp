@@ -52,7 +52,7 @@ LateralPoint OnStrips(const CrossSectionSurface& surface, double s_m, double t_m
   const double sign = t_m >= offset.value ? 1.0 : -1.0;
   double u = sign * (t_m - offset.value);
   double u_slope = -sign * offset.slope;  // du/ds
-  LateralPoint base;  // the outer edge of the strip inside
+  LateralPoint base;                      // the outer edge of the strip inside
   const std::vector<SurfaceStrip>& strips = sign > 0.0 ? surface.left : surface.right;
   for (std::size_t i = 0; i < strips.size(); ++i) {
     const SurfaceStrip& strip = strips[i];
@@ -79,7 +79,8 @@ LateralPoint OnStrips(const CrossSectionSurface& surface, double s_m, double t_m
 }  // namespace
 
 bool LateralProfile::flat() const {
-  return crossfall_left.zero() && crossfall_right.zero() && shapes.empty() && surface.left.empty() && surface.right.empty();
+  return crossfall_left.zero() && crossfall_right.zero() && shapes.empty() && surface.left.empty() &&
+         surface.right.empty();
 }
 
 LateralPoint LateralProfile::At(double s_m, double t_m) const {

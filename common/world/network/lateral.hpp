@@ -30,14 +30,14 @@ struct SurfaceStrip {
 };
 
 struct CrossSectionSurface {
-  geometry::CubicTable t_offset;    // where the inner edges of the first strips lie
-  std::vector<SurfaceStrip> left;   // from inside outward
+  geometry::CubicTable t_offset;   // where the inner edges of the first strips lie
+  std::vector<SurfaceStrip> left;  // from inside outward
   std::vector<SurfaceStrip> right;
 };
 
 // Everything that a lateral profile says but superelevation. Empty: flat.
 struct LateralProfile {
-  geometry::CubicTable crossfall_left;   // angle over s, falling outward is positive
+  geometry::CubicTable crossfall_left;  // angle over s, falling outward is positive
   geometry::CubicTable crossfall_right;
   std::vector<Shape> shapes;  // ascending; in between linear
   CrossSectionSurface surface;

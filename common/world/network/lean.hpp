@@ -7,7 +7,9 @@
 
 namespace rodeira::network {
 
-inline bool IsZero(const geometry::Cubic& record) { return record.a == 0.0 && record.b == 0.0 && record.c == 0.0 && record.d == 0.0; }
+inline bool IsZero(const geometry::Cubic& record) {
+  return record.a == 0.0 && record.b == 0.0 && record.c == 0.0 && record.d == 0.0;
+}
 
 // The angle by which superelevation turns a cross-section, and its change a metre.
 struct Roll {
@@ -38,8 +40,8 @@ inline Climb ClimbAt(const geometry::Cubic& elevation, double s_m) {
 // Of no elevation.
 inline constexpr geometry::Cubic kLevel;
 
-// The left of a cross-section turned about the climbing line, e = left N - back T + up z with the line's tangent T and left N in plan, and
-// what these parts change a metre.
+// The left of a cross-section turned about the climbing line, e = left N - back T + up z with the line's tangent T and
+// left N in plan, and what these parts change a metre.
 struct Lean {
   double left, back, up;
   double left_1pm, back_1pm, up_1pm;
@@ -59,7 +61,8 @@ struct LeanPace {
   double ds_T, ds_N, dt_T, dt_N;
 };
 inline LeanPace PaceOf(const Lean& lean, double curvature_1pm, double t_m) {
-  return {1.0 - t_m * (lean.left * curvature_1pm + lean.back_1pm), t_m * (lean.left_1pm - lean.back * curvature_1pm), -lean.back, lean.left};
+  return {1.0 - t_m * (lean.left * curvature_1pm + lean.back_1pm), t_m * (lean.left_1pm - lean.back * curvature_1pm),
+          -lean.back, lean.left};
 }
 
 }  // namespace rodeira::network

@@ -36,7 +36,8 @@ const char* WrongTimes(const LightTimes& times) {
   }
   if (times.cycle_s < 1.0) return "the cycle of lights is at least 1 s";
   if (times.green_from_s >= times.cycle_s) return "green begins within the cycle";
-  if (times.green_s > 0.0 && times.green_s < times.cycle_s && times.green_s + times.amber_s + times.red_amber_s > times.cycle_s)
+  if (times.green_s > 0.0 && times.green_s < times.cycle_s &&
+      times.green_s + times.amber_s + times.red_amber_s > times.cycle_s)
     return "green, amber, and red with amber are longer than the cycle";
   return nullptr;
 }

@@ -12,8 +12,8 @@ struct PaintedLine {
   double to_s_m = 0.0;
   geometry::CubicTable t;  // of the line's middle over s
   double width_m = 0.1;
-  double stroke_m = 0.0;  // of a dash, measured along the line's own length, which begins at from_s_m
-  double gap_m = 0.0;     // behind it; 0: continuous
+  double stroke_m = 0.0;         // of a dash, measured along the line's own length, which begins at from_s_m
+  double gap_m = 0.0;            // behind it; 0: continuous
   std::string colour = "white";  // the names of RoadMark::colour
 };
 

@@ -16,8 +16,8 @@ struct LineKind {
 
 inline constexpr double kLinesApart_m = 0.12;  // between the two (Vienna Convention, annex 2: 0.10 to 0.18)
 
-// The first six say what is painted; with the others, and `none`, `dashed` and `double_dashed`, they are the border types of
-// traffic maps. Approach strokes are 2 to 3 times their gap (the same annex).
+// The first six say what is painted; with the others, and `none`, `dashed` and `double_dashed`, they are the border
+// types of traffic maps. Approach strokes are 2 to 3 times their gap (the same annex).
 inline constexpr std::array<LineKind, 11> kLineKinds = {{
     {"continuous", 1, false, false, 0.12, 0.0, 0.0},
     {"dashed", 1, true, true, 0.12, 4.0, 8.0},

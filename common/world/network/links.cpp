@@ -67,13 +67,17 @@ void Network::LinkJunctions() {
       const std::optional<RoadLink>& back = connection.contact == End::kStart ? way.predecessor : way.successor;
       if (back && back->s_m && back->id == road.id) {  // in its middle
         for (const JunctionLaneLink& link : connection.lane_links) {
-          const LaneKey from{*incoming, SectionMet(*back, road), link.from}, to = end_key(*connecting, connection.contact, link.to);
-          if (link.from != 0 && link.to != 0 && Find(from) != nullptr && Find(to) != nullptr) Join({from, back->contact}, {to, connection.contact});
+          const LaneKey from{*incoming, SectionMet(*back, road), link.from},
+              to = end_key(*connecting, connection.contact, link.to);
+          if (link.from != 0 && link.to != 0 && Find(from) != nullptr && Find(to) != nullptr)
+            Join({from, back->contact}, {to, connection.contact});
         }
         continue;
       }
       // At which end the incoming road meets the junction.
-      const auto meets = [&](const std::optional<RoadLink>& link) { return link && link->junction && link->id == junction.id; };
+      const auto meets = [&](const std::optional<RoadLink>& link) {
+        return link && link->junction && link->id == junction.id;
+      };
       std::vector<End> ends;
       if (meets(road.successor)) ends.push_back(End::kEnd);
       if (meets(road.predecessor)) ends.push_back(End::kStart);
@@ -82,7 +86,8 @@ void Network::LinkJunctions() {
       }
       for (const End end : ends) {
         for (const JunctionLaneLink& link : connection.lane_links) {
-          const LaneKey from = end_key(*incoming, end, link.from), to = end_key(*connecting, connection.contact, link.to);
+          const LaneKey from = end_key(*incoming, end, link.from),
+                        to = end_key(*connecting, connection.contact, link.to);
           if (link.from != 0 && link.to != 0 && Find(from) != nullptr && Find(to) != nullptr)
             Join({from, end}, {to, connection.contact});
         }

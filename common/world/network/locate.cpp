@@ -23,10 +23,10 @@ bool Claim::Before(const Claim& other) const {
 struct Network::Hit {
   Place place;  // without a height until SetHeight
   Claim claim;
-  double outside_m = 0.0;  // across, without the height
+  double outside_m = 0.0;   // across, without the height
   bool has_height = false;  // place.z_m is known already
-  LaneSpan span;  // without its lane where the road is flat
-  geometry::PlanPoint at;  // the reference line at place.s_m; of its heading nobody asks
+  LaneSpan span;            // without its lane where the road is flat
+  geometry::PlanPoint at;   // the reference line at place.s_m; of its heading nobody asks
 };
 
 Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {
@@ -35,7 +35,8 @@ Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) 
   const Road& road = spec_.roads[record.road];
   const geometry::AxisPanel panel = record.Panel();
   const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
-  const double low = record.low_s_m(), found = panel.middle_s_m + foot.u_m, s = std::clamp(found, low, record.high_s_m), t = foot.t_m;
+  const double low = record.low_s_m(), found = panel.middle_s_m + foot.u_m, s = std::clamp(found, low, record.high_s_m),
+               t = foot.t_m;
   const BandPiece* piece = records_.PieceAt(record, s);
   if (piece == nullptr) return TryRoad(p_W, band_index);
   const double beyond = std::fabs(foot.beyond_m) + std::fabs(found - s);
@@ -44,12 +45,15 @@ Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) 
   hit.span = lane.span;
   hit.outside_m = lane.outside_m;
   const bool closed = s <= low ? record.closed_before : record.closed_behind;
-  if (beyond > (closed ? kClosed_m : BandIndex::kSlack_m)) hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
+  if (beyond > (closed ? kClosed_m : BandIndex::kSlack_m))
+    hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   hit.at = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
   hit.claim = {beyond > 0.0, lane.drivable, lane.id == 0 ? 0.0 : std::fabs(t - lane.span.centre_t_m()), band_index};
   hit.place = {{record.road, piece->section, lane.id}, s, t, 0.0, hit.outside_m};
-  if (piece->flat) hit.place.z_m = records_.Height(*piece, s), hit.has_height = true;
-  else if (lane.id != 0) hit.span.lane = road.spec().sections[piece->section].Find(lane.id);
+  if (piece->flat)
+    hit.place.z_m = records_.Height(*piece, s), hit.has_height = true;
+  else if (lane.id != 0)
+    hit.span.lane = road.spec().sections[piece->section].Find(lane.id);
   return hit;
 }
 
@@ -75,7 +79,8 @@ Network::Hit Network::TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band_ind
   if (on_lean) {
     s = on_lean->s_m, t = on_lean->t_m;
     find_lane();
-    if (hit.span.lane != nullptr && hit.span.lane->level) on_lean.reset(), s = found, t = foot.t_m;  // its surface lies elsewhere
+    if (hit.span.lane != nullptr && hit.span.lane->level)
+      on_lean.reset(), s = found, t = foot.t_m;  // its surface lies elsewhere
   }
   if (!on_lean) {
     if (leans) beyond = SettleOn(road, &panel, p_W, low, high, s, t);
@@ -88,8 +93,11 @@ Network::Hit Network::TryRoad(const Eigen::Vector2d& p_W, std::uint32_t band_ind
   } else if (beyond > (s <= low ? band.closed_before_m : band.closed_behind_m)) {
     hit.outside_m = std::sqrt(hit.outside_m * hit.outside_m + beyond * beyond);
   }
-  hit.at = on_lean && s == on_lean->s_m ? on_lean->at : s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
-  hit.place.lane = {band.road, static_cast<std::uint32_t>(section_index), hit.span.lane == nullptr ? 0 : hit.span.lane->id};
+  hit.at = on_lean && s == on_lean->s_m ? on_lean->at
+           : s == found                 ? foot.at
+                                        : road.axis().At(panel, s - panel.middle_s_m);
+  hit.place.lane = {band.road, static_cast<std::uint32_t>(section_index),
+                    hit.span.lane == nullptr ? 0 : hit.span.lane->id};
   hit.place.s_m = s;
   hit.place.t_m = t;
   hit.claim.drivable = hit.span.lane != nullptr && IsDrivable(hit.span.lane->type);
@@ -105,7 +113,8 @@ SurfaceSample Network::SurfaceAt(const Hit& hit) const {
 
 void Network::SetHeight(std::optional<double> z_m, Hit& hit) const {
   const Road& road = spec_.roads[hit.place.lane.road];
-  if (!hit.has_height) hit.place.z_m = road.flat() ? road.spec().elevation.Value(hit.place.s_m) : SurfaceAt(hit).p_W.z();
+  if (!hit.has_height)
+    hit.place.z_m = road.flat() ? road.spec().elevation.Value(hit.place.s_m) : SurfaceAt(hit).p_W.z();
   if (!z_m) return;
   const double above = std::max(0.0, std::fabs(*z_m - hit.place.z_m) - kLevel_m);
   if (above > 0.0) hit.place.distance_m = std::sqrt(hit.outside_m * hit.outside_m + above * above);

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kShortest_m = 1e-3;
 
-bool PaintsNothing(const std::string& type) { return type.empty() || type == "none" || type == "curb" || type == "edge" || type == "grass"; }
+bool PaintsNothing(const std::string& type) {
+  return type.empty() || type == "none" || type == "curb" || type == "edge" || type == "grass";
+}
 
 // Lines from the mark's type alone.
 void AddByType(const RoadMark& mark, const Marking& edge, std::vector<Marking>& markings) {
@@ -77,11 +79,13 @@ void Continue(const Road& road, std::vector<Marking>& markings) {
     for (std::size_t j = i; j-- > 0;) {
       const Marking& before = markings[j];
       if (before.section + 1 < line.section) break;
-      const bool same = before.lane == line.lane && before.to_s_m == line.from_s_m && before.stroke_m == line.stroke_m &&
-                        before.gap_m == line.gap_m && before.t_offset_m == line.t_offset_m && before.width_m == line.width_m;
+      const bool same = before.lane == line.lane && before.to_s_m == line.from_s_m &&
+                        before.stroke_m == line.stroke_m && before.gap_m == line.gap_m &&
+                        before.t_offset_m == line.t_offset_m && before.width_m == line.width_m;
       if (!same) continue;
       const double period = line.stroke_m + line.gap_m;
-      const double into = std::fmod(MarkingLength(road, before, before.from_s_m, before.to_s_m) - before.first_m, period);
+      const double into =
+          std::fmod(MarkingLength(road, before, before.from_s_m, before.to_s_m) - before.first_m, period);
       line.first_m = -(into < 0.0 ? into + period : into);
       break;
     }
@@ -120,7 +124,8 @@ std::vector<Marking> MarkingsOf(const Road& road) {
     line.colour = painted.colour;
     markings.push_back(line);
   }
-  std::erase_if(markings, [](const Marking& line) { return line.to_s_m - line.from_s_m < kShortest_m || !(line.width_m > 0.0); });
+  std::erase_if(markings,
+                [](const Marking& line) { return line.to_s_m - line.from_s_m < kShortest_m || !(line.width_m > 0.0); });
   return markings;
 }
 
@@ -140,7 +145,8 @@ geometry::CubicPoint MarkingAt(const Road& road, const Marking& marking, double 
 
 double MarkingLength(const Road& road, const Marking& marking, double from_s_m, double to_s_m) {
   // Gauss-Legendre with three nodes on pieces of at most 2 m.
-  constexpr std::array<double, 3> kNodes = {-0.7745966692414834, 0.0, 0.7745966692414834}, kWeights = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
+  constexpr std::array<double, 3> kNodes = {-0.7745966692414834, 0.0, 0.7745966692414834},
+                                  kWeights = {5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
   const int pieces = std::max(1, static_cast<int>(std::ceil(std::fabs(to_s_m - from_s_m) / 2.0)));
   const double half = 0.5 * (to_s_m - from_s_m) / pieces;
   double length = 0.0;
@@ -172,8 +178,10 @@ std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking) {
   double first = std::fmod(marking.first_m, period);
   if (first > 0.0 && marking.first_m < 0.0) first -= period;
   double painted = marking.stroke_m;
-  if (first < 0.0) painted = first + marking.stroke_m;  // a stroke, or a gap, that began before
-  else advance(first);
+  if (first < 0.0)
+    painted = first + marking.stroke_m;  // a stroke, or a gap, that began before
+  else
+    advance(first);
   while (s < marking.to_s_m) {
     const double from = s;
     if (painted > 0.0) {

@@ -18,7 +18,8 @@ Eigen::Vector2d GeoOffset::FromMap(const Eigen::Vector2d& p_map) const {
   return {x * cosine + y * sine, y * cosine - x * sine};
 }
 
-Network::Network(NetworkSpec spec) : spec_(std::move(spec)), index_(spec_.roads, kClosed_m), records_(spec_.roads, index_) {
+Network::Network(NetworkSpec spec)
+    : spec_(std::move(spec)), index_(spec_.roads, kClosed_m), records_(spec_.roads, index_) {
   for (std::uint32_t i = 0; i < spec_.roads.size(); ++i) road_by_id_.emplace(spec_.roads[i].id(), i);
   for (std::uint32_t i = 0; i < spec_.junctions.size(); ++i) junction_by_id_.emplace(spec_.junctions[i].id, i);
   for (const Junction& junction : spec_.junctions) {
@@ -52,11 +53,14 @@ const Lane* Network::Find(const LaneKey& key) const {
 Eigen::Vector3d Network::Centre(const LaneKey& key, double s_m) const {
   const auto span = Span(key, s_m);
   RODEIRA_ASSERT(span.has_value());
-  return roads()[key.road].Surface(roads()[key.road].Held(key.section, s_m), span->centre_t_m(), Section(key), *span).p_W;
+  return roads()[key.road]
+      .Surface(roads()[key.road].Held(key.section, s_m), span->centre_t_m(), Section(key), *span)
+      .p_W;
 }
 
 std::size_t Network::Number(const LaneKey& key) const {
-  return first_lane_[key.road][key.section] + static_cast<std::size_t>(key.lane + static_cast<int>(Section(key).right.size()));
+  return first_lane_[key.road][key.section] +
+         static_cast<std::size_t>(key.lane + static_cast<int>(Section(key).right.size()));
 }
 
 std::span<const LaneEnd> Network::AtEnd(const LaneKey& key) const { return ends_[Number(key)].at_end; }
@@ -79,7 +83,7 @@ std::optional<LaneKey> Network::Right(const LaneKey& key) const {
   return Find(beside) == nullptr ? std::nullopt : std::optional(beside);
 }
 
-std::optional<Network::Sharing> Network::SharingOf(const LaneKey& key, std::optional<LaneName> Lane::* side) const {
+std::optional<Network::Sharing> Network::SharingOf(const LaneKey& key, std::optional<LaneName> Lane::*side) const {
   const std::optional<LaneName>& name = Find(key)->*side;
   const auto road = name ? FindRoad(name->road) : std::nullopt;
   if (!road) return std::nullopt;
@@ -101,8 +105,8 @@ std::vector<LaneKey> Network::Lanes() const {
   for (std::uint32_t road = 0; road < roads().size(); ++road) {
     const auto& sections = roads()[road].spec().sections;
     for (std::uint32_t section = 0; section < sections.size(); ++section) {
-      for (int id = -static_cast<int>(sections[section].right.size()); id <= static_cast<int>(sections[section].left.size());
-           ++id) {
+      for (int id = -static_cast<int>(sections[section].right.size());
+           id <= static_cast<int>(sections[section].left.size()); ++id) {
         if (id != 0) lanes.push_back({road, section, id});
       }
     }

@@ -41,8 +41,9 @@ struct Place {
   LaneKey lane;  // lane 0: a road without lanes on that side
   double s_m = 0.0;
   double t_m = 0.0;
-  double z_m = 0.0;         // of the surface there
-  double distance_m = 0.0;  // from the lanes, across the road; farther than kLevel_m above or below counts too. 0: on it
+  double z_m = 0.0;  // of the surface there
+  double distance_m =
+      0.0;  // from the lanes, across the road; farther than kLevel_m above or below counts too. 0: on it
 };
 
 // What a caller may keep between its questions. It makes the next answer faster and never another one.
@@ -85,7 +86,8 @@ struct NetworkSpec {
   std::vector<Controller> controllers;
 };
 
-// Roads and junctions, what goes on into what, and where a point lies. Immutable: every answer is a pure function of it.
+// Roads and junctions, what goes on into what, and where a point lies. Immutable: every answer is a pure function of
+// it.
 class Network {
  public:
   // Two surfaces nearer than this in height are one level; a point this far over a road is still on it.
@@ -114,20 +116,23 @@ class Network {
   // The lane at (x, y), on the level of z (without z: the top one). Of several that overlap, as in a junction: a
   // drivable one, then the one whose middle is nearest, then the first road. Beside all roads: the nearest. Nothing
   // where there is no road, or a coordinate is not finite or beyond kFarthest_m.
-  std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt, Hint* hint = nullptr) const;
+  std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt,
+                              Hint* hint = nullptr) const;
   // The same without any index or record, for tests.
   std::optional<Place> LocateSlowly(double x_m, double y_m, std::optional<double> z_m = std::nullopt) const;
   // Every road's surface at (x, y), from the highest to the lowest.
   void Surfaces(double x_m, double y_m, std::vector<Surfacing>& surfaces) const;
 
-  // The same of points close to one another, where one road's surface alone lies at all of them, and no other road is near: to the bit what
-  // Surfaces says of each. False, and then nothing is known, where that is not so, or not told so quickly.
+  // The same of points close to one another, where one road's surface alone lies at all of them, and no other road is
+  // near: to the bit what Surfaces says of each. False, and then nothing is known, where that is not so, or not told so
+  // quickly.
   bool Together(Cluster& cluster) const;
 
   // Visits the panels of all roads whose lanes may lie within reach_m of (x, y): visit(road, panel of its axis).
   template <class Visit>
   void Near(const Eigen::Vector2d& p_W, double reach_m, const Visit& visit) const {
-    index_.Nearest(p_W, reach_m, [&](std::uint32_t band) { visit(index_.bands()[band].road, index_.bands()[band].panel); });
+    index_.Nearest(p_W, reach_m,
+                   [&](std::uint32_t band) { visit(index_.bands()[band].road, index_.bands()[band].panel); });
   }
 
   const LaneSection& Section(const LaneKey& key) const { return roads()[key.road].spec().sections[key.section]; }
@@ -146,7 +151,8 @@ class Network {
   // The lane beside on the left and right as seen along s. The centre is passed over.
   std::optional<LaneKey> Left(const LaneKey& key) const;
   std::optional<LaneKey> Right(const LaneKey& key) const;
-  // A lane of another road that shares this one's side, and whether its road's s runs the same way; nothing where only one of both says so.
+  // A lane of another road that shares this one's side, and whether its road's s runs the same way; nothing where only
+  // one of both says so.
   struct Sharing {
     LaneKey lane;
     bool same_way = true;
@@ -172,7 +178,7 @@ class Network {
   SurfaceSample SurfaceAt(const Hit& hit) const;
   void SetHeight(std::optional<double> z_m, Hit& hit) const;
   std::optional<Place> Choose(std::vector<Hit>& hits, bool known_height) const;
-  std::optional<Sharing> SharingOf(const LaneKey& key, std::optional<LaneName> Lane::* side) const;
+  std::optional<Sharing> SharingOf(const LaneKey& key, std::optional<LaneName> Lane::*side) const;
   void Link();
   void LinkEnd(const LaneKey& lane, const std::vector<int>& targets, bool at_end);
   void LinkJunctions();

@@ -25,7 +25,8 @@ Placed PlaceSignal(const Network& network, std::uint32_t index, const Signal& si
   const Road& road = network.roads()[index];
   placed.s_m = signal.s_m, placed.t_m = signal.t_m, placed.z_offset_m = signal.z_offset_m;
   placed.width_m = signal.width_m, placed.height_m = signal.height_m;
-  placed.both_sides = signal.orientation != "+" && signal.orientation != "-" && signal.board.empty() && !IsBoard(signal);  // a board is read from before it
+  placed.both_sides = signal.orientation != "+" && signal.orientation != "-" && signal.board.empty() &&
+                      !IsBoard(signal);  // a board is read from before it
   const double facing_rad = signal.orientation == "-" ? 0.0 : geometry::kPi;
   Stand(road, signal.h_offset_rad + facing_rad, placed);
   if (const auto* seen = std::get_if<SeenAtRoad>(&signal.seen)) {
@@ -42,7 +43,8 @@ Placed PlaceSignal(const Network& network, std::uint32_t index, const Signal& si
   return placed;
 }
 
-// A sign on a board is higher than the board by its place on it; how far it lies beside the board's middle is the reader's to add: the board stands on one foot.
+// A sign on a board is higher than the board by its place on it; how far it lies beside the board's middle is the
+// reader's to add: the board stands on one foot.
 Placed PlaceOnBoard(const Network& network, std::uint32_t index, const Signal& signal) {
   Placed placed = PlaceSignal(network, index, signal);
   placed.z_offset_m += signal.board_up_m;
@@ -64,7 +66,8 @@ Placed PlaceObject(const Road& road, const Object& object) {
 struct Taper {
   double start_m, end_m;
 
-  Taper(double start, double end, double own) : start_m(start != 0.0 || end != 0.0 ? start : own), end_m(start != 0.0 || end != 0.0 ? end : own) {}
+  Taper(double start, double end, double own)
+      : start_m(start != 0.0 || end != 0.0 ? start : own), end_m(start != 0.0 || end != 0.0 ? end : own) {}
   double At(double share) const { return Between(start_m, end_m, share); }
 };
 
@@ -72,8 +75,10 @@ struct Sizes {
   Taper height, width, length, radius;
 
   Sizes(const Repeat& repeat, const Object& object)
-      : height(repeat.height_start_m, repeat.height_end_m, object.height_m), width(repeat.width_start_m, repeat.width_end_m, object.width_m),
-        length(repeat.length_start_m, repeat.length_end_m, object.length_m), radius(repeat.radius_start_m, repeat.radius_end_m, object.radius_m) {}
+      : height(repeat.height_start_m, repeat.height_end_m, object.height_m),
+        width(repeat.width_start_m, repeat.width_end_m, object.width_m),
+        length(repeat.length_start_m, repeat.length_end_m, object.length_m),
+        radius(repeat.radius_start_m, repeat.radius_end_m, object.radius_m) {}
 };
 
 // The straight line of a repeat, seen from above: between the places of its beginning and end that are on the road.
@@ -82,8 +87,11 @@ struct Chord {
   double from_s_m, to_s_m;
   double from_share = 0.0, shares = 1.0;  // of the repeat's length: where it begins, and how much of it it is
 
-  Chord(const Road& road, const Repeat& repeat) : from_s_m(std::clamp(repeat.s_m, 0.0, road.length_m())), to_s_m(std::clamp(repeat.s_m + repeat.length_m, 0.0, road.length_m())) {
-    if (to_s_m > from_s_m) from_share = (from_s_m - repeat.s_m) / repeat.length_m, shares = (to_s_m - from_s_m) / repeat.length_m;
+  Chord(const Road& road, const Repeat& repeat)
+      : from_s_m(std::clamp(repeat.s_m, 0.0, road.length_m())),
+        to_s_m(std::clamp(repeat.s_m + repeat.length_m, 0.0, road.length_m())) {
+    if (to_s_m > from_s_m)
+      from_share = (from_s_m - repeat.s_m) / repeat.length_m, shares = (to_s_m - from_s_m) / repeat.length_m;
     from_W = road.Surface(from_s_m, Between(repeat.t_start_m, repeat.t_end_m, from_share)).p_W.head<2>();
     way_W = road.Surface(to_s_m, Between(repeat.t_start_m, repeat.t_end_m, from_share + shares)).p_W.head<2>() - from_W;
   }
@@ -95,11 +103,13 @@ struct Chord {
     road.Settle(p, 0.0, road.length_m(), placed.s_m, placed.t_m);
     placed.foot_W = {p.x(), p.y(), road.Surface(placed.s_m, placed.t_m).p_W.z()};
     const bool short_way = way_W.squaredNorm() == 0.0;
-    placed.heading_rad = (short_way ? road.axis().Evaluate(placed.s_m).heading_rad : std::atan2(way_W.y(), way_W.x())) + turn_rad;
+    placed.heading_rad =
+        (short_way ? road.axis().Evaluate(placed.s_m).heading_rad : std::atan2(way_W.y(), way_W.x())) + turn_rad;
   }
 };
 
-void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<Placed>& things) {
+void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index,
+              std::vector<Placed>& things) {
   const Sizes sizes(repeat, object);
   const std::optional<Chord> chord = repeat.straight ? std::optional<Chord>(Chord(road, repeat)) : std::nullopt;
   const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARepeat);
@@ -114,13 +124,16 @@ void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std:
     placed.z_offset_m = Between(repeat.z_start_m, repeat.z_end_m, share);
     placed.height_m = sizes.height.At(share), placed.width_m = sizes.width.At(share);
     placed.length_m = sizes.length.At(share), placed.radius_m = sizes.radius.At(share);
-    if (chord) chord->Stand(road, share, object.hdg_rad, placed);
-    else Stand(road, object.hdg_rad, placed);
+    if (chord)
+      chord->Stand(road, share, object.hdg_rad, placed);
+    else
+      Stand(road, object.hdg_rad, placed);
     things.push_back(placed);
   }
 }
 
-void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index, std::vector<PlacedRun>& runs) {
+void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std::uint32_t index,
+              std::vector<PlacedRun>& runs) {
   PlacedRun run;
   run.road = index;
   run.object = &object;
@@ -128,12 +141,18 @@ void PlaceRun(const Road& road, const Object& object, const Repeat& repeat, std:
   run.to_s_m = std::min(repeat.s_m + repeat.length_m, road.length_m());
   if (!(run.to_s_m > run.from_s_m)) return;
   const Sizes sizes(repeat, object);
-  const auto at = [&](double s, double start, double end) { return Between(start, end, (s - repeat.s_m) / repeat.length_m); };
+  const auto at = [&](double s, double start, double end) {
+    return Between(start, end, (s - repeat.s_m) / repeat.length_m);
+  };
   const auto share = [&](double s) { return (s - repeat.s_m) / repeat.length_m; };
-  run.t_start_m = at(run.from_s_m, repeat.t_start_m, repeat.t_end_m), run.t_end_m = at(run.to_s_m, repeat.t_start_m, repeat.t_end_m);
-  run.z_start_m = at(run.from_s_m, repeat.z_start_m, repeat.z_end_m), run.z_end_m = at(run.to_s_m, repeat.z_start_m, repeat.z_end_m);
+  run.t_start_m = at(run.from_s_m, repeat.t_start_m, repeat.t_end_m),
+  run.t_end_m = at(run.to_s_m, repeat.t_start_m, repeat.t_end_m);
+  run.z_start_m = at(run.from_s_m, repeat.z_start_m, repeat.z_end_m),
+  run.z_end_m = at(run.to_s_m, repeat.z_start_m, repeat.z_end_m);
   // What is round is as wide as it is thick.
-  const auto width_at = [&](double s) { return sizes.width.At(share(s)) > 0.0 ? sizes.width.At(share(s)) : 2.0 * sizes.radius.At(share(s)); };
+  const auto width_at = [&](double s) {
+    return sizes.width.At(share(s)) > 0.0 ? sizes.width.At(share(s)) : 2.0 * sizes.radius.At(share(s));
+  };
   run.height_start_m = sizes.height.At(share(run.from_s_m)), run.height_end_m = sizes.height.At(share(run.to_s_m));
   run.width_start_m = width_at(run.from_s_m), run.width_end_m = width_at(run.to_s_m);
   run.straight = repeat.straight;
@@ -149,7 +168,9 @@ PlacedRun::Point PlacedRun::At(const Road& on, double share) const {
   }
   const Eigen::Vector3d begin = on.Surface(from_s_m, t_start_m).p_W, end = on.Surface(to_s_m, t_end_m).p_W;
   const Eigen::Vector2d way = (end - begin).head<2>();
-  const Eigen::Vector2d left = way.squaredNorm() > 0.0 ? Eigen::Vector2d(Eigen::Vector2d(-way.y(), way.x()).normalized()) : on.axis().Evaluate(from_s_m).left_W();
+  const Eigen::Vector2d left = way.squaredNorm() > 0.0
+                                   ? Eigen::Vector2d(Eigen::Vector2d(-way.y(), way.x()).normalized())
+                                   : on.axis().Evaluate(from_s_m).left_W();
   return {begin + share * (end - begin), left};
 }
 
@@ -159,7 +180,8 @@ double PlacedRun::Step(const Road& on, double longest_m, double chord_m) const {
   const int looks = std::max(2, static_cast<int>(length));
   double step = longest_m;
   for (int i = 0; i <= looks; ++i) {
-    const double share = static_cast<double>(i) / looks, k = on.axis().Evaluate(from_s_m + share * length).curvature_1pm;
+    const double share = static_cast<double>(i) / looks,
+                 k = on.axis().Evaluate(from_s_m + share * length).curvature_1pm;
     const double bend = std::fabs(k / std::max(0.1, 1.0 - k * Between(t_start_m, t_end_m, share)));
     if (bend > 0.0) step = std::min(step, std::max(0.5, std::sqrt(8.0 * chord_m / bend)));
   }
@@ -173,8 +195,10 @@ Furniture PlaceFurniture(const Network& network) {
     for (const Signal& signal : road.spec().signals) furniture.things.push_back(PlaceOnBoard(network, index, signal));
     for (const Object& object : road.spec().objects) {
       for (const Repeat& repeat : object.repeats) {
-        if (repeat.distance_m > 0.0) PlaceRow(road, object, repeat, index, furniture.things);
-        else PlaceRun(road, object, repeat, index, furniture.runs);
+        if (repeat.distance_m > 0.0)
+          PlaceRow(road, object, repeat, index, furniture.things);
+        else
+          PlaceRun(road, object, repeat, index, furniture.runs);
       }
       if (!object.repeats.empty()) continue;
       furniture.things.push_back(PlaceObject(road, object));
@@ -210,9 +234,12 @@ std::vector<SignalOnLane> SignalsFor(const Network& network, const LaneKey& key)
   const Lane* lane = network.Find(key);
   std::vector<SignalOnLane> signals;
   if (lane == nullptr) return signals;
-  const auto add = [&](double s_m, std::string_view orientation, const std::vector<LaneValidity>& validity, const Signal* signal) {
-    const bool here = signal != nullptr && s_m >= section.s_m && (s_m < section.end_s_m || key.section + 1 == road.sections.size());
-    const bool meant = (lane->direction >= 0 && HoldsFor(key.lane, true, orientation, validity)) || (lane->direction <= 0 && HoldsFor(key.lane, false, orientation, validity));
+  const auto add = [&](double s_m, std::string_view orientation, const std::vector<LaneValidity>& validity,
+                       const Signal* signal) {
+    const bool here =
+        signal != nullptr && s_m >= section.s_m && (s_m < section.end_s_m || key.section + 1 == road.sections.size());
+    const bool meant = (lane->direction >= 0 && HoldsFor(key.lane, true, orientation, validity)) ||
+                       (lane->direction <= 0 && HoldsFor(key.lane, false, orientation, validity));
     if (here && meant) signals.push_back({s_m, signal});
   };
   for (const Signal& signal : road.signals) add(signal.s_m, signal.orientation, signal.validity, &signal);
@@ -225,7 +252,8 @@ std::vector<SignalOnLane> SignalsFor(const Network& network, const LaneKey& key)
     }
     add(reference.s_m, reference.orientation, reference.validity, found);
   }
-  std::stable_sort(signals.begin(), signals.end(), [](const SignalOnLane& a, const SignalOnLane& b) { return a.s_m < b.s_m; });
+  std::stable_sort(signals.begin(), signals.end(),
+                   [](const SignalOnLane& a, const SignalOnLane& b) { return a.s_m < b.s_m; });
   return signals;
 }
 

@@ -18,12 +18,14 @@ struct Placed {
   const Object* object = nullptr;
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;  // of a sign on a board: of the board's foot, and of the sign over it
   Eigen::Vector3d foot_W = Eigen::Vector3d::Zero();  // on the road's surface at (s, t), without the offset
-  // Of its x axis, from east to north; it stands upright. An object's x axis points along the road, turned by its own heading;
-  // a signal's is where its face looks: against the traffic that it is for (for both: against s), turned by its own offset.
+  // Of its x axis, from east to north; it stands upright. An object's x axis points along the road, turned by its own
+  // heading; a signal's is where its face looks: against the traffic that it is for (for both: against s), turned by
+  // its own offset.
   double heading_rad = 0.0;
   bool both_sides = false;  // of a signal: it has a second face, which looks the other way
   double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
-  std::optional<double> z_W_m;  // of a signal that is seen at a place in the world: its height, whatever the ground is; its foot's z is then the road's where it counts
+  std::optional<double> z_W_m;  // of a signal that is seen at a place in the world: its height, whatever the ground is;
+                                // its foot's z is then the road's where it counts
 };
 
 // An object that goes on along a road: all but s are linear in s.
@@ -37,8 +39,8 @@ struct PlacedRun {
   double width_start_m = 0.0, width_end_m = 0.0;
   bool straight = false;  // its ends are joined by a straight line, seen from above; t is theirs alone
 
-  // A point of it on the road's surface (of a straight one: between the heights there of its ends), share 0 at its beginning, 1 at its end; and what
-  // lies to its left there.
+  // A point of it on the road's surface (of a straight one: between the heights there of its ends), share 0 at its
+  // beginning, 1 at its end; and what lies to its left there.
   struct Point {
     Eigen::Vector3d p_W;
     Eigen::Vector2d left_W;
@@ -53,18 +55,19 @@ struct Furniture {
   std::vector<PlacedRun> runs;
 };
 
-// Everything that stands at a network's roads, by road, then signals and objects as they were written. An object that is
-// repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its own; stations
-// beyond the road's end are left out, and what is said once for a road that ends before counts to its end. A straight repeat stands
-// evenly along its chord, heading along it, its s and t those of the road under it. A signal
-// that is seen elsewhere than where it counts stands there, with that road; where there is no such road, at its own place.
+// Everything that stands at a network's roads, by road, then signals and objects as they were written. An object that
+// is repeated every d metres over a length L stands at floor(L / d) + 1 stations as its repeats say, and not at its
+// own; stations beyond the road's end are left out, and what is said once for a road that ends before counts to its
+// end. A straight repeat stands evenly along its chord, heading along it, its s and t those of the road under it. A
+// signal that is seen elsewhere than where it counts stands there, with that road; where there is no such road, at its
+// own place.
 Furniture PlaceFurniture(const Network& network);
 
 // What stands at no road, on the ground that is given; of a road there are only zeros.
 Placed PlaceStanding(const Standing& standing, const Standing::Thing& thing, const Eigen::Vector3d& foot_W);
 
-// Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and lanes.
-// along: the lane's traffic goes with growing s.
+// Whether something beside the road is for the traffic of a lane of it, by its orientation ("+", "-", "none") and
+// lanes. along: the lane's traffic goes with growing s.
 bool HoldsFor(int lane, bool along, std::string_view orientation, const std::vector<LaneValidity>& validity);
 
 // A signal for a lane, at its place along the lane's road; it may stand at another road.
@@ -72,8 +75,8 @@ struct SignalOnLane {
   double s_m = 0.0;
   const Signal* signal = nullptr;  // lives as long as the network
 };
-// All signals for the traffic of a lane within its section, ascending in s; of a lane of both directions those for either. A reference to a signal
-// that the network has nowhere is passed over.
+// All signals for the traffic of a lane within its section, ascending in s; of a lane of both directions those for
+// either. A reference to a signal that the network has nowhere is passed over.
 std::vector<SignalOnLane> SignalsFor(const Network& network, const LaneKey& lane);
 
 }  // namespace rodeira::network

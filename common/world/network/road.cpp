@@ -32,7 +32,8 @@ bool HasOwnSurface(const LaneSection& section) {
 LaneSpan LevelFrom(const LaneSection& section, const geometry::CubicPoint& centre, double s_m, int lane) {
   LaneSpan from = *section.Span(lane, centre, s_m);
   const int step = lane > 0 ? -1 : 1;
-  for (int inner = lane + step; inner != 0 && section.Find(inner)->level; inner += step) from = *section.Span(inner, centre, s_m);
+  for (int inner = lane + step; inner != 0 && section.Find(inner)->level; inner += step)
+    from = *section.Span(inner, centre, s_m);
   return from;
 }
 
@@ -43,7 +44,8 @@ Road::Road(RoadSpec spec, geometry::PlanAxis axis)
       axis_(std::move(axis)),
       length_m_(std::min(spec_.length_m, axis_.length_m())),
       rolled_(!spec_.superelevation.zero() && spec_.ground == nullptr),
-      shaped_(spec_.ground != nullptr || !spec_.lateral.flat() || std::any_of(spec_.sections.begin(), spec_.sections.end(), HasOwnSurface)) {
+      shaped_(spec_.ground != nullptr || !spec_.lateral.flat() ||
+              std::any_of(spec_.sections.begin(), spec_.sections.end(), HasOwnSurface)) {
   RODEIRA_ASSERT(!spec_.sections.empty());
   for (std::size_t i = 0; i < spec_.sections.size(); ++i) {
     spec_.sections[i].end_s_m = i + 1 < spec_.sections.size() ? spec_.sections[i + 1].s_m : length_m_;
@@ -74,8 +76,8 @@ LateralPoint Road::LaneHeightAt(const LaneSpan& span, double s_m, double t_m) co
   const double width = span.outer_t_m - span.inner_t_m;  // of either sign
   if (heights.empty() || width == 0.0) return {};
   // Between two records the height goes linearly, so that a kerb does not step along the road.
-  const auto after =
-      std::upper_bound(heights.begin(), heights.end(), s_m, [](double s, const LaneHeight& height) { return s < height.s_m; });
+  const auto after = std::upper_bound(heights.begin(), heights.end(), s_m,
+                                      [](double s, const LaneHeight& height) { return s < height.s_m; });
   LaneHeight now = after == heights.begin() ? heights.front() : *(after - 1);
   double inner_slope = 0.0, outer_slope = 0.0;
   if (after != heights.begin() && after != heights.end()) {
@@ -87,8 +89,10 @@ LateralPoint Road::LaneHeightAt(const LaneSpan& span, double s_m, double t_m) co
   }
   const double across = now.outer_m - now.inner_m;
   const double part = (t_m - span.inner_t_m) / width;
-  const double part_slope = -(span.inner_slope + part * (span.outer_slope - span.inner_slope)) / width;  // by s at fixed t
-  return {now.inner_m + part * across, inner_slope + part * (outer_slope - inner_slope) + part_slope * across, across / width};
+  const double part_slope =
+      -(span.inner_slope + part * (span.outer_slope - span.inner_slope)) / width;  // by s at fixed t
+  return {now.inner_m + part * across, inner_slope + part * (outer_slope - inner_slope) + part_slope * across,
+          across / width};
 }
 
 SurfaceSample Road::Surface(double s_m, double t_m) const {
@@ -110,7 +114,8 @@ SurfaceSample Road::OnGround(const geometry::PlanPoint& at, double s_m, double t
   return sample;
 }
 
-SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
+SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section,
+                            const LaneSpan& span) const {
   if (spec_.ground != nullptr) return OnGround(at, s_m, t_m, span);
   const geometry::CubicPoint z = spec_.elevation.Evaluate(s_m);
   const Eigen::Vector2d& T = at.tangent_W;
@@ -142,9 +147,12 @@ SurfaceSample Road::Surface(const geometry::PlanPoint& at, double s_m, double t_
   const Lean lean = LeanAt(s_m);
   if (turned_t == 1.0) {
     const LeanPace pace = PaceOf(lean, at.curvature_1pm, t_m);
-    sample.p_W = {at.p_W.x() + t_m * (pace.dt_T * T.x() + pace.dt_N * N.x()), at.p_W.y() + t_m * (pace.dt_T * T.y() + pace.dt_N * N.y()), z.value + t_m * lean.up + height.z_m};
-    sample.ds_W = {pace.ds_T * T.x() + pace.ds_N * N.x(), pace.ds_T * T.y() + pace.ds_N * N.y(), z.slope + t_m * lean.up_1pm + height.slope_s};
-    sample.dt_W = {pace.dt_T * T.x() + pace.dt_N * N.x(), pace.dt_T * T.y() + pace.dt_N * N.y(), lean.up + height.slope_t};
+    sample.p_W = {at.p_W.x() + t_m * (pace.dt_T * T.x() + pace.dt_N * N.x()),
+                  at.p_W.y() + t_m * (pace.dt_T * T.y() + pace.dt_N * N.y()), z.value + t_m * lean.up + height.z_m};
+    sample.ds_W = {pace.ds_T * T.x() + pace.ds_N * N.x(), pace.ds_T * T.y() + pace.ds_N * N.y(),
+                   z.slope + t_m * lean.up_1pm + height.slope_s};
+    sample.dt_W = {pace.dt_T * T.x() + pace.dt_N * N.x(), pace.dt_T * T.y() + pace.dt_N * N.y(),
+                   lean.up + height.slope_t};
     return sample;
   }
   const double flat = t_m - turned, k = at.curvature_1pm;
@@ -165,10 +173,12 @@ Lean Road::LeanAt(double s_m) const {
 bool Road::LeansBetween(double low_s_m, double high_s_m) const {
   if (!rolled_) return false;
   const geometry::Cubic* last = &spec_.superelevation.At(high_s_m);
-  return std::any_of(&spec_.superelevation.At(low_s_m), last + 1, [](const geometry::Cubic& record) { return !IsZero(record); });
+  return std::any_of(&spec_.superelevation.At(low_s_m), last + 1,
+                     [](const geometry::Cubic& record) { return !IsZero(record); });
 }
 
-std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot, double low_s_m, double high_s_m) const {
+std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot,
+                                               double low_s_m, double high_s_m) const {
   const std::optional<double> rate = axis_.RateOf(panel);
   const double from_s = panel.middle_s_m + foot.u_m;
   if (!rate || foot.beyond_m != 0.0 || from_s < low_s_m || from_s > high_s_m) return std::nullopt;
@@ -199,7 +209,8 @@ double Road::Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m,
   return SettleOn(*this, nullptr, p_W, low_s_m, high_s_m, s_m, t_m);
 }
 
-double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const {
+double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m,
+                            double& s_m) const {
   return DistanceToEdgeOn(*this, nullptr, p_W, low_s_m, high_s_m, t_m, s_m);
 }
 

@@ -24,10 +24,11 @@ enum class End : std::uint8_t { kStart, kEnd };
 // What a road goes on into at one of its ends.
 struct RoadLink {
   bool junction = false;
-  std::string id;          // of the road or junction
+  std::string id;             // of the road or junction
   End contact = End::kStart;  // the other road's end that is met
-  // Where the other road is met in its middle, as by an entry to a yard: the station, at which one of its lane sections begins. `contact` is then the end that is met of a lane
-  // section there: of the one that begins there its start, of the one before it its end.
+  // Where the other road is met in its middle, as by an entry to a yard: the station, at which one of its lane sections
+  // begins. `contact` is then the end that is met of a lane section there: of the one that begins there its start, of
+  // the one before it its end.
   std::optional<double> s_m = std::nullopt;
 };
 
@@ -55,7 +56,8 @@ struct RoadSpec {
   std::vector<ObjectReference> object_references;
   std::vector<Structure> structures;
   std::vector<CrgSurface> crg;
-  std::shared_ptr<const JunctionGround> ground;  // its junction's, which takes the place of elevation, superelevation and lateral profile
+  std::shared_ptr<const JunctionGround>
+      ground;  // its junction's, which takes the place of elevation, superelevation and lateral profile
   // OpenDRIVE has none of these.
   std::vector<PaintedLine> lines;
   std::vector<Unevenness> unevenness;
@@ -107,17 +109,20 @@ class Road {
   SurfaceSample Surface(double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const {
     return Surface(axis_.Evaluate(s_m), s_m, t_m, section, span);
   }
-  SurfaceSample Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section, const LaneSpan& span) const;
+  SurfaceSample Surface(const geometry::PlanPoint& at, double s_m, double t_m, const LaneSection& section,
+                        const LaneSpan& span) const;
   // On a rolled road: moves (s, t), found in plan, to where the surface stands over (x, y), with s held in [low, high].
   // Returns how far that is from (x, y): 0 but where s is held. FootOnLean does the same sooner where it can.
   double Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const;
-  // Where a leaning section that no lane is exempt from stands over a point that lies alongside the panel, whose foot in plan is known: the
-  // same place as Settle's, but for rounding. Nothing where that is not within [low, high], or too far from the foot to be told so quickly.
+  // Where a leaning section that no lane is exempt from stands over a point that lies alongside the panel, whose foot
+  // in plan is known: the same place as Settle's, but for rounding. Nothing where that is not within [low, high], or
+  // too far from the foot to be told so quickly.
   struct LeanFoot {
     double s_m, t_m;
     geometry::PlanPoint at;  // without its heading
   };
-  std::optional<LeanFoot> FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot, double low_s_m, double high_s_m) const;
+  std::optional<LeanFoot> FootOnLean(const geometry::AxisPanel& panel, const geometry::AxisFoot& foot, double low_s_m,
+                                     double high_s_m) const;
   // The distance, seen from above, from (x, y) to the line of constant t; s moves to the nearest point.
   double DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) const;
   // In force at s on a lane: the lane's own limit, otherwise the road's. Infinite: none; nothing where none is said.

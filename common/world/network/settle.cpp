@@ -12,12 +12,14 @@ SurfaceSample SurfaceOn(const Road& road, const geometry::AxisPanel* panel, doub
   const LaneSection& section = road.SectionAt(s_m);
   double outside_m;
   const LaneSpan span = section.At(t_m, road.CentreAt(s_m), s_m, outside_m);
-  return panel == nullptr ? road.Surface(s_m, t_m, section, span) : road.Surface(road.axis().At(*panel, s_m - panel->middle_s_m), s_m, t_m, section, span);
+  return panel == nullptr ? road.Surface(s_m, t_m, section, span)
+                          : road.Surface(road.axis().At(*panel, s_m - panel->middle_s_m), s_m, t_m, section, span);
 }
 
 }  // namespace
 
-double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) {
+double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                double high_s_m, double& s_m, double& t_m) {
   Eigen::Vector2d left = Eigen::Vector2d::Zero();
   for (int iteration = 0; iteration < 12; ++iteration) {
     const SurfaceSample at = SurfaceOn(road, panel, s_m, t_m);
@@ -38,7 +40,8 @@ double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen:
   return left.norm() < 1e-9 ? 0.0 : left.norm();
 }
 
-double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m) {
+double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                        double high_s_m, double t_m, double& s_m) {
   for (int iteration = 0; iteration < 12; ++iteration) {
     const SurfaceSample at = SurfaceOn(road, panel, s_m, t_m);
     const Eigen::Vector2d ds = at.ds_W.head<2>();

@@ -4,11 +4,14 @@
 
 #include "common/world/network/road.hpp"
 
-// Road::Settle and Road::DistanceToEdge along one panel of the axis, whose stations other panels of the road may have too: an OpenDRIVE file that is read with a
-// wide tolerance may say where a stretch lies twice. Without a panel s tells it, as Road::Surface does.
+// Road::Settle and Road::DistanceToEdge along one panel of the axis, whose stations other panels of the road may have
+// too: an OpenDRIVE file that is read with a wide tolerance may say where a stretch lies twice. Without a panel s tells
+// it, as Road::Surface does.
 namespace rodeira::network {
 
-double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m);
-double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double t_m, double& s_m);
+double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                double high_s_m, double& s_m, double& t_m);
+double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                        double high_s_m, double t_m, double& s_m);
 
 }  // namespace rodeira::network

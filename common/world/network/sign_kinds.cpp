@@ -15,20 +15,45 @@ struct Catalogued {
 };
 // More particular ones first.
 constexpr Catalogued kCatalogue[] = {
-    {"101", "", "danger"}, {"102", "", "priority_to_the_right"}, {"103", "10", "bend_left"}, {"103", "20", "bend_right"},
-    {"105", "10", "bends_left_first"}, {"105", "20", "bends_right_first"}, {"108", "", "downhill"}, {"110", "", "uphill"},
-    {"112", "", "uneven_road"}, {"114", "", "slippery_road"}, {"205", "", "give_way"}, {"206", "", "stop"}, {"215", "", "roundabout"},
-    {"250", "", "no_vehicles"}, {"267", "", "no_entry"}, {"274", "", "speed_limit"}, {"276", "", "no_overtaking"}, {"278", "", "end_of_speed_limit"},
-    {"280", "", "end_of_no_overtaking"}, {"282", "", "end_of_restrictions"}, {"301", "", "priority"}, {"306", "", "priority_road"},
-    {"307", "", "end_of_priority_road"}, {"310", "", "town"}, {"311", "", "end_of_town"}, {"314", "", "parking"}, {"330", "", "motorway"},
-    {"334", "", "end_of_motorway"}, {"350", "", "crossing"}, {"625", "", "chevron"},
+    {"101", "", "danger"},
+    {"102", "", "priority_to_the_right"},
+    {"103", "10", "bend_left"},
+    {"103", "20", "bend_right"},
+    {"105", "10", "bends_left_first"},
+    {"105", "20", "bends_right_first"},
+    {"108", "", "downhill"},
+    {"110", "", "uphill"},
+    {"112", "", "uneven_road"},
+    {"114", "", "slippery_road"},
+    {"205", "", "give_way"},
+    {"206", "", "stop"},
+    {"215", "", "roundabout"},
+    {"250", "", "no_vehicles"},
+    {"267", "", "no_entry"},
+    {"274", "", "speed_limit"},
+    {"276", "", "no_overtaking"},
+    {"278", "", "end_of_speed_limit"},
+    {"280", "", "end_of_no_overtaking"},
+    {"282", "", "end_of_restrictions"},
+    {"301", "", "priority"},
+    {"306", "", "priority_road"},
+    {"307", "", "end_of_priority_road"},
+    {"310", "", "town"},
+    {"311", "", "end_of_town"},
+    {"314", "", "parking"},
+    {"330", "", "motorway"},
+    {"334", "", "end_of_motorway"},
+    {"350", "", "crossing"},
+    {"625", "", "chevron"},
 };
 // Lines and crossings that are painted on the road: they have numbers, but nothing stands there.
 constexpr std::array<std::string_view, 9> kPaint = {"293", "294", "295", "296", "297", "298", "299", "340", "341"};
 
 bool KnowsCatalogue(std::string country) {
-  std::transform(country.begin(), country.end(), country.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return country.empty() || country == "de" || country == "deu" || country == "ger" || country == "germany" || country == "opendrive";
+  std::transform(country.begin(), country.end(), country.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return country.empty() || country == "de" || country == "deu" || country == "ger" || country == "germany" ||
+         country == "opendrive";
 }
 
 }  // namespace
@@ -54,7 +79,8 @@ std::string SignNumberOf(const Signal& signal) {
     if (signal.unit == "m/s") value *= 3.6;
     return std::to_string(std::lround(value));
   }
-  if (signal.type == "274" && signal.subtype.size() == 2 && signal.subtype[0] >= '5' && signal.subtype[0] <= '6' && signal.subtype[1] >= '0' && signal.subtype[1] <= '9') {
+  if (signal.type == "274" && signal.subtype.size() == 2 && signal.subtype[0] >= '5' && signal.subtype[0] <= '6' &&
+      signal.subtype[1] >= '0' && signal.subtype[1] <= '9') {
     const int number = std::stoi(signal.subtype);
     if (number >= 51 && number <= 63) return std::to_string(10 * (number - 50));
   }

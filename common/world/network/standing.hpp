@@ -8,7 +8,8 @@
 
 namespace rodeira::network {
 
-// What stands on the ground by itself, at no road: a world file's own objects. An object's s, t and turn say nothing here.
+// What stands on the ground by itself, at no road: a world file's own objects. An object's s, t and turn say nothing
+// here.
 struct Standing {
   struct Thing {
     std::size_t object = 0;

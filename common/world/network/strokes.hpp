@@ -12,9 +12,9 @@ struct Stroke {
   double to_s_m = 0.0;
 };
 
-// The painted pieces of one of the road's lines, in ascending s, to 1e-9 m. A dash is stroke_m long on the line itself, as
-// seen from above, also where it runs on the inner or outer side of a bend or moves across the road. A continuous line
-// is one piece. Nothing beyond the road's end.
+// The painted pieces of one of the road's lines, in ascending s, to 1e-9 m. A dash is stroke_m long on the line itself,
+// as seen from above, also where it runs on the inner or outer side of a bend or moves across the road. A continuous
+// line is one piece. Nothing beyond the road's end.
 std::vector<Stroke> Strokes(const Road& road, const PaintedLine& line);
 
 }  // namespace rodeira::network

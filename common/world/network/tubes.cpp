@@ -25,7 +25,8 @@ bool IsInTunnel(const RoadSpec& road, double s_m) {
 bool IsOpen(const Network& network, const std::optional<RoadLink>& link) {
   if (!link) return true;
   if (link->junction) return false;
-  const auto next = std::find_if(network.roads().begin(), network.roads().end(), [&](const Road& road) { return road.spec().id == link->id; });
+  const auto next = std::find_if(network.roads().begin(), network.roads().end(),
+                                 [&](const Road& road) { return road.spec().id == link->id; });
   if (next == network.roads().end()) return true;
   return !IsInTunnel(next->spec(), link->s_m.value_or(link->contact == End::kStart ? 0.0 : next->length_m()));
 }
@@ -38,10 +39,12 @@ double BendOf(const Road& road, double s_m, double right_m, double left_m) {
 
 class TubeOfRoad {
  public:
-  TubeOfRoad(const Network& network, std::uint32_t index) : network_(network), index_(index), road_(network.roads()[index]) {}
+  TubeOfRoad(const Network& network, std::uint32_t index)
+      : network_(network), index_(index), road_(network.roads()[index]) {}
 
   void Add(const Structure& structure, std::vector<TubePiece>& pieces) const {
-    const double from = std::max(structure.s_m, 0.0), to = std::min(structure.s_m + structure.length_m, road_.length_m());
+    const double from = std::max(structure.s_m, 0.0),
+                 to = std::min(structure.s_m + structure.length_m, road_.length_m());
     if (!(to > from)) return;
     const RoadSpec& spec = road_.spec();
     const std::size_t first = pieces.size();
@@ -59,7 +62,8 @@ class TubeOfRoad {
   }
 
  private:
-  void AddSection(const Structure& structure, const LaneSection& section, double from, double to, std::vector<TubePiece>& pieces) const {
+  void AddSection(const Structure& structure, const LaneSection& section, double from, double to,
+                  std::vector<TubePiece>& pieces) const {
     double step = kPiece_m;
     for (double s = from; s <= to; s += 1.0) {
       double right, left;
@@ -71,9 +75,12 @@ class TubeOfRoad {
     TubePiece piece;
     piece.road = index_, piece.structure = &structure;
     for (int i = 0; i <= count; ++i) {
-      piece.s_m[0] = piece.s_m[1], piece.right_W[0] = piece.right_W[1], piece.left_W[0] = piece.left_W[1], piece.ceiling_m[0] = piece.ceiling_m[1];
+      piece.s_m[0] = piece.s_m[1], piece.right_W[0] = piece.right_W[1], piece.left_W[0] = piece.left_W[1],
+      piece.ceiling_m[0] = piece.ceiling_m[1];
       SetEnd(section, i == count ? to : from + (to - from) * i / count, piece);
-      if (i == 0 || (piece.left_W[1] - piece.right_W[1]).norm() < kNarrowest_m || (piece.left_W[0] - piece.right_W[0]).norm() < kNarrowest_m) continue;
+      if (i == 0 || (piece.left_W[1] - piece.right_W[1]).norm() < kNarrowest_m ||
+          (piece.left_W[0] - piece.right_W[0]).norm() < kNarrowest_m)
+        continue;
       piece.right_wall = !IsRoadBeside(piece.right_W, -1.0, piece);
       piece.left_wall = !IsRoadBeside(piece.left_W, 1.0, piece);
       pieces.push_back(piece);
@@ -89,7 +96,8 @@ class TubeOfRoad {
     double over = 0.0;
     const auto look = [&](double t) {
       const double share = left > right ? (t - right) / (left - right) : 0.0;
-      over = std::max(over, road_.Surface(s, std::clamp(t, right, left)).p_W.z() - (piece.right_W[1].z() + share * (piece.left_W[1].z() - piece.right_W[1].z())));
+      over = std::max(over, road_.Surface(s, std::clamp(t, right, left)).p_W.z() -
+                                (piece.right_W[1].z() + share * (piece.left_W[1].z() - piece.right_W[1].z())));
     };
     const geometry::CubicPoint centre = road_.CentreAt(s);
     look(centre.value);
@@ -109,7 +117,8 @@ class TubeOfRoad {
       network_.Surfaces(p.x(), p.y(), surfaces);
       if (std::any_of(surfaces.begin(), surfaces.end(), [&](const Surfacing& other) {
             const double height = other.sample.p_W.z() - foot.z();
-            return other.place.lane.lane != 0 && other.place.lane.road != index_ && !other.claim.past_end && height > -Network::kLevel_m && height < kTubeClear_m;
+            return other.place.lane.lane != 0 && other.place.lane.road != index_ && !other.claim.past_end &&
+                   height > -Network::kLevel_m && height < kTubeClear_m;
           })) {
         return true;
       }
@@ -131,7 +140,8 @@ std::vector<TubePiece> PlaceTubes(const Network& network) {
     for (const Structure& structure : network.roads()[index].spec().structures) {
       if (!structure.bridge) tunnels.push_back(&structure);
     }
-    std::stable_sort(tunnels.begin(), tunnels.end(), [](const Structure* a, const Structure* b) { return a->s_m < b->s_m; });
+    std::stable_sort(tunnels.begin(), tunnels.end(),
+                     [](const Structure* a, const Structure* b) { return a->s_m < b->s_m; });
     const TubeOfRoad tube(network, index);
     for (const Structure* tunnel : tunnels) tube.Add(*tunnel, pieces);
   }

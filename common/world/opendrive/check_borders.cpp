@@ -25,7 +25,9 @@ Cubic From(const CubicTable& table, double s_m) {
 }
 
 // a + sign b, of cubics that begin at the same place.
-Cubic Sum(const Cubic& a, double sign, const Cubic& b) { return {a.from, a.a + sign * b.a, a.b + sign * b.b, a.c + sign * b.c, a.d + sign * b.d}; }
+Cubic Sum(const Cubic& a, double sign, const Cubic& b) {
+  return {a.from, a.a + sign * b.a, a.b + sign * b.b, a.c + sign * b.c, a.d + sign * b.d};
+}
 
 // Where between two stations a record of the lanes' edges begins.
 std::set<double> Begins(const CubicTable& centre, const std::vector<Lane>& lanes, double from_m, double to_m) {
@@ -66,10 +68,15 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
       for (std::size_t k = 0; k < side->size(); ++k) {
         const double within_m = -worst[k].value, most_m = tolerance.strict ? kRounding_m : tolerance.gap_m;
         if (!(within_m > kRounding_m)) continue;
-        const Finding finding{"road.lane.border.overlap_with_inner_lanes",
-                              fmt::format("the lane's border lies {:.4g} m within the edge of the lane inside of it; {}", within_m,
-                                          within_m > most_m ? fmt::format("at most {:.3g} m was expected", most_m) : "the lane is read as 0 m wide there"),
-                              road.lines.sections[i], road.spec.id, (*side)[k].id, worst[k].at};
+        const Finding finding{
+            "road.lane.border.overlap_with_inner_lanes",
+            fmt::format("the lane's border lies {:.4g} m within the edge of the lane inside of it; {}", within_m,
+                        within_m > most_m ? fmt::format("at most {:.3g} m was expected", most_m)
+                                          : "the lane is read as 0 m wide there"),
+            road.lines.sections[i],
+            road.spec.id,
+            (*side)[k].id,
+            worst[k].at};
         (within_m > most_m ? findings.errors : findings.warnings).push_back(finding);
       }
     }

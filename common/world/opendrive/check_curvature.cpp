@@ -14,7 +14,7 @@ using network::End;
 using network::Network;
 using network::Road;
 
-constexpr double kTold_1pm = 1e-4;       // a radius of 10 km beside a straight; less is what the digits of files leave
+constexpr double kTold_1pm = 1e-4;  // a radius of 10 km beside a straight; less is what the digits of files leave
 constexpr double kToldOfCubics_1pm = 2e-3;  // cubics are fits to something smooth, and meet no better
 
 double StartCurvature(const PlanElement& element) {
@@ -61,12 +61,14 @@ void AtLink(const Network& network, std::size_t index, End end, std::size_t line
   if (!other || !road.spec().junction.empty()) return;
   const Road& next = network.roads()[*other];
   const auto& back = link->contact == End::kStart ? next.spec().predecessor : next.spec().successor;
-  const bool told_by_other = back && !back->junction && back->id == road.id() && back->contact == end && std::pair(std::size_t{*other}, link->contact) < std::pair(index, end);
+  const bool told_by_other = back && !back->junction && back->id == road.id() && back->contact == end &&
+                             std::pair(std::size_t{*other}, link->contact) < std::pair(index, end);
   if (!next.spec().junction.empty() || told_by_other) return;
   const Ended out = Of(road, end), in = Of(next, link->contact);
   const double turned = end == link->contact ? -1.0 : 1.0;
   const double jump_1pm = (turned * in.curvature_1pm - out.curvature_1pm) * (end == End::kEnd ? 1.0 : -1.0);
-  if (IsJump(jump_1pm, out.element, in.element)) jumps.Take(jump_1pm, end == End::kStart ? 0.0 : road.length_m(), line, fmt::format(" to road {}", next.id()));
+  if (IsJump(jump_1pm, out.element, in.element))
+    jumps.Take(jump_1pm, end == End::kStart ? 0.0 : road.length_m(), line, fmt::format(" to road {}", next.id()));
 }
 
 }  // namespace
@@ -79,7 +81,8 @@ void TellCurvatureJumps(const Network& network, std::span<const RoadLines> lines
     jumps.most.road = road.id();
     for (std::size_t i = 1; i < elements.size(); ++i) {
       const double jump_1pm = StartCurvature(elements[i]) - geometry::PlanAxis::End(elements[i - 1]).curvature_1pm;
-      if (IsJump(jump_1pm, elements[i], elements[i - 1])) jumps.Take(jump_1pm, elements[i].s_m, lines[index].elements[i]);
+      if (IsJump(jump_1pm, elements[i], elements[i - 1]))
+        jumps.Take(jump_1pm, elements[i].s_m, lines[index].elements[i]);
     }
     for (const End end : {End::kStart, End::kEnd}) AtLink(network, index, end, lines[index].road, jumps);
     if (jumps.places == 0) continue;

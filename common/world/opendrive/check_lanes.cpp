@@ -64,13 +64,15 @@ struct Checker {
       const Lane* found = network.Find(other);
       if (found == nullptr) {
         findings.errors.push_back(At(key, end, "road.lane.link.lanes_across_lane_sections",
-                                     fmt::format("the lane's {} is lane {} of road {}, which has no such lane there", word, id,
-                                                 network.roads()[target->road].id())));
+                                     fmt::format("the lane's {} is lane {} of road {}, which has no such lane there",
+                                                 word, id, network.roads()[target->road].id())));
         continue;
       }
       if (id == 0) continue;
-      const auto& own_link = end == End::kEnd ? network.roads()[key.road].spec().successor : network.roads()[key.road].spec().predecessor;
-      if (target->road != key.road && own_link && own_link->s_m) continue;  // in its middle the other road goes on as if nothing were there
+      const auto& own_link =
+          end == End::kEnd ? network.roads()[key.road].spec().successor : network.roads()[key.road].spec().predecessor;
+      if (target->road != key.road && own_link && own_link->s_m)
+        continue;  // in its middle the other road goes on as if nothing were there
       // In a junction the other road's lane does not say where it goes.
       const auto& road_link = target->end == End::kEnd ? network.roads()[target->road].spec().successor
                                                        : network.roads()[target->road].spec().predecessor;
@@ -80,8 +82,8 @@ struct Checker {
       if (std::find(back.begin(), back.end(), key.lane) == back.end()) {
         findings.warnings.push_back(
             At(key, end, "road.lane.link.lanes_across_lane_sections",
-               fmt::format("the lane's {} is lane {} of road {}, which does not say so; both directions were expected", word, id,
-                           network.roads()[target->road].id())));
+               fmt::format("the lane's {} is lane {} of road {}, which does not say so; both directions were expected",
+                           word, id, network.roads()[target->road].id())));
       }
     }
   }
@@ -94,10 +96,13 @@ struct Checker {
       if (!name || (left ? network.SharingLeft(key) : network.SharingRight(key))) continue;
       const auto road = network.FindRoad(name->road);
       const auto has = [&](const network::LaneSection& on) { return on.Find(name->lane) != nullptr; };
-      const bool is_there = road && std::any_of(network.roads()[*road].spec().sections.begin(), network.roads()[*road].spec().sections.end(), has);
-      findings.warnings.push_back(At(key, End::kStart, "rodeira.beside",
-                                     fmt::format("beside it on the {} is said to be lane {} of road {}, which {}: nobody changes over", left ? "left" : "right", name->lane, name->road,
-                                                 is_there ? "does not say so" : "is not in the file")));
+      const bool is_there = road && std::any_of(network.roads()[*road].spec().sections.begin(),
+                                                network.roads()[*road].spec().sections.end(), has);
+      findings.warnings.push_back(
+          At(key, End::kStart, "rodeira.beside",
+             fmt::format("beside it on the {} is said to be lane {} of road {}, which {}: nobody changes over",
+                         left ? "left" : "right", name->lane, name->road,
+                         is_there ? "does not say so" : "is not in the file")));
     }
   }
 
@@ -106,14 +111,17 @@ struct Checker {
     const Lane &lane = *network.Find(key), &met = *network.Find(other.lane);
     if (!network::IsDrivable(lane.type) || !network::IsDrivable(met.type)) return;
     const Road &road = network.roads()[key.road], &other_road = network.roads()[other.lane.road];
-    const network::LaneMeeting meeting = network::MeetingOf({&road, key.section, key.lane, end}, {&other_road, other.lane.section, other.lane.lane, other.end});
+    const network::LaneMeeting meeting = network::MeetingOf(
+        {&road, key.section, key.lane, end}, {&other_road, other.lane.section, other.lane.lane, other.end});
     const double gap = meeting.gap_m;
-    Finding finding = At(
-        key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
-        fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", gap, other.lane.lane,
-                    other_road.id(), GapWords(gap, LaneGap(tolerance), kListed_m, "m")));
-    if (gap > LaneGap(tolerance)) findings.errors.push_back(finding);
-    else if (gap > kListed_m) findings.warnings.push_back(finding);
+    Finding finding =
+        At(key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
+           fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", gap,
+                       other.lane.lane, other_road.id(), GapWords(gap, LaneGap(tolerance), kListed_m, "m")));
+    if (gap > LaneGap(tolerance))
+      findings.errors.push_back(finding);
+    else if (gap > kListed_m)
+      findings.warnings.push_back(finding);
     // What the reference lines' heights do is told with the roads.
     const bool lines_meet = road.spec().junction.empty() && other_road.spec().junction.empty();
     const double step = meeting.step_m - (lines_meet ? AxisStep(key, end, other) : 0.0);
@@ -122,12 +130,15 @@ struct Checker {
     const bool on_grid = road.spec().ground != nullptr || other_road.spec().ground != nullptr || ground_is_wrong;
     const double most = on_grid ? std::numeric_limits<double>::infinity() : StepMost(tolerance, kListed_m);
     JudgeStep(At(key, end, "lane_smoothness.contact_point_no_vertical_gaps",
-                 fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, most))),
+                 fmt::format("a step of {:.4g} m between the lane's edges and those of lane {} of road {}; {}",
+                             meeting.step_m, other.lane.lane, other_road.id(), StepWords(step, most))),
               step, most, findings);
   }
 
   double AxisStep(const LaneKey& key, End end, const LaneEnd& other) const {
-    const auto height = [&](const LaneKey& of, End at) { return network.roads()[of.road].spec().elevation.Value(StationOf(of, at)); };
+    const auto height = [&](const LaneKey& of, End at) {
+      return network.roads()[of.road].spec().elevation.Value(StationOf(of, at));
+    };
     return std::fabs(height(key, end) - height(other.lane, other.end));
   }
 
@@ -152,8 +163,8 @@ struct Checker {
           if (std::any_of(from.begin(), from.end(), has)) continue;
           findings.errors.push_back(
               At({*incoming, 0, link.from}, End::kStart, "junctions.connection.lane_link",
-                 fmt::format("connection {} of junction {} comes from this lane, which the road does not have", connection.id,
-                             junction.id)));
+                 fmt::format("connection {} of junction {} comes from this lane, which the road does not have",
+                             connection.id, junction.id)));
         }
       }
     }
@@ -164,8 +175,11 @@ struct Checker {
 
 double LaneGap(const Tolerance& tolerance) { return tolerance.strict ? kListed_m : tolerance.gap_m; }
 
-void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
-  const bool ground_is_wrong = std::any_of(findings.errors.begin(), findings.errors.end(), [](const Finding& error) { return error.rule.starts_with("junctions.elevation_grid") || error.rule.starts_with("junctions.boundary"); });
+void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
+                    Findings& findings) {
+  const bool ground_is_wrong = std::any_of(findings.errors.begin(), findings.errors.end(), [](const Finding& error) {
+    return error.rule.starts_with("junctions.elevation_grid") || error.rule.starts_with("junctions.boundary");
+  });
   const Checker checker{network, lines, tolerance, findings, ground_is_wrong};
   for (const LaneKey& key : network.Lanes()) {
     checker.Beside(key);

@@ -1,4 +1,5 @@
-// Measures that nothing on earth has. A slip of the hand in one number puts a lane's edge a million kilometres away, and everything that looks at the ground between would never end.
+// Measures that nothing on earth has. A slip of the hand in one number puts a lane's edge a million kilometres away,
+// and everything that looks at the ground between would never end.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,11 +42,22 @@ class Measures {
     source_.where = {road.Text("id", ""), std::nullopt, std::nullopt};
     const double length = NumberOf(road, "length");
     if (!(length > 0.0)) return;
-    Records(road.Child("elevationProfile"), {"elevation", "s", "road.elevation", "the road is at a height of {} here", "m", kHighest_m}, 0.0, length);
-    Records(road.Child("lateralProfile"), {"superelevation", "s", "road.lateral.superelevation", "the superelevation is {} here", "rad", kSteepest_rad}, 0.0, length);
-    if (Crossfall(road.Child("lateralProfile"), "left", length) < kSteepest_rad) Crossfall(road.Child("lateralProfile"), "right", length);
-    for (const Node& of : road.Child("lateralProfile").Child("crossSectionSurface").Children("tOffset")) Records(of, {"coefficients", "s", "road.lateral.css", "the cross-section lies {} beside the line", "m", kWidest_m}, 0.0, length);
-    const double aside = Records(road.Child("lanes"), {"laneOffset", "s", "road.lane_offset", "the lanes begin {} beside the line here", "m", kWidest_m}, 0.0, length);
+    Records(road.Child("elevationProfile"),
+            {"elevation", "s", "road.elevation", "the road is at a height of {} here", "m", kHighest_m}, 0.0, length);
+    Records(
+        road.Child("lateralProfile"),
+        {"superelevation", "s", "road.lateral.superelevation", "the superelevation is {} here", "rad", kSteepest_rad},
+        0.0, length);
+    if (Crossfall(road.Child("lateralProfile"), "left", length) < kSteepest_rad)
+      Crossfall(road.Child("lateralProfile"), "right", length);
+    for (const Node& of : road.Child("lateralProfile").Child("crossSectionSurface").Children("tOffset"))
+      Records(of,
+              {"coefficients", "s", "road.lateral.css", "the cross-section lies {} beside the line", "m", kWidest_m},
+              0.0, length);
+    const double aside =
+        Records(road.Child("lanes"),
+                {"laneOffset", "s", "road.lane_offset", "the lanes begin {} beside the line here", "m", kWidest_m}, 0.0,
+                length);
     Sections(road.Child("lanes").Children("laneSection"), length, aside);
     Objects(road.Child("objects"));
     for (const Node& signal : road.Child("signals").Children("signal")) Signal(signal);
@@ -58,24 +70,32 @@ class Measures {
   }
 
  private:
-  void Wrong(const Node& node, std::string_view rule, double s_m, std::string_view what, double found, std::string_view unit, double most) const {
+  void Wrong(const Node& node, std::string_view rule, double s_m, std::string_view what, double found,
+             std::string_view unit, double most) const {
     Within within(source_);
     source_.where.s_m = s_m;
-    node.Wrong(rule, fmt::format("{}; at most {:.6g} {} was expected", fmt::format(fmt::runtime(what), fmt::format("{:.6g} {}", found, unit)), most, unit));
+    node.Wrong(rule, fmt::format("{}; at most {:.6g} {} was expected",
+                                 fmt::format(fmt::runtime(what), fmt::format("{:.6g} {}", found, unit)), most, unit));
   }
 
-  // Each record where it is in force, between 0 and the length of what it is of, which begins at `origin_m`; the largest that is found, or that may be.
-  double Records(const Node& parent, const Kind& kind, double origin_m, double length_m) { return Records(parent.Children(kind.element), kind, origin_m, length_m); }
+  // Each record where it is in force, between 0 and the length of what it is of, which begins at `origin_m`; the
+  // largest that is found, or that may be.
+  double Records(const Node& parent, const Kind& kind, double origin_m, double length_m) {
+    return Records(parent.Children(kind.element), kind, origin_m, length_m);
+  }
   double Records(const std::vector<Node>& nodes, const Kind& kind, double origin_m, double length_m) {
     double largest = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const double from = NumberOf(nodes[i], kind.from), next = i + 1 < nodes.size() ? NumberOf(nodes[i + 1], kind.from) : length_m;
+      const double from = NumberOf(nodes[i], kind.from),
+                   next = i + 1 < nodes.size() ? NumberOf(nodes[i + 1], kind.from) : length_m;
       const double low = i == 0 ? 0.0 : std::max(from, 0.0), high = std::min(next, length_m);
       if (low > high || (low == high && i + 1 < nodes.size())) continue;  // it counts nowhere
-      const Cubic cubic{from, NumberOf(nodes[i], "a"), NumberOf(nodes[i], "b"), NumberOf(nodes[i], "c"), NumberOf(nodes[i], "d")};
+      const Cubic cubic{from, NumberOf(nodes[i], "a"), NumberOf(nodes[i], "b"), NumberOf(nodes[i], "c"),
+                        NumberOf(nodes[i], "d")};
       const Extreme farthest = FarthestOf(cubic, low, high);
       largest = std::max(largest, std::min(std::fabs(farthest.value), kind.most));
-      if (!(std::fabs(farthest.value) <= kind.most)) Wrong(nodes[i], kind.rule, origin_m + farthest.at, kind.what, farthest.value, kind.unit, kind.most);
+      if (!(std::fabs(farthest.value) <= kind.most))
+        Wrong(nodes[i], kind.rule, origin_m + farthest.at, kind.what, farthest.value, kind.unit, kind.most);
     }
     return largest;
   }
@@ -86,18 +106,26 @@ class Measures {
     for (const Node& record : profile.Children("crossfall")) {
       if (const std::string of = record.Text("side", "both"); of == side || of == "both") records.push_back(record);
     }
-    return Records(records, {"crossfall", "s", "road.lateral.crossfall", "the crossfall is {} here", "rad", kSteepest_rad}, 0.0, length_m);
+    return Records(records,
+                   {"crossfall", "s", "road.lateral.crossfall", "the crossfall is {} here", "rad", kSteepest_rad}, 0.0,
+                   length_m);
   }
 
   void Sections(const std::vector<Node>& sections, double length_m, double aside_m) {
     for (std::size_t i = 0; i < sections.size(); ++i) {
-      const double from = NumberOf(sections[i], "s"), to = i + 1 < sections.size() ? NumberOf(sections[i + 1], "s") : length_m;
+      const double from = NumberOf(sections[i], "s"),
+                   to = i + 1 < sections.size() ? NumberOf(sections[i + 1], "s") : length_m;
       Within within(source_);
       source_.where.s_m = from;
       for (const char* side : {"left", "center", "right"}) {
         double reach = aside_m;
-        for (const Node& lane : sections[i].Child(side).Children("lane")) reach += Lane(lane, from, std::max(to - from, 0.0));
-        if (!(reach <= kWidestSide_m)) sections[i].Wrong("road.lane.width", fmt::format("the lanes on the {} reach {:.6g} m from the line; at most {:.6g} m was expected", side, reach, kWidestSide_m));
+        for (const Node& lane : sections[i].Child(side).Children("lane"))
+          reach += Lane(lane, from, std::max(to - from, 0.0));
+        if (!(reach <= kWidestSide_m))
+          sections[i].Wrong(
+              "road.lane.width",
+              fmt::format("the lanes on the {} reach {:.6g} m from the line; at most {:.6g} m was expected", side,
+                          reach, kWidestSide_m));
       }
     }
   }
@@ -106,12 +134,17 @@ class Measures {
   double Lane(const Node& lane, double origin_m, double length_m) {
     Within within(source_);
     source_.where.lane = lane.xml().attribute("id").as_int();
-    const double wide = Records(lane, {"width", "sOffset", "road.lane.width", "the lane is {} wide here", "m", kWidest_m}, origin_m, length_m);
-    Records(lane, {"border", "sOffset", "road.lane.border", "the lane's border lies {} beside the line here", "m", kWidest_m}, origin_m, length_m);
+    const double wide = Records(
+        lane, {"width", "sOffset", "road.lane.width", "the lane is {} wide here", "m", kWidest_m}, origin_m, length_m);
+    Records(lane,
+            {"border", "sOffset", "road.lane.border", "the lane's border lies {} beside the line here", "m", kWidest_m},
+            origin_m, length_m);
     for (const Node& height : lane.Children("height")) {
       for (const char* edge : {"inner", "outer"}) {
         const double found = NumberOf(height, edge);
-        if (!(std::fabs(found) <= kHighestLane_m)) Wrong(height, "road.lane.height", origin_m + NumberOf(height, "sOffset"), "the lane lies {} above the road here", found, "m", kHighestLane_m);
+        if (!(std::fabs(found) <= kHighestLane_m))
+          Wrong(height, "road.lane.height", origin_m + NumberOf(height, "sOffset"),
+                "the lane lies {} above the road here", found, "m", kHighestLane_m);
       }
     }
     for (const Node& mark : lane.Children("roadMark")) Mark(mark, origin_m + NumberOf(mark, "sOffset"), length_m);
@@ -130,7 +163,8 @@ class Measures {
         for (const Node& each : of.Children("line")) line(each);
       }
     }
-    Records(mark, {"sway", "ds", "road.lane.roadMark", "the mark lies {} beside its place here", "m", kWidest_m}, s_m, length_m);
+    Records(mark, {"sway", "ds", "road.lane.roadMark", "the mark lies {} beside its place here", "m", kWidest_m}, s_m,
+            length_m);
   }
 
   void At(const Node& node, const char* attribute, std::string_view rule, double s_m, double most) const {
@@ -152,13 +186,17 @@ class Measures {
     const double s = NumberOf(object, "s");
     All(object, {"t", "zOffset", "length", "width", "height", "radius"}, kRule, s);
     for (const Node& repeat : object.Children("repeat"))
-      All(repeat, {"tStart", "tEnd", "zOffsetStart", "zOffsetEnd", "heightStart", "heightEnd", "widthStart", "widthEnd", "lengthStart", "lengthEnd", "radiusStart", "radiusEnd"}, kRule, s);
+      All(repeat,
+          {"tStart", "tEnd", "zOffsetStart", "zOffsetEnd", "heightStart", "heightEnd", "widthStart", "widthEnd",
+           "lengthStart", "lengthEnd", "radiusStart", "radiusEnd"},
+          kRule, s);
     Corners(object, s);
     Corners(object.Child("outlines"), s);
     for (const Node& border : object.Child("borders").Children("border")) All(border, {"width"}, kRule, s);
     for (const Node& line : object.Child("skeleton").Children("polyline")) {
       for (const char* kind : {"vertexRoad", "vertexLocal"}) {
-        for (const Node& vertex : line.Children(kind)) All(vertex, {"t", "u", "v", "z", "dz", "radius", "width", "length", "height"}, kRule, s);
+        for (const Node& vertex : line.Children(kind))
+          All(vertex, {"t", "u", "v", "z", "dz", "radius", "width", "length", "height"}, kRule, s);
       }
     }
   }
@@ -166,7 +204,8 @@ class Measures {
   void Corners(const Node& parent, double s_m) const {
     for (const Node& outline : parent.Children("outline")) {
       for (const char* kind : {"cornerRoad", "cornerLocal"}) {
-        for (const Node& corner : outline.Children(kind)) All(corner, {"t", "u", "v", "z", "dz", "height"}, "road.object.measures", s_m);
+        for (const Node& corner : outline.Children(kind))
+          All(corner, {"t", "u", "v", "z", "dz", "height"}, "road.object.measures", s_m);
       }
     }
   }
@@ -192,7 +231,8 @@ class Measures {
     const double s = NumberOf(crg, "sStart");
     At(crg, "tOffset", "road.surface.crg", s, kWidest_m);
     At(crg, "zOffset", "road.surface.crg", s, kHighest_m);
-    if (const double scale = crg.xml().attribute("zScale").as_double(1.0); !(std::fabs(scale) <= kMostScale)) Wrong(crg, "road.surface.crg", s, "the measured surface's heights count {}", scale, "times", kMostScale);
+    if (const double scale = crg.xml().attribute("zScale").as_double(1.0); !(std::fabs(scale) <= kMostScale))
+      Wrong(crg, "road.surface.crg", s, "the measured surface's heights count {}", scale, "times", kMostScale);
   }
 
   Source& source_;

@@ -10,14 +10,16 @@ namespace {
 
 using geometry::PlanElement;
 
-constexpr double kRounding = 1e-9;        // what the sixteen digits of a file leave
-constexpr double kCubicLength = 1e-3;     // a cubic's length against its curve's
-constexpr double kSparse = 0.5;           // more than half of the length off: the file says nonsense
+constexpr double kRounding = 1e-9;     // what the sixteen digits of a file leave
+constexpr double kCubicLength = 1e-3;  // a cubic's length against its curve's
+constexpr double kSparse = 0.5;        // more than half of the length off: the file says nonsense
 
 // A gap or a kink between neighbours: nothing, a warning or an error.
 void Judge(const Finding& finding, double found, double allowed, Findings& findings) {
-  if (found > allowed) findings.errors.push_back(finding);
-  else if (found > kRounding) findings.warnings.push_back(finding);
+  if (found > allowed)
+    findings.errors.push_back(finding);
+  else if (found > kRounding)
+    findings.warnings.push_back(finding);
 }
 
 }  // namespace
@@ -38,8 +40,10 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
       const double off = std::fabs(curve - element.length_m);
       finding.rule = "road.geometry.paramPoly3.length_match";
       finding.message = fmt::format("the curve is {:.6g} m long, the element says {:.6g} m", curve, element.length_m);
-      if (off > (tolerance.strict ? kCubicLength : kSparse * element.length_m)) findings.errors.push_back(finding);
-      else if (off > kCubicLength) findings.warnings.push_back(finding);
+      if (off > (tolerance.strict ? kCubicLength : kSparse * element.length_m))
+        findings.errors.push_back(finding);
+      else if (off > kCubicLength)
+        findings.warnings.push_back(finding);
     }
     if (i == 0) {
       finding.rule = "road.geometry.elem_asc_order";
@@ -50,21 +54,22 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
     const PlanElement& before = elements[i - 1];
     const double step = element.s_m - (before.s_m + before.length_m);
     finding.rule = "road.geometry.contact_s";
-    finding.message =
-        fmt::format("the element before ends at s {:.9g}, this one begins at {:.9g}", before.s_m + before.length_m, element.s_m);
+    finding.message = fmt::format("the element before ends at s {:.9g}, this one begins at {:.9g}",
+                                  before.s_m + before.length_m, element.s_m);
     Judge(finding, std::fabs(step), tolerance.gap_m, findings);
     const geometry::PlanPoint end = geometry::PlanAxis::End(before);
     const double gap = (end.p_W - element.start_W).norm();
     finding.rule = "road.geometry.contact_point";
-    finding.message = fmt::format("a gap of {:.4g} m to the element before; {}", gap, GapWords(gap, tolerance.gap_m, strict.gap_m, "m"));
+    finding.message = fmt::format("a gap of {:.4g} m to the element before; {}", gap,
+                                  GapWords(gap, tolerance.gap_m, strict.gap_m, "m"));
     Judge(finding, gap, tolerance.gap_m, findings);
     const double heading = element.kind == PlanElement::Kind::kCubic
                                ? element.heading_rad + std::atan2(element.v[1], element.u[1])
                                : element.heading_rad;
     const double kink = std::fabs(geometry::WrapAngle(heading - end.heading_rad));
     finding.rule = "road.geometry.contact_heading";
-    finding.message =
-        fmt::format("a kink of {:.4g} rad from the element before; {}", kink, GapWords(kink, tolerance.kink_rad, strict.kink_rad, "rad"));
+    finding.message = fmt::format("a kink of {:.4g} rad from the element before; {}", kink,
+                                  GapWords(kink, tolerance.kink_rad, strict.kink_rad, "rad"));
     Judge(finding, kink, tolerance.kink_rad, findings);
   }
   if (elements.empty()) return;
@@ -79,8 +84,8 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
   for (std::size_t i = 0; i < road.spec.sections.size(); ++i) {
     const double s = road.spec.sections[i].s_m;
     finding = {"road.lane.lane_section.s", "", road.lines.sections[i], road.spec.id, std::nullopt, s};
-    finding.message =
-        fmt::format("a lane section begins at s {:.6g}; the road is {:.6g} m long", s, std::min(road.spec.length_m, end));
+    finding.message = fmt::format("a lane section begins at s {:.6g}; the road is {:.6g} m long", s,
+                                  std::min(road.spec.length_m, end));
     if (s < -kRounding || s > std::min(road.spec.length_m, end) + kRounding) findings.errors.push_back(finding);
     if (i == 0 && s > tolerance.gap_m) {
       finding.message = fmt::format("the first lane section begins at s {:.6g}; 0 was expected", s);

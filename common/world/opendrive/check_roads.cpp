@@ -57,15 +57,24 @@ struct Checker {
     }
   }
 
-  void HeightAndHeading(std::size_t index, End end, std::size_t other_index, End contact, const network::RoadMeeting& meeting) const {
+  void HeightAndHeading(std::size_t index, End end, std::size_t other_index, End contact,
+                        const network::RoadMeeting& meeting) const {
     const Road &road = network.roads()[index], &other = network.roads()[other_index];
     const double s = StationOf(road, end), kink = std::fabs(meeting.kink_rad);
-    JudgeStep(At(index, "road.elevation.contact_point", fmt::format("a step of {:.4g} m to the {} of road {}; {}", meeting.step_m, Name(contact), other.id(), StepWords(meeting.step_m, StepMost(tolerance, tolerance.gap_m))), s), meeting.step_m,
-              StepMost(tolerance, tolerance.gap_m), findings);
-    const Finding finding = At(index, "road.geometry.contact_heading",
-                               fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(), GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")), s);
-    if (kink > tolerance.kink_rad) findings.errors.push_back(finding);
-    else if (kink > kTurned_rad) findings.warnings.push_back(finding);
+    JudgeStep(At(index, "road.elevation.contact_point",
+                 fmt::format("a step of {:.4g} m to the {} of road {}; {}", meeting.step_m, Name(contact), other.id(),
+                             StepWords(meeting.step_m, StepMost(tolerance, tolerance.gap_m))),
+                 s),
+              meeting.step_m, StepMost(tolerance, tolerance.gap_m), findings);
+    const Finding finding =
+        At(index, "road.geometry.contact_heading",
+           fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(),
+                       GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")),
+           s);
+    if (kink > tolerance.kink_rad)
+      findings.errors.push_back(finding);
+    else if (kink > kTurned_rad)
+      findings.warnings.push_back(finding);
   }
 
   // A road whose end goes on into another road.
@@ -81,8 +90,10 @@ struct Checker {
                          s);
     // In and out of a junction the lanes meet, the reference lines need not.
     const bool in_junction = !road.spec().junction.empty() || !other.spec().junction.empty();
-    if (gap > tolerance.gap_m && !in_junction) findings.errors.push_back(finding);
-    else if (gap > kRounding_m && !in_junction) findings.warnings.push_back(finding);
+    if (gap > tolerance.gap_m && !in_junction)
+      findings.errors.push_back(finding);
+    else if (gap > kRounding_m && !in_junction)
+      findings.warnings.push_back(finding);
     // Of the other road's links one should lead back. A connecting road is reached by way of the junction.
     const auto& back = LinkOf(other, contact);
     const bool means_us = back && !back->junction && back->id == road.id() && back->contact == end;
@@ -92,14 +103,16 @@ struct Checker {
     if (back && !back->junction && back->id != road.id() && !in_junction) {
       finding.rule = "road.linkage.is_junction_needed";
       finding.message = fmt::format(
-          "the {} of road {} goes on into road {}, and this road into it: a junction is needed where it is not clear which road "
+          "the {} of road {} goes on into road {}, and this road into it: a junction is needed where it is not clear "
+          "which road "
           "follows",
           Name(contact), other.id(), back->id);
       findings.errors.push_back(finding);
       return;
     }
     finding.rule = "road.linkage.both_ways";
-    finding.message = fmt::format("this road goes on into the {} of road {}, which does not say so", Name(contact), other.id());
+    finding.message =
+        fmt::format("this road goes on into the {} of road {}, which does not say so", Name(contact), other.id());
     findings.warnings.push_back(finding);
   }
 
@@ -114,8 +127,8 @@ struct Checker {
           Middle(i, end, *known, *link);
         } else if (!known) {
           findings.errors.push_back(At(i, "road.linkage.id",
-                                       fmt::format("the road's {} goes on into {} {}, which is not in the file", Name(end),
-                                                   link->junction ? "junction" : "road", link->id),
+                                       fmt::format("the road's {} goes on into {} {}, which is not in the file",
+                                                   Name(end), link->junction ? "junction" : "road", link->id),
                                        StationOf(road, end)));
         } else if (!link->junction) {
           RoadToRoad(i, end, *known, link->contact);
@@ -123,20 +136,27 @@ struct Checker {
       }
       if (!road.spec().junction.empty() && !network.FindJunction(road.spec().junction)) {
         findings.errors.push_back(
-            At(i, "junctions.id", fmt::format("the road belongs to junction {}, which is not in the file", road.spec().junction),
+            At(i, "junctions.id",
+               fmt::format("the road belongs to junction {}, which is not in the file", road.spec().junction),
                std::nullopt));
       }
     }
   }
 
-  // A connecting road that meets another one's middle points along it there; where its lanes lie is told with the lanes.
+  // A connecting road that meets another one's middle points along it there; where its lanes lie is told with the
+  // lanes.
   void Middle(std::size_t index, End end, std::size_t other_index, const network::RoadLink& link) const {
     const Road &road = network.roads()[index], &other = network.roads()[other_index];
     const double s = StationOf(road, end);
     const double turned = (end == End::kStart) == (link.contact == End::kEnd) ? 0.0 : geometry::kPi;
-    const double kink = std::fabs(geometry::WrapAngle(road.axis().Evaluate(s).heading_rad - other.axis().Evaluate(*link.s_m).heading_rad - turned));
+    const double kink = std::fabs(geometry::WrapAngle(road.axis().Evaluate(s).heading_rad -
+                                                      other.axis().Evaluate(*link.s_m).heading_rad - turned));
     if (kink <= tolerance.kink_rad) return;
-    findings.warnings.push_back(At(index, "junctions.virtual.heading_equal_mainroad", fmt::format("a kink of {:.4g} rad to road {} at its s = {} m; the same heading was expected", kink, other.id(), *link.s_m), s));
+    findings.warnings.push_back(
+        At(index, "junctions.virtual.heading_equal_mainroad",
+           fmt::format("a kink of {:.4g} rad to road {} at its s = {} m; the same heading was expected", kink,
+                       other.id(), *link.s_m),
+           s));
   }
 
   void Ambiguous() const {
@@ -154,10 +174,11 @@ struct Checker {
     for (const auto& [end, roads] : claims) {
       if (roads.size() < 2) continue;
       const Road& road = network.roads()[end.first];
-      findings.errors.push_back(At(end.first, "road.linkage.is_junction_needed",
-                                   fmt::format("roads {} and {} both go on into this road's {}: a junction is needed",
-                                               network.roads()[roads[0]].id(), network.roads()[roads[1]].id(), Name(end.second)),
-                                   StationOf(road, end.second)));
+      findings.errors.push_back(
+          At(end.first, "road.linkage.is_junction_needed",
+             fmt::format("roads {} and {} both go on into this road's {}: a junction is needed",
+                         network.roads()[roads[0]].id(), network.roads()[roads[1]].id(), Name(end.second)),
+             StationOf(road, end.second)));
     }
   }
 
@@ -168,8 +189,12 @@ struct Checker {
       for (const network::Signal& signal : network.roads()[i].spec().signals) {
         const auto* seen = std::get_if<network::SeenAtRoad>(&signal.seen);
         if (seen == nullptr || network.FindRoad(seen->road)) continue;
-        findings.warnings.push_back(At(i, "road.signal.position", fmt::format("the signal '{}' stands at the road '{}', which is not in the file{}: it is drawn where it counts", signal.id, seen->road,
-                                                                              base::DidYouMean(seen->road, names)), signal.s_m));
+        findings.warnings.push_back(
+            At(i, "road.signal.position",
+               fmt::format(
+                   "the signal '{}' stands at the road '{}', which is not in the file{}: it is drawn where it counts",
+                   signal.id, seen->road, base::DidYouMean(seen->road, names)),
+               signal.s_m));
       }
     }
   }
@@ -180,13 +205,14 @@ struct Checker {
       for (const network::JunctionConnection& connection : junction.connections) {
         for (const std::string* id : {&connection.incoming_road, &connection.connecting_road}) {
           if (network.FindRoad(*id) || (id->empty() && junction.type == "virtual")) continue;
-          findings.errors.push_back({"junctions.connection.road",
-                                     fmt::format("connection {} of junction {} names the road '{}', which is not in the file{}",
-                                                 connection.id, junction.id, *id, base::DidYouMean(*id, names)),
-                                     0,
-                                     "",
-                                     {},
-                                     {}});
+          findings.errors.push_back(
+              {"junctions.connection.road",
+               fmt::format("connection {} of junction {} names the road '{}', which is not in the file{}",
+                           connection.id, junction.id, *id, base::DidYouMean(*id, names)),
+               0,
+               "",
+               {},
+               {}});
         }
       }
     }
@@ -196,8 +222,10 @@ struct Checker {
 }  // namespace
 
 void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings) {
-  if (std::fabs(step_m) > most_m) findings.errors.push_back(finding);
-  else if (std::fabs(step_m) > kStep_m) findings.warnings.push_back(finding);
+  if (std::fabs(step_m) > most_m)
+    findings.errors.push_back(finding);
+  else if (std::fabs(step_m) > kStep_m)
+    findings.warnings.push_back(finding);
 }
 
 std::string StepWords(double step_m, double most_m) {
@@ -205,7 +233,8 @@ std::string StepWords(double step_m, double most_m) {
   return std::isfinite(most_m) ? fmt::format("at most {:.3g} m is passed", most_m) : "wheels feel it";
 }
 
-void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
+void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
+                    Findings& findings) {
   const Checker checker{network, lines, tolerance, findings};
   checker.Ids();
   checker.Ambiguous();

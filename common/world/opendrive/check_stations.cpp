@@ -61,11 +61,14 @@ class Stations {
     if (!length || !(*length > 0.0)) return;
     Records(road, "type", "road.type.s", *length);
     Records(road.Child("elevationProfile"), "elevation", "road.elevation.s", *length);
-    for (const char* kind : {"superelevation", "crossfall", "shape"}) Records(road.Child("lateralProfile"), kind, fmt::format("road.lateral.{}.s", kind), *length);
+    for (const char* kind : {"superelevation", "crossfall", "shape"})
+      Records(road.Child("lateralProfile"), kind, fmt::format("road.lateral.{}.s", kind), *length);
     Records(road.Child("lanes"), "laneOffset", "road.lane_offset.s", *length);
-    for (const auto& [parent, kind] : {std::pair("elevationProfile", "elevation"), std::pair("lateralProfile", "superelevation"), std::pair("lanes", "laneOffset")})
+    for (const auto& [parent, kind] : {std::pair("elevationProfile", "elevation"),
+                                       std::pair("lateralProfile", "superelevation"), std::pair("lanes", "laneOffset")})
       First(road.Child(parent).Child(kind), "s", fmt::format("road.{}.first", kind));
-    for (const char* kind : {"object", "objectReference", "tunnel", "bridge"}) Things(road.Child("objects"), kind, *length);
+    for (const char* kind : {"object", "objectReference", "tunnel", "bridge"})
+      Things(road.Child("objects"), kind, *length);
     for (const char* kind : {"signal", "signalReference"}) Things(road.Child("signals"), kind, *length);
     Ids(road.Child("objects"), "object", objects_);
     Ids(road.Child("signals"), "signal", signals_);
@@ -79,8 +82,12 @@ class Stations {
   void Record(const Node& node, const char* attribute, const std::string& rule, double length_m, std::string_view of) {
     const auto at = NumberOf(node, attribute);
     if (!at) return;
-    if (*at < -kRounding_m) node.Wrong(rule, fmt::format("<{}> begins at {} {:.6g}; 0 or more was expected", node.name(), attribute, *at));
-    if (*at > length_m + kRounding_m) told_.Add(node, rule, fmt::format("<{}> begins at {} {:.6g}, behind the end of its {} ({:.6g} m): it counts nowhere", node.name(), attribute, *at, of, length_m));
+    if (*at < -kRounding_m)
+      node.Wrong(rule, fmt::format("<{}> begins at {} {:.6g}; 0 or more was expected", node.name(), attribute, *at));
+    if (*at > length_m + kRounding_m)
+      told_.Add(node, rule,
+                fmt::format("<{}> begins at {} {:.6g}, behind the end of its {} ({:.6g} m): it counts nowhere",
+                            node.name(), attribute, *at, of, length_m));
   }
 
   void Records(const Node& parent, const char* element, const std::string& rule, double length_m) {
@@ -94,9 +101,15 @@ class Stations {
   // A function is said from its beginning on; one that begins later and is 0 there says the same.
   void First(const Node& record, const char* attribute, const std::string& rule) {
     const auto at = NumberOf(record, attribute);
-    const auto is_something = [&](const char* coefficient) { return NumberOf(record, coefficient).value_or(0.0) != 0.0; };
-    if (!at || *at <= kRounding_m || !(is_something("a") || is_something("b") || is_something("c") || is_something("d"))) return;
-    told_.Add(record, rule, fmt::format("the first <{}> begins at {} {:.6g}; 0 was expected: up to there it is read backwards", record.name(), attribute, *at));
+    const auto is_something = [&](const char* coefficient) {
+      return NumberOf(record, coefficient).value_or(0.0) != 0.0;
+    };
+    if (!at || *at <= kRounding_m ||
+        !(is_something("a") || is_something("b") || is_something("c") || is_something("d")))
+      return;
+    told_.Add(record, rule,
+              fmt::format("the first <{}> begins at {} {:.6g}; 0 was expected: up to there it is read backwards",
+                          record.name(), attribute, *at));
   }
 
   void Things(const Node& parent, const std::string& element, double length_m) {
@@ -105,7 +118,9 @@ class Stations {
       const auto at = NumberOf(node, "s");
       source_.where.s_m = at;
       if (at && (*at < -kRounding_m || *at > length_m + kRounding_m))
-        told_.Add(node, fmt::format("road.{}.s", element), fmt::format("the {} '{}' is at s {:.6g}, and its road goes from 0 to {:.6g} m", element, node.Text("id", ""), *at, length_m));
+        told_.Add(node, fmt::format("road.{}.s", element),
+                  fmt::format("the {} '{}' is at s {:.6g}, and its road goes from 0 to {:.6g} m", element,
+                              node.Text("id", ""), *at, length_m));
       for (const Node& repeat : node.Children("repeat")) Repeat(repeat);
     }
   }
@@ -113,7 +128,9 @@ class Stations {
   void Repeat(const Node& repeat) {
     for (const char* attribute : {"s", "length", "distance"}) {
       const auto value = NumberOf(repeat, attribute);
-      if (value && *value < -kRounding_m) repeat.Wrong(fmt::format("road.object.repeat.{}", attribute), fmt::format("<repeat> has a {} of {:.6g}; 0 or more was expected", attribute, *value));
+      if (value && *value < -kRounding_m)
+        repeat.Wrong(fmt::format("road.object.repeat.{}", attribute),
+                     fmt::format("<repeat> has a {} of {:.6g}; 0 or more was expected", attribute, *value));
     }
   }
 
@@ -124,7 +141,10 @@ class Stations {
       const std::string id = node.Text("id", "");
       const auto [first, is_new] = known.try_emplace(id, source_.where.road);
       if (!id.empty() && !is_new)
-        told_.Add(node, fmt::format("ids.id_unique_in_class.{}", element), fmt::format("the id '{}' stands at two {}s, the first at road {}; ids of its own were expected for each", id, element, first->second));
+        told_.Add(
+            node, fmt::format("ids.id_unique_in_class.{}", element),
+            fmt::format("the id '{}' stands at two {}s, the first at road {}; ids of its own were expected for each",
+                        id, element, first->second));
     }
   }
 
@@ -147,7 +167,8 @@ class Stations {
       const std::string rule = fmt::format("road.lane.{}.s_offset", kind);
       for (const Node& record : lane.Children(kind)) Record(record, "sOffset", rule, length_m, "lane section");
     }
-    for (const char* kind : {"width", "border"}) First(lane.Child(kind), "sOffset", fmt::format("road.lane.{}.first", kind));
+    for (const char* kind : {"width", "border"})
+      First(lane.Child(kind), "sOffset", fmt::format("road.lane.{}.first", kind));
   }
 
   Source& source_;

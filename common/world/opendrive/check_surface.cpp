@@ -1,4 +1,5 @@
-// What of one road's surface cannot be as the file says it: heights that jump along it, edges that fold in a bend, lanes narrower than nothing.
+// What of one road's surface cannot be as the file says it: heights that jump along it, edges that fold in a bend,
+// lanes narrower than nothing.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,7 +29,8 @@ struct Checker {
   const Tolerance& tolerance;
   Findings& findings;
 
-  Finding At(std::size_t road, std::string rule, std::string message, std::optional<double> s_m, std::optional<int> lane = {}) const {
+  Finding At(std::size_t road, std::string rule, std::string message, std::optional<double> s_m,
+             std::optional<int> lane = {}) const {
     return {std::move(rule), std::move(message), lines[road].road, network.roads()[road].id(), lane, s_m};
   }
 
@@ -39,7 +41,11 @@ struct Checker {
       const double s = records[i].from;
       if (!(s > 0.0 && s < road.length_m()) || road.spec().ground != nullptr) continue;
       const double step = records[i].a - records[i - 1].Value(s);
-      JudgeStep(At(index, "road.elevation.contact_point", fmt::format("the elevation jumps by {:.4g} m from one record to the next; {}", step, StepWords(step, StepMost(tolerance, tolerance.gap_m))), s), step, StepMost(tolerance, tolerance.gap_m), findings);
+      JudgeStep(At(index, "road.elevation.contact_point",
+                   fmt::format("the elevation jumps by {:.4g} m from one record to the next; {}", step,
+                               StepWords(step, StepMost(tolerance, tolerance.gap_m))),
+                   s),
+                step, StepMost(tolerance, tolerance.gap_m), findings);
     }
   }
 
@@ -52,7 +58,9 @@ struct Checker {
       for (const auto& record : table.records()) stations.insert(record.from);
     };
     const network::LateralProfile& lateral = road.spec().lateral;
-    for (const CubicTable* table : {&road.spec().superelevation, &lateral.crossfall_left, &lateral.crossfall_right, &lateral.surface.t_offset}) add(*table);
+    for (const CubicTable* table :
+         {&road.spec().superelevation, &lateral.crossfall_left, &lateral.crossfall_right, &lateral.surface.t_offset})
+      add(*table);
     for (const auto* side : {&lateral.surface.left, &lateral.surface.right}) {
       for (const network::SurfaceStrip& strip : *side) {
         add(strip.width);
@@ -71,13 +79,17 @@ struct Checker {
         for (const Lane& lane : *side) {
           const LaneSpan span = *road.SpanAt(number, lane.id, s);
           for (const double t : {span.inner_t_m, span.outer_t_m}) {
-            const double step = road.Surface(at, s, t, section, span).p_W.z() - road.Surface(at, before, t, section, span).p_W.z() - axis_step;
+            const double step = road.Surface(at, s, t, section, span).p_W.z() -
+                                road.Surface(at, before, t, section, span).p_W.z() - axis_step;
             if (network::IsDrivable(lane.type) && std::fabs(step) > std::fabs(most)) most = step, most_t = t;
           }
         }
       }
-      JudgeStep(At(index, "road.lateral.contact_point", fmt::format("bank or cross-section jump: the road's surface by {:.4g} m at t {:.4g}; {}", most, most_t, StepWords(most, StepMost(tolerance, LaneGap(tolerance)))), s), most, StepMost(tolerance, LaneGap(tolerance)),
-                findings);
+      JudgeStep(At(index, "road.lateral.contact_point",
+                   fmt::format("bank or cross-section jump: the road's surface by {:.4g} m at t {:.4g}; {}", most,
+                               most_t, StepWords(most, StepMost(tolerance, LaneGap(tolerance)))),
+                   s),
+                most, StepMost(tolerance, LaneGap(tolerance)), findings);
     }
   }
 
@@ -110,7 +122,11 @@ struct Checker {
       }
     }
     if (std::fabs(most) <= kAboveLine_m) return;
-    findings.errors.push_back(At(index, "road.lateral.height", fmt::format("the road's surface lies {:.6g} m above its line at t {:.4g}; at most {:.6g} m was expected", most, most_t, kAboveLine_m), most_s));
+    findings.errors.push_back(
+        At(index, "road.lateral.height",
+           fmt::format("the road's surface lies {:.6g} m above its line at t {:.4g}; at most {:.6g} m was expected",
+                       most, most_t, kAboveLine_m),
+           most_s));
   }
 
   struct Fold {
@@ -123,7 +139,8 @@ struct Checker {
     for (const Lane& lane : lanes) {
       if (drivable && !network::IsDrivable(lane.type)) continue;
       const LaneSpan span = *road.SpanAt(number, lane.id, s);
-      if (curvature_1pm * span.outer_t_m > kSharpest && span.width_m() > 1e-3) return Fold{s, span.outer_t_m, curvature_1pm};
+      if (curvature_1pm * span.outer_t_m > kSharpest && span.width_m() > 1e-3)
+        return Fold{s, span.outer_t_m, curvature_1pm};
     }
     return std::nullopt;
   }
@@ -153,10 +170,12 @@ struct Checker {
     const bool drivable = fold.has_value();
     if (!fold) fold = FirstFold(road, false);
     if (!fold) return;
-    findings.warnings.push_back(At(index, "road.lane.fold",
-                                   fmt::format("the edge of the lanes{} {:.2f} m to the {} folds: the bend there has a radius of {:.4g} m", drivable ? " that are driven on" : "", std::fabs(fold->t_m),
-                                               fold->t_m > 0.0 ? "left" : "right", 1.0 / std::fabs(fold->curvature_1pm)),
-                                   fold->s_m));
+    findings.warnings.push_back(
+        At(index, "road.lane.fold",
+           fmt::format("the edge of the lanes{} {:.2f} m to the {} folds: the bend there has a radius of {:.4g} m",
+                       drivable ? " that are driven on" : "", std::fabs(fold->t_m), fold->t_m > 0.0 ? "left" : "right",
+                       1.0 / std::fabs(fold->curvature_1pm)),
+           fold->s_m));
   }
 
   void Widths(std::size_t index) const {
@@ -168,12 +187,15 @@ struct Checker {
           double narrowest = kNarrow_m, narrowest_s = -1.0;
           const int steps = std::max(1, static_cast<int>(std::min(1e6, std::ceil(section.end_s_m - section.s_m))));
           for (int i = 0; i <= steps && !lane.width.empty(); ++i) {
-            const double s = section.s_m + (section.end_s_m - section.s_m) * i / steps, width = lane.width.Value(s);  // a span has none below 0
+            const double s = section.s_m + (section.end_s_m - section.s_m) * i / steps,
+                         width = lane.width.Value(s);  // a span has none below 0
             if (width < narrowest) narrowest = width, narrowest_s = s;
           }
           if (narrowest_s < 0.0) continue;
-          findings.warnings.push_back({"road.lane.width", fmt::format("the lane is {:.4g} m wide here, its narrowest place; 0 or more was expected", narrowest), lines[index].sections[number], road.id(), lane.id,
-                                       narrowest_s});
+          findings.warnings.push_back(
+              {"road.lane.width",
+               fmt::format("the lane is {:.4g} m wide here, its narrowest place; 0 or more was expected", narrowest),
+               lines[index].sections[number], road.id(), lane.id, narrowest_s});
         }
       }
     }
@@ -182,7 +204,8 @@ struct Checker {
 
 }  // namespace
 
-void CheckSurfaces(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance, Findings& findings) {
+void CheckSurfaces(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
+                   Findings& findings) {
   const Checker checker{network, lines, tolerance, findings};
   for (std::size_t i = 0; i < network.roads().size(); ++i) {
     checker.Elevation(i);

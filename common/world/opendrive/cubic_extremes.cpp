@@ -21,7 +21,8 @@ Extreme LeastOf(const geometry::Cubic& cubic, double from, double to) {
 }
 
 Extreme FarthestOf(const geometry::Cubic& cubic, double from, double to) {
-  const Extreme low = LeastOf(cubic, from, to), below = LeastOf({cubic.from, -cubic.a, -cubic.b, -cubic.c, -cubic.d}, from, to);
+  const Extreme low = LeastOf(cubic, from, to),
+                below = LeastOf({cubic.from, -cubic.a, -cubic.b, -cubic.c, -cubic.d}, from, to);
   return std::fabs(low.value) > std::fabs(below.value) ? low : Extreme{-below.value, below.at};
 }
 

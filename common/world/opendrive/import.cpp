@@ -32,9 +32,10 @@ void ReadHeader(const Node& root, Import& import, network::NetworkSpec& spec) {
   spec.name = header.Text("name", "");
   spec.geo_reference = header.Child("geoReference").xml().text().get();
   const std::size_t first = spec.geo_reference.find_first_not_of(" \t\r\n");
-  spec.geo_reference = first == std::string::npos
-                           ? ""
-                           : spec.geo_reference.substr(first, spec.geo_reference.find_last_not_of(" \t\r\n") - first + 1);
+  spec.geo_reference =
+      first == std::string::npos
+          ? ""
+          : spec.geo_reference.substr(first, spec.geo_reference.find_last_not_of(" \t\r\n") - first + 1);
   const Node offset = header.Child("offset");
   spec.geo_offset = {offset.Number("x", 0.0), offset.Number("y", 0.0), offset.Number("hdg", 0.0)};
 }
@@ -112,10 +113,12 @@ base::Result<Import> Load(const std::filesystem::path& path, const Tolerance& to
 }
 
 base::Error ToError(const Finding& finding, const std::filesystem::path& path) {
-  return base::WrongInput(finding.Text(), finding.line == 0 ? path.string() : fmt::format("{}:{}", path.string(), finding.line));
+  return base::WrongInput(finding.Text(),
+                          finding.line == 0 ? path.string() : fmt::format("{}:{}", path.string(), finding.line));
 }
 
-base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path, const Tolerance& tolerance) {
+base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path,
+                                                                  const Tolerance& tolerance) {
   auto import = Load(path, tolerance);
   if (!import) return import.error();
   if (!import.value().errors.empty()) return ToError(import.value().errors.front(), path);
@@ -142,8 +145,10 @@ std::string Describe(const Import& import) {
     lane_length += section.end_s_m - section.s_m;
   }
   std::string text = fmt::format("OpenDRIVE: {}\n", import.version);
-  text += fmt::format("roads: {}, {:.3f} m, of which {:.3f} m in junctions\n", network.roads().size(), length, connecting);
-  text += fmt::format("lanes: {} in {} sections, of which {} drivable, {:.3f} m\n", lanes, sections, drivable, lane_length);
+  text +=
+      fmt::format("roads: {}, {:.3f} m, of which {:.3f} m in junctions\n", network.roads().size(), length, connecting);
+  text +=
+      fmt::format("lanes: {} in {} sections, of which {} drivable, {:.3f} m\n", lanes, sections, drivable, lane_length);
   text += fmt::format("junctions: {}\nsignals: {}\nobjects: {}\n", network.junctions().size(), signals, objects);
   if (!network.geo_reference().empty()) text += fmt::format("geoReference: {}\n", network.geo_reference());
   return text + fmt::format("warnings: {}\n", import.warnings.size());

@@ -26,7 +26,7 @@ struct Tolerance {
 };
 
 struct Import {
-  std::string version;  // "1.7"
+  std::string version;                              // "1.7"
   std::shared_ptr<const network::Network> network;  // null where there are errors
   std::vector<Finding> errors, warnings;            // by line
   std::vector<NamedFile> surfaces;                  // measured surfaces, as they stand in the file

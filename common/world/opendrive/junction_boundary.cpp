@@ -28,19 +28,26 @@ struct Drawn {
 class Drawer {
  public:
   Drawer(const JunctionReading& junction, std::span<const Road> roads, const Tolerance& tolerance, Findings& findings)
-      : junction_(junction), roads_(roads), tolerance_(tolerance), findings_(findings), errors_before_(findings.errors.size()) {}
+      : junction_(junction),
+        roads_(roads),
+        tolerance_(tolerance),
+        findings_(findings),
+        errors_before_(findings.errors.size()) {}
 
   JunctionBoundary Draw() {
     for (const BoundarySegment& segment : junction_.boundary) Add(segment);
     JunctionBoundary boundary;
     if (!good()) return boundary;
     for (std::size_t i = 0; i < drawn_.size(); ++i) Meet(drawn_[i], drawn_[(i + 1) % drawn_.size()]);
-    for (const Drawn& drawn : drawn_) boundary.corners_W.insert(boundary.corners_W.end(), drawn.points_W.begin(), drawn.points_W.end());
+    for (const Drawn& drawn : drawn_)
+      boundary.corners_W.insert(boundary.corners_W.end(), drawn.points_W.begin(), drawn.points_W.end());
     double twice_area = 0.0;
     for (std::size_t i = 0; i < boundary.corners_W.size(); ++i) {
       twice_area += geometry::Cross(boundary.corners_W[i], boundary.corners_W[(i + 1) % boundary.corners_W.size()]);
     }
-    if (good() && !(twice_area > 0.0)) Wrong(junction_.line, "junctions.boundary.segments_counter_clockwise_order", "the boundary's segments do not go round counter-clockwise");
+    if (good() && !(twice_area > 0.0))
+      Wrong(junction_.line, "junctions.boundary.segments_counter_clockwise_order",
+            "the boundary's segments do not go round counter-clockwise");
     if (!good()) return {};
     for (std::size_t i = 0; i < drawn_.size(); ++i) {
       if (drawn_[i].segment->joint && drawn_[i].segment->transition_m > 0.0) boundary.mouths.push_back(MouthAt(i));
@@ -52,7 +59,8 @@ class Drawer {
   bool good() const { return findings_.errors.size() == errors_before_; }
 
   void Wrong(std::size_t line, std::string rule, std::string message) {
-    findings_.errors.push_back({std::move(rule), fmt::format("junction {}: {}", junction_.junction.id, message), line, "", {}, {}});
+    findings_.errors.push_back(
+        {std::move(rule), fmt::format("junction {}: {}", junction_.junction.id, message), line, "", {}, {}});
   }
 
   void Add(const BoundarySegment& segment) {
@@ -60,12 +68,16 @@ class Drawer {
     if (road == roads_.end()) {
       std::vector<std::string> names;
       for (const Road& known : roads_) names.push_back(known.id());
-      Wrong(segment.line, "junctions.boundary.road", fmt::format("its boundary names the road '{}', which is not in the file{}", segment.road, base::DidYouMean(segment.road, names)));
+      Wrong(segment.line, "junctions.boundary.road",
+            fmt::format("its boundary names the road '{}', which is not in the file{}", segment.road,
+                        base::DidYouMean(segment.road, names)));
       return;
     }
     drawn_.push_back({&segment, &*road, {}});
-    if (segment.joint) DrawAcross(segment, drawn_.back());
-    else DrawAlong(segment, drawn_.back());
+    if (segment.joint)
+      DrawAcross(segment, drawn_.back());
+    else
+      DrawAlong(segment, drawn_.back());
   }
 
   // The outer edge of a lane, t; nothing, and a finding, where there is no such lane.
@@ -73,7 +85,8 @@ class Drawer {
     if (lane == 0) return road.CentreAt(s_m).value;
     const auto span = road.SpanAt(road.SectionIndex(s_m), lane, s_m);
     if (!span) {
-      Wrong(segment.line, "junctions.boundary.lane", fmt::format("its boundary names lane {} of road {}, which is not there at s {:.6g}", lane, road.id(), s_m));
+      Wrong(segment.line, "junctions.boundary.lane",
+            fmt::format("its boundary names lane {} of road {}, which is not there at s {:.6g}", lane, road.id(), s_m));
       return std::nullopt;
     }
     return span->outer_t_m;
@@ -81,7 +94,8 @@ class Drawer {
 
   void DrawAlong(const BoundarySegment& segment, Drawn& drawn) {
     const Road& road = *drawn.road;
-    const double from = std::clamp(segment.from_s_m, 0.0, road.length_m()), to = std::clamp(segment.to_s_m, 0.0, road.length_m());
+    const double from = std::clamp(segment.from_s_m, 0.0, road.length_m()),
+                 to = std::clamp(segment.to_s_m, 0.0, road.length_m());
     const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / kStep_m)));
     for (int i = 0; i <= steps; ++i) {
       const double s = i == steps ? to : from + (to - from) * i / steps;
@@ -108,12 +122,18 @@ class Drawer {
   void Meet(const Drawn& one, const Drawn& next) {
     const double gap = (one.points_W.back() - next.points_W.front()).norm();
     if (gap <= kRounding_m) return;
-    std::string message = fmt::format("a gap of {:.4g} m in its boundary before the segment on road {}; {}", gap, next.road->id(), GapWords(gap, tolerance_.gap_m, Tolerance::Strict().gap_m, "m"));
+    std::string message = fmt::format("a gap of {:.4g} m in its boundary before the segment on road {}; {}", gap,
+                                      next.road->id(), GapWords(gap, tolerance_.gap_m, Tolerance::Strict().gap_m, "m"));
     if (gap > tolerance_.gap_m) {
       Wrong(next.segment->line, "junctions.boundary.segments_close_boundry", std::move(message));
       return;
     }
-    findings_.warnings.push_back({"junctions.boundary.segments_close_boundry", fmt::format("junction {}: {}", junction_.junction.id, message), next.segment->line, "", {}, {}});
+    findings_.warnings.push_back({"junctions.boundary.segments_close_boundry",
+                                  fmt::format("junction {}: {}", junction_.junction.id, message),
+                                  next.segment->line,
+                                  "",
+                                  {},
+                                  {}});
   }
 
   // The point a distance along the lanes' edges that follow a segment, or that come before it.
@@ -137,7 +157,8 @@ class Drawer {
 
   network::JunctionMouth MouthAt(std::size_t index) const {
     const Drawn& drawn = drawn_[index];
-    network::JunctionMouth mouth{std::make_shared<Road>(*drawn.road), drawn.s_m, drawn.first_t_m, drawn.last_t_m, drawn.points_W};
+    network::JunctionMouth mouth{std::make_shared<Road>(*drawn.road), drawn.s_m, drawn.first_t_m, drawn.last_t_m,
+                                 drawn.points_W};
     mouth.corners_W.push_back(Along(index, true, drawn.segment->transition_m));
     mouth.corners_W.push_back(Along(index, false, drawn.segment->transition_m));
     return mouth;
@@ -153,7 +174,8 @@ class Drawer {
 
 }  // namespace
 
-JunctionBoundary BoundaryOf(const JunctionReading& junction, std::span<const Road> roads, const Tolerance& tolerance, Findings& findings) {
+JunctionBoundary BoundaryOf(const JunctionReading& junction, std::span<const Road> roads, const Tolerance& tolerance,
+                            Findings& findings) {
   if (junction.boundary.empty()) return {};
   return Drawer(junction, roads, tolerance, findings).Draw();
 }

@@ -14,7 +14,9 @@ struct JunctionBoundary {
   std::vector<network::JunctionMouth> mouths;
 };
 
-// From its segments. Findings where a road or lane is not there, segments do not meet, or run clockwise; then nothing comes.
-JunctionBoundary BoundaryOf(const JunctionReading& junction, std::span<const network::Road> roads, const Tolerance& tolerance, Findings& findings);
+// From its segments. Findings where a road or lane is not there, segments do not meet, or run clockwise; then nothing
+// comes.
+JunctionBoundary BoundaryOf(const JunctionReading& junction, std::span<const network::Road> roads,
+                            const Tolerance& tolerance, Findings& findings);
 
 }  // namespace rodeira::opendrive

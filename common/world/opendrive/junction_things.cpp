@@ -1,4 +1,5 @@
-// What belongs to a junction and to no road of it: objects beside its own line, and the paths of those who cross it on foot. It is given to the road beside which it lies.
+// What belongs to a junction and to no road of it: objects beside its own line, and the paths of those who cross it on
+// foot. It is given to the road beside which it lies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +54,9 @@ std::optional<Host> HostOf(const std::vector<Road>& roads, const Vector2d& p_W, 
     for (const geometry::AxisPanel& panel : roads[i].axis().panels()) {
       const geometry::AxisFoot foot = roads[i].axis().Foot(panel, p_W);
       const double s = panel.middle_s_m + foot.u_m;
-      if (std::fabs(foot.beyond_m) > kBeyond_m || s < 0.0 || s > roads[i].length_m() || (best && std::fabs(foot.t_m) >= std::fabs(best->t_m))) continue;
+      if (std::fabs(foot.beyond_m) > kBeyond_m || s < 0.0 || s > roads[i].length_m() ||
+          (best && std::fabs(foot.t_m) >= std::fabs(best->t_m)))
+        continue;
       best = Host{i, s, foot.t_m};
     }
   }
@@ -73,7 +76,9 @@ void Give(Object object, const Pose& pose, const Host& host, network::NetworkSpe
 
 class Things {
  public:
-  Things(const JunctionReading& junction, const geometry::PlanAxis& axis, network::NetworkSpec& spec, Findings& findings) : junction_(junction), axis_(axis), spec_(spec), findings_(findings) {}
+  Things(const JunctionReading& junction, const geometry::PlanAxis& axis, network::NetworkSpec& spec,
+         Findings& findings)
+      : junction_(junction), axis_(axis), spec_(spec), findings_(findings) {}
 
   void Lay(const JunctionObject& said) const {
     const Object& object = said.object;
@@ -86,12 +91,17 @@ class Things {
       const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARow);
       for (double i = 0.0; i <= last; i += 1.0) {
         const double share = repeat.length_m > 0.0 ? i * repeat.distance_m / repeat.length_m : 0.0;
-        const auto at = [share](double start, double end, double own) { return start != 0.0 || end != 0.0 ? start + share * (end - start) : own; };
+        const auto at = [share](double start, double end, double own) {
+          return start != 0.0 || end != 0.0 ? start + share * (end - start) : own;
+        };
         Object one = object;
         one.z_offset_m = repeat.z_start_m + share * (repeat.z_end_m - repeat.z_start_m);
-        one.height_m = at(repeat.height_start_m, repeat.height_end_m, object.height_m), one.width_m = at(repeat.width_start_m, repeat.width_end_m, object.width_m);
-        one.length_m = at(repeat.length_start_m, repeat.length_end_m, object.length_m), one.radius_m = at(repeat.radius_start_m, repeat.radius_end_m, object.radius_m);
-        Place(said, std::move(one), repeat.s_m + i * repeat.distance_m, repeat.t_start_m + share * (repeat.t_end_m - repeat.t_start_m));
+        one.height_m = at(repeat.height_start_m, repeat.height_end_m, object.height_m),
+        one.width_m = at(repeat.width_start_m, repeat.width_end_m, object.width_m);
+        one.length_m = at(repeat.length_start_m, repeat.length_end_m, object.length_m),
+        one.radius_m = at(repeat.radius_start_m, repeat.radius_end_m, object.radius_m);
+        Place(said, std::move(one), repeat.s_m + i * repeat.distance_m,
+              repeat.t_start_m + share * (repeat.t_end_m - repeat.t_start_m));
       }
     }
   }
@@ -116,7 +126,13 @@ class Things {
     Give(std::move(object), pose, *host, spec_);
   }
   void Warn(const JunctionObject& said, std::string_view what) const {
-    findings_.warnings.push_back({"junctions.objects", fmt::format("the object '{}' of junction {} {}", said.object.id, junction_.junction.id, what), said.line, "", {}, {}});
+    findings_.warnings.push_back(
+        {"junctions.objects",
+         fmt::format("the object '{}' of junction {} {}", said.object.id, junction_.junction.id, what),
+         said.line,
+         "",
+         {},
+         {}});
   }
 
   const JunctionReading& junction_;
@@ -139,7 +155,8 @@ bool IsCarriageway(const std::vector<Road>& roads, std::size_t but, const Vector
       const network::LaneSpan span = roads[i].SectionAt(s).At(foot.t_m, roads[i].CentreAt(s), s, outside);
       if (span.lane == nullptr || outside > 0.0) continue;
       const LaneType type = span.lane->type;
-      if (!IsWalked(type) && type != LaneType::kNone && type != LaneType::kCurb && type != LaneType::kMedian) return true;
+      if (!IsWalked(type) && type != LaneType::kNone && type != LaneType::kCurb && type != LaneType::kMedian)
+        return true;
     }
   }
   return false;
@@ -160,7 +177,9 @@ std::pair<double, double> Across(const std::vector<Road>& roads, std::size_t pat
 bool IsToldAsObject(const std::vector<Road>& roads, const Vector2d& p_W) {
   for (const Road& road : roads) {
     for (const Object& object : road.spec().objects) {
-      if (object.type == "crosswalk" && (road.Surface(object.s_m, object.t_m).p_W.head<2>() - p_W).norm() < kSameCrossing_m) return true;
+      if (object.type == "crosswalk" &&
+          (road.Surface(object.s_m, object.t_m).p_W.head<2>() - p_W).norm() < kSameCrossing_m)
+        return true;
     }
   }
   return false;
@@ -187,7 +206,9 @@ void LayPath(const JunctionReading& junction, const CrossPath& said, std::size_t
       for (const auto* side : {&section.left, &section.right}) {
         for (const network::Lane& lane : *side) {
           const auto span = section.Span(lane.id, road.CentreAt(s), s);
-          if (IsWalked(lane.type) && span) low = std::min({low, span->inner_t_m, span->outer_t_m}), high = std::max({high, span->inner_t_m, span->outer_t_m});
+          if (IsWalked(lane.type) && span)
+            low = std::min({low, span->inner_t_m, span->outer_t_m}),
+            high = std::max({high, span->inner_t_m, span->outer_t_m});
         }
       }
       if (low > high) return;
@@ -199,38 +220,63 @@ void LayPath(const JunctionReading& junction, const CrossPath& said, std::size_t
   Give(std::move(crossing), pose, *host, spec);
 }
 
-bool HasFurniture(const network::RoadSpec& spec) { return !spec.objects.empty() || !spec.signals.empty() || !spec.signal_references.empty() || !spec.object_references.empty() || !spec.structures.empty(); }
+bool HasFurniture(const network::RoadSpec& spec) {
+  return !spec.objects.empty() || !spec.signals.empty() || !spec.signal_references.empty() ||
+         !spec.object_references.empty() || !spec.structures.empty();
+}
 
 bool IsWalked(const network::RoadSpec& road) {
   return std::all_of(road.sections.begin(), road.sections.end(), [](const network::LaneSection& section) {
     const auto walked = [](const network::Lane& lane) { return IsWalked(lane.type); };
     const auto driven = [](const network::Lane& lane) { return network::IsDrivable(lane.type); };
-    return (std::any_of(section.left.begin(), section.left.end(), walked) || std::any_of(section.right.begin(), section.right.end(), walked)) && std::none_of(section.left.begin(), section.left.end(), driven) &&
+    return (std::any_of(section.left.begin(), section.left.end(), walked) ||
+            std::any_of(section.right.begin(), section.right.end(), walked)) &&
+           std::none_of(section.left.begin(), section.left.end(), driven) &&
            std::none_of(section.right.begin(), section.right.end(), driven);
   });
 }
 
 }  // namespace
 
-std::set<std::string, std::less<>> PathsOnFoot(std::span<const RoadReading> roads, std::span<const JunctionReading> junctions) {
+std::set<std::string, std::less<>> PathsOnFoot(std::span<const RoadReading> roads,
+                                               std::span<const JunctionReading> junctions) {
   std::set<std::string, std::less<>> paths;
   for (const JunctionReading& junction : junctions) {
     for (const CrossPath& path : junction.cross_paths) {
-      const auto road = std::find_if(roads.begin(), roads.end(), [&](const RoadReading& of) { return of.spec.id == path.road; });
+      const auto road =
+          std::find_if(roads.begin(), roads.end(), [&](const RoadReading& of) { return of.spec.id == path.road; });
       if (road != roads.end() && IsWalked(road->spec)) paths.insert(path.road);
     }
   }
   return paths;
 }
 
-void LayJunctionThings(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot, network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings) {
-  const auto find = [&](const std::string& id) { return static_cast<std::size_t>(std::find_if(spec.roads.begin(), spec.roads.end(), [&](const Road& road) { return road.id() == id; }) - spec.roads.begin()); };
+void LayJunctionThings(std::span<const JunctionReading> junctions, const std::set<std::string, std::less<>>& on_foot,
+                       network::NetworkSpec& spec, std::vector<RoadLines>& lines, Findings& findings) {
+  const auto find = [&](const std::string& id) {
+    return static_cast<std::size_t>(
+        std::find_if(spec.roads.begin(), spec.roads.end(), [&](const Road& road) { return road.id() == id; }) -
+        spec.roads.begin());
+  };
   for (const JunctionReading& junction : junctions) {
     for (const CrossPath& path : junction.cross_paths) {
-      const auto wrong = [&](std::string_view rule, std::string message) { findings.warnings.push_back({std::string(rule), fmt::format("the cross path '{}' of junction {} {}", path.id, junction.junction.id, message), path.line, "", {}, {}}); };
-      if (find(path.road) == spec.roads.size()) wrong("junctions.cross_path.road", fmt::format("is the road '{}', which is not in the file: nobody walks there", path.road));
-      else if (!on_foot.contains(path.road)) wrong("junctions.cross_path.only_connect_correct_type", fmt::format("is the road '{}', whose lanes are not walked on: nobody walks there", path.road));
-      else LayPath(junction, path, find(path.road), spec);
+      const auto wrong = [&](std::string_view rule, std::string message) {
+        findings.warnings.push_back(
+            {std::string(rule),
+             fmt::format("the cross path '{}' of junction {} {}", path.id, junction.junction.id, message),
+             path.line,
+             "",
+             {},
+             {}});
+      };
+      if (find(path.road) == spec.roads.size())
+        wrong("junctions.cross_path.road",
+              fmt::format("is the road '{}', which is not in the file: nobody walks there", path.road));
+      else if (!on_foot.contains(path.road))
+        wrong("junctions.cross_path.only_connect_correct_type",
+              fmt::format("is the road '{}', whose lanes are not walked on: nobody walks there", path.road));
+      else
+        LayPath(junction, path, find(path.road), spec);
     }
     if (junction.objects.empty()) continue;
     const auto axis = geometry::PlanAxis::Make(junction.elements);
@@ -238,10 +284,18 @@ void LayJunctionThings(std::span<const JunctionReading> junctions, const std::se
       const Things things(junction, *axis, spec, findings);
       for (const JunctionObject& object : junction.objects) things.Lay(object);
     } else {
-      findings.warnings.push_back({"junctions.objects", fmt::format("junction {} has objects, but no <planView> that they would lie beside: they are left out", junction.junction.id), junction.objects.front().line, "", {}, {}});
+      findings.warnings.push_back(
+          {"junctions.objects",
+           fmt::format("junction {} has objects, but no <planView> that they would lie beside: they are left out",
+                       junction.junction.id),
+           junction.objects.front().line,
+           "",
+           {},
+           {}});
     }
   }
-  // The path's own road would be ground of its own over the roads that it crosses, and its heights are to be passed over.
+  // The path's own road would be ground of its own over the roads that it crosses, and its heights are to be passed
+  // over.
   for (const std::string& id : on_foot) {
     const std::size_t road = find(id);
     if (HasFurniture(spec.roads[road].spec())) continue;

@@ -16,16 +16,33 @@ struct Unread {
 };
 // Why each of them is not, stands in docs/formats.md.
 constexpr std::array<Unread, 27> kUnread = {{
-    {"object", "surface", false}, {"object", "perpToRoad", true}, {"outline", "laneType", true},
-    {"tunnel", "lighting", true}, {"tunnel", "daylight", true}, {"tunnel", "validity", false}, {"bridge", "validity", false},
-    {"signal", "reference", false}, {"sign", "reference", false},
-    {"semantics", "speed", false}, {"semantics", "lane", false}, {"semantics", "prohibited", false},
-    {"lane", "rule", false}, {"lane", "advisory", true}, {"lane", "dynamicLaneDirection", true}, {"lane", "dynamicLaneType", true}, {"lane", "roadWorks", true},
-    {"connection", "predecessor", false}, {"connection", "successor", false},
+    {"object", "surface", false},
+    {"object", "perpToRoad", true},
+    {"outline", "laneType", true},
+    {"tunnel", "lighting", true},
+    {"tunnel", "daylight", true},
+    {"tunnel", "validity", false},
+    {"bridge", "validity", false},
+    {"signal", "reference", false},
+    {"sign", "reference", false},
+    {"semantics", "speed", false},
+    {"semantics", "lane", false},
+    {"semantics", "prohibited", false},
+    {"lane", "rule", false},
+    {"lane", "advisory", true},
+    {"lane", "dynamicLaneDirection", true},
+    {"lane", "dynamicLaneType", true},
+    {"lane", "roadWorks", true},
+    {"connection", "predecessor", false},
+    {"connection", "successor", false},
     {"junction", "surface", false},
     {"road", "railroad", false},
-    {"header", "defaultRegulations", false}, {"OpenDRIVE", "junctionGroup", false}, {"OpenDRIVE", "station", false},
-    {"OpenDRIVE", "include", false}, {"road", "include", false}, {"lanes", "include", false},
+    {"header", "defaultRegulations", false},
+    {"OpenDRIVE", "junctionGroup", false},
+    {"OpenDRIVE", "station", false},
+    {"OpenDRIVE", "include", false},
+    {"road", "include", false},
+    {"lanes", "include", false},
 }};
 
 // An attribute that is there and not "no".
@@ -42,7 +59,8 @@ struct Walker final : pugi::xml_tree_walker {
     const std::string_view name = node.name(), parent = node.parent().name();
     for (std::size_t i = 0; i < kUnread.size(); ++i) {
       const Unread& unread = kUnread[i];
-      const bool here = unread.attribute ? name == unread.parent && Says(node.attribute(unread.name.data())) : name == unread.name && parent == unread.parent;
+      const bool here = unread.attribute ? name == unread.parent && Says(node.attribute(unread.name.data()))
+                                         : name == unread.name && parent == unread.parent;
       if (here && count[i]++ == 0) first[i] = node;
     }
     return true;
@@ -59,8 +77,14 @@ void TellUnread(const Node& root) {
     if (walker.count[i] == 0) continue;
     const Unread& unread = kUnread[i];
     const std::string more = walker.count[i] == 1 ? "" : fmt::format(" ({} times)", walker.count[i]);
-    const std::string what = unread.attribute ? fmt::format("the attribute '{}' of <{}>", unread.name, unread.parent) : fmt::format("<{}> of <{}>", unread.name, unread.parent);
-    root.source().warnings.push_back({"not_read", fmt::format("{} is not read{}", what, more), Node(&root.source(), walker.first[i]).line(), "", {}, {}});
+    const std::string what = unread.attribute ? fmt::format("the attribute '{}' of <{}>", unread.name, unread.parent)
+                                              : fmt::format("<{}> of <{}>", unread.name, unread.parent);
+    root.source().warnings.push_back({"not_read",
+                                      fmt::format("{} is not read{}", what, more),
+                                      Node(&root.source(), walker.first[i]).line(),
+                                      "",
+                                      {},
+                                      {}});
   }
 }
 

@@ -30,7 +30,8 @@ struct BoundarySegment {
   // Along: the lane, and where; infinite: to the road's end.
   int lane = 0;
   double from_s_m = 0.0, to_s_m = 0.0;
-  // Across: at which end, the lanes that it reaches between, each to its outer edge (nothing: all), and how far inward heights go over.
+  // Across: at which end, the lanes that it reaches between, each to its outer edge (nothing: all), and how far inward
+  // heights go over.
   network::End end = network::End::kStart;
   std::optional<int> first_lane, last_lane;
   double transition_m = 0.0;
@@ -73,16 +74,18 @@ void ReadObjects(const Node& road, network::RoadSpec& spec);
 void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
-// Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of amber,
-// 2 s of red for all. Those of lights for people on foot alone stay dark.
+// Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of
+// amber, 2 s of red for all. Those of lights for people on foot alone stay dark.
 void TakeTurns(network::NetworkSpec& spec);
-// A warning for each kind of element or attribute that says something about the world and is passed over; at the first of them.
+// A warning for each kind of element or attribute that says something about the world and is passed over; at the first
+// of them.
 void TellUnread(const Node& root);
-// A warning for each element, attribute and word that OpenDRIVE does not know, with the nearest that it does; an error for an
-// element that stands twice where it may stand once.
+// A warning for each element, attribute and word that OpenDRIVE does not know, with the nearest that it does; an error
+// for an element that stands twice where it may stand once.
 void TellUnknown(const Node& root);
-// Records and things that begin beside their road or lane section, first widths that leave a lane without any, repeats below 0, ids that stand twice: an
-// error below 0, where a number can have no meaning; otherwise a warning for each kind, at the first.
+// Records and things that begin beside their road or lane section, first widths that leave a lane without any, repeats
+// below 0, ids that stand twice: an error below 0, where a number can have no meaning; otherwise a warning for each
+// kind, at the first.
 void CheckStations(const Node& root);
 // Measures beyond those of measures.hpp, wherever a record of them is in force: an error for each.
 void CheckMeasures(const Node& root);

@@ -28,17 +28,24 @@ void CheckSign(const Node& node, const network::Signal& signal) {
   if (signal.dynamic || painted || signal.type.empty() || signal.type == "-1" || network::IsBoard(signal)) return;
   const auto kind = network::SignKindOf(signal);
   if (kind && (*kind != "speed_limit" || !network::SignNumberOf(signal).empty())) return;
-  const std::string what = kind ? "says no limit" : fmt::format("is none that is known (type '{}', subtype '{}', country '{}')", signal.type, signal.subtype, signal.country);
+  const std::string what = kind ? "says no limit"
+                                : fmt::format("is none that is known (type '{}', subtype '{}', country '{}')",
+                                              signal.type, signal.subtype, signal.country);
   Source& source = node.source();
-  source.warnings.push_back({"road.signal.type", fmt::format("the sign '{}' {}: it is drawn as a grey plate", signal.id, what), node.line(), source.where.road, source.where.lane, source.where.s_m});
+  source.warnings.push_back({"road.signal.type",
+                             fmt::format("the sign '{}' {}: it is drawn as a grey plate", signal.id, what), node.line(),
+                             source.where.road, source.where.lane, source.where.s_m});
 }
 
 void ReadSeen(const Node& node, network::Signal& signal) {
   for (const Node& at : node.Children("positionRoad")) {
-    signal.seen = network::SeenAtRoad{at.Text("roadId"), at.Number("s"), at.Number("t"), at.Number("zOffset", 0.0), at.Number("hOffset", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
+    signal.seen = network::SeenAtRoad{
+        at.Text("roadId"),         at.Number("s"),          at.Number("t"),        at.Number("zOffset", 0.0),
+        at.Number("hOffset", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
   }
   for (const Node& at : node.Children("positionInertial")) {
-    signal.seen = network::SeenInWorld{at.Number("x"), at.Number("y"), at.Number("z"), at.Number("hdg", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
+    signal.seen = network::SeenInWorld{at.Number("x"),        at.Number("y"),          at.Number("z"),
+                                       at.Number("hdg", 0.0), at.Number("pitch", 0.0), at.Number("roll", 0.0)};
   }
 }
 
@@ -86,13 +93,15 @@ constexpr double kUsualSign_m = 0.6;  // on a board, where a file says no measur
 network::Signal OnBoard(const Node& node, const network::Signal& board) {
   network::Signal sign;
   sign.s_m = board.s_m, sign.t_m = board.t_m, sign.z_offset_m = board.z_offset_m;
-  sign.orientation = board.orientation, sign.h_offset_rad = board.h_offset_rad, sign.pitch_rad = board.pitch_rad, sign.roll_rad = board.roll_rad;
+  sign.orientation = board.orientation, sign.h_offset_rad = board.h_offset_rad, sign.pitch_rad = board.pitch_rad,
+  sign.roll_rad = board.roll_rad;
   sign.seen = board.seen, sign.validity = board.validity, sign.depends_on = board.depends_on;
   sign.board = board.id, sign.board_left_m = node.Number("v", 0.0), sign.board_up_m = node.Number("z", 0.0);
   return sign;
 }
 
-// A signal's boards: each sign and each display on them as a signal of its own. A board without measures is as large as what is on it.
+// A signal's boards: each sign and each display on them as a signal of its own. A board without measures is as large as
+// what is on it.
 std::vector<network::Signal> ReadBoards(const Node& node, network::Signal& signal) {
   std::vector<network::Signal> on;
   for (const Node& board : node.Children("staticBoard")) {
@@ -109,14 +118,18 @@ std::vector<network::Signal> ReadBoards(const Node& node, network::Signal& signa
     display.id = fmt::format("{}/{}", signal.id, i + 1);
     display.type = network::kDisplay;
     display.dynamic = true;
-    display.width_m = displays[i].Number("displayWidth", 0.0), display.height_m = displays[i].Number("displayHeight", 0.0);
+    display.width_m = displays[i].Number("displayWidth", 0.0),
+    display.height_m = displays[i].Number("displayHeight", 0.0);
     const bool whole = signal.type == network::kDisplay && displays.size() == 1;  // the signal is the display
-    if (!whole) on.push_back(std::move(display));
-    else if (!(signal.width_m > 0.0 && signal.height_m > 0.0)) signal.width_m = display.width_m, signal.height_m = display.height_m;
+    if (!whole)
+      on.push_back(std::move(display));
+    else if (!(signal.width_m > 0.0 && signal.height_m > 0.0))
+      signal.width_m = display.width_m, signal.height_m = display.height_m;
   }
   if (on.empty() || (signal.width_m > 0.0 && signal.height_m > 0.0)) return on;
   for (const network::Signal& each : on) {
-    signal.width_m = std::max(signal.width_m, 2.0 * std::fabs(each.board_left_m) + (each.width_m > 0.0 ? each.width_m : kUsualSign_m));
+    signal.width_m = std::max(signal.width_m,
+                              2.0 * std::fabs(each.board_left_m) + (each.width_m > 0.0 ? each.width_m : kUsualSign_m));
     signal.height_m = std::max(signal.height_m, each.board_up_m + (each.height_m > 0.0 ? each.height_m : kUsualSign_m));
   }
   return on;
@@ -124,7 +137,8 @@ std::vector<network::Signal> ReadBoards(const Node& node, network::Signal& signa
 
 void WarnOf(const Node& node, std::string_view rule, std::string message) {
   const Source::Where& where = node.source().where;
-  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
+  node.source().warnings.push_back(
+      {std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
 }
 
 network::Repeat ReadRepeat(const Node& node) {
@@ -146,7 +160,10 @@ network::Repeat ReadRepeat(const Node& node) {
   repeat.radius_end_m = node.Number("radiusEnd", 0.0);
   repeat.straight = node.Flag("detachFromReferenceLine", false);
   if (repeat.distance_m > 0.0 && repeat.distance_m < kShortestDistance_m) {
-    WarnOf(node, "road.object.repeat.distance", fmt::format("<repeat> has a distance of {:.6g} m; 0 or at least {:.6g} m was expected: it goes on without gaps", repeat.distance_m, kShortestDistance_m));
+    WarnOf(
+        node, "road.object.repeat.distance",
+        fmt::format("<repeat> has a distance of {:.6g} m; 0 or at least {:.6g} m was expected: it goes on without gaps",
+                    repeat.distance_m, kShortestDistance_m));
     repeat.distance_m = 0.0;
   }
   return repeat;
@@ -158,12 +175,12 @@ network::Outline ReadOutline(const Node& node) {
   outline.closed = node.Flag("closed", true);
   outline.fill = node.Text("fillType", "");
   for (const Node& corner : node.Children("cornerRoad")) {
-    outline.corners.push_back(
-        {false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0), corner.Number("height", 0.0), corner.Text("id", "")});
+    outline.corners.push_back({false, corner.Number("s"), corner.Number("t"), corner.Number("dz", 0.0),
+                               corner.Number("height", 0.0), corner.Text("id", "")});
   }
   for (const Node& corner : node.Children("cornerLocal")) {
-    outline.corners.push_back(
-        {true, corner.Number("u"), corner.Number("v"), corner.Number("z", 0.0), corner.Number("height", 0.0), corner.Text("id", "")});
+    outline.corners.push_back({true, corner.Number("u"), corner.Number("v"), corner.Number("z", 0.0),
+                               corner.Number("height", 0.0), corner.Text("id", "")});
   }
   return outline;
 }
@@ -173,7 +190,9 @@ void ReadMarks(const Node& node, network::Object& object) {
   static const std::vector<std::string> kSides = {"left", "right", "front", "rear"};
   Source& source = node.source();
   const auto warn = [&](const Node& mark, const std::string& what) {
-    source.warnings.push_back({"road.object.marking", fmt::format("a mark of the object '{}' {}: it is not painted", object.id, what), mark.line(), source.where.road, source.where.lane, source.where.s_m});
+    source.warnings.push_back({"road.object.marking",
+                               fmt::format("a mark of the object '{}' {}: it is not painted", object.id, what),
+                               mark.line(), source.where.road, source.where.lane, source.where.s_m});
   };
   for (const Node& markings : node.Children("markings")) {
     for (const Node& each : markings.Children("marking")) {
@@ -186,16 +205,24 @@ void ReadMarks(const Node& node, network::Object& object) {
       mark.gap_m = each.Number("spaceLength", 0.0);
       mark.start_offset_m = each.Number("startOffset", 0.0);
       mark.stop_offset_m = each.Number("stopOffset", 0.0);
-      const bool sized = mark.width_m > 0.0 && mark.stroke_m >= 0.0 && mark.gap_m >= 0.0 && mark.start_offset_m >= 0.0 && mark.stop_offset_m >= 0.0;
+      const bool sized = mark.width_m > 0.0 && mark.stroke_m >= 0.0 && mark.gap_m >= 0.0 &&
+                         mark.start_offset_m >= 0.0 && mark.stop_offset_m >= 0.0;
       const auto has_corner = [&](const std::string& id) {
-        return !object.outlines.empty() && std::any_of(object.outlines.front().corners.begin(), object.outlines.front().corners.end(), [&](const network::Corner& corner) { return corner.id == id; });
+        return !object.outlines.empty() &&
+               std::any_of(object.outlines.front().corners.begin(), object.outlines.front().corners.end(),
+                           [&](const network::Corner& corner) { return corner.id == id; });
       };
       const auto lost = std::find_if_not(mark.corners.begin(), mark.corners.end(), has_corner);
-      if (lost != mark.corners.end()) warn(each, fmt::format("names the corner '{}', which its outline has not", *lost));
-      else if (!sized) warn(each, "has a width that is not above 0, or a stroke, gap or offset below 0");
-      else if (mark.corners.size() == 1) warn(each, "names one corner where it goes from corner to corner");
-      else if (mark.corners.empty() && std::find(kSides.begin(), kSides.end(), mark.side) == kSides.end()) warn(each, fmt::format("lies on the side '{}'{}", mark.side, base::DidYouMean(mark.side, kSides)));
-      else object.marks.push_back(std::move(mark));
+      if (lost != mark.corners.end())
+        warn(each, fmt::format("names the corner '{}', which its outline has not", *lost));
+      else if (!sized)
+        warn(each, "has a width that is not above 0, or a stroke, gap or offset below 0");
+      else if (mark.corners.size() == 1)
+        warn(each, "names one corner where it goes from corner to corner");
+      else if (mark.corners.empty() && std::find(kSides.begin(), kSides.end(), mark.side) == kSides.end())
+        warn(each, fmt::format("lies on the side '{}'{}", mark.side, base::DidYouMean(mark.side, kSides)));
+      else
+        object.marks.push_back(std::move(mark));
     }
   }
 }
@@ -211,23 +238,36 @@ void ReadBorders(const Node& node, network::Object& object) {
     for (const Node& corner : each.Children("cornerReference")) border.corners.push_back(corner.Text("id"));
     const bool whole = each.Flag("useCompleteOutline", true);
     const std::string id = each.Text("outlineId", "");
-    const auto warn = [&](std::string_view rule, const std::string& what) { WarnOf(each, rule, fmt::format("a border of the object '{}' {}: it is not drawn", object.id, what)); };
-    const auto found = std::find_if(outlines.begin(), outlines.end(), [&](const network::Outline& outline) { return outline.id == id; });
+    const auto warn = [&](std::string_view rule, const std::string& what) {
+      WarnOf(each, rule, fmt::format("a border of the object '{}' {}: it is not drawn", object.id, what));
+    };
+    const auto found = std::find_if(outlines.begin(), outlines.end(),
+                                    [&](const network::Outline& outline) { return outline.id == id; });
     if (found == outlines.end()) {
       warn("road.object.borders.outline_id", fmt::format("is of the outline '{}', which it has not", id));
       continue;
     }
     border.outline = static_cast<std::size_t>(found - outlines.begin());
     const auto lost = std::find_if_not(border.corners.begin(), border.corners.end(), [&](const std::string& corner) {
-      return std::any_of(found->corners.begin(), found->corners.end(), [&](const network::Corner& of) { return of.id == corner; });
+      return std::any_of(found->corners.begin(), found->corners.end(),
+                         [&](const network::Corner& of) { return of.id == corner; });
     });
-    if (lost != border.corners.end()) warn("road.object.borders", fmt::format("names the corner '{}', which its outline has not", *lost));
-    else if (!whole && border.corners.size() < 2) warn("road.object.borders", fmt::format("names {} corners of its outline; two at least were expected", border.corners.size()));
-    else if (!(border.width_m > 0.0)) warn("road.object.borders", fmt::format("is {} m wide", border.width_m));
-    else if (std::find(kTypes.begin(), kTypes.end(), border.type) == kTypes.end()) warn("road.object.borders", fmt::format("is of the type '{}'{}", border.type, base::DidYouMean(border.type, kTypes)));
+    if (lost != border.corners.end())
+      warn("road.object.borders", fmt::format("names the corner '{}', which its outline has not", *lost));
+    else if (!whole && border.corners.size() < 2)
+      warn("road.object.borders",
+           fmt::format("names {} corners of its outline; two at least were expected", border.corners.size()));
+    else if (!(border.width_m > 0.0))
+      warn("road.object.borders", fmt::format("is {} m wide", border.width_m));
+    else if (std::find(kTypes.begin(), kTypes.end(), border.type) == kTypes.end())
+      warn("road.object.borders",
+           fmt::format("is of the type '{}'{}", border.type, base::DidYouMean(border.type, kTypes)));
     else {
       if (whole && !border.corners.empty()) {
-        WarnOf(each, "road.object.borders.useCompleteOutline_true", fmt::format("a border of the object '{}' goes along its complete outline and names corners: it goes along all of it", object.id));
+        WarnOf(each, "road.object.borders.useCompleteOutline_true",
+               fmt::format("a border of the object '{}' goes along its complete outline and names corners: it goes "
+                           "along all of it",
+                           object.id));
         border.corners.clear();
       }
       object.borders.push_back(std::move(border));
@@ -235,44 +275,67 @@ void ReadBorders(const Node& node, network::Object& object) {
   }
 }
 
-// Of points with a radius, or with a width and a length; a line that mixes them, or has no extent, is said and not drawn.
+// Of points with a radius, or with a width and a length; a line that mixes them, or has no extent, is said and not
+// drawn.
 void ReadSkeleton(const Node& node, network::Object& object) {
   for (const Node& line : node.Child("skeleton").Children("polyline")) {
     network::SkeletonLine points;
     const auto read = [&](const Node& vertex, bool local) {
-      network::SkeletonPoint point{local, vertex.Number(local ? "u" : "s"), vertex.Number(local ? "v" : "t"), vertex.Number(local ? "z" : "dz", 0.0)};
-      point.radius_m = vertex.Number("radius", 0.0), point.width_m = vertex.Number("width", 0.0), point.length_m = vertex.Number(vertex.Has("length") ? "length" : "height", 0.0);
+      network::SkeletonPoint point{local, vertex.Number(local ? "u" : "s"), vertex.Number(local ? "v" : "t"),
+                                   vertex.Number(local ? "z" : "dz", 0.0)};
+      point.radius_m = vertex.Number("radius", 0.0), point.width_m = vertex.Number("width", 0.0),
+      point.length_m = vertex.Number(vertex.Has("length") ? "length" : "height", 0.0);
       points.push_back(point);
     };
     for (const Node& vertex : line.Children("vertexRoad")) read(vertex, false);
     for (const Node& vertex : line.Children("vertexLocal")) read(vertex, true);
-    const auto warn = [&](std::string_view rule, const std::string& what) { WarnOf(line, rule, fmt::format("a skeleton's line of the object '{}' {}: it is not drawn", object.id, what)); };
-    const auto round = std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.radius_m > 0.0; });
-    const auto square = std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.width_m > 0.0 && p.length_m > 0.0; });
-    const bool mixed = std::any_of(points.begin(), points.end(), [&](const network::SkeletonPoint& p) { return p.local != points.front().local; });
-    const bool finite = std::all_of(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.radius_m >= 0.0 && p.width_m >= 0.0 && p.length_m >= 0.0; });
+    const auto warn = [&](std::string_view rule, const std::string& what) {
+      WarnOf(line, rule, fmt::format("a skeleton's line of the object '{}' {}: it is not drawn", object.id, what));
+    };
+    const auto round =
+        std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) { return p.radius_m > 0.0; });
+    const auto square = std::count_if(points.begin(), points.end(), [](const network::SkeletonPoint& p) {
+      return p.width_m > 0.0 && p.length_m > 0.0;
+    });
+    const bool mixed = std::any_of(points.begin(), points.end(),
+                                   [&](const network::SkeletonPoint& p) { return p.local != points.front().local; });
+    const bool finite = std::all_of(points.begin(), points.end(), [](const network::SkeletonPoint& p) {
+      return p.radius_m >= 0.0 && p.width_m >= 0.0 && p.length_m >= 0.0;
+    });
     const auto count = static_cast<std::ptrdiff_t>(points.size());
-    if (points.size() < 2) warn("road.object.skeleton.polyline_followed_by_vertex", fmt::format("has {} points; two at least were expected", points.size()));
-    else if (mixed) warn("road.object.skeleton.vertex_road.polyline_elements", "has both <vertexRoad> and <vertexLocal>");
-    else if (!finite || !((round == count && square == 0) || (round == 0 && square == count))) warn("road.object.skeleton.use_radius_or_width_length", "has points without a radius, or a width and a length, above 0; all were expected to have the one, or all the other");
-    else object.skeleton.push_back(std::move(points));
+    if (points.size() < 2)
+      warn("road.object.skeleton.polyline_followed_by_vertex",
+           fmt::format("has {} points; two at least were expected", points.size()));
+    else if (mixed)
+      warn("road.object.skeleton.vertex_road.polyline_elements", "has both <vertexRoad> and <vertexLocal>");
+    else if (!finite || !((round == count && square == 0) || (round == 0 && square == count)))
+      warn("road.object.skeleton.use_radius_or_width_length",
+           "has points without a radius, or a width and a length, above 0; all were expected to have the one, or all "
+           "the other");
+    else
+      object.skeleton.push_back(std::move(points));
   }
 }
 
 // The standard's types of objects, up to 1.8.
 const std::vector<std::string>& ObjectTypes() {
-  static const std::vector<std::string> types = {"none", "obstacle", "car", "pole", "tree", "vegetation", "barrier", "building", "parkingSpace", "patch", "railing",
-                                                 "trafficIsland", "crosswalk", "streetLamp", "gantry", "soundBarrier", "van", "bus", "trailer", "bike", "motorbike", "tram",
-                                                 "train", "pedestrian", "wind", "roadMark", "roadSurface"};
+  static const std::vector<std::string> types = {
+      "none",     "obstacle",     "car",        "pole",    "tree",          "vegetation", "barrier",
+      "building", "parkingSpace", "patch",      "railing", "trafficIsland", "crosswalk",  "streetLamp",
+      "gantry",   "soundBarrier", "van",        "bus",     "trailer",       "bike",       "motorbike",
+      "tram",     "train",        "pedestrian", "wind",    "roadMark",      "roadSurface"};
   return types;
 }
 
 // A type that nobody knows is no error: it stands as a plain body.
 void CheckType(const Node& node, const network::Object& object) {
   const auto& types = ObjectTypes();
-  if (object.type == "-1" || std::find(types.begin(), types.end(), object.type) != types.end()) return;  // -1: none, in older files
+  if (object.type == "-1" || std::find(types.begin(), types.end(), object.type) != types.end())
+    return;  // -1: none, in older files
   Source& source = node.source();
-  source.warnings.push_back({"road.object.type", fmt::format("the object '{}' has the type '{}', which OpenDRIVE does not know{}", object.id, object.type, base::DidYouMean(object.type, types)),
+  source.warnings.push_back({"road.object.type",
+                             fmt::format("the object '{}' has the type '{}', which OpenDRIVE does not know{}",
+                                         object.id, object.type, base::DidYouMean(object.type, types)),
                              node.line(), source.where.road, source.where.lane, source.where.s_m});
 }
 
@@ -307,7 +370,8 @@ network::Object ReadObject(const Node& node) {
     object.material.surface = material.Text("surface", "");
     if (material.Has("friction")) object.material.friction = material.Number("friction");
     object.material.colour = material.Text("roadMarkColor", "");
-    if (object.material.friction && !(*object.material.friction >= 0.0)) material.Wrong("road.object.material", fmt::format("a friction of {} was found", *object.material.friction));
+    if (object.material.friction && !(*object.material.friction >= 0.0))
+      material.Wrong("road.object.material", fmt::format("a friction of {} was found", *object.material.friction));
   }
   if (const Node place = node.Child("parkingSpace")) object.access = place.Text("access", "");
   ReadMarks(node, object);
@@ -340,7 +404,8 @@ void ReadSignals(const Node& road, network::RoadSpec& spec) {
     if (!on_it.empty() && !network::IsBoard(signal)) signal.type = network::kStaticBoard;
     CheckSign(node, signal);
     spec.signals.push_back(std::move(signal));
-    spec.signals.insert(spec.signals.end(), std::make_move_iterator(on_it.begin()), std::make_move_iterator(on_it.end()));
+    spec.signals.insert(spec.signals.end(), std::make_move_iterator(on_it.begin()),
+                        std::make_move_iterator(on_it.end()));
   });
   Each(list, "signalReference", [&](const Node& node) {
     spec.signal_references.push_back(
@@ -352,12 +417,13 @@ void ReadObjects(const Node& road, network::RoadSpec& spec) {
   const Node list = road.Child("objects");
   Each(list, "object", [&](const Node& node) { spec.objects.push_back(ReadObject(node)); });
   Each(list, "objectReference", [&](const Node& node) {
-    spec.object_references.push_back({node.Number("s"), node.Number("t"), node.Text("id"), node.Text("orientation", "none")});
+    spec.object_references.push_back(
+        {node.Number("s"), node.Number("t"), node.Text("id"), node.Text("orientation", "none")});
   });
   for (const bool bridge : {false, true}) {
     Each(list, bridge ? "bridge" : "tunnel", [&](const Node& node) {
-      spec.structures.push_back(
-          {node.Text("id", ""), node.Text("name", ""), node.Text("type", ""), bridge, node.Number("s"), node.Number("length")});
+      spec.structures.push_back({node.Text("id", ""), node.Text("name", ""), node.Text("type", ""), bridge,
+                                 node.Number("s"), node.Number("length")});
     });
   }
 }

@@ -24,11 +24,14 @@ std::vector<double> ReadHeights(const Node& node, const char* attribute) {
     double number = 0.0;
     const auto [next, error] = std::from_chars(at, end, number);
     if (error != std::errc() || !std::isfinite(number)) {
-      node.Wrong("xml.attribute", fmt::format("attribute '{}' of <{}> is '{}'; numbers were expected", attribute, node.name(), text));
+      node.Wrong("xml.attribute",
+                 fmt::format("attribute '{}' of <{}> is '{}'; numbers were expected", attribute, node.name(), text));
       return {};
     }
     if (std::fabs(number) > kHighest_m) {
-      node.Wrong("junctions.elevation_grid.height", fmt::format("attribute '{}' of <{}> has a height of {:.6g} m; at most {:.6g} m was expected", attribute, node.name(), number, kHighest_m));
+      node.Wrong("junctions.elevation_grid.height",
+                 fmt::format("attribute '{}' of <{}> has a height of {:.6g} m; at most {:.6g} m was expected",
+                             attribute, node.name(), number, kHighest_m));
       return {};
     }
     numbers.push_back(number);
@@ -71,17 +74,22 @@ void ReadGrid(const Node& junction, JunctionReading& reading) {
   const std::vector<Node> grids = junction.Children("elevationGrid");
   if (grids.empty()) return;
   const Node& grid = grids.front();
-  if (grids.size() > 1) grids[1].Wrong("junctions.elevation_grid.only_one_elev_grid", "the junction has a second <elevationGrid>");
+  if (grids.size() > 1)
+    grids[1].Wrong("junctions.elevation_grid.only_one_elev_grid", "the junction has a second <elevationGrid>");
   reading.has_grid = true;
   reading.grid_start_m = grid.Number("sStart", 0.0);
   reading.grid_spacing_m = grid.Number("gridSpacing");
   for (const Node& node : grid.Children("elevation")) {
     const std::vector<double> centre = ReadHeights(node, "center");
-    if (centre.size() != 1) node.Wrong("xml.attribute", fmt::format("attribute 'center' of <elevation> holds {} numbers; one was expected", centre.size()));
-    reading.grid_rows.push_back({centre.empty() ? 0.0 : centre[0], ReadHeights(node, "left"), ReadHeights(node, "right")});
+    if (centre.size() != 1)
+      node.Wrong("xml.attribute",
+                 fmt::format("attribute 'center' of <elevation> holds {} numbers; one was expected", centre.size()));
+    reading.grid_rows.push_back(
+        {centre.empty() ? 0.0 : centre[0], ReadHeights(node, "left"), ReadHeights(node, "right")});
   }
   if (!junction.Child("planView")) {
-    grid.Wrong("junctions.elevation_grid.perpendicular_vectors", "the junction has heights across a reference line, but no <planView> that would be it");
+    grid.Wrong("junctions.elevation_grid.perpendicular_vectors",
+               "the junction has heights across a reference line, but no <planView> that would be it");
     return;
   }
 }
@@ -91,7 +99,8 @@ void ReadThings(const Node& junction, JunctionReading& reading) {
   for (const Node& parent : {junction.Child("objects"), junction}) {
     for (const Node& node : parent.Children("object")) reading.objects.push_back({ReadObject(node), node.line()});
   }
-  for (const Node& node : junction.Children("crossPath")) reading.cross_paths.push_back({node.Text("id", ""), node.Text("crossingRoad"), node.line()});
+  for (const Node& node : junction.Children("crossPath"))
+    reading.cross_paths.push_back({node.Text("id", ""), node.Text("crossingRoad"), node.line()});
 }
 
 }  // namespace
@@ -113,12 +122,16 @@ JunctionReading ReadJunction(const Node& junction) {
       connection.lane_links.push_back({link.Integer("from"), link.Integer("to")});
     read.connections.push_back(std::move(connection));
   }
-  for (const Node& node : junction.Children("priority")) read.priorities.push_back({node.Text("high", ""), node.Text("low", "")});
+  for (const Node& node : junction.Children("priority"))
+    read.priorities.push_back({node.Text("high", ""), node.Text("low", "")});
   std::vector<std::pair<double, std::string>> controllers;
-  for (const Node& node : junction.Children("controller")) controllers.emplace_back(node.Number("sequence", 0.0), node.Text("id", ""));
-  std::stable_sort(controllers.begin(), controllers.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const Node& node : junction.Children("controller"))
+    controllers.emplace_back(node.Number("sequence", 0.0), node.Text("id", ""));
+  std::stable_sort(controllers.begin(), controllers.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
   for (auto& [sequence, id] : controllers) read.controllers.push_back(std::move(id));
-  for (const Node& segment : junction.Child("boundary").Children("segment")) reading.boundary.push_back(ReadSegment(segment));
+  for (const Node& segment : junction.Child("boundary").Children("segment"))
+    reading.boundary.push_back(ReadSegment(segment));
   read.main_road = junction.Text("mainRoad", "");
   RoadLines lines;
   if (junction.Child("planView")) reading.elements = ReadPlanView(junction, lines);

@@ -25,8 +25,10 @@ std::vector<Record> ReadRecords(const Node& lane, const char* element, double se
                  fmt::format("<{}> elements were expected in ascending order of sOffset", element));
       continue;
     }
-    if (!records.empty() && record.s_m == records.back().s_m) records.back() = std::move(record);  // the last one counts
-    else records.push_back(std::move(record));
+    if (!records.empty() && record.s_m == records.back().s_m)
+      records.back() = std::move(record);  // the last one counts
+    else
+      records.push_back(std::move(record));
   }
   return records;
 }
@@ -35,7 +37,8 @@ network::LaneAccess ReadAccess(const Node& node) {
   network::LaneAccess access;
   access.rule = node.Text("rule", "");
   if (node.Has("restriction")) access.restrictions.push_back(node.Text("restriction", ""));
-  for (const Node& restriction : node.Children("restriction")) access.restrictions.push_back(restriction.Text("type", ""));
+  for (const Node& restriction : node.Children("restriction"))
+    access.restrictions.push_back(restriction.Text("type", ""));
   return access;
 }
 
@@ -50,10 +53,15 @@ std::vector<network::LaneAccess> ReadAccesses(const Node& lane, double section_s
     } else if (access.s_m < all.back().s_m) {
       node.Wrong("road.lane.access.elem_asc_order", "<access> elements were expected in ascending order of sOffset");
     } else if (access.rule == all.back().rule) {
-      all.back().restrictions.insert(all.back().restrictions.end(), access.restrictions.begin(), access.restrictions.end());
+      all.back().restrictions.insert(all.back().restrictions.end(), access.restrictions.begin(),
+                                     access.restrictions.end());
     } else {
       const Source::Where& where = node.source().where;
-      node.source().warnings.push_back({"road.lane.access.no_mix_of_deny_or_allow", fmt::format("at one place the lane has a rule '{}' and a rule '{}': the second counts", all.back().rule, access.rule), node.line(), where.road, where.lane, access.s_m});
+      node.source().warnings.push_back(
+          {"road.lane.access.no_mix_of_deny_or_allow",
+           fmt::format("at one place the lane has a rule '{}' and a rule '{}': the second counts", all.back().rule,
+                       access.rule),
+           node.line(), where.road, where.lane, access.s_m});
       all.back() = std::move(access);
     }
   }
@@ -79,10 +87,12 @@ struct Around {
 
 void Warn(const Node& node, std::string_view rule, std::string message) {
   const Source::Where& where = node.source().where;
-  node.source().warnings.push_back({std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
+  node.source().warnings.push_back(
+      {std::string(rule), std::move(message), node.line(), where.road, where.lane, where.s_m});
 }
 
-// Whether the first number of a border that is not 0 is above it, and none of its places at the records' beginnings lies below 0.
+// Whether the first number of a border that is not 0 is above it, and none of its places at the records' beginnings
+// lies below 0.
 bool IsPositive(const std::vector<geometry::Cubic>& records) {
   if (std::any_of(records.begin(), records.end(), [](const geometry::Cubic& r) { return r.a < 0.0; })) return false;
   for (const geometry::Cubic& r : records) {
@@ -93,12 +103,14 @@ bool IsPositive(const std::vector<geometry::Cubic>& records) {
   return false;
 }
 
-// A border's records are t of the outer edge. Files exist that count them positive on the right side too, where no lane can lie while the centre
-// lane lies on the reference line.
+// A border's records are t of the outer edge. Files exist that count them positive on the right side too, where no lane
+// can lie while the centre lane lies on the reference line.
 geometry::CubicTable ReadBorder(const Node& lane, const Around& around, bool right) {
-  geometry::CubicTable table = ReadCubics(lane.Children("border"), "sOffset", around.section_s_m, "road.lane.border.elem_asc_order");
+  geometry::CubicTable table =
+      ReadCubics(lane.Children("border"), "sOffset", around.section_s_m, "road.lane.border.elem_asc_order");
   if (!right || around.offset || !IsPositive(table.records())) return table;
-  Warn(lane.Child("border"), "road.lane.border", "the border of a lane on the right lies to the left of the reference line: it is read with its sign turned");
+  Warn(lane.Child("border"), "road.lane.border",
+       "the border of a lane on the right lies to the left of the reference line: it is read with its sign turned");
   std::vector<geometry::Cubic> turned = table.records();
   for (geometry::Cubic& record : turned) record = {record.from, -record.a, -record.b, -record.c, -record.d};
   return geometry::CubicTable(turned);
@@ -116,9 +128,13 @@ void ReadTraffic(const Node& node, Lane& lane) {
   for (const Node& data : node.Children("userData")) {
     if (data.Text("code", "") != kTraffic) continue;
     const std::string what = data.Text("value", "");
-    if (what == "begins") lane.traffic_begins = true;
-    else if (what == "ends") lane.traffic_ends = true;
-    else data.Wrong("rodeira.traffic", fmt::format("of the lane's traffic '{}' was found; 'begins' or 'ends' was expected", what));
+    if (what == "begins")
+      lane.traffic_begins = true;
+    else if (what == "ends")
+      lane.traffic_ends = true;
+    else
+      data.Wrong("rodeira.traffic",
+                 fmt::format("of the lane's traffic '{}' was found; 'begins' or 'ends' was expected", what));
   }
 }
 
@@ -132,7 +148,8 @@ void ReadBeside(const Node& node, Lane& lane) {
     const auto [end, problem] = std::from_chars(what.data(), what.data() + what.size(), name.lane);
     const auto blank = static_cast<std::size_t>(end - what.data());
     if (problem != std::errc() || name.lane == 0 || blank + 1 >= what.size() || what[blank] != ' ') {
-      data.Wrong("rodeira.beside", fmt::format("as the lane beside '{}' was found; a lane and its road ('-1 12') were expected", what));
+      data.Wrong("rodeira.beside",
+                 fmt::format("as the lane beside '{}' was found; a lane and its road ('-1 12') were expected", what));
       continue;
     }
     name.road = what.substr(blank + 1);
@@ -147,7 +164,8 @@ Lane ReadLane(const Node& node, const Around& around) {
   Within within(node.source());
   node.source().where.lane = lane.id;
   const std::string type = node.Text("type", "none");
-  if (const auto known = network::LaneTypeByName(type)) lane.type = *known;
+  if (const auto known = network::LaneTypeByName(type))
+    lane.type = *known;
   else
     node.Wrong("road.lane.type",
                fmt::format("the lane's type is '{}'{}", type, base::DidYouMean(type, network::LaneTypeNames())));
@@ -158,7 +176,8 @@ Lane ReadLane(const Node& node, const Around& around) {
   if (direction == "both" || lane.type == network::LaneType::kBidirectional) lane.direction = 0;
   lane.width = ReadCubics(node.Children("width"), "sOffset", section_s_m, "road.lane.width.elem_asc_order");
   lane.border = ReadBorder(node, around, lane.id < 0);
-  if (!lane.width.empty() && !lane.border.empty()) Warn(node, "road.lane.border.exclusive_width_border", "the lane has both <width> and <border>: its widths count");
+  if (!lane.width.empty() && !lane.border.empty())
+    Warn(node, "road.lane.border.exclusive_width_border", "the lane has both <width> and <border>: its widths count");
   lane.heights = ReadRecords<network::LaneHeight>(node, "height", section_s_m, [](const Node& height) {
     return network::LaneHeight{0.0, height.Number("inner"), height.Number("outer")};
   });
@@ -186,28 +205,30 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Aro
     for (const Node& node : group.Children("lane")) {
       Lane lane = ReadLane(node, around);
       if (lane.id == 0 || (lane.id > 0) != left) {
-        node.Wrong("road.lane.id",
-                   fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id, left ? "above" : "below"));
+        node.Wrong("road.lane.id", fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id,
+                                               left ? "above" : "below"));
         continue;
       }
       lanes.push_back(std::move(lane));
     }
   }
-  std::stable_sort(lanes.begin(), lanes.end(), [](const Lane& a, const Lane& b) { return std::abs(a.id) < std::abs(b.id); });
+  std::stable_sort(lanes.begin(), lanes.end(),
+                   [](const Lane& a, const Lane& b) { return std::abs(a.id) < std::abs(b.id); });
   for (std::size_t i = 0; i < lanes.size(); ++i) {
     const int expected = (left ? 1 : -1) * static_cast<int>(i + 1);
     if (lanes[i].id == expected) continue;
     section_node.Wrong(
         "road.lane.id",
-        fmt::format("lane {} was expected on the {}, and lane {} found; ids are counted from the centre without gaps", expected,
-                    side, lanes[i].id));
+        fmt::format("lane {} was expected on the {}, and lane {} found; ids are counted from the centre without gaps",
+                    expected, side, lanes[i].id));
     lanes.resize(i);
   }
   const auto wide = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return !lane.width.empty(); });
   const auto bordered = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return lane.bordered(); });
   if (wide != lanes.end() && bordered != lanes.end()) {
     Warn(section_node, "road.lane.border.exclusive_width_border",
-         fmt::format("on the {} lane {} has a <width> and lane {} a <border>: each is read by what it has", side, wide->id, bordered->id));
+         fmt::format("on the {} lane {} has a <width> and lane {} a <border>: each is read by what it has", side,
+                     wide->id, bordered->id));
   }
   return lanes;
 }
@@ -218,7 +239,10 @@ void TellBorders(const Node& section_node, const LaneSection& section, const Aro
   for (const auto* side : {&section.left, &section.right}) {
     for (const Lane& lane : *side) {
       if (!lane.bordered()) continue;
-      return Warn(section_node, "road.lane.border.exclusive_offset_border", fmt::format("lane {} has a <border>, and the road a <laneOffset>: it moves the centre lane, and no border", lane.id));
+      return Warn(
+          section_node, "road.lane.border.exclusive_offset_border",
+          fmt::format("lane {} has a <border>, and the road a <laneOffset>: it moves the centre lane, and no border",
+                      lane.id));
     }
   }
 }
@@ -252,8 +276,10 @@ void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines) {
     section.right = ReadSide(node, "right", around);
     const auto centres = node.Child("center").Children("lane");
     if (centres.size() != 1)
-      node.Wrong("road.lane.center_lane", fmt::format("a lane section has {} centre lanes; one was expected", centres.size()));
-    else section.centre = ReadLane(centres[0], around);
+      node.Wrong("road.lane.center_lane",
+                 fmt::format("a lane section has {} centre lanes; one was expected", centres.size()));
+    else
+      section.centre = ReadLane(centres[0], around);
     TellBorders(node, section, around);
     if (!spec.sections.empty() && section.s_m <= spec.sections.back().s_m) {
       node.Wrong("road.lane.lane_section.elem_asc_order",

@@ -48,8 +48,9 @@ network::Controller ReadController(const Node& controller) {
     if (data.Text("code", "") != kTimes) continue;
     read.times = TimesOf(data.Text("value", ""));
     if (!read.times) {
-      data.Wrong("rodeira.times", "the times of controller '" + read.id + "' are '" + data.Text("value", "") +
-                                      "'; five numbers of seconds were expected: cycle, green from, green, amber, red with amber");
+      data.Wrong("rodeira.times",
+                 "the times of controller '" + read.id + "' are '" + data.Text("value", "") +
+                     "'; five numbers of seconds were expected: cycle, green from, green, amber, red with amber");
     } else if (const char* wrong = network::WrongTimes(*read.times)) {
       data.Wrong("rodeira.times", "the times of controller '" + read.id + "': " + wrong);
       read.times.reset();
@@ -62,14 +63,16 @@ void TakeTurns(network::NetworkSpec& spec) {
   for (const network::Junction& junction : spec.junctions) {
     std::vector<network::Controller*> turns;
     for (const std::string& id : junction.controllers) {
-      const auto found = std::find_if(spec.controllers.begin(), spec.controllers.end(), [&](const auto& c) { return c.id == id; });
+      const auto found =
+          std::find_if(spec.controllers.begin(), spec.controllers.end(), [&](const auto& c) { return c.id == id; });
       if (found == spec.controllers.end() || found->times || !ForVehicles(spec, *found)) continue;
       turns.push_back(&*found);
     }
     constexpr double kTurn_s = kGreen_s + kAmber_s + kAllRed_s;
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      turns[i]->times = network::LightTimes{kTurn_s * static_cast<double>(turns.size()), kTurn_s * static_cast<double>(i),
-                                            turns.size() > 1 ? kGreen_s : kTurn_s, kAmber_s, kRedAmber_s};
+      turns[i]->times =
+          network::LightTimes{kTurn_s * static_cast<double>(turns.size()), kTurn_s * static_cast<double>(i),
+                              turns.size() > 1 ? kGreen_s : kTurn_s, kAmber_s, kRedAmber_s};
     }
   }
 }

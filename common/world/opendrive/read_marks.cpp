@@ -18,8 +18,11 @@ network::MarkLine ReadLine(const Node& line) {
   const double pattern_m = read.length_m + read.space_m;
   if (read.length_m > 0.0 && read.space_m > 0.0 && pattern_m < kShortestPattern_m) {
     Source& source = line.source();
-    source.warnings.push_back({"road.lane.roadMark", fmt::format("the dashes of a line and the gaps between them are {:.6g} m long together; {:.6g} m at least were expected: it is painted without gaps", pattern_m, kShortestPattern_m), line.line(),
-                               source.where.road, source.where.lane, source.where.s_m});
+    source.warnings.push_back({"road.lane.roadMark",
+                               fmt::format("the dashes of a line and the gaps between them are {:.6g} m long together; "
+                                           "{:.6g} m at least were expected: it is painted without gaps",
+                                           pattern_m, kShortestPattern_m),
+                               line.line(), source.where.road, source.where.lane, source.where.s_m});
     read.space_m = 0.0;
   }
   return read;

@@ -24,7 +24,8 @@ void ReadParamPoly3(const Node& poly, PlanElement& element) {
   element.v = {poly.Number("aV"), poly.Number("bV"), poly.Number("cV"), poly.Number("dV")};
   const std::string range = poly.Text("pRange", "normalized");
   if (range != "normalized" && range != "arcLength") {
-    poly.Wrong("road.geometry.paramPoly3.range", fmt::format("pRange is '{}'; arcLength or normalized was expected", range));
+    poly.Wrong("road.geometry.paramPoly3.range",
+               fmt::format("pRange is '{}'; arcLength or normalized was expected", range));
   }
   element.p_end = range == "arcLength" ? element.length_m : 1.0;
 }
@@ -64,7 +65,8 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
                                  element.start_W.x(), element.start_W.y(), element.length_m));
       continue;
     }
-    if (element.length_m < 0.0) geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m));
+    if (element.length_m < 0.0)
+      geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m));
     if (!(element.length_m > 1e-9)) continue;  // nothing of it can be driven on
     ReadKind(geometry, element);
     if (!elements.empty() && element.s_m < elements.back().s_m) {
@@ -72,16 +74,19 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
                      fmt::format("a <geometry> of s {:.6g} stands behind one of s {:.6g}; ascending order was expected",
                                  element.s_m, elements.back().s_m));
     }
-    const double turned_rad = 0.5 * std::fabs(element.curvature_start_1pm + element.curvature_end_1pm) * element.length_m;
+    const double turned_rad =
+        0.5 * std::fabs(element.curvature_start_1pm + element.curvature_end_1pm) * element.length_m;
     if (element.kind == PlanElement::Kind::kClothoid && turned_rad > 2.0 * geometry::kPi * kMostTurns) {
-      geometry.Wrong("road.geometry.shape", fmt::format("this element turns {:.4g} times; at most {:.4g} were expected", turned_rad / (2.0 * geometry::kPi), kMostTurns));
+      geometry.Wrong("road.geometry.shape", fmt::format("this element turns {:.4g} times; at most {:.4g} were expected",
+                                                        turned_rad / (2.0 * geometry::kPi), kMostTurns));
     } else if (!geometry::PlanAxis::Make({element})) {
       geometry.Wrong("road.geometry.shape", "this element stands still somewhere, or turns or is longer than any road");
     }
     elements.push_back(element);
     lines.elements.push_back(geometry.line());
   }
-  if (elements.empty() && road.source().errors.size() == before) road.Wrong("road.geometry.one_element", "the road has no plan view");
+  if (elements.empty() && road.source().errors.size() == before)
+    road.Wrong("road.geometry.one_element", "the road has no plan view");
   return elements;
 }
 

@@ -62,8 +62,10 @@ void ReadSurface(const Node& profile, network::CrossSectionSurface& surface) {
       element.Wrong("road.lateral.css.strip_id", fmt::format("a strip's id is {}; another one was expected", id));
   }
   for (const auto& [id, strip] : strips) {
-    if (id > 0) surface.left.push_back(strip);
-    else surface.right.insert(surface.right.begin(), strip);
+    if (id > 0)
+      surface.left.push_back(strip);
+    else
+      surface.right.insert(surface.right.begin(), strip);
   }
 }
 
@@ -77,9 +79,10 @@ void ReadLateral(const Node& road, network::LateralProfile& lateral) {
 }
 
 void ReadProfiles(const Node& road, network::RoadSpec& spec) {
-  spec.elevation = ReadCubics(road.Child("elevationProfile").Children("elevation"), "s", 0.0, "road.elevation.elem_asc_order");
-  spec.superelevation =
-      ReadCubics(road.Child("lateralProfile").Children("superelevation"), "s", 0.0, "road.lateral.superelevation.elem_asc_order");
+  spec.elevation =
+      ReadCubics(road.Child("elevationProfile").Children("elevation"), "s", 0.0, "road.elevation.elem_asc_order");
+  spec.superelevation = ReadCubics(road.Child("lateralProfile").Children("superelevation"), "s", 0.0,
+                                   "road.lateral.superelevation.elem_asc_order");
   ReadLateral(road, spec.lateral);
 }
 

@@ -7,12 +7,13 @@
 namespace rodeira::opendrive {
 namespace {
 
-// In the middle of a road (a virtual junction's main one) the link says how this road's s runs beside that one's: with "+" it begins where a lane section ends, or ends where one
-// begins.
+// In the middle of a road (a virtual junction's main one) the link says how this road's s runs beside that one's: with
+// "+" it begins where a lane section ends, or ends where one begins.
 void ReadMiddle(const Node& link, bool at_start, network::RoadLink& read) {
   read.s_m = link.Number("elementS");
   const std::string way = link.Text("elementDir", "+");
-  if (way != "+" && way != "-") link.Wrong("road.linkage.element_dir", fmt::format("elementDir is '{}'; + or - was expected", way));
+  if (way != "+" && way != "-")
+    link.Wrong("road.linkage.element_dir", fmt::format("elementDir is '{}'; + or - was expected", way));
   read.contact = (way == "-") == at_start ? network::End::kStart : network::End::kEnd;
 }
 
@@ -26,8 +27,10 @@ std::optional<network::RoadLink> ReadLink(const Node& link, bool at_start) {
   }
   read.id = link.Text("elementId");
   if (read.junction) return read;
-  if (link.Has("elementS")) ReadMiddle(link, at_start, read);
-  else read.contact = ReadContact(link, "contactPoint");
+  if (link.Has("elementS"))
+    ReadMiddle(link, at_start, read);
+  else
+    read.contact = ReadContact(link, "contactPoint");
   return read;
 }
 
@@ -51,11 +54,13 @@ RoadReading ReadRoad(const Node& road) {
   spec.junction = road.Text("junction", "-1");
   if (spec.junction == "-1") spec.junction.clear();
   const std::string rule = road.Text("rule", "RHT");
-  if (rule != "RHT" && rule != "LHT") road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule));
+  if (rule != "RHT" && rule != "LHT")
+    road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule));
   spec.left_hand = rule == "LHT";
   const std::size_t before = road.source().errors.size();
   spec.length_m = road.Number("length");
-  if (road.source().errors.size() == before && !(spec.length_m > 0.0)) road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
+  if (road.source().errors.size() == before && !(spec.length_m > 0.0))
+    road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
   spec.predecessor = ReadLink(road.Child("link").Child("predecessor"), true);
   spec.successor = ReadLink(road.Child("link").Child("successor"), false);
   for (const Node& type : road.Children("type")) {

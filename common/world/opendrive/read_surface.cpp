@@ -11,8 +11,9 @@ namespace rodeira::opendrive {
 namespace {
 
 // What OpenDRIVE has no element for, in the data of users.
-constexpr std::string_view kMade = "rodeira:iso_8608";    // s, end of s, offset of s (m), density (m3), seed
-constexpr std::string_view kGoesOn = "rodeira:goes_on";  // how far before s = 0 and behind the road's end it goes on (m)
+constexpr std::string_view kMade = "rodeira:iso_8608";  // s, end of s, offset of s (m), density (m3), seed
+constexpr std::string_view kGoesOn =
+    "rodeira:goes_on";  // how far before s = 0 and behind the road's end it goes on (m)
 constexpr double kFarthest_m = 1e6, kRoughest_m3 = 1.0;
 constexpr double kNear_m = 0.01;  // numbers in files are rounded
 
@@ -29,14 +30,16 @@ void ReadMade(const Node& data, network::RoadSpec& spec) {
   const std::string said = data.Text("value", "");
   std::string_view text = said;
   network::Unevenness made;
-  bool right = Take(text, made.s_start_m) && Take(text, made.s_end_m) && Take(text, made.s_offset_m) && Take(text, made.density_m3) && Take(text, made.seed);
+  bool right = Take(text, made.s_start_m) && Take(text, made.s_end_m) && Take(text, made.s_offset_m) &&
+               Take(text, made.density_m3) && Take(text, made.seed);
   right = right && text.find_first_not_of(' ') == std::string_view::npos;
   for (const double s : {made.s_start_m, made.s_end_m, made.s_offset_m}) right = right && std::fabs(s) <= kFarthest_m;
   right = right && made.s_end_m > made.s_start_m && made.density_m3 >= 0.0 && made.density_m3 <= kRoughest_m3;
   if (right) {
     spec.unevenness.push_back(made);
   } else {
-    data.Wrong("rodeira.iso_8608", fmt::format("a made surface is '{}'; five numbers were expected: from s to s, offset of s (m), density at 0.1 cycles a metre (at most {} m3), seed",
+    data.Wrong("rodeira.iso_8608", fmt::format("a made surface is '{}'; five numbers were expected: from s to s, "
+                                               "offset of s (m), density at 0.1 cycles a metre (at most {} m3), seed",
                                                said, kRoughest_m3));
   }
 }
@@ -47,7 +50,10 @@ void ReadGoesOn(const Node& data, network::CrgSurface& crg) {
   double before_m = 0.0, behind_m = 0.0;
   bool right = Take(text, before_m) && Take(text, behind_m) && text.find_first_not_of(' ') == std::string_view::npos;
   for (const double beyond_m : {before_m, behind_m}) right = right && beyond_m >= 0.0 && beyond_m <= kFarthest_m;
-  if (!right) return data.Wrong("rodeira.goes_on", fmt::format("a measured surface goes on '{}'; two numbers were expected: metres before the road's beginning and behind its end", said));
+  if (!right)
+    return data.Wrong("rodeira.goes_on", fmt::format("a measured surface goes on '{}'; two numbers were expected: "
+                                                     "metres before the road's beginning and behind its end",
+                                                     said));
   crg.s_start_m -= before_m;
   crg.s_offset_m -= before_m;
   crg.s_end_m += behind_m;
@@ -55,8 +61,14 @@ void ReadGoesOn(const Node& data, network::CrgSurface& crg) {
 
 // That the stretch lies on the road. A line of its own (genuine) has its own length.
 void CheckStretch(const Node& node, const network::CrgSurface& crg, double length_m) {
-  if (crg.mode == "genuine" || (crg.s_start_m >= -kNear_m && crg.s_end_m > crg.s_start_m && crg.s_end_m <= length_m + kNear_m)) return;
-  node.Wrong("road.surface.crg.s", fmt::format("the measured surface '{}' lies from s = {} to {}; two places on the road, which is {} m long, were expected", crg.file, crg.s_start_m, crg.s_end_m, length_m));
+  if (crg.mode == "genuine" ||
+      (crg.s_start_m >= -kNear_m && crg.s_end_m > crg.s_start_m && crg.s_end_m <= length_m + kNear_m))
+    return;
+  node.Wrong(
+      "road.surface.crg.s",
+      fmt::format(
+          "the measured surface '{}' lies from s = {} to {}; two places on the road, which is {} m long, were expected",
+          crg.file, crg.s_start_m, crg.s_end_m, length_m));
 }
 
 }  // namespace

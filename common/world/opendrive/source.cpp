@@ -36,8 +36,8 @@ base::Result<std::unique_ptr<Source>> Source::Parse(std::string text, const std:
   for (std::size_t at = 0; at < source->text_.size(); ++at) {
     if (source->text_[at] == '\n') source->line_starts_.push_back(at + 1);
   }
-  const auto result =
-      source->document_.load_buffer(source->text_.data(), source->text_.size(), pugi::parse_default, pugi::encoding_utf8);
+  const auto result = source->document_.load_buffer(source->text_.data(), source->text_.size(), pugi::parse_default,
+                                                    pugi::encoding_utf8);
   if (!result) {
     return base::WrongInput(fmt::format("this is no XML: {}", result.description()),
                             fmt::format("{}:{}", path.string(), source->LineAt(result.offset)));
@@ -116,7 +116,8 @@ bool Node::Flag(const char* attribute, bool otherwise) const {
   for (const std::string_view no : {"false", "0", "no", ""}) {
     if (text == no) return false;
   }
-  Wrong("xml.attribute", fmt::format("attribute '{}' of <{}> is '{}'; true or false was expected", attribute, name(), text));
+  Wrong("xml.attribute",
+        fmt::format("attribute '{}' of <{}> is '{}'; true or false was expected", attribute, name(), text));
   return otherwise;
 }
 
@@ -130,15 +131,17 @@ std::vector<Node> Node::Children(const char* element) const {
   return children;
 }
 
-geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin, std::string_view rule) {
+geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin,
+                                std::string_view rule) {
   std::vector<geometry::Cubic> cubics;
   for (const Node& record : records) {
     cubics.push_back(record.Cubic(from, origin));
     if (cubics.size() > 1 && cubics.back().from < cubics[cubics.size() - 2].from) {
       Within within(record.source());
       record.source().where.s_m = cubics.back().from;
-      record.Wrong(rule, fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
-                                     record.name(), from, record.Number(from), from));
+      record.Wrong(rule,
+                   fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
+                               record.name(), from, record.Number(from), from));
     }
   }
   std::stable_sort(cubics.begin(), cubics.end(),

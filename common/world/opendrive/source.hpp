@@ -89,6 +89,7 @@ class Within {
 };
 
 // The records of one kind in ascending order. Others are a finding of `rule`, and are put in order.
-geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin, std::string_view rule);
+geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin,
+                                std::string_view rule);
 
 }  // namespace rodeira::opendrive

@@ -15,7 +15,9 @@
 namespace rodeira::opendrive {
 namespace {
 
-bool Holds(const std::vector<std::string>& words, std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); }
+bool Holds(const std::vector<std::string>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 bool SameLetters(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -77,12 +79,20 @@ class Walk {
       const std::string name = attribute.name();
       if (name.starts_with("xmlns") || name.find(':') != std::string::npos) continue;  // of XML itself
       if (!Holds(known.attributes, name)) {
-        warnings_.Add("not_known", fmt::format("<{}> of <{}> has an attribute '{}', which OpenDRIVE does not know{}", node.name(), node.parent().name(), name, base::DidYouMean(name, known.attributes)), At(node));
+        warnings_.Add("not_known",
+                      fmt::format("<{}> of <{}> has an attribute '{}', which OpenDRIVE does not know{}", node.name(),
+                                  node.parent().name(), name, base::DidYouMean(name, known.attributes)),
+                      At(node));
       }
       const auto& words = WordsOf(node.parent().name(), node.name(), name);
       const std::string_view said = attribute.value();
-      if (words.empty() || std::any_of(words.begin(), words.end(), [&](const std::string& word) { return SameLetters(word, said); })) continue;
-      warnings_.Add("not_known", fmt::format("the attribute '{}' of <{}> is '{}'{}", name, node.name(), said, base::DidYouMean(std::string(said), words)), At(node));
+      if (words.empty() ||
+          std::any_of(words.begin(), words.end(), [&](const std::string& word) { return SameLetters(word, said); }))
+        continue;
+      warnings_.Add("not_known",
+                    fmt::format("the attribute '{}' of <{}> is '{}'{}", name, node.name(), said,
+                                base::DidYouMean(std::string(said), words)),
+                    At(node));
     }
   }
 
@@ -91,10 +101,15 @@ class Walk {
       if (child.type() != pugi::node_element) continue;
       const std::string name = child.name();
       if (!Holds(known.children, name)) {
-        warnings_.Add("not_known", fmt::format("OpenDRIVE knows no <{}> of <{}>{}", name, node.name(), base::DidYouMean(name, known.children)), At(child));
+        warnings_.Add(
+            "not_known",
+            fmt::format("OpenDRIVE knows no <{}> of <{}>{}", name, node.name(), base::DidYouMean(name, known.children)),
+            At(child));
       } else if (Holds(known.once, name) && child.previous_sibling(child.name())) {
         source_.where.road = RoadOf(node);
-        source_.Wrong("core.once", fmt::format("a second <{}> of <{}> was found; at most one was expected", name, node.name()), At(child).line());
+        source_.Wrong("core.once",
+                      fmt::format("a second <{}> of <{}> was found; at most one was expected", name, node.name()),
+                      At(child).line());
       }
     }
   }
@@ -107,7 +122,10 @@ class Walk {
   // A lane beside the centre one that nothing gives a width: it is as good as not there.
   void Width(const pugi::xml_node& lane) {
     if (std::string_view(lane.parent().name()) == "center" || lane.child("width") || lane.child("border")) return;
-    warnings_.Add("road.lane.width.missing", fmt::format("a lane of type '{}' has neither <width> nor <border>: it is read as 0 m wide", lane.attribute("type").value()), At(lane));
+    warnings_.Add("road.lane.width.missing",
+                  fmt::format("a lane of type '{}' has neither <width> nor <border>: it is read as 0 m wide",
+                              lane.attribute("type").value()),
+                  At(lane));
   }
 
   Node At(const pugi::xml_node& node) { return {&source_, node}; }

@@ -1,4 +1,5 @@
-// Roads that leave, or come onto, the middle of another one: its lane sections are cut there, so that lanes go on into lanes as they do anywhere.
+// Roads that leave, or come onto, the middle of another one: its lane sections are cut there, so that lanes go on into
+// lanes as they do anywhere.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -37,7 +38,8 @@ void CutOnce(double cut_s_m, network::RoadMark& mark) {
 }
 
 void Cut(Lane& before, Lane& behind, double from_s_m, double cut_s_m, double to_s_m, bool left_hand) {
-  for (auto& [lane, from, to] : {std::tuple<Lane*, double, double>(&before, from_s_m, cut_s_m), {&behind, cut_s_m, to_s_m}}) {
+  for (auto& [lane, from, to] :
+       {std::tuple<Lane*, double, double>(&before, from_s_m, cut_s_m), {&behind, cut_s_m, to_s_m}}) {
     Keep(lane->marks, from, to), Keep(lane->access, from, to);
   }
   for (network::RoadMark& mark : behind.marks) CutOnce(cut_s_m, mark);
@@ -58,13 +60,17 @@ void CutSection(RoadReading& road, double s_m) {
   LaneSection& before = sections[at];
   behind.s_m = s_m;
   Cut(before.centre, behind.centre, before.s_m, s_m, end, road.spec.left_hand);
-  for (std::size_t i = 0; i < before.left.size(); ++i) Cut(before.left[i], behind.left[i], before.s_m, s_m, end, road.spec.left_hand);
-  for (std::size_t i = 0; i < before.right.size(); ++i) Cut(before.right[i], behind.right[i], before.s_m, s_m, end, road.spec.left_hand);
+  for (std::size_t i = 0; i < before.left.size(); ++i)
+    Cut(before.left[i], behind.left[i], before.s_m, s_m, end, road.spec.left_hand);
+  for (std::size_t i = 0; i < before.right.size(); ++i)
+    Cut(before.right[i], behind.right[i], before.s_m, s_m, end, road.spec.left_hand);
   sections.insert(sections.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::move(behind));
-  road.lines.sections.insert(road.lines.sections.begin() + static_cast<std::ptrdiff_t>(at) + 1, road.lines.sections[at]);
+  road.lines.sections.insert(road.lines.sections.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                             road.lines.sections[at]);
 }
 
-// The station that is meant: the beginning of one of the road's sections, after the cut if need be; or its end, and then the link is one to an end.
+// The station that is meant: the beginning of one of the road's sections, after the cut if need be; or its end, and
+// then the link is one to an end.
 void Settle(network::RoadLink& link, RoadReading& road) {
   const double s = *link.s_m;
   if (s <= kSame_m || s >= road.spec.length_m - kSame_m) {
@@ -82,7 +88,8 @@ void Settle(network::RoadLink& link, RoadReading& road) {
 
 }  // namespace
 
-void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, std::less<>>& not_of, Findings& findings) {
+void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, std::less<>>& not_of,
+                  Findings& findings) {
   std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < roads.size(); ++i) number.emplace(roads[i].spec.id, i);
   for (RoadReading& road : roads) {
@@ -97,8 +104,10 @@ void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, s
         continue;
       }
       const bool first = link == &road.spec.predecessor;
-      findings.errors.push_back({"road.linkage.element_s", fmt::format("the road's {} goes on at s = {} m of road {}, which is {} m long", first ? "start" : "end", s, (*link)->id, length), road.lines.road, road.spec.id, std::nullopt,
-                                 first ? 0.0 : road.spec.length_m});
+      findings.errors.push_back({"road.linkage.element_s",
+                                 fmt::format("the road's {} goes on at s = {} m of road {}, which is {} m long",
+                                             first ? "start" : "end", s, (*link)->id, length),
+                                 road.lines.road, road.spec.id, std::nullopt, first ? 0.0 : road.spec.length_m});
       link->reset();
     }
   }

@@ -11,7 +11,12 @@ SurfacePoint BareTerrain::At(double x_m, double y_m) const {
     return {sample.z_m, sample.slope_x, sample.slope_y, friction, surface, true};
   }
   if (!plane || !std::isfinite(x_m) || !std::isfinite(y_m)) return {};
-  return {plane->z_m + plane->slope_x * x_m + plane->slope_y * y_m, plane->slope_x, plane->slope_y, friction, surface, true};
+  return {plane->z_m + plane->slope_x * x_m + plane->slope_y * y_m,
+          plane->slope_x,
+          plane->slope_y,
+          friction,
+          surface,
+          true};
 }
 
 }  // namespace rodeira::road

@@ -12,8 +12,9 @@ namespace {
 constexpr double kTunnelRoof_m = 5.0;  // of a tunnel's mouth, over the road in it
 
 bool IsInTunnel(const network::RoadSpec& road, double s_m) {
-  return std::any_of(road.structures.begin(), road.structures.end(),
-                     [s_m](const network::Structure& structure) { return !structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m; });
+  return std::any_of(road.structures.begin(), road.structures.end(), [s_m](const network::Structure& structure) {
+    return !structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m;
+  });
 }
 
 }  // namespace
@@ -25,12 +26,13 @@ bool IsExempt(const network::RoadSpec& road, double s_m) {
 }
 
 bool IsOnBridge(const network::RoadSpec& road, double s_m) {
-  return std::any_of(road.structures.begin(), road.structures.end(),
-                     [s_m](const network::Structure& structure) { return structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m; });
+  return std::any_of(road.structures.begin(), road.structures.end(), [s_m](const network::Structure& structure) {
+    return structure.bridge && s_m >= structure.s_m && s_m <= structure.s_m + structure.length_m;
+  });
 }
 
-BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
-                         BareTerrain terrain)
+BuiltGround::BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions,
+                         const FrictionTable& friction, SurfaceDetail detail, BareTerrain terrain)
     : network_(std::move(network)),
       junctions_(std::move(junctions)),
       friction_(friction),
@@ -67,7 +69,8 @@ SurfacePoint BuiltGround::OnRoad(const network::Surfacing& surfacing) const {
   }
   if (!detail_.empty()) {
     detail_.Add(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, sample);
-    ground.friction = detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>()).value_or(ground.friction);
+    ground.friction =
+        detail_.FrictionAt(place.lane.road, place.s_m, place.t_m, sample.p_W.head<2>()).value_or(ground.friction);
     detail_.Cover(place.lane.road, place.s_m, place.t_m, ground);
   }
   const Eigen::Vector3d normal = sample.ds_W.cross(sample.dt_W);
@@ -81,9 +84,12 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
   ways.clear();
   for (const network::Surfacing& surfacing : surfaces) {
     const network::Place& place = surfacing.place;
-    if (in_junction_[place.lane.road] && place.lane.lane != 0 && std::fabs(surfacing.sample.p_W.z() - point.z_m) < network::Network::kLevel_m) ways.push_back(&surfacing);
+    if (in_junction_[place.lane.road] && place.lane.lane != 0 &&
+        std::fabs(surfacing.sample.p_W.z() - point.z_m) < network::Network::kLevel_m)
+      ways.push_back(&surfacing);
   }
-  std::sort(ways.begin(), ways.end(), [](const auto* a, const auto* b) { return a->place.lane.road < b->place.lane.road; });
+  std::sort(ways.begin(), ways.end(),
+            [](const auto* a, const auto* b) { return a->place.lane.road < b->place.lane.road; });
   LaneGround ground{0.0, point.surface, point.friction};
   double rest = 1.0;  // what the ways before leave of the place, and how it changes
   Eigen::Vector2d rest_slope = Eigen::Vector2d::Zero();
@@ -93,9 +99,12 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
     const network::Bump::Height raised = detail_.RaisedAt(place.lane.road, place.s_m, place.t_m);
     const network::Road& road = network_->roads()[place.lane.road];
     const geometry::PlanPoint at = road.axis().Evaluate(place.s_m);
-    const auto in_world = [&](const auto& of) -> Eigen::Vector2d { return of.by_s / (1.0 - at.curvature_1pm * place.t_m) * at.tangent_W + of.by_t * at.left_W(); };
+    const auto in_world = [&](const auto& of) -> Eigen::Vector2d {
+      return of.by_s / (1.0 - at.curvature_1pm * place.t_m) * at.tangent_W + of.by_t * at.left_W();
+    };
     Share left;
-    const Raised uneven = detail_.AddOnWay(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, left);
+    const Raised uneven =
+        detail_.AddOnWay(road, place.lane.road, network_->Section(place.lane), place.s_m, place.t_m, left);
     const Eigen::Vector2d slope = in_world(raised) + rest * in_world(uneven) + uneven.z_m * rest_slope;
     point.z_m += raised.z_m + rest * uneven.z_m, point.slope_x += slope.x(), point.slope_y += slope.y();
     rest_slope = left.value * rest_slope + rest * in_world(left);
@@ -104,7 +113,8 @@ void BuiltGround::LayOnJunction(std::span<const network::Surfacing> surfaces, Su
   point.surface = ground.surface, point.friction = ground.friction;
 }
 
-SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const {
+SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W,
+                                     std::span<const network::Surfacing> surfaces) const {
   const design::JunctionHeight height = junction.At(p_W);
   ground::Surface surface = junction.IsPaved(p_W) ? ground::Surface::kAsphalt : ground::Surface::kGrass;
   // What is painted belongs to the ways through it: to the one that a question of the network would find there.
@@ -113,19 +123,25 @@ SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, co
     if (std::fabs(surfacing.place.z_m - height.z_m) > network::Network::kLevel_m) continue;
     if (way == nullptr || surfacing.claim.Before(way->claim)) way = &surfacing;
   }
-  if (way != nullptr && in_junction_[way->place.lane.road] && paint_.At(way->place.lane.road, way->place.s_m, way->place.t_m)) surface = ground::Surface::kRoadMark;
-  SurfacePoint point{height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface, true};
+  if (way != nullptr && in_junction_[way->place.lane.road] &&
+      paint_.At(way->place.lane.road, way->place.s_m, way->place.t_m))
+    surface = ground::Surface::kRoadMark;
+  SurfacePoint point{height.z_m, height.slope_x, height.slope_y, friction_[static_cast<std::size_t>(surface)], surface,
+                     true};
   if (!detail_.empty()) LayOnJunction(surfaces, point);
   return point;
 }
 
-// The cut before a tunnel's mouth slopes up from the road's own edges: over the tunnel it would begin at the road, and who drives in would climb it.
-// So there the hill stays, up to its roof.
-void BuiltGround::KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare, SurfacePoint& ground) const {
+// The cut before a tunnel's mouth slopes up from the road's own edges: over the tunnel it would begin at the road, and
+// who drives in would climb it. So there the hill stays, up to its roof.
+void BuiltGround::KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare,
+                              SurfacePoint& ground) const {
   for (const network::Surfacing& surfacing : surfaces) {
     const network::Place& place = surfacing.place;
     const double roof_m = surfacing.sample.p_W.z() + kTunnelRoof_m;
-    if (place.lane.lane == 0 || ground.z_m >= roof_m || !IsInTunnel(network_->roads()[place.lane.road].spec(), place.s_m)) continue;
+    if (place.lane.lane == 0 || ground.z_m >= roof_m ||
+        !IsInTunnel(network_->roads()[place.lane.road].spec(), place.s_m))
+      continue;
     if (bare.z_m <= roof_m) {
       ground.z_m = bare.z_m, ground.slope_x = bare.slope_x, ground.slope_y = bare.slope_y;
     } else {
@@ -139,10 +155,14 @@ std::optional<SurfacePoint> BuiltGround::FloorBeside(const Eigen::Vector2d& p_W,
   const std::optional<TunnelSides::Floor> floor = tunnel_sides_.At(p_W);
   if (!floor) return std::nullopt;
   const auto covers = [&](const Layer& layer) { return layer.z_m > floor->z_m; };
-  const auto takes_its_place = [&](const Layer& layer) { return layer.ground == nullptr && std::fabs(layer.z_m - floor->z_m) < network::Network::kLevel_m; };
-  if (std::none_of(layers.begin(), layers.end(), covers) || std::any_of(layers.begin(), layers.end(), takes_its_place)) return std::nullopt;
+  const auto takes_its_place = [&](const Layer& layer) {
+    return layer.ground == nullptr && std::fabs(layer.z_m - floor->z_m) < network::Network::kLevel_m;
+  };
+  if (std::none_of(layers.begin(), layers.end(), covers) || std::any_of(layers.begin(), layers.end(), takes_its_place))
+    return std::nullopt;
   constexpr ground::Surface kFloor = ground::Surface::kConcrete;
-  return SurfacePoint{floor->z_m, floor->slope_W.x(), floor->slope_W.y(), friction_[static_cast<std::size_t>(kFloor)], kFloor, true};
+  return SurfacePoint{
+      floor->z_m, floor->slope_W.x(), floor->slope_W.y(), friction_[static_cast<std::size_t>(kFloor)], kFloor, true};
 }
 
 SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
@@ -150,16 +170,23 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   thread_local std::vector<network::Surfacing> surfaces;
   network_->Surfaces(x_m, y_m, surfaces);
   const auto in_junction = [&](const auto& junction) { return junction->Contains(p); };
-  const auto first = junction_squares_.MayHold(p) ? std::find_if(junctions_.begin(), junctions_.end(), in_junction) : junctions_.end();
-  const auto exempt = [&](const network::Place& place) { return IsExempt(network_->roads()[place.lane.road].spec(), place.s_m); };
-  const auto answers = [&](const network::Place& place) { return !in_junction_[place.lane.road] && place.lane.lane != 0; };
-  if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place) && !tunnel_sides_.MayHold(p)) {
+  const auto first =
+      junction_squares_.MayHold(p) ? std::find_if(junctions_.begin(), junctions_.end(), in_junction) : junctions_.end();
+  const auto exempt = [&](const network::Place& place) {
+    return IsExempt(network_->roads()[place.lane.road].spec(), place.s_m);
+  };
+  const auto answers = [&](const network::Place& place) {
+    return !in_junction_[place.lane.road] && place.lane.lane != 0;
+  };
+  if (first == junctions_.end() && surfaces.size() == 1 && answers(surfaces[0].place) && !exempt(surfaces[0].place) &&
+      !tunnel_sides_.MayHold(p)) {
     return OnRoad(surfaces[0]);  // nothing else is here, and the hint has nothing to choose
   }
   thread_local std::vector<Layer> layers;
   layers.clear();
   for (auto junction = first; junction != junctions_.end(); ++junction) {
-    if (junction == first || in_junction(*junction)) layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get(), nullptr});
+    if (junction == first || in_junction(*junction))
+      layers.push_back({(*junction)->At(p).z_m, nullptr, junction->get(), nullptr});
   }
   bool covered = !layers.empty();  // by what stands on the ground
   for (const network::Surfacing& surfacing : surfaces) {

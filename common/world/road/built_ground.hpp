@@ -18,24 +18,24 @@
 
 namespace rodeira::road {
 
-// SUELO of a network that is built into a terrain: road surfaces, junctions, and the terrain, cut and filled to meet them.
-// Where several lie over one another, the highest that is not more than 0.5 m above the hint answers, without a hint the
-// highest. The ground itself is under bridges and over tunnels; elsewhere a road takes its place. Under the hill beside a tunnel's road lies its floor,
-// for some metres.
+// SUELO of a network that is built into a terrain: road surfaces, junctions, and the terrain, cut and filled to meet
+// them. Where several lie over one another, the highest that is not more than 0.5 m above the hint answers, without a
+// hint the highest. The ground itself is under bridges and over tunnels; elsewhere a road takes its place. Under the
+// hill beside a tunnel's road lies its floor, for some metres.
 class BuiltGround {
  public:
   using Junctions = std::vector<std::shared_ptr<const design::JunctionSurface>>;
-  BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction, SurfaceDetail detail,
-              BareTerrain terrain);
+  BuiltGround(std::shared_ptr<const network::Network> network, Junctions junctions, const FrictionTable& friction,
+              SurfaceDetail detail, BareTerrain terrain);
 
   const Junctions& junctions() const { return junctions_; }
   // The same ground with something else on its roads.
   std::shared_ptr<const BuiltGround> With(SurfaceDetail detail) const;
 
   SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
-  // The same of points close to one another, where they lie on one road alone, whose surface then answers whatever the hints: to the bit
-  // what At says of each. False, and then nothing is written, where that is not so or not told so quickly. Spans of equal length, of
-  // Cluster::kMost at most.
+  // The same of points close to one another, where they lie on one road alone, whose surface then answers whatever the
+  // hints: to the bit what At says of each. False, and then nothing is written, where that is not so or not told so
+  // quickly. Spans of equal length, of Cluster::kMost at most.
   bool Together(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const;
 
  private:
@@ -49,7 +49,8 @@ class BuiltGround {
 
   bool OneRoadAlone(const network::Cluster& cluster) const;
   SurfacePoint OnRoad(const network::Surfacing& surfacing) const;
-  SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W, std::span<const network::Surfacing> surfaces) const;
+  SurfacePoint OnJunction(const design::JunctionSurface& junction, const Eigen::Vector2d& p_W,
+                          std::span<const network::Surfacing> surfaces) const;
   void KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare, SurfacePoint& ground) const;
   // The floor beside a tunnel at a place, under what lies higher there. Nothing where another road lies on its level.
   std::optional<SurfacePoint> FloorBeside(const Eigen::Vector2d& p_W, std::span<const Layer> layers) const;

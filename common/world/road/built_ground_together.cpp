@@ -1,4 +1,5 @@
-// SUELO for many points that lie close together on one road: by the same formulas as a point alone, each step for all of them.
+// SUELO for many points that lie close together on one road: by the same formulas as a point alone, each step for all
+// of them.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +9,8 @@
 
 namespace rodeira::road {
 
-// Whether no junction is near, no bridge or tunnel of this or another road, and nothing stands on the road or in its place.
+// Whether no junction is near, no bridge or tunnel of this or another road, and nothing stands on the road or in its
+// place.
 bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   if (in_junction_[cluster.road] || detail_.On(cluster.road, cluster.low_s_m, cluster.high_s_m)) return false;
   const auto near = [&](const network::Structure& structure) {
@@ -21,7 +23,8 @@ bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   if (tunnel_sides_.MayHold(first)) return false;
   const double reach = std::sqrt(2.0) * network::BandIndex::kWidest_m + kNear_m;
   return std::none_of(junctions_.begin(), junctions_.end(), [&](const auto& junction) {
-    return ((junction->low_W() - first).array() <= reach).all() && ((first - junction->high_W()).array() <= reach).all();
+    return ((junction->low_W() - first).array() <= reach).all() &&
+           ((first - junction->high_W()).array() <= reach).all();
   });
 }
 
@@ -30,7 +33,8 @@ bool BuiltGround::Together(std::span<const ground::GroundQuery> queries, std::sp
   SetPlaces(queries, cluster);
   if (!network_->Together(cluster) || !OneRoadAlone(cluster)) return false;
   ClusterNormals normals;
-  SetNormals(cluster, [](double part, double up) { return part * (-1.0 / up); }, normals);
+  SetNormals(
+      cluster, [](double part, double up) { return part * (-1.0 / up); }, normals);
   PutPoints(*network_, grounds_, cluster, normals, points);
   if (!paint_.MayBe(cluster.road, cluster.low_s_m, cluster.high_s_m, cluster.low_t_m, cluster.high_t_m)) return true;
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -10,9 +10,11 @@ void SetPlaces(std::span<const ground::GroundQuery> queries, network::Cluster& c
   }
 }
 
-void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster, const ClusterNormals& normals,
-               std::span<ground::GroundPoint> points) {
-  const auto ground_at = [&](int lane, double s) -> const LaneGround& { return grounds.At(network, {cluster.road, cluster.section, lane}, s); };
+void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster,
+               const ClusterNormals& normals, std::span<ground::GroundPoint> points) {
+  const auto ground_at = [&](int lane, double s) -> const LaneGround& {
+    return grounds.At(network, {cluster.road, cluster.section, lane}, s);
+  };
   const LaneGround* common = nullptr;
   if (cluster.lane != 0 && &ground_at(cluster.lane, cluster.low_s_m) == &ground_at(cluster.lane, cluster.high_s_m)) {
     common = &ground_at(cluster.lane, cluster.low_s_m);

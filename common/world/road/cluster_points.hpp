@@ -3,10 +3,10 @@
 #include <cmath>
 #include <span>
 
+#include "common/core/ground/ground.hpp"
 #include "common/world/network/cluster.hpp"
 #include "common/world/network/network.hpp"
 #include "common/world/road/lane_grounds.hpp"
-#include "common/core/ground/ground.hpp"
 
 namespace rodeira::road {
 
@@ -14,8 +14,8 @@ struct ClusterNormals {
   network::Cluster::Numbers x, y, up;
 };
 
-// The surface's normals at a cluster's points, as a point alone has them: slope(n, up) is what is made of a part n of the cross product and
-// its upward part.
+// The surface's normals at a cluster's points, as a point alone has them: slope(n, up) is what is made of a part n of
+// the cross product and its upward part.
 template <class Slope>
 void SetNormals(const network::Cluster& cluster, const Slope& slope, ClusterNormals& normals) {
   const auto set = [&](std::size_t i, double ds_x, double ds_y, double dt_x, double dt_y, double dt_z) {
@@ -27,7 +27,8 @@ void SetNormals(const network::Cluster& cluster, const Slope& slope, ClusterNorm
     normals.y[i] = -slope_y * normals.up[i];
   };
   if (cluster.leans) {
-    for (std::size_t i = 0; i < cluster.feet.count; ++i) set(i, cluster.ds_x[i], cluster.ds_y[i], cluster.dt_x[i], cluster.dt_y[i], cluster.z_by_t[i]);
+    for (std::size_t i = 0; i < cluster.feet.count; ++i)
+      set(i, cluster.ds_x[i], cluster.ds_y[i], cluster.dt_x[i], cluster.dt_y[i], cluster.z_by_t[i]);
     return;
   }
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {
@@ -40,7 +41,7 @@ void SetNormals(const network::Cluster& cluster, const Slope& slope, ClusterNorm
 // Copies where the points lie.
 void SetPlaces(std::span<const ground::GroundQuery> queries, network::Cluster& cluster);
 // SUELO's answers from heights, normals and what the lanes are made of.
-void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster, const ClusterNormals& normals,
-               std::span<ground::GroundPoint> points);
+void PutPoints(const network::Network& network, const LaneGrounds& grounds, const network::Cluster& cluster,
+               const ClusterNormals& normals, std::span<ground::GroundPoint> points);
 
 }  // namespace rodeira::road

@@ -27,12 +27,14 @@ std::vector<Stretch> DecksOf(const network::Network& network, const network::Roa
     const double s = road.length_m() * i / steps;
     double right, left, drop = 0.0;
     road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
-    for (const double t : {right, 0.5 * (right + left), left}) drop = std::max(drop, DropAt(network, road.Surface(s, t).p_W));
+    for (const double t : {right, 0.5 * (right + left), left})
+      drop = std::max(drop, DropAt(network, road.Surface(s, t).p_W));
     if (drop == 0.0) continue;
     const double beside = drop / kBank + kMore_m;
     const Stretch deck{std::max(0.0, s - beside), std::min(road.length_m(), s + beside)};
     if (!decks.empty() && deck.from_s_m <= decks.back().to_s_m) {
-      decks.back().from_s_m = std::min(decks.back().from_s_m, deck.from_s_m), decks.back().to_s_m = std::max(decks.back().to_s_m, deck.to_s_m);
+      decks.back().from_s_m = std::min(decks.back().from_s_m, deck.from_s_m),
+      decks.back().to_s_m = std::max(decks.back().to_s_m, deck.to_s_m);
       while (decks.size() > 1 && decks.back().from_s_m <= decks[decks.size() - 2].to_s_m) {
         decks[decks.size() - 2].to_s_m = std::max(decks[decks.size() - 2].to_s_m, decks.back().to_s_m);
         decks.pop_back();

@@ -37,13 +37,16 @@ void Standing(const network::Road& road, double low_m, double high_m, const Use&
 
 }  // namespace
 
-Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
+Earthworks::Earthworks(std::shared_ptr<const network::Network> network,
+                       std::vector<std::shared_ptr<const design::JunctionSurface>> junctions)
     : network_(std::move(network)), junctions_(std::move(junctions)) {
   for (std::uint32_t road = 0; road < network_->roads().size(); ++road) {
     if (network_->roads()[road].spec().earthwork) AddReaches(road);
   }
   std::vector<SquareLists::Strip> strips;
-  for (const Reach& reach : reaches_) strips.push_back({reach.from_W, reach.to_W, reach.beside_m + network_->roads()[reach.road].spec().earthwork->reach_m});
+  for (const Reach& reach : reaches_)
+    strips.push_back(
+        {reach.from_W, reach.to_W, reach.beside_m + network_->roads()[reach.road].spec().earthwork->reach_m});
   for (const auto& junction : junctions_) {
     const Eigen::Vector2d middle_W = 0.5 * (junction->low_W() + junction->high_W());
     strips.push_back({middle_W, middle_W, (junction->high_W() - middle_W).norm() + network::Earthwork().reach_m});
@@ -51,7 +54,8 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network, std::vec
   near_ = SquareLists(strips);
   for (const auto& junction : junctions_) {
     std::vector<Heights>& heights = edge_heights_.emplace_back();
-    Heights& all = junction_heights_.emplace_back(Heights{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
+    Heights& all = junction_heights_.emplace_back(
+        Heights{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()});
     for (const design::FreeEdge& edge : junction->free_edges()) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const double q : {0.0, 0.5, 1.0}) {
@@ -80,14 +84,17 @@ void Earthworks::AddReaches(std::uint32_t road_index) {
   }
 }
 
-bool Earthworks::MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds) {
+bool Earthworks::MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m,
+                            const Bounds& bounds) {
   if (distance_m >= earthwork.reach_m) return false;
   if (!bounds.low.any || !bounds.high.any) return true;
   const double more = Steepening(distance_m, earthwork.reach_m).first;
-  return heights.high_m - distance_m / earthwork.fill - more > bounds.low.z_m || heights.low_m + distance_m / earthwork.cut + more < bounds.high.z_m;
+  return heights.high_m - distance_m / earthwork.fill - more > bounds.low.z_m ||
+         heights.low_m + distance_m / earthwork.cut + more < bounds.high.z_m;
 }
 
-void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W, Bounds& bounds) {
+void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, const Eigen::Vector2d& p_W,
+                       Bounds& bounds) {
   const Eigen::Vector2d apart = p_W - edge.p_W;
   const double distance = apart.norm();
   if (distance >= earthwork.reach_m) return;
@@ -102,13 +109,15 @@ void Earthworks::Offer(const network::Earthwork& earthwork, const Edge& edge, co
   }
 }
 
-void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, const Eigen::Vector2d& p_W, Bounds& bounds) const {
+void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, const Eigen::Vector2d& p_W,
+                          Bounds& bounds) const {
   const geometry::AxisPanel& panel = road.axis().panels()[panel_index];
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
   Standing(road, low, high, [&](double from, double to) {
     const EdgePlace place = PlaceOnEdge(road, panel, {from, to}, p_W);
     Edge edge{place.sample.p_W.head<2>(), place.sample.p_W.z(), Eigen::Vector2d::Zero()};
-    if (place.pace > 0.0) edge.along = place.sample.ds_W.z() / place.pace * place.axis.tangent_W;  // the height goes along with the road's
+    if (place.pace > 0.0)
+      edge.along = place.sample.ds_W.z() / place.pace * place.axis.tangent_W;  // the height goes along with the road's
     Offer(*road.spec().earthwork, edge, p_W, bounds);
   });
 }
@@ -126,7 +135,8 @@ void Earthworks::FromRoads(std::span<const std::uint32_t> near, const Eigen::Vec
   const auto ask = [&](std::size_t i) {
     const Reach& reach = reaches_[near[i]];
     const network::Road& road = network_->roads()[reach.road];
-    if (MayTighten(*road.spec().earthwork, reach.heights, distances[i], bounds)) FromRoad(road, reach.panel, p_W, bounds);
+    if (MayTighten(*road.spec().earthwork, reach.heights, distances[i], bounds))
+      FromRoad(road, reach.panel, p_W, bounds);
   };
   ask(nearest);
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -188,8 +198,10 @@ void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
     const double sum = low.distance_m + high.distance_m;
     const double part = sum > 0.0 ? high.distance_m / sum : 0.5;
     const Eigen::Vector2d part_slope =
-        sum > 0.0 ? Eigen::Vector2d((low.distance_m * high.away - high.distance_m * low.away) / (sum * sum)) : Eigen::Vector2d::Zero();
-    take(high.z_m + part * (low.z_m - high.z_m), high.slope + part * (low.slope - high.slope) + (low.z_m - high.z_m) * part_slope);
+        sum > 0.0 ? Eigen::Vector2d((low.distance_m * high.away - high.distance_m * low.away) / (sum * sum))
+                  : Eigen::Vector2d::Zero();
+    take(high.z_m + part * (low.z_m - high.z_m),
+         high.slope + part * (low.slope - high.slope) + (low.z_m - high.z_m) * part_slope);
   } else if (low.any && ground.z_m < low.z_m) {
     take(low.z_m, low.slope);
   } else if (high.any && ground.z_m > high.z_m) {

@@ -15,12 +15,14 @@
 namespace rodeira::road {
 
 // Cut and fill. Every point q of a road's or a junction's edge holds the ground at p, d away from it, between
-// z(q) - d / fill and z(q) + d / cut; the terrain is clamped between the greatest lower and the least upper of these bounds.
-// So ground and road meet without a gap, and slopes end where they meet the terrain. Where a lower bound lies above an
-// upper one (a high and a low road side by side) the ground goes from the one to the other by the distances from both.
+// z(q) - d / fill and z(q) + d / cut; the terrain is clamped between the greatest lower and the least upper of these
+// bounds. So ground and road meet without a gap, and slopes end where they meet the terrain. Where a lower bound lies
+// above an upper one (a high and a low road side by side) the ground goes from the one to the other by the distances
+// from both.
 class Earthworks {
  public:
-  Earthworks(std::shared_ptr<const network::Network> network, std::vector<std::shared_ptr<const design::JunctionSurface>> junctions);
+  Earthworks(std::shared_ptr<const network::Network> network,
+             std::vector<std::shared_ptr<const design::JunctionSurface>> junctions);
 
   // Changes height and slopes of the terrain beside the roads.
   void Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const;
@@ -47,11 +49,15 @@ class Earthworks {
     Heights heights{};
 
     // At least so far from the edges a place is.
-    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m); }
+    double DistanceFrom(const Eigen::Vector2d& p_W) const {
+      return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - beside_m);
+    }
   };
   void AddReaches(std::uint32_t road);
-  // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do already.
-  static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m, const Bounds& bounds);
+  // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do
+  // already.
+  static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m,
+                         const Bounds& bounds);
   void FromRoad(const network::Road& road, std::uint32_t panel, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   void FromRoads(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W, Bounds& bounds) const;
   void FromJunction(std::size_t junction, const Eigen::Vector2d& p_W, Bounds& bounds) const;

@@ -76,7 +76,8 @@ void EachId(network::RoadSpec& spec, const Do& each) {
 template <class Do>
 void EachId(network::Junction& junction, const Do& each) {
   each(junction.id);
-  for (network::JunctionConnection& connection : junction.connections) each(connection.id), each(connection.incoming_road), each(connection.connecting_road);
+  for (network::JunctionConnection& connection : junction.connections)
+    each(connection.id), each(connection.incoming_road), each(connection.connecting_road);
   for (network::JunctionPriority& priority : junction.priorities) each(priority.high), each(priority.low);
   for (std::string& id : junction.controllers) each(id);
 }
@@ -90,7 +91,9 @@ void EachId(network::Controller& controller, const Do& each) {
 }  // namespace
 
 ExportParts WithPlainIds(const network::Network& network) {
-  ExportParts parts{{network.roads().begin(), network.roads().end()}, {network.controllers().begin(), network.controllers().end()}, {network.junctions().begin(), network.junctions().end()}};
+  ExportParts parts{{network.roads().begin(), network.roads().end()},
+                    {network.controllers().begin(), network.controllers().end()},
+                    {network.junctions().begin(), network.junctions().end()}};
   Ids ids;
   const auto add = [&](const std::string& id) { ids.Add(id); };
   std::vector<network::RoadSpec> specs;

@@ -38,7 +38,8 @@ std::map<int, std::vector<Mark>> MarksOf(const network::Road& road, const networ
     marks[nearest].push_back({&line, offset});
   }
   for (auto& [lane, list] : marks) {
-    std::stable_sort(list.begin(), list.end(), [](const Mark& a, const Mark& b) { return a.t_offset_m > b.t_offset_m; });
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Mark& a, const Mark& b) { return a.t_offset_m > b.t_offset_m; });
   }
   return marks;
 }
@@ -62,8 +63,9 @@ std::string MarksText(const std::vector<Mark>& marks, const network::LaneSection
       type += (type.empty() ? "" : " ") + std::string(dashed ? "broken" : "solid");
       const double period = line.stroke_m + line.gap_m;
       const double phase = dashed ? std::fmod(s - line.from_s_m, period) : 0.0;
-      lines += fmt::format("<line length=\"{}\" space=\"{}\" tOffset=\"{}\" sOffset=\"{}\" width=\"{}\" color=\"{}\"/>", dashed ? line.stroke_m : 0.0,
-                           dashed ? line.gap_m : 0.0, mark.t_offset_m, phase > 0.0 ? period - phase : 0.0, line.width_m, line.colour);
+      lines += fmt::format("<line length=\"{}\" space=\"{}\" tOffset=\"{}\" sOffset=\"{}\" width=\"{}\" color=\"{}\"/>",
+                           dashed ? line.stroke_m : 0.0, dashed ? line.gap_m : 0.0, mark.t_offset_m,
+                           phase > 0.0 ? period - phase : 0.0, line.width_m, line.colour);
     }
     if (first == nullptr) {
       text += fmt::format("<roadMark sOffset=\"{}\" type=\"none\"/>\n", s - section.s_m);
@@ -78,10 +80,14 @@ std::string MarksText(const std::vector<Mark>& marks, const network::LaneSection
   return text;
 }
 
-std::string LaneText(const network::Lane& lane, const network::LaneSection& section, bool left_hand, const std::string& marks) {
+std::string LaneText(const network::Lane& lane, const network::LaneSection& section, bool left_hand,
+                     const std::string& marks) {
   const int usual = (lane.id < 0) != left_hand ? 1 : -1;
-  const char* direction = lane.direction == usual ? "" : lane.direction == 0 ? " direction=\"both\"" : " direction=\"reversed\"";
-  std::string text = fmt::format("<lane id=\"{}\" type=\"{}\" level=\"{}\"{}>\n", lane.id, network::LaneTypeName(lane.type), lane.level ? "true" : "false", direction);
+  const char* direction = lane.direction == usual ? ""
+                          : lane.direction == 0   ? " direction=\"both\""
+                                                  : " direction=\"reversed\"";
+  std::string text = fmt::format("<lane id=\"{}\" type=\"{}\" level=\"{}\"{}>\n", lane.id,
+                                 network::LaneTypeName(lane.type), lane.level ? "true" : "false", direction);
   std::string links;
   for (const int id : lane.predecessors) links += fmt::format("<predecessor id=\"{}\"/>", id);
   for (const int id : lane.successors) links += fmt::format("<successor id=\"{}\"/>", id);
@@ -98,10 +104,13 @@ std::string LaneText(const network::Lane& lane, const network::LaneSection& sect
     text += "/>\n";
   }
   for (const auto& speed : lane.speeds) {
-    if (std::isfinite(speed.speed_mps)) text += fmt::format("<speed sOffset=\"{}\" max=\"{}\" unit=\"m/s\"/>\n", speed.s_m - section.s_m, speed.speed_mps);
+    if (std::isfinite(speed.speed_mps))
+      text +=
+          fmt::format("<speed sOffset=\"{}\" max=\"{}\" unit=\"m/s\"/>\n", speed.s_m - section.s_m, speed.speed_mps);
   }
   for (const auto& height : lane.heights) {
-    text += fmt::format("<height sOffset=\"{}\" inner=\"{}\" outer=\"{}\"/>\n", height.s_m - section.s_m, height.inner_m, height.outer_m);
+    text += fmt::format("<height sOffset=\"{}\" inner=\"{}\" outer=\"{}\"/>\n", height.s_m - section.s_m,
+                        height.inner_m, height.outer_m);
   }
   // OpenDRIVE cannot say where vehicles begin and end.
   if (lane.traffic_begins) text += "<userData code=\"rodeira:traffic\" value=\"begins\"/>\n";
@@ -122,7 +131,9 @@ std::string LanesText(const network::Road& road) {
   }
   for (const network::LaneSection& section : road.spec().sections) {
     const auto marks = MarksOf(road, section);
-    const auto of = [&](int lane) { return MarksText(marks.contains(lane) ? marks.at(lane) : std::vector<Mark>(), section); };
+    const auto of = [&](int lane) {
+      return MarksText(marks.contains(lane) ? marks.at(lane) : std::vector<Mark>(), section);
+    };
     text += fmt::format("<laneSection s=\"{}\">\n", section.s_m);
     if (!section.left.empty()) {
       text += "<left>\n";
@@ -134,7 +145,8 @@ std::string LanesText(const network::Road& road) {
     text += "<center>\n<lane id=\"0\" type=\"none\" level=\"false\">\n" + of(0) + "</lane>\n</center>\n";
     if (!section.right.empty()) {
       text += "<right>\n";
-      for (const network::Lane& lane : section.right) text += LaneText(lane, section, road.spec().left_hand, of(lane.id));
+      for (const network::Lane& lane : section.right)
+        text += LaneText(lane, section, road.spec().left_hand, of(lane.id));
       text += "</right>\n";
     }
     text += "</laneSection>\n";

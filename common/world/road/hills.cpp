@@ -25,9 +25,12 @@ struct Bases {
   Several z_m, distance_m;
 };
 
-// The points that may reach a column of the grid, with their heights already below the axis; what none reaches has the base's height.
-Bases BasesAt(const HillsSpec& spec, double base_z_m, std::span<const AxisPoint> points, double x_m, const Several& y_m) {
-  const double softness_m2 = spec.flat_m * spec.flat_m, per_reach2 = 1.0 / (spec.reach_m * spec.reach_m), base_weight = 4.0 / (spec.reach_m * spec.reach_m * spec.reach_m);
+// The points that may reach a column of the grid, with their heights already below the axis; what none reaches has the
+// base's height.
+Bases BasesAt(const HillsSpec& spec, double base_z_m, std::span<const AxisPoint> points, double x_m,
+              const Several& y_m) {
+  const double softness_m2 = spec.flat_m * spec.flat_m, per_reach2 = 1.0 / (spec.reach_m * spec.reach_m),
+               base_weight = 4.0 / (spec.reach_m * spec.reach_m * spec.reach_m);
   Several weights, heights, nearest;
   weights.fill(base_weight);
   heights.fill(base_weight * base_z_m);
@@ -46,7 +49,8 @@ Bases BasesAt(const HillsSpec& spec, double base_z_m, std::span<const AxisPoint>
     }
   }
   Bases bases;
-  for (std::size_t k = 0; k < kTogether; ++k) bases.z_m[k] = heights[k] / weights[k], bases.distance_m[k] = std::sqrt(nearest[k]);
+  for (std::size_t k = 0; k < kTogether; ++k)
+    bases.z_m[k] = heights[k] / weights[k], bases.distance_m[k] = std::sqrt(nearest[k]);
   return bases;
 }
 
@@ -59,7 +63,8 @@ class Noise {
     for (int row = 0; row < rows; ++row) {
       for (int column = 0; column < columns_; ++column) {
         const auto draw = [&](std::uint64_t part) {
-          return base::RandomUniform({spec.seed, layer, static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), part}, -1.0, 1.0);
+          return base::RandomUniform(
+              {spec.seed, layer, static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row), part}, -1.0, 1.0);
         };
         gradients_.push_back({draw(0), draw(1)});
       }
@@ -101,7 +106,9 @@ template <class At>
 void AddPoints(double from_s_m, double to_s_m, double step_m, const At& at, std::vector<AxisPoint>& points) {
   const int steps = std::max(1, static_cast<int>(std::ceil((to_s_m - from_s_m) / step_m)));
   const double length_m = (to_s_m - from_s_m) / steps;
-  for (int i = 0; i <= steps; ++i) points.push_back({at(from_s_m + (to_s_m - from_s_m) * i / steps), i == 0 || i == steps ? 0.5 * length_m : length_m});
+  for (int i = 0; i <= steps; ++i)
+    points.push_back(
+        {at(from_s_m + (to_s_m - from_s_m) * i / steps), i == 0 || i == steps ? 0.5 * length_m : length_m});
 }
 
 // Where a road is carried by bridges or runs in tunnels, ascending and apart.
@@ -113,8 +120,10 @@ std::vector<Stretch> StructuresOf(const network::Road& road) {
   }
   std::sort(all.begin(), all.end(), [](const Stretch& a, const Stretch& b) { return a.from_s_m < b.from_s_m; });
   for (const Stretch& stretch : all) {
-    if (apart.empty() || stretch.from_s_m > apart.back().to_s_m) apart.push_back(stretch);
-    else apart.back().to_s_m = std::max(apart.back().to_s_m, stretch.to_s_m);
+    if (apart.empty() || stretch.from_s_m > apart.back().to_s_m)
+      apart.push_back(stretch);
+    else
+      apart.back().to_s_m = std::max(apart.back().to_s_m, stretch.to_s_m);
   }
   return apart;
 }
@@ -123,7 +132,9 @@ std::vector<Stretch> StructuresOf(const network::Road& road) {
 
 std::vector<AxisPoint> AxisPoints(std::span<const Road> roads) {
   std::vector<AxisPoint> points;
-  for (const Road& road : roads) AddPoints(0.0, road.length_m(), kAxisStep_m, [&](double s_m) { return road.Evaluate(s_m).p_W; }, points);
+  for (const Road& road : roads)
+    AddPoints(
+        0.0, road.length_m(), kAxisStep_m, [&](double s_m) { return road.Evaluate(s_m).p_W; }, points);
   return points;
 }
 
@@ -136,7 +147,9 @@ std::vector<AxisPoint> AxisPoints(const network::Network& network, bool structur
       const double from_s_m = element.s_m, to_s_m = std::min(element.s_m + element.length_m, road.length_m());
       for (const Stretch& stretch : standing) {
         const double begin = std::max(from_s_m, stretch.from_s_m), end = std::min(to_s_m, stretch.to_s_m);
-        if (begin < end) AddPoints(begin, end, kNetworkStep_m, [&](double s_m) { return road.Surface(s_m, 0.0).p_W; }, points);
+        if (begin < end)
+          AddPoints(
+              begin, end, kNetworkStep_m, [&](double s_m) { return road.Surface(s_m, 0.0).p_W; }, points);
       }
     }
   }
@@ -158,30 +171,38 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const AxisPoin
   const auto fill = [&](int column) {
     const double east = column * spec.spacing_m, x_m = spec.west_m + east;
     std::vector<AxisPoint> near;
-    std::copy_if(axis.begin(), axis.end(), std::back_inserter(near), [&](const AxisPoint& point) { return std::fabs(point.p_W.x() - x_m) < spec.reach_m; });
+    std::copy_if(axis.begin(), axis.end(), std::back_inserter(near),
+                 [&](const AxisPoint& point) { return std::fabs(point.p_W.x() - x_m) < spec.reach_m; });
     Bases bases{};
     for (int row = 0; row < spec.rows; ++row) {
       const auto k = static_cast<std::size_t>(row) % kTogether;
       if (k == 0) {
         Several y{};
-        for (std::size_t i = 0; i < kTogether; ++i) y[i] = spec.south_m + (row + static_cast<double>(i)) * spec.spacing_m;
+        for (std::size_t i = 0; i < kTogether; ++i)
+          y[i] = spec.south_m + (row + static_cast<double>(i)) * spec.spacing_m;
         bases = BasesAt(spec, base_z_m, near, x_m, y);
       }
-      const double u = std::clamp((bases.distance_m[k] - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0), grown = u * u * (3.0 - 2.0 * u);
+      const double u = std::clamp((bases.distance_m[k] - spec.flat_m) / (spec.full_m - spec.flat_m), 0.0, 1.0),
+                   grown = u * u * (3.0 - 2.0 * u);
       double z = bases.z_m[k];
       if (grown > 0.0) {
         for (std::size_t layer = 0; layer < layers.size(); ++layer) {
           z += grown * spec.relief[layer].amplitude_m * layers[layer].At(east, row * spec.spacing_m);
         }
       }
-      heights[static_cast<std::size_t>(column) * static_cast<std::size_t>(spec.rows) + static_cast<std::size_t>(row)] = static_cast<float>(z);
+      heights[static_cast<std::size_t>(column) * static_cast<std::size_t>(spec.rows) + static_cast<std::size_t>(row)] =
+          static_cast<float>(z);
     }
   };
-  base::Crew crew(std::max(1u, std::thread::hardware_concurrency()));  // each post by itself: the same bits by any number of threads
+  base::Crew crew(std::max(
+      1u, std::thread::hardware_concurrency()));  // each post by itself: the same bits by any number of threads
   crew.Share(static_cast<std::size_t>(spec.columns), [&](std::size_t begin, std::size_t end) {
     for (std::size_t column = begin; column < end; ++column) fill(static_cast<int>(column));
   });
-  const terrain::ElevationGrid::Frame frame{spec.columns, spec.rows, spec.west_m, spec.south_m,
+  const terrain::ElevationGrid::Frame frame{spec.columns,
+                                            spec.rows,
+                                            spec.west_m,
+                                            spec.south_m,
                                             spec.west_m + (spec.columns - 1) * spec.spacing_m,
                                             spec.south_m + (spec.rows - 1) * spec.spacing_m};
   return terrain::ElevationGrid(frame, std::move(heights), spec.projection_wkt);

@@ -9,7 +9,8 @@ void LandBounds::Add(const LandBound& bound, double distance_m) {
   nearest_m_ = std::min(nearest_m_, distance_m);
   const double low_m = bound.z_m - kBank * bound.distance_m, high_m = bound.z_m + kBank * bound.distance_m;
   if (low_m > low_m_ || (low_m == low_m_ && rank_ < low_rank_)) low_ = bound, low_m_ = low_m, low_rank_ = rank_;
-  if (high_m < high_m_ || (high_m == high_m_ && rank_ < high_rank_)) high_ = bound, high_m_ = high_m, high_rank_ = rank_;
+  if (high_m < high_m_ || (high_m == high_m_ && rank_ < high_rank_))
+    high_ = bound, high_m_ = high_m, high_rank_ = rank_;
 }
 
 PlaneHeight LandBounds::Meet() const {
@@ -29,9 +30,12 @@ PlaneHeight LandBounds::Meet() const {
   }
   const double sum = low.distance_m + high.distance_m;
   // Both edges at the point itself, as on roads that lie over one another: no slope meets both.
-  if (slope == kBank || !(sum > 0.0)) return {0.5 * (low_at(low) + high_at(high)), 0.5 * (low.z_slope_W + high.z_slope_W + slope * (high.distance_slope_W - low.distance_slope_W))};
+  if (slope == kBank || !(sum > 0.0))
+    return {0.5 * (low_at(low) + high_at(high)),
+            0.5 * (low.z_slope_W + high.z_slope_W + slope * (high.distance_slope_W - low.distance_slope_W))};
   const double part = high.distance_m / sum, step = low.z_m - high.z_m;
-  const Vector2d part_slope = (low.distance_m * high.distance_slope_W - high.distance_m * low.distance_slope_W) / (sum * sum);
+  const Vector2d part_slope =
+      (low.distance_m * high.distance_slope_W - high.distance_m * low.distance_slope_W) / (sum * sum);
   return {high.z_m + part * step, high.z_slope_W + part * (low.z_slope_W - high.z_slope_W) + step * part_slope};
 }
 

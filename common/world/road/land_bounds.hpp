@@ -11,20 +11,24 @@
 
 namespace rodeira::road {
 
-// What a place on an edge says of the land at a point: it lies no farther from a height, either way, than a slope times a distance, and how these change as the point moves.
+// What a place on an edge says of the land at a point: it lies no farther from a height, either way, than a slope times
+// a distance, and how these change as the point moves.
 struct LandBound {
   double z_m = 0.0, distance_m = 0.0;
   Eigen::Vector2d z_slope_W = Eigen::Vector2d::Zero(), distance_slope_W = Eigen::Vector2d::Zero();
 };
 
-// Of all bounds at a point the tightest lower and the tightest upper one for the slope kBank, in whatever order they are told: of equally tight ones that of
-// the lowest rank, and of one rank the first. Without any there is no bound, either way.
+// Of all bounds at a point the tightest lower and the tightest upper one for the slope kBank, in whatever order they
+// are told: of equally tight ones that of the lowest rank, and of one rank the first. Without any there is no bound,
+// either way.
 class LandBounds {
  public:
   // every: keeps all of them, which must be told in the order of their ranks.
-  void Clear(bool every) { low_ = high_ = {}, low_m_ = -kInfinity, high_m_ = nearest_m_ = kInfinity, every_ = every, all_.clear(); }
-  void Rank(std::uint32_t rank) { rank_ = rank; }  // of what is told next
-  void Leads() { low_rank_ = high_rank_ = 0; }             // what was told so far counts before all ranks from 1 on
+  void Clear(bool every) {
+    low_ = high_ = {}, low_m_ = -kInfinity, high_m_ = nearest_m_ = kInfinity, every_ = every, all_.clear();
+  }
+  void Rank(std::uint32_t rank) { rank_ = rank; }       // of what is told next
+  void Leads() { low_rank_ = high_rank_ = 0; }          // what was told so far counts before all ranks from 1 on
   void Add(const LandBound& bound, double distance_m);  // how far away its place is
 
   const LandBound& low() const { return low_; }
@@ -34,9 +38,11 @@ class LandBounds {
   double nearest_m() const { return nearest_m_; }
   bool every() const { return every_; }
   // What lies between two heights can hold the land tighter only where it is nearer than this. Not positive: nowhere.
-  double TightensWithin(double lowest_m, double highest_m) const { return std::max(highest_m - low_m_, high_m_ - lowest_m) / kBank; }
-  // In the middle of both; where the lower is the greater one, at the least slope by which all that were kept meet. On roads that lie over one another none does: then in the middle
-  // between their heights.
+  double TightensWithin(double lowest_m, double highest_m) const {
+    return std::max(highest_m - low_m_, high_m_ - lowest_m) / kBank;
+  }
+  // In the middle of both; where the lower is the greater one, at the least slope by which all that were kept meet. On
+  // roads that lie over one another none does: then in the middle between their heights.
   PlaneHeight Meet() const;
 
  private:

@@ -8,17 +8,20 @@ namespace {
 ground::Surface SurfaceOf(network::LaneType type) {
   switch (type) {
     case network::LaneType::kNone:
-    case network::LaneType::kMedian: return ground::Surface::kGrass;
+    case network::LaneType::kMedian:
+      return ground::Surface::kGrass;
     case network::LaneType::kSidewalk:
     case network::LaneType::kWalking:
-    case network::LaneType::kCurb: return ground::Surface::kConcrete;
-    default: return ground::Surface::kAsphalt;
+    case network::LaneType::kCurb:
+      return ground::Surface::kConcrete;
+    default:
+      return ground::Surface::kAsphalt;
   }
 }
 
 ground::Surface SurfaceOf(const network::LaneMaterial& material, network::LaneType type) {
   for (const ground::Surface known : {ground::Surface::kAsphalt, ground::Surface::kConcrete, ground::Surface::kGravel,
-                                       ground::Surface::kGrass, ground::Surface::kSoil}) {
+                                      ground::Surface::kGrass, ground::Surface::kSoil}) {
     if (material.surface == SurfaceName(known)) return known;
   }
   return SurfaceOf(type);

@@ -14,8 +14,8 @@ struct LaneGround {
   double friction = 0.0;
 };
 
-// What every lane of a network is made of, ready to be asked: its materials in force, where they are called as one of our
-// surfaces, otherwise its type's surface; a material's own friction, otherwise the surface's.
+// What every lane of a network is made of, ready to be asked: its materials in force, where they are called as one of
+// our surfaces, otherwise its type's surface; a material's own friction, otherwise the surface's.
 class LaneGrounds {
  public:
   LaneGrounds() = default;

@@ -4,8 +4,8 @@
 
 #include "common/core/base/bytes.hpp"
 #include "common/core/base/files.hpp"
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/world/road/network_world.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 
 namespace rodeira::road {
 namespace {

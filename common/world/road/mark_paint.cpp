@@ -10,7 +10,9 @@ constexpr double kStretch_m = 16.0;
 constexpr double kStep_m = 1.0;   // between the places where a line's t is looked at
 constexpr double kRoom_m = 0.05;  // and what it may bend between them
 
-std::size_t StretchOf(double s_m, std::size_t count) { return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), count - 1); }
+std::size_t StretchOf(double s_m, std::size_t count) {
+  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), count - 1);
+}
 
 }  // namespace
 
@@ -29,8 +31,10 @@ void MarkPaint::Add(const network::Road& road, const network::Marking& marking, 
     line.edges_s_m.push_back(stroke.to_s_m);
   }
   const auto number = static_cast<std::uint32_t>(lines.lines.size());
-  for (std::size_t stretch = StretchOf(marking.from_s_m, lines.by_stretch.size()); stretch < lines.by_stretch.size(); ++stretch) {
-    const double from = std::max(marking.from_s_m, kStretch_m * static_cast<double>(stretch)), to = std::min(marking.to_s_m, kStretch_m * static_cast<double>(stretch + 1));
+  for (std::size_t stretch = StretchOf(marking.from_s_m, lines.by_stretch.size()); stretch < lines.by_stretch.size();
+       ++stretch) {
+    const double from = std::max(marking.from_s_m, kStretch_m * static_cast<double>(stretch)),
+                 to = std::min(marking.to_s_m, kStretch_m * static_cast<double>(stretch + 1));
     if (from > to) break;
     Near near{number, 1e9, -1e9};
     const double count = std::ceil((to - from) / kStep_m) + 1.0;
@@ -50,10 +54,12 @@ bool MarkPaint::At(std::uint32_t road, std::uint32_t section, double s_m, double
   for (const Near& near : lines.by_stretch[StretchOf(s_m, lines.by_stretch.size())]) {
     if (t_m < near.low_t_m || t_m > near.high_t_m) continue;
     const auto& [marking, edges] = lines.lines[near.line];
-    if (s_m < marking.from_s_m || s_m > marking.to_s_m || (marking.painted == nullptr && marking.section != section)) continue;
+    if (s_m < marking.from_s_m || s_m > marking.to_s_m || (marking.painted == nullptr && marking.section != section))
+      continue;
     const auto after = std::upper_bound(edges.begin(), edges.end(), s_m);
     if ((after - edges.begin()) % 2 == 0) continue;
-    if (std::fabs(t_m - network::MarkingAt(network_->roads()[road], marking, s_m).value) <= 0.5 * marking.width_m) return true;
+    if (std::fabs(t_m - network::MarkingAt(network_->roads()[road], marking, s_m).value) <= 0.5 * marking.width_m)
+      return true;
   }
   return false;
 }

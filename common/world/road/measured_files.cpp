@@ -21,7 +21,10 @@ constexpr std::size_t kLongestName = 72;  // of a line of a .crg's header
 
 // A name that neither a .crg's header nor XML reads in another way.
 std::string Plain(std::string name) {
-  const auto odd = [](char c) { return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '_'); };
+  const auto odd = [](char c) {
+    return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
+             c == '_');
+  };
   std::replace_if(name.begin(), name.end(), odd, '_');
   return name;
 }
@@ -43,11 +46,13 @@ std::string Naming(std::string_view text, std::string_view other) {
     if (line.starts_with('$')) names = false;
     if (!names || line.starts_with('*')) out += line;
     std::string section(line.substr(0, line.find_first_of(" !\t\r\n")));
-    std::transform(section.begin(), section.end(), section.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::transform(section.begin(), section.end(), section.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     if (section != "$road_crg_file") continue;
     names = true;
     if (!out.ends_with('\n')) out += '\n';
-    for (std::size_t at = 0; at < other.size(); at += kLongestName) out += fmt::format("{}\n", other.substr(at, kLongestName));
+    for (std::size_t at = 0; at < other.size(); at += kLongestName)
+      out += fmt::format("{}\n", other.substr(at, kLongestName));
     other = {};  // once
   }
   return out;
@@ -74,7 +79,8 @@ base::Status Copy(const fs::path& from, const fs::path& to, std::set<std::string
 
 }  // namespace
 
-MeasuredFiles::MeasuredFiles(const fs::path& exported) : parent_(exported.parent_path()), folder_(Plain(exported.stem().string()) + "_surfaces") {}
+MeasuredFiles::MeasuredFiles(const fs::path& exported)
+    : parent_(exported.parent_path()), folder_(Plain(exported.stem().string()) + "_surfaces") {}
 
 std::string MeasuredFiles::NameOf(const std::string& file) {
   const std::string path = fs::absolute(file).lexically_normal().string();
@@ -96,7 +102,8 @@ base::Status MeasuredFiles::Write() const {
   return {};
 }
 
-base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, const fs::path& copy, std::vector<fs::path>* copied) {
+base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, const fs::path& copy,
+                                                    std::vector<fs::path>* copied) {
   const auto import = opendrive::Load(open_drive);
   if (!import) return import.error();
   std::vector<std::string> warnings;
@@ -111,7 +118,8 @@ base::Result<std::vector<std::string>> CopyMeasured(const fs::path& open_drive, 
     const fs::path named = fs::path(file).lexically_normal();
     if (named.is_absolute()) continue;
     if (named.string().starts_with("..")) {
-      warnings.push_back(fmt::format("{}: '{}' is not found from here: its path leaves the folder of {}", copy.string(), file, open_drive.string()));
+      warnings.push_back(fmt::format("{}: '{}' is not found from here: its path leaves the folder of {}", copy.string(),
+                                     file, open_drive.string()));
       continue;
     }
     const fs::path to = copy.parent_path() / named, from = open_drive.parent_path() / named;

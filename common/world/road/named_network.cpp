@@ -19,18 +19,22 @@ void PutStart(const Map& map, const design::StartWish& wish, const network::Netw
   std::vector<std::string> ids;
   std::uint32_t at = 0;
   for (; at < roads.size() && !wish.road.empty() && roads[at].id() != wish.road; ++at) ids.push_back(roads[at].id());
-  if (at == roads.size()) return map.Problem("road", fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
+  if (at == roads.size())
+    return map.Problem("road", fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
   const double s_m = wish.s_m.value_or(0.0);
-  if (s_m > roads[at].length_m()) return map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s_m, roads[at].length_m()));
+  if (s_m > roads[at].length_m())
+    return map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s_m, roads[at].length_m()));
   const network::LaneKey key{at, static_cast<std::uint32_t>(roads[at].SectionIndex(s_m)), wish.lane.value_or(-1)};
   const network::Lane* lane = network.Find(key);
-  if (lane == nullptr || !network::IsDrivable(lane->type)) return map.Problem("lane", fmt::format("road '{}' has no lane {} to drive on there", roads[at].id(), key.lane));
+  if (lane == nullptr || !network::IsDrivable(lane->type))
+    return map.Problem("lane", fmt::format("road '{}' has no lane {} to drive on there", roads[at].id(), key.lane));
   start = PoseOn(network, key, s_m);
 }
 
 }  // namespace
 
-WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said, const design::StartWish& wish) {
+WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said,
+                              const design::StartWish& wish) {
   WorldReading reading;
   reading.problems = file.Problems();
   if (!reading.problems.empty()) return reading;
@@ -40,8 +44,10 @@ WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::p
     return reading;
   }
   const Map start = file.root().OptionalChild("start");
-  if (start.Has("x_m")) spec.value().start = said.start;
-  else if (file.root().Has("start")) PutStart(start, wish, *spec.value().network, spec.value().start);
+  if (start.Has("x_m"))
+    spec.value().start = said.start;
+  else if (file.root().Has("start"))
+    PutStart(start, wish, *spec.value().network, spec.value().start);
   spec.value().name = said.name;
   spec.value().friction = said.friction;
   reading.problems = file.Problems();

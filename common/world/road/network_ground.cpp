@@ -31,7 +31,8 @@ SurfacePoint OnLayer(const Source& source, const Layer& layer) {
   for (const network::Surfacing* road : layer.roads) {
     network::SurfaceSample sample = road->sample;
     const network::Place& at = road->place;
-    if (detail != nullptr) detail->Add(network.roads()[at.lane.road], at.lane.road, network.Section(at.lane), at.s_m, at.t_m, sample);
+    if (detail != nullptr)
+      detail->Add(network.roads()[at.lane.road], at.lane.road, network.Section(at.lane), at.s_m, at.t_m, sample);
     if (road == layer.named) p_W = sample.p_W.head<2>();
     heights.push_back(HeightOf(sample));
   }
@@ -50,13 +51,24 @@ SurfacePoint OnLayer(const Source& source, const Layer& layer) {
 }
 
 // Within a junction that has a ground of its own, between its connecting roads.
-SurfacePoint OnJunction(const network::JunctionGround& ground, const FrictionTable& friction, const Eigen::Vector2d& p) {
+SurfacePoint OnJunction(const network::JunctionGround& ground, const FrictionTable& friction,
+                        const Eigen::Vector2d& p) {
   const network::GroundHeight at = ground.At(p);
-  return {at.z_m, at.slope_x, at.slope_y, friction[static_cast<std::size_t>(ground::Surface::kAsphalt)], ground::Surface::kAsphalt, true};
+  return {at.z_m,
+          at.slope_x,
+          at.slope_y,
+          friction[static_cast<std::size_t>(ground::Surface::kAsphalt)],
+          ground::Surface::kAsphalt,
+          true};
 }
 
 SurfacePoint OnLand(const PlaneHeight& land, const FrictionTable& friction) {
-  return {land.z_m, land.slope_W.x(), land.slope_W.y(), friction[static_cast<std::size_t>(ground::Surface::kGrass)], ground::Surface::kGrass, true};
+  return {land.z_m,
+          land.slope_W.x(),
+          land.slope_W.y(),
+          friction[static_cast<std::size_t>(ground::Surface::kGrass)],
+          ground::Surface::kGrass,
+          true};
 }
 
 // What answers at a point: a layer of roads, a junction's own ground, or the land; none of them: nothing is there.
@@ -85,7 +97,9 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
   }
   if (meant) return {nullptr, open, {}};
   if (lowest != nullptr) {
-    const auto on_deck = [&](const network::Surfacing* road) { return land.IsOnDeck(road->place.lane.road, road->place.s_m); };
+    const auto on_deck = [&](const network::Surfacing* road) {
+      return land.IsOnDeck(road->place.lane.road, road->place.s_m);
+    };
     if (!std::all_of(lowest->roads.begin(), lowest->roads.end(), on_deck)) return {lowest, nullptr, {}};
   }
   const std::optional<PlaneHeight> below = land.At(p_W);
@@ -95,8 +109,9 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
 
 }  // namespace
 
-SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const NetworkLand& land, const FrictionTable& friction, double x_m, double y_m,
-                           double z_hint_m, const MarkPaint* paint, const SurfaceDetail* detail) {
+SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, const NetworkLand& land,
+                           const FrictionTable& friction, double x_m, double y_m, double z_hint_m,
+                           const MarkPaint* paint, const SurfaceDetail* detail) {
   const Eigen::Vector2d p_W(x_m, y_m);
   const Answer answer = Find(network, land, p_W, z_hint_m);
   if (answer.layer != nullptr) return OnLayer({network, grounds, friction, paint, detail}, *answer.layer);
@@ -104,7 +119,8 @@ SurfacePoint NetworkGround(const Network& network, const LaneGrounds& grounds, c
   return answer.land ? OnLand(*answer.land, friction) : SurfacePoint{};
 }
 
-std::optional<Place> NetworkPlace(const Network& network, const NetworkLand& land, double x_m, double y_m, double z_hint_m) {
+std::optional<Place> NetworkPlace(const Network& network, const NetworkLand& land, double x_m, double y_m,
+                                  double z_hint_m) {
   const Answer answer = Find(network, land, {x_m, y_m}, z_hint_m);
   if (answer.layer != nullptr) return answer.layer->named->place;
   if (!answer.land) return std::nullopt;

@@ -57,19 +57,24 @@ void PutLateral(Canonical& out, const network::LateralProfile& lateral) {
 }
 
 void PutFurniture(Canonical& out, const network::RoadSpec& spec) {
-  out.PutAll(spec.lines.size(), spec.signals.size(), spec.objects.size(), spec.structures.size(), spec.crg.size(), spec.unevenness.size());
-  for (const auto& line : spec.lines) out.PutAll(line.from_s_m, line.to_s_m, line.t, line.width_m, line.stroke_m, line.gap_m, line.colour);
+  out.PutAll(spec.lines.size(), spec.signals.size(), spec.objects.size(), spec.structures.size(), spec.crg.size(),
+             spec.unevenness.size());
+  for (const auto& line : spec.lines)
+    out.PutAll(line.from_s_m, line.to_s_m, line.t, line.width_m, line.stroke_m, line.gap_m, line.colour);
   for (const auto& sign : spec.signals) {
-    out.PutAll(sign.s_m, sign.t_m, sign.z_offset_m, sign.orientation, sign.type, sign.subtype, sign.value, sign.h_offset_rad);
+    out.PutAll(sign.s_m, sign.t_m, sign.z_offset_m, sign.orientation, sign.type, sign.subtype, sign.value,
+               sign.h_offset_rad);
   }
   for (const auto& object : spec.objects) {
-    out.PutAll(object.s_m, object.t_m, object.z_offset_m, object.type, object.subtype, object.hdg_rad, object.length_m, object.width_m,
-               object.height_m, object.repeats.size());
-    for (const auto& repeat : object.repeats) out.PutAll(repeat.s_m, repeat.length_m, repeat.distance_m, repeat.t_start_m, repeat.t_end_m);
+    out.PutAll(object.s_m, object.t_m, object.z_offset_m, object.type, object.subtype, object.hdg_rad, object.length_m,
+               object.width_m, object.height_m, object.repeats.size());
+    for (const auto& repeat : object.repeats)
+      out.PutAll(repeat.s_m, repeat.length_m, repeat.distance_m, repeat.t_start_m, repeat.t_end_m);
   }
   for (const auto& structure : spec.structures) out.PutAll(structure.bridge, structure.s_m, structure.length_m);
   for (const auto& crg : spec.crg) {
-    out.PutAll(crg.s_start_m, crg.s_end_m, crg.s_offset_m, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.h_offset_rad, crg.orientation, crg.mode, crg.purpose);
+    out.PutAll(crg.s_start_m, crg.s_end_m, crg.s_offset_m, crg.t_offset_m, crg.z_offset_m, crg.z_scale,
+               crg.h_offset_rad, crg.orientation, crg.mode, crg.purpose);
   }
   for (const auto& made : spec.unevenness) {
     out.PutAll(made.s_start_m, made.s_end_m, made.s_offset_m, made.density_m3, static_cast<std::size_t>(made.seed));
@@ -96,7 +101,8 @@ void PutRoad(Canonical& out, const network::Road& road) {
   }
   PutFurniture(out, spec);
   out.Put(spec.earthwork.has_value());
-  if (spec.earthwork) out.PutAll(spec.earthwork->blend_m, spec.earthwork->cut, spec.earthwork->fill, spec.earthwork->reach_m);
+  if (spec.earthwork)
+    out.PutAll(spec.earthwork->blend_m, spec.earthwork->cut, spec.earthwork->fill, spec.earthwork->reach_m);
 }
 
 }  // namespace
@@ -107,7 +113,8 @@ base::Digest HashOf(const network::Network& network) {
   for (const network::Road& road : network.roads()) PutRoad(out, road);
   out.Put(network.junctions().size());
   for (const network::Junction& junction : network.junctions()) {
-    out.PutAll(junction.connections.size(), junction.priorities.size(), junction.outline_W.size(), junction.paved_W.size());
+    out.PutAll(junction.connections.size(), junction.priorities.size(), junction.outline_W.size(),
+               junction.paved_W.size());
     for (const auto* corners : {&junction.outline_W, &junction.paved_W}) {
       for (const Eigen::Vector2d& corner : *corners) out.Put(corner);
     }

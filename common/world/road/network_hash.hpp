@@ -5,8 +5,8 @@
 
 namespace rodeira::road {
 
-// Of every number of a network that can change an answer: axes, heights, lanes, materials, limits, paint, signs and objects,
-// surfaces, junctions, in a fixed order; not of names and ids.
+// Of every number of a network that can change an answer: axes, heights, lanes, materials, limits, paint, signs and
+// objects, surfaces, junctions, in a fixed order; not of names and ids.
 base::Digest HashOf(const network::Network& network);
 
 }  // namespace rodeira::road

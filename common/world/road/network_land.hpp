@@ -24,13 +24,14 @@ inline constexpr double kVerge_m = 100.0;
 // No edge holds the land farther away.
 inline constexpr double kHolds_m = 140.0;
 
-// The land beside the roads of an OpenDRIVE file, which says nothing of it. Every place q of a road's edge, d away from p, holds the land there between
-// z(q) - d / 2 and z(q) + d / 2 (ever less tightly from 112 m on, not at all from 140 m on). The land lies in the middle between the greatest lower and the
-// least upper bound: beside one road level across from it, between roads of different heights a bank of 1 in 2. Where roads stand closer than that the
-// bank is as steep there as it must be for the bounds to meet, so that the land begins at the height of every edge, and is continuous wherever the edges are. Decks
-// (decks.hpp) hold nothing: the land goes through under them.
-// So many bounds of a panel are looked at: of the place across from p, of the two by which the land is held most tightly where the road climbs evenly,
-// and of some that stand still.
+// The land beside the roads of an OpenDRIVE file, which says nothing of it. Every place q of a road's edge, d away from
+// p, holds the land there between z(q) - d / 2 and z(q) + d / 2 (ever less tightly from 112 m on, not at all from 140 m
+// on). The land lies in the middle between the greatest lower and the least upper bound: beside one road level across
+// from it, between roads of different heights a bank of 1 in 2. Where roads stand closer than that the bank is as steep
+// there as it must be for the bounds to meet, so that the land begins at the height of every edge, and is continuous
+// wherever the edges are. Decks (decks.hpp) hold nothing: the land goes through under them. So many bounds of a panel
+// are looked at: of the place across from p, of the two by which the land is held most tightly where the road climbs
+// evenly, and of some that stand still.
 class NetworkLand {
  public:
   explicit NetworkLand(std::shared_ptr<const network::Network> network);
@@ -51,20 +52,24 @@ class NetworkLand {
     Stretch stretch;
     Eigen::Vector2d from_W, to_W;
     Eigen::Vector2d left_W = Eigen::Vector2d::Zero();  // of the line through both
-    EdgesAside edges{};  // from the way and the line between these
+    EdgesAside edges{};                                // from the way and the line between these
     EdgeHeights heights{};
     SteadyEdges steady;
     double right_reach_m = 0.0, left_reach_m = 0.0;  // of what moves with p: less within a bend than to its middle
     std::uint32_t first_post = 0, posts = 0;
 
-    double DistanceFrom(const Eigen::Vector2d& p_W) const { return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - edges.beside_m); }
-    // The same in fewer operations, and no greater beside its ends; where the road lies on the other side of its axis it is.
+    double DistanceFrom(const Eigen::Vector2d& p_W) const {
+      return std::max(0.0, SquareLists::Strip{from_W, to_W, 0.0}.FromWay(p_W) - edges.beside_m);
+    }
+    // The same in fewer operations, and no greater beside its ends; where the road lies on the other side of its axis
+    // it is.
     double AsideFrom(const Eigen::Vector2d& p_W) const {
       const double aside_m = left_W.dot(p_W - from_W);
       return std::max(aside_m - edges.left_m, -aside_m - edges.right_m);
     }
   };
-  struct Around {  // of a piece what tells in few operations that it is too far away: all of it lies within a circle, its edges between two heights
+  struct Around {  // of a piece what tells in few operations that it is too far away: all of it lies within a circle,
+                   // its edges between two heights
     Eigen::Vector2d middle_W;
     double radius_m = 0.0;
     EdgeHeights heights{};
@@ -105,7 +110,8 @@ class NetworkLand {
   void AddBoundary(const network::JunctionGround& ground);
   void FromRoad(const Piece& piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
   void FromBoundary(const Piece& piece, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
-  static void FromPlace(const EdgePlace& place, const Eigen::Vector2d& station_slope_W, double reach_m, const Eigen::Vector2d& p_W, LandBounds& bounds);
+  static void FromPlace(const EdgePlace& place, const Eigen::Vector2d& station_slope_W, double reach_m,
+                        const Eigen::Vector2d& p_W, LandBounds& bounds);
   void FromEnd(const EdgePlace& place, const network::Road& road, const Eigen::Vector2d& p_W, LandBounds& bounds) const;
   static void FromPost(const Eigen::Vector3d& post_W, const Eigen::Vector2d& p_W, LandBounds& bounds);
 

@@ -21,13 +21,19 @@ const char* Colour(LaneType type, bool in_junction) {
   if (network::IsDrivable(type)) return in_junction ? "#5d6068" : "#43464d";
   switch (type) {
     case LaneType::kNone:
-    case LaneType::kMedian: return "#8fae78";
+    case LaneType::kMedian:
+      return "#8fae78";
     case LaneType::kSidewalk:
-    case LaneType::kWalking: return "#c9c2b6";
-    case LaneType::kCurb: return "#a39c90";
-    case LaneType::kBiking: return "#b0675a";
-    case LaneType::kParking: return "#5a6a80";
-    default: return "#777b82";
+    case LaneType::kWalking:
+      return "#c9c2b6";
+    case LaneType::kCurb:
+      return "#a39c90";
+    case LaneType::kBiking:
+      return "#b0675a";
+    case LaneType::kParking:
+      return "#5a6a80";
+    default:
+      return "#777b82";
   }
 }
 
@@ -51,22 +57,23 @@ std::vector<double> Stations(const network::Road& road, const network::LaneSecti
   return stations;
 }
 
-std::string Edge(const Network& network, const LaneKey& key, const std::vector<double>& stations, const Frame& frame, bool outer,
-                 bool back, bool first) {
+std::string Edge(const Network& network, const LaneKey& key, const std::vector<double>& stations, const Frame& frame,
+                 bool outer, bool back, bool first) {
   std::string path;
   const network::Road& road = network.roads()[key.road];
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double s = road.Held(key.section, stations[back ? stations.size() - 1 - i : i]);
     const auto span = network.Span(key, s);
-    path +=
-        frame.Point(road.Surface(s, outer ? span->outer_t_m : span->inner_t_m, network.Section(key), *span).p_W, first && i == 0);
+    path += frame.Point(road.Surface(s, outer ? span->outer_t_m : span->inner_t_m, network.Section(key), *span).p_W,
+                        first && i == 0);
   }
   return path;
 }
 
 // A line on the lane's outer edge, and for the first lanes on the centre too.
 std::string Line(const network::RoadMark* mark, const std::string& path, double scale) {
-  if (mark == nullptr || mark->type == "none" || mark->type == "curb" || mark->type == "grass" || mark->type == "edge") return "";
+  if (mark == nullptr || mark->type == "none" || mark->type == "curb" || mark->type == "grass" || mark->type == "edge")
+    return "";
   const bool broken = mark->type.starts_with("broken");
   const char* colour = mark->colour == "yellow" ? "#e6c14d" : "#f4f4f0";
   const double stroke = mark->lines.empty() ? 3.0 : mark->lines[0].length_m,
@@ -77,7 +84,8 @@ std::string Line(const network::RoadMark* mark, const std::string& path, double 
                      std::max(0.35, 0.15 * scale), dashes);
 }
 
-// Each road's own stations and the radii of its arcs, where there is room: a dot and how far it is from the road's beginning.
+// Each road's own stations and the radii of its arcs, where there is room: a dot and how far it is from the road's
+// beginning.
 std::string StationsAndRadii(const Network& network, const Frame& frame, PlotLabels& labels) {
   constexpr double kDot = 2.0;
   double step_m = 50.0;
@@ -105,17 +113,23 @@ std::string StationsAndRadii(const Network& network, const Frame& frame, PlotLab
     for (double s = step_m; s < road.length_m(); s += step_m) {
       const Eigen::Vector2d at = on_picture(road, s);
       const PlotLabels before = labels;
-      if (!labels.Keep(at - Eigen::Vector2d::Constant(kDot), Eigen::Vector2d::Constant(2.0 * kDot)) || !labels.Put(at, half_width(road, s) + 3.0, 8.0, "#101010", fmt::format("{:.0f} m", s))) {
+      if (!labels.Keep(at - Eigen::Vector2d::Constant(kDot), Eigen::Vector2d::Constant(2.0 * kDot)) ||
+          !labels.Put(at, half_width(road, s) + 3.0, 8.0, "#101010", fmt::format("{:.0f} m", s))) {
         labels = before;
         continue;
       }
-      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"#ffffff\" stroke=\"#303038\" stroke-width=\"0.6\"/>\n", at.x(), at.y(), kDot);
+      dots += fmt::format(
+          "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"#ffffff\" stroke=\"#303038\" stroke-width=\"0.6\"/>\n",
+          at.x(), at.y(), kDot);
     }
     for (const geometry::PlanElement& element : road.axis().elements()) {
       const double k = element.curvature_start_1pm;
-      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm || element.length_m * frame.scale < 15.0) continue;
+      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm ||
+          element.length_m * frame.scale < 15.0)
+        continue;
       const double middle_m = std::min(element.s_m + 0.5 * element.length_m, road.length_m());
-      labels.Put(on_picture(road, middle_m), half_width(road, middle_m) + 3.0, 8.0, "#203060", fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
+      labels.Put(on_picture(road, middle_m), half_width(road, middle_m) + 3.0, 8.0, "#203060",
+                 fmt::format("R{:.0f}", 1.0 / std::fabs(k)));
     }
   }
   return dots;
@@ -143,8 +157,8 @@ std::string PlotNetwork(const Network& network) {
     (network::IsDrivable(lane.type) ? ways : areas) += area;
     lines += Line(road.MarkAt(lane, section.s_m), outer, frame.scale);
     if (key.lane == 1 || (key.lane == -1 && section.left.empty())) {
-      lines +=
-          Line(road.MarkAt(section.centre, section.s_m), Edge(network, key, stations, frame, false, false, true), frame.scale);
+      lines += Line(road.MarkAt(section.centre, section.s_m), Edge(network, key, stations, frame, false, false, true),
+                    frame.scale);
     }
   }
   const double height = size.y() * frame.scale;
@@ -153,13 +167,16 @@ std::string PlotNetwork(const Network& network) {
     if (!road.spec().junction.empty() || road.length_m() * frame.scale < 25.0) continue;
     for (const double part : {0.5, 0.25, 0.75}) {
       const Eigen::Vector3d p = road.Surface(part * road.length_m(), 0.0).p_W;
-      if (names.Put({(p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale}, 1.0, 9.0, "#b03020", fmt::format("{:.12}", road.id()))) break;
+      if (names.Put({(p.x() - frame.west) * frame.scale, (frame.north - p.y()) * frame.scale}, 1.0, 9.0, "#b03020",
+                    fmt::format("{:.12}", road.id())))
+        break;
     }
   }
   const std::string dots = StationsAndRadii(network, frame, names);
   const double bar = std::pow(10.0, std::floor(std::log10(0.3 * size.x())));
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\">\n",
       size.x() * frame.scale, height + 30.0);
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#eef0ea\"/>\n" + areas + ways + lines + dots + names.svg();
   svg += fmt::format(

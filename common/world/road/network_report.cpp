@@ -26,15 +26,19 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
   check.table = opendrive::Describe(import.value());
   if (import.value().network == nullptr) return check;
   if (const std::string& earth = import.value().network->geo_reference(); !earth.empty()) {
-    if (const auto map = terrain::Geographic::Make(earth); !map) check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is", file.string(), map.error().message));
+    if (const auto map = terrain::Geographic::Make(earth); !map)
+      check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is",
+                                           file.string(), map.error().message));
   }
-  for (const OfRoad& overlap : DescribeOverlaps(*import.value().network, false)) check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap.text));
+  for (const OfRoad& overlap : DescribeOverlaps(*import.value().network, false))
+    check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap.text));
   // What else a world of the file needs: surfaces that it names, laid on its roads.
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
     check.errors.push_back(detail.error());
     check.table.clear();
   } else {
-    for (const std::string& wall : detail.value().Walls(*import.value().network)) check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
+    for (const std::string& wall : detail.value().Walls(*import.value().network))
+      check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
   }
   return check;
 }
@@ -43,8 +47,8 @@ std::string DescribeNetwork(const network::Network& network) {
   const auto [low, high] = network.Bounds();
   double length = 0.0;
   for (const network::Road& road : network.roads()) length += road.length_m();
-  std::string text =
-      fmt::format("network: {} roads, {:.3f} m, {} junctions\n", network.roads().size(), length, network.junctions().size());
+  std::string text = fmt::format("network: {} roads, {:.3f} m, {} junctions\n", network.roads().size(), length,
+                                 network.junctions().size());
   text += fmt::format("roads within_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", low.x(), high.x(), low.y(), high.y());
   if (!network.geo_reference().empty()) text += fmt::format("projection: {}\n", network.geo_reference());
   return text;
@@ -56,31 +60,43 @@ constexpr double kAtEdge_m = 0.3;  // a line so near to a lane's edge is one of 
 
 std::string NamesOf(const network::Network& network, std::span<const network::LaneEnd> ends) {
   std::vector<std::string> names;
-  for (const network::LaneEnd& end : ends) names.push_back(fmt::format("{}:{}", network.roads()[end.lane.road].id(), end.lane.lane));
+  for (const network::LaneEnd& end : ends)
+    names.push_back(fmt::format("{}:{}", network.roads()[end.lane.road].id(), end.lane.lane));
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, " "));
 }
 
-// What lies around a place on a lane: its edges, what is painted at them, lanes beside, ahead and behind as it is driven, its signs.
+// What lies around a place on a lane: its edges, what is painted at them, lanes beside, ahead and behind as it is
+// driven, its signs.
 std::string DescribeLane(const network::Network& network, const network::Place& place) {
   const network::LaneKey& key = place.lane;
   const network::Road& road = network.roads()[key.road];
   const auto span = network.Span(key, place.s_m);
   if (!span) return "";
-  const auto beside = [](const std::optional<network::LaneKey>& lane) { return lane ? std::to_string(lane->lane) : std::string("none"); };
-  std::string text = fmt::format("lane_width_m: {:.6f}\nlane_edges_t_m: {:.6f} {:.6f}\nlane_middle_t_m: {:.6f}\n", span->width_m(), span->inner_t_m, span->outer_t_m, span->centre_t_m());
+  const auto beside = [](const std::optional<network::LaneKey>& lane) {
+    return lane ? std::to_string(lane->lane) : std::string("none");
+  };
+  std::string text = fmt::format("lane_width_m: {:.6f}\nlane_edges_t_m: {:.6f} {:.6f}\nlane_middle_t_m: {:.6f}\n",
+                                 span->width_m(), span->inner_t_m, span->outer_t_m, span->centre_t_m());
   text += fmt::format("curvature_1pm: {:.9f}\n", road.axis().Evaluate(place.s_m).curvature_1pm);
   text += fmt::format("lane_left: {}\nlane_right: {}\n", beside(network.Left(key)), beside(network.Right(key)));
-  text += fmt::format("lanes_ahead: {}\nlanes_behind: {}\n", NamesOf(network, network.Successors(key)), NamesOf(network, network.Predecessors(key)));
-  const double low = std::min(span->inner_t_m, span->outer_t_m) - kAtEdge_m, high = std::max(span->inner_t_m, span->outer_t_m) + kAtEdge_m;
+  text += fmt::format("lanes_ahead: {}\nlanes_behind: {}\n", NamesOf(network, network.Successors(key)),
+                      NamesOf(network, network.Predecessors(key)));
+  const double low = std::min(span->inner_t_m, span->outer_t_m) - kAtEdge_m,
+               high = std::max(span->inner_t_m, span->outer_t_m) + kAtEdge_m;
   for (const network::Marking& line : network::MarkingsOf(road)) {
-    if (line.from_s_m > place.s_m || line.to_s_m < place.s_m || (line.painted == nullptr && line.section != key.section)) continue;
+    if (line.from_s_m > place.s_m || line.to_s_m < place.s_m ||
+        (line.painted == nullptr && line.section != key.section))
+      continue;
     const double t = network::MarkingAt(road, line, place.s_m).value;
     if (t < low || t > high) continue;
-    text += fmt::format("line: t_m {:.6f}, {} m wide, {}, {}\n", t, line.width_m, line.colour,
-                        line.gap_m > 0.0 ? fmt::format("strokes of {} m, gaps of {} m", line.stroke_m, line.gap_m) : "continuous");
+    text += fmt::format(
+        "line: t_m {:.6f}, {} m wide, {}, {}\n", t, line.width_m, line.colour,
+        line.gap_m > 0.0 ? fmt::format("strokes of {} m, gaps of {} m", line.stroke_m, line.gap_m) : "continuous");
   }
   for (const auto& [s_m, signal] : network::SignalsFor(network, key)) {
-    text += fmt::format("sign: s_m {:.3f}, {} {}{}{}\n", s_m, signal->type, signal->name, signal->value ? fmt::format(" {:g}", *signal->value) : "", signal->text.empty() ? "" : " '" + signal->text + "'");
+    text += fmt::format("sign: s_m {:.3f}, {} {}{}{}\n", s_m, signal->type, signal->name,
+                        signal->value ? fmt::format(" {:g}", *signal->value) : "",
+                        signal->text.empty() ? "" : " '" + signal->text + "'");
   }
   return text;
 }
@@ -95,7 +111,8 @@ std::string DescribePlace(const network::Network& network, const std::optional<n
     return text + fmt::format("lane: none, {:.6f} m from lane {}\n", place->distance_m, place->lane.lane);
   const network::Lane& lane = *network.Find(place->lane);
   text += fmt::format("lane: {} ({})\n", lane.id, network::LaneTypeName(lane.type));
-  if (const auto limit = road.SpeedLimitAt(lane, place->s_m)) text += fmt::format("speed_limit_kmh: {:.1f}\n", *limit * 3.6);
+  if (const auto limit = road.SpeedLimitAt(lane, place->s_m))
+    text += fmt::format("speed_limit_kmh: {:.1f}\n", *limit * 3.6);
   return text + DescribeLane(network, *place);
 }
 

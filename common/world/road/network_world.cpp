@@ -23,20 +23,26 @@ double StationIn(const network::Network& network, const network::LaneKey& key) {
   return network.Find(key)->direction < 0 ? section.end_s_m - into : section.s_m + into;
 }
 
-// What pieces of a road that are made of something else say of their friction, by road: in the rectangle of s and t about each.
+// What pieces of a road that are made of something else say of their friction, by road: in the rectangle of s and t
+// about each.
 std::vector<network::Laid> PatchesOf(const network::Network& network) {
   std::vector<network::Laid> laid(network.roads().size());
   bool any = false;
   for (const network::Placed& placed : network::PlaceFurniture(network).things) {
     if (placed.object == nullptr || !network::IsPatch(*placed.object) || !placed.object->material.friction) continue;
-    network::LaidPiece piece{placed.s_m - 0.5 * placed.length_m, placed.s_m + 0.5 * placed.length_m, placed.t_m - 0.5 * placed.width_m, placed.t_m + 0.5 * placed.width_m};
+    network::LaidPiece piece{placed.s_m - 0.5 * placed.length_m, placed.s_m + 0.5 * placed.length_m,
+                             placed.t_m - 0.5 * placed.width_m, placed.t_m + 0.5 * placed.width_m};
     if (!placed.object->outlines.empty() && !placed.object->outlines.front().corners.empty()) {
       const double turn = placed.heading_rad - network.roads()[placed.road].axis().Evaluate(placed.s_m).heading_rad;
-      piece = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      piece = {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
       for (const network::Corner& corner : placed.object->outlines.front().corners) {
-        const double s = corner.local ? placed.s_m + std::cos(turn) * corner.first_m - std::sin(turn) * corner.second_m : corner.first_m;
-        const double t = corner.local ? placed.t_m + std::sin(turn) * corner.first_m + std::cos(turn) * corner.second_m : corner.second_m;
-        piece = {std::min(piece.from_s_m, s), std::max(piece.to_s_m, s), std::min(piece.right_t_m, t), std::max(piece.left_t_m, t)};
+        const double s = corner.local ? placed.s_m + std::cos(turn) * corner.first_m - std::sin(turn) * corner.second_m
+                                      : corner.first_m;
+        const double t = corner.local ? placed.t_m + std::sin(turn) * corner.first_m + std::cos(turn) * corner.second_m
+                                      : corner.second_m;
+        piece = {std::min(piece.from_s_m, s), std::max(piece.to_s_m, s), std::min(piece.right_t_m, t),
+                 std::max(piece.left_t_m, t)};
       }
     }
     if (!(piece.to_s_m > piece.from_s_m && piece.left_t_m > piece.right_t_m)) continue;
@@ -56,7 +62,9 @@ StartPose StartOn(const network::Network& network) {
   const auto lanes = network.Lanes();
   for (const network::LaneKey& key : lanes) {
     const network::LaneSection& section = network.Section(key);
-    if (!network::IsDrivable(network.Find(key)->type) || !network::OpenToCars(*network.Find(key)) || !network.roads()[key.road].spec().junction.empty()) continue;
+    if (!network::IsDrivable(network.Find(key)->type) || !network::OpenToCars(*network.Find(key)) ||
+        !network.roads()[key.road].spec().junction.empty())
+      continue;
     const auto span = network.Span(key, StationIn(network, key));
     if (span->width_m() < kNarrowest_m) continue;
     const bool leads_on = !network.Successors(key).empty();
@@ -97,12 +105,15 @@ bool IsOpenDrive(const std::filesystem::path& file) { return ExtensionOf(file) =
 
 std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file) {
   const std::string extension = ExtensionOf(ExtensionOf(file) == ".gz" ? file.stem() : file);
-  const char* what = extension == ".bt" || extension == ".tif" || extension == ".tiff" || extension == ".asc" || extension == ".hgt" ? "an elevation file, which a world file names as 'terrain: {file: …}'"
-                     : extension == ".crg"                                                                                         ? "a measured surface, which a road of a world file names in its 'surfaces: [{crg: …}]'"
-                     : extension == ".csv"                                                                                         ? "a table of points, which a road of a world file names as 'points: {file: …}'"
-                                                                                                                                   : nullptr;
+  const char* what =
+      extension == ".bt" || extension == ".tif" || extension == ".tiff" || extension == ".asc" || extension == ".hgt"
+          ? "an elevation file, which a world file names as 'terrain: {file: …}'"
+      : extension == ".crg" ? "a measured surface, which a road of a world file names in its 'surfaces: [{crg: …}]'"
+      : extension == ".csv" ? "a table of points, which a road of a world file names as 'points: {file: …}'"
+                            : nullptr;
   if (what == nullptr) return std::nullopt;
-  return base::WrongInput(fmt::format("by its name this is {}; a world (.yaml, .xodr or .motors) was expected", what), file.string());
+  return base::WrongInput(fmt::format("by its name this is {}; a world (.yaml, .xodr or .motors) was expected", what),
+                          file.string());
 }
 
 std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file) {

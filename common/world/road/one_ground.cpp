@@ -13,20 +13,26 @@ namespace {
 using network::Network;
 using network::Surfacing;
 
-constexpr double kMeets_m = 5.0;    // so far from where two roads meet, third ones count little
+constexpr double kMeets_m = 5.0;     // so far from where two roads meet, third ones count little
 constexpr double kNearest_m = 1e-6;  // nearer distances are this: at a road's end all others count 1e-13
 
 bool Drivable(const network::Lane& lane) { return network::IsDrivable(lane.type); }
 
 bool LeadsInto(const network::RoadSpec& road, const std::string& junction) {
-  const auto into = [&](const std::optional<network::RoadLink>& link) { return link && link->junction && link->id == junction; };
+  const auto into = [&](const std::optional<network::RoadLink>& link) {
+    return link && link->junction && link->id == junction;
+  };
   return road.junction == junction || into(road.predecessor) || into(road.successor);
 }
 
 // Whether both have to do with one junction.
 bool AreOfOne(const network::RoadSpec& a, const network::RoadSpec& b) {
-  const auto through = [&](const std::optional<network::RoadLink>& link) { return link && link->junction && LeadsInto(b, link->id); };
-  const auto meets = [](const std::optional<network::RoadLink>& link, const network::RoadSpec& middle_of) { return link && link->s_m && link->id == middle_of.id; };
+  const auto through = [&](const std::optional<network::RoadLink>& link) {
+    return link && link->junction && LeadsInto(b, link->id);
+  };
+  const auto meets = [](const std::optional<network::RoadLink>& link, const network::RoadSpec& middle_of) {
+    return link && link->s_m && link->id == middle_of.id;
+  };
   if (meets(a.predecessor, b) || meets(a.successor, b) || meets(b.predecessor, a) || meets(b.successor, a)) return true;
   return (!a.junction.empty() && LeadsInto(b, a.junction)) || through(a.predecessor) || through(a.successor);
 }
@@ -56,12 +62,15 @@ struct Frame {
   }
 };
 
-Block BlockAt(const network::LaneSection& section, const geometry::CubicPoint& centre, const network::Place& place, const Frame& frame) {
+Block BlockAt(const network::LaneSection& section, const geometry::CubicPoint& centre, const network::Place& place,
+              const Frame& frame) {
   thread_local std::vector<network::LaneSpan> spans;  // from right to left
   spans.clear();
-  for (auto lane = section.right.rbegin(); lane != section.right.rend(); ++lane) spans.push_back(*section.Span(lane->id, centre, place.s_m));
+  for (auto lane = section.right.rbegin(); lane != section.right.rend(); ++lane)
+    spans.push_back(*section.Span(lane->id, centre, place.s_m));
   for (const network::Lane& lane : section.left) spans.push_back(*section.Span(lane.id, centre, place.s_m));
-  const auto own = std::find_if(spans.begin(), spans.end(), [&](const network::LaneSpan& span) { return span.lane->id == place.lane.lane; });
+  const auto own = std::find_if(spans.begin(), spans.end(),
+                                [&](const network::LaneSpan& span) { return span.lane->id == place.lane.lane; });
   const bool drivable = Drivable(*own->lane);
   const auto edge = [&](const network::LaneSpan& span, bool left) {
     const bool outer = (span.lane->id > 0) == left;
@@ -141,7 +150,8 @@ Weight WeightOf(const Network& network, const Surfacing& surfacing) {
   return weight;
 }
 
-// Whether a road begins or ends so near that it may be what another one, closed behind its end, goes on into: the gap between them and what is closed of it.
+// Whether a road begins or ends so near that it may be what another one, closed behind its end, goes on into: the gap
+// between them and what is closed of it.
 bool MayTakeOver(const Network& network, const Surfacing& surfacing) {
   const network::Road& road = network.roads()[surfacing.place.lane.road];
   const double s = surfacing.place.s_m;
@@ -156,9 +166,12 @@ bool IsBetter(const Surfacing& a, const Surfacing& b) {
 void Settle(const Network& network, Layer& layer) {
   auto& roads = layer.roads;
   const auto takes_over = [&](const Surfacing* road) { return !road->claim.past_end && MayTakeOver(network, *road); };
-  if (roads.size() > 1 && std::any_of(roads.begin(), roads.end(), takes_over)) std::erase_if(roads, [](const Surfacing* road) { return road->claim.past_end; });
-  layer.named = *std::min_element(roads.begin(), roads.end(), [](const Surfacing* a, const Surfacing* b) { return IsBetter(*a, *b); });
-  if (roads.size() > 1) std::erase_if(roads, [&](const Surfacing* road) { return road->claim.drivable != layer.named->claim.drivable; });
+  if (roads.size() > 1 && std::any_of(roads.begin(), roads.end(), takes_over))
+    std::erase_if(roads, [](const Surfacing* road) { return road->claim.past_end; });
+  layer.named = *std::min_element(roads.begin(), roads.end(),
+                                  [](const Surfacing* a, const Surfacing* b) { return IsBetter(*a, *b); });
+  if (roads.size() > 1)
+    std::erase_if(roads, [&](const Surfacing* road) { return road->claim.drivable != layer.named->claim.drivable; });
   layer.weights.clear();
   layer.z_m = layer.named->sample.p_W.z();
   if (roads.size() == 1) return;
@@ -170,7 +183,8 @@ void Settle(const Network& network, Layer& layer) {
     return;
   }
   const double z = layer.z_m;
-  for (std::size_t i = 0; i < roads.size(); ++i) layer.z_m += layer.weights[i].value / sum * (roads[i]->sample.p_W.z() - z);
+  for (std::size_t i = 0; i < roads.size(); ++i)
+    layer.z_m += layer.weights[i].value / sum * (roads[i]->sample.p_W.z() - z);
 }
 
 }  // namespace
@@ -184,15 +198,19 @@ PlaneHeight Layer::Mean(std::span<const PlaneHeight> heights) const {
   if (weights.empty()) return heights[0];
   double sum = 0.0;
   for (const Weight& weight : weights) sum += weight.value;
-  PlaneHeight mean{heights[0].z_m, Eigen::Vector2d::Zero()};  // from one of them on: where all agree it is what they say
-  for (std::size_t i = 0; i < heights.size(); ++i) mean.z_m += weights[i].value / sum * (heights[i].z_m - heights[0].z_m);
+  PlaneHeight mean{heights[0].z_m,
+                   Eigen::Vector2d::Zero()};  // from one of them on: where all agree it is what they say
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    mean.z_m += weights[i].value / sum * (heights[i].z_m - heights[0].z_m);
   for (std::size_t i = 0; i < heights.size(); ++i) {
-    mean.slope_W += weights[i].value / sum * heights[i].slope_W + (heights[i].z_m - mean.z_m) / sum * weights[i].slope_W;
+    mean.slope_W +=
+        weights[i].value / sum * heights[i].slope_W + (heights[i].z_m - mean.z_m) / sum * weights[i].slope_W;
   }
   return mean;
 }
 
-void FindLayers(const Network& network, std::span<const Surfacing> surfaces, bool past_ends, std::vector<Layer>& layers, std::size_t& count) {
+void FindLayers(const Network& network, std::span<const Surfacing> surfaces, bool past_ends, std::vector<Layer>& layers,
+                std::size_t& count) {
   count = 0;
   thread_local std::vector<const Surfacing*> left;
   left.clear();
@@ -210,11 +228,15 @@ void FindLayers(const Network& network, std::span<const Surfacing> surfaces, boo
     for (std::size_t i = 1; i < left.size(); ++i) {
       const double below = top - left[i]->sample.p_W.z();
       const network::RoadSpec& spec = network.roads()[left[i]->place.lane.road].spec();
-      const bool one = below <= ground::kHintAbove_m || (below < Network::kLevel_m && std::any_of(layer.roads.begin(), layer.roads.end(), [&](const Surfacing* road) {
-        return AreOfOne(network.roads()[road->place.lane.road].spec(), spec);
-      }));
-      if (one) layer.roads.push_back(left[i]);
-      else left[others++] = left[i];
+      const bool one =
+          below <= ground::kHintAbove_m ||
+          (below < Network::kLevel_m && std::any_of(layer.roads.begin(), layer.roads.end(), [&](const Surfacing* road) {
+             return AreOfOne(network.roads()[road->place.lane.road].spec(), spec);
+           }));
+      if (one)
+        layer.roads.push_back(left[i]);
+      else
+        left[others++] = left[i];
     }
     left.resize(others);
     Settle(network, layer);

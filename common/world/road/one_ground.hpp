@@ -24,14 +24,16 @@ struct Weight {
   Eigen::Vector2d slope_W = Eigen::Vector2d::Zero();
 };
 
-// Roads' surfaces over a point that are one ground: what any question of this level is answered from. Where drivable lanes lie there,
-// what is not drivable does not count. Each road counts by (a b / (a + b))², a and b its distances to the edges of its drivable lanes, so
-// that it begins and ends without a step. Beside drivable lanes of its own a road counts ever more towards them, down to nothing at its
-// outer edge. Towards an end where it goes on in another road it counts ever more, as that road does from there on, so that both
-// meet; at an end where nothing goes on it does not count.
+// Roads' surfaces over a point that are one ground: what any question of this level is answered from. Where drivable
+// lanes lie there, what is not drivable does not count. Each road counts by (a b / (a + b))², a and b its distances to
+// the edges of its drivable lanes, so that it begins and ends without a step. Beside drivable lanes of its own a road
+// counts ever more towards them, down to nothing at its outer edge. Towards an end where it goes on in another road it
+// counts ever more, as that road does from there on, so that both meet; at an end where nothing goes on it does not
+// count.
 struct Layer {
   std::vector<const network::Surfacing*> roads;  // what counts; one alone is the ground as it is
-  const network::Surfacing* named = nullptr;     // whose lane it is: of those that count the one that Network::Locate would name
+  const network::Surfacing* named =
+      nullptr;  // whose lane it is: of those that count the one that Network::Locate would name
   double z_m = 0.0;
 
   // Of these heights of each of the roads.
@@ -39,9 +41,10 @@ struct Layer {
   std::vector<Weight> weights;  // by road; empty where one alone counts
 };
 
-// From the highest to the lowest layer, of what Network::Surfaces found. Of one layer are roads of one junction, those that lead into it
-// too, within Network::kLevel_m of the highest; others within ground::kHintAbove_m, where no hint can tell them apart.
-// past_ends: whether the ground behind an end that is closed counts.
-void FindLayers(const network::Network& network, std::span<const network::Surfacing> surfaces, bool past_ends, std::vector<Layer>& layers, std::size_t& count);
+// From the highest to the lowest layer, of what Network::Surfaces found. Of one layer are roads of one junction, those
+// that lead into it too, within Network::kLevel_m of the highest; others within ground::kHintAbove_m, where no hint can
+// tell them apart. past_ends: whether the ground behind an end that is closed counts.
+void FindLayers(const network::Network& network, std::span<const network::Surfacing> surfaces, bool past_ends,
+                std::vector<Layer>& layers, std::size_t& count);
 
 }  // namespace rodeira::road

@@ -48,7 +48,8 @@ bool Paint::MayBe(std::uint32_t road, double low_s_m, double high_s_m, double lo
   for (std::size_t stretch = lines.StretchAt(low_s_m); stretch <= lines.StretchAt(high_s_m); ++stretch) {
     for (const std::uint32_t number : lines.by_stretch[stretch]) {
       const Line& line = lines.lines[number];
-      if (high_t_m >= line.low_t_m && low_t_m <= line.high_t_m && high_s_m >= line.from_s_m && low_s_m <= line.to_s_m) return true;
+      if (high_t_m >= line.low_t_m && low_t_m <= line.high_t_m && high_s_m >= line.from_s_m && low_s_m <= line.to_s_m)
+        return true;
     }
   }
   return false;

@@ -8,13 +8,18 @@ namespace {
 using config::Map;
 using terrain::LaidPicture;
 
-// Once, in a rectangle: the file's keys, or else where the picture itself says that it lies. Without either it has no width.
-void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::PicturePlace>& place, LaidPicture& picture) {
+// Once, in a rectangle: the file's keys, or else where the picture itself says that it lies. Without either it has no
+// width.
+void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::PicturePlace>& place,
+                   LaidPicture& picture) {
   picture.repeats = false;
   picture.width_m = picture.height_m = 0.0;
   const bool said = map.Has("west_m") || map.Has("south_m") || map.Has("east_m") || map.Has("north_m");
   if (!said && !place) {
-    if (on_plane) map.Problem("kind", "a plane has no edges over which a picture could be draped; 'west_m', 'south_m', 'east_m' and 'north_m' were expected");
+    if (on_plane)
+      map.Problem("kind",
+                  "a plane has no edges over which a picture could be draped; 'west_m', 'south_m', 'east_m' and "
+                  "'north_m' were expected");
     return;
   }
   const auto number = [&](const char* key, double own) { return said ? map.Number(key, {-1e8, 1e8}) : own; };
@@ -38,8 +43,10 @@ std::optional<LaidPicture> ReadGroundPicture(const Map& ground, std::vector<base
   if (!file.empty()) {
     picture.file = std::filesystem::absolute(file).string();
     auto looked = terrain::LookAtPicture(file);
-    if (looked) facts = std::move(looked).value();
-    else missing.push_back(base::WrongInput(looked.error().message, map.Place("file")));
+    if (looked)
+      facts = std::move(looked).value();
+    else
+      missing.push_back(base::WrongInput(looked.error().message, map.Place("file")));
   }
   if (map.Choice("kind", {"geotypical", "draped"}, "geotypical") == "draped") {
     ReadRectangle(map, ground.Has("kind"), facts.place, picture);

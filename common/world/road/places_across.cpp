@@ -22,7 +22,8 @@ std::vector<double> PlacesAcross(const network::Road& road, std::uint32_t sectio
       const network::LaneSpan span = *road.SpanAt(section, lane.id, s_m);
       if (span.width_m() < 2.0 * kInset_m) continue;
       across.push_back(span.centre_t_m());
-      right = std::min({right, span.inner_t_m, span.outer_t_m}), left = std::max({left, span.inner_t_m, span.outer_t_m});
+      right = std::min({right, span.inner_t_m, span.outer_t_m}),
+      left = std::max({left, span.inner_t_m, span.outer_t_m});
     }
   }
   if (!across.empty()) across.push_back(right + kInset_m), across.push_back(left - kInset_m);

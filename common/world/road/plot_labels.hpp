@@ -16,14 +16,16 @@ class PlotLabels {
   // Within a picture of this size, in SVG units.
   PlotLabels(double width, double height) : width_(width), height_(height) {}
 
-  // Puts a word beside a point (y downward), `gap` away from it: to its right, or where that is taken to one of the other
-  // sides. False, and nothing put, where there is no room. `text` is plain.
+  // Puts a word beside a point (y downward), `gap` away from it: to its right, or where that is taken to one of the
+  // other sides. False, and nothing put, where there is no room. `text` is plain.
   bool Put(const Eigen::Vector2d& point, double gap, double size, const char* colour, std::string_view text);
   // Keeps a rectangle clear that begins at its upper left corner; false, and nothing kept, where it is taken.
   bool Keep(const Eigen::Vector2d& corner, const Eigen::Vector2d& size);
 
   // Words stand on a square about this point only where there is no other room for them; what is kept may.
-  void Avoid(const Eigen::Vector2d& point, double half) { avoided_.push_back({point - Eigen::Vector2d::Constant(half), point + Eigen::Vector2d::Constant(half)}); }
+  void Avoid(const Eigen::Vector2d& point, double half) {
+    avoided_.push_back({point - Eigen::Vector2d::Constant(half), point + Eigen::Vector2d::Constant(half)});
+  }
 
   const std::string& svg() const { return svg_; }
 

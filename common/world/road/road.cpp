@@ -66,8 +66,8 @@ const Lane* Road::LaneAt(double /*s_m*/, double t_m) const {
   return nullptr;
 }
 
-// The length of a mark from the road's start to s. A line at offset t of an axis with curvature k grows by (1 - k t) ds,
-// so its length is s - t (heading(s) - heading(0)).
+// The length of a mark from the road's start to s. A line at offset t of an axis with curvature k grows by (1 - k t)
+// ds, so its length is s - t (heading(s) - heading(0)).
 double Road::AlongMark(const Mark& mark, double s_m, double heading_rad) const {
   return s_m - mark.t_m * (heading_rad - start_heading_rad_);
 }

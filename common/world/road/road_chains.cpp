@@ -19,7 +19,8 @@ const network::Road* WayAfter(const network::Network& network, const network::Ro
 }  // namespace
 
 std::pair<const network::Road*, double> RoadChain::At(const network::Network& network, double s_m) const {
-  auto part = std::upper_bound(parts.begin() + 1, parts.end(), s_m, [](double s, const Part& p) { return s < p.from_s_m; }) - 1;
+  auto part =
+      std::upper_bound(parts.begin() + 1, parts.end(), s_m, [](double s, const Part& p) { return s < p.from_s_m; }) - 1;
   return {&network.roads()[part->road], s_m - part->from_s_m};
 }
 

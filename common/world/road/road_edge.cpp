@@ -29,10 +29,13 @@ double WidestOf(const network::Road& road) {
 
 bool IsConstant(const geometry::CubicTable& table) {
   const auto& records = table.records();
-  return std::all_of(records.begin(), records.end(), [&](const geometry::Cubic& one) { return one.b == 0.0 && one.c == 0.0 && one.d == 0.0 && one.a == records.front().a; });
+  return std::all_of(records.begin(), records.end(), [&](const geometry::Cubic& one) {
+    return one.b == 0.0 && one.c == 0.0 && one.d == 0.0 && one.a == records.front().a;
+  });
 }
 
-network::LaneSpan SpanAt(const network::LaneSection& section, const SteadyEdges& steady, double t_m, const geometry::CubicPoint& centre, double s_m, double& outside_m) {
+network::LaneSpan SpanAt(const network::LaneSection& section, const SteadyEdges& steady, double t_m,
+                         const geometry::CubicPoint& centre, double s_m, double& outside_m) {
   if (steady.section == &section) {
     if (const network::LaneSpan* beyond = steady.Beyond(t_m, outside_m)) return *beyond;
   }
@@ -59,15 +62,19 @@ SteadyEdges SteadyEdgesOf(const network::Road& road, const Stretch& stretch) {
   if (&section != &road.SectionAt(stretch.to_s_m) || !IsConstant(road.spec().lane_offset)) return {};
   for (const auto* lanes : {&section.left, &section.right}) {
     for (const network::Lane& lane : *lanes) {
-      if (lane.bordered() || !IsConstant(lane.width) || (!lane.width.records().empty() && lane.width.records().front().a < 0.0)) return {};
+      if (lane.bordered() || !IsConstant(lane.width) ||
+          (!lane.width.records().empty() && lane.width.records().front().a < 0.0))
+        return {};
     }
   }
   SteadyEdges steady;
   const geometry::CubicPoint centre = road.CentreAt(stretch.from_s_m);
   double outside;
   steady.section = &section, steady.centre_t_m = centre.value;
-  steady.left = section.At(kFar_m, centre, stretch.from_s_m, outside), steady.right = section.At(-kFar_m, centre, stretch.from_s_m, outside);
-  steady.left_t_m = section.left.empty() ? centre.value : steady.left.outer_t_m, steady.right_t_m = section.right.empty() ? centre.value : steady.right.outer_t_m;
+  steady.left = section.At(kFar_m, centre, stretch.from_s_m, outside),
+  steady.right = section.At(-kFar_m, centre, stretch.from_s_m, outside);
+  steady.left_t_m = section.left.empty() ? centre.value : steady.left.outer_t_m,
+  steady.right_t_m = section.right.empty() ? centre.value : steady.right.outer_t_m;
   return steady;
 }
 
@@ -99,7 +106,8 @@ EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& pan
 }
 
 EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to_s_m) {
-  double low = std::numeric_limits<double>::infinity(), high = -low, most = 0.0;  // the greatest step between two samples
+  double low = std::numeric_limits<double>::infinity(), high = -low,
+         most = 0.0;  // the greatest step between two samples
   std::array<double, 2> last{};
   for (int k = 0; k <= kSamples; ++k) {
     const double s = from_s_m + (to_s_m - from_s_m) * k / kSamples;
@@ -115,7 +123,8 @@ EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to
   return {low - most - kSample_m, high + most + kSample_m};
 }
 
-EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W, const SteadyEdges& steady) {
+EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch,
+                      const Eigen::Vector2d& p_W, const SteadyEdges& steady) {
   const geometry::AxisFoot foot = road.axis().Foot(panel, p_W);
   const double found = panel.middle_s_m + foot.u_m;
   EdgePlace place;
@@ -138,13 +147,16 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
   place.axis = s == found ? foot.at : road.axis().At(panel, s - panel.middle_s_m);
   place.sample = road.Surface(place.axis, s, place.t_m, section, span);
   if (place.beside) {
-    const double pace = place.sample.ds_W.head<2>().norm() - place.axis.curvature_1pm * geometry::Cross(place.axis.tangent_W, p_W - place.sample.p_W.head<2>());
+    const double pace =
+        place.sample.ds_W.head<2>().norm() -
+        place.axis.curvature_1pm * geometry::Cross(place.axis.tangent_W, p_W - place.sample.p_W.head<2>());
     if (pace > kLeastPace) place.pace = pace;
   }
   return place;
 }
 
-EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place, const SteadyEdges& steady) {
+EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place,
+                  const SteadyEdges& steady) {
   EdgePlace moved = place;
   moved.s_m = s_m;
   const network::LaneSection& section = road.SectionAt(s_m);

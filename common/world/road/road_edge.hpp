@@ -9,17 +9,19 @@
 // The edges of a road's outermost lanes, from which the ground beside it goes on.
 namespace rodeira::road {
 
-// What is added to a distance so that nothing beyond a reach counts: nothing over its first four fifths, then ever more, without bound at its end; and
-// how that changes with the distance.
+// What is added to a distance so that nothing beyond a reach counts: nothing over its first four fifths, then ever
+// more, without bound at its end; and how that changes with the distance.
 std::pair<double, double> Steepening(double distance_m, double reach_m);
 
-// How far a panel's edges lie from the way between its ends at most, and how far from the line through both to either side of it.
+// How far a panel's edges lie from the way between its ends at most, and how far from the line through both to either
+// side of it.
 struct EdgesAside {
   double beside_m, right_m, left_m;
 };
 EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel);
 
-// The lowest and the highest that a road's edges are between two stations, and some room for what lies between the samples.
+// The lowest and the highest that a road's edges are between two stations, and some room for what lies between the
+// samples.
 struct EdgeHeights {
   double low_m, high_m;
 };
@@ -30,7 +32,8 @@ struct Stretch {
   double from_s_m = 0.0, to_s_m = 0.0;
 };
 
-// The outermost edges of a stretch along which no lane's edge moves: what LaneSection::At says beyond them, to the bit, without asking lane by lane.
+// The outermost edges of a stretch along which no lane's edge moves: what LaneSection::At says beyond them, to the bit,
+// without asking lane by lane.
 struct SteadyEdges {
   const network::LaneSection* section = nullptr;  // null: some edge moves
   network::LaneSpan right, left;                  // of the outermost lanes
@@ -41,22 +44,25 @@ struct SteadyEdges {
 };
 SteadyEdges SteadyEdgesOf(const network::Road& road, const Stretch& stretch);
 
-// The place on a stretch of a panel that lies across the road from a point, or at the stretch's nearer end: on the edge of the point's side, or as far
-// aside as the point where that is between the edges.
+// The place on a stretch of a panel that lies across the road from a point, or at the stretch's nearer end: on the edge
+// of the point's side, or as far aside as the point where that is between the edges.
 struct EdgePlace {
   double s_m = 0.0;        // within the stretch
   double found_s_m = 0.0;  // the point's own, within the panel
   double found_t_m = 0.0;
-  double beyond_m = 0.0;   // how far the point lies past the panel's end, along the tangent there
-  double outside_m = 0.0;  // of the edge, across
+  double beyond_m = 0.0;            // how far the point lies past the panel's end, along the tangent there
+  double outside_m = 0.0;           // of the edge, across
   double t_m = 0.0, t_slope = 0.0;  // of the place, and as its edge goes with s
-  bool beside = false;     // s is not held at an end
-  double pace = 0.0;       // metres in the plane beside the point for one of s; 0: s stands still, or the point is near the middle of the bend
+  bool beside = false;              // s is not held at an end
+  double pace = 0.0;  // metres in the plane beside the point for one of s; 0: s stands still, or the point is near the
+                      // middle of the bend
   geometry::PlanPoint axis;
   network::SurfaceSample sample;
 };
-EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch, const Eigen::Vector2d& p_W, const SteadyEdges& steady = {});
+EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch,
+                      const Eigen::Vector2d& p_W, const SteadyEdges& steady = {});
 // The same place moved along the road to another station of the panel.
-EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place, const SteadyEdges& steady = {});
+EdgePlace MovedTo(double s_m, const network::Road& road, const geometry::AxisPanel& panel, const EdgePlace& place,
+                  const SteadyEdges& steady = {});
 
 }  // namespace rodeira::road

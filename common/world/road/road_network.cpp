@@ -32,18 +32,21 @@ std::vector<geometry::PlanElement> Elements(const Road& road) {
 
 network::LateralProfile Lateral(const Road& road) {
   std::vector<Cubic> records;
-  for (const Band& band : road.section().bands()) records.push_back({band.from_t_m, band.from_z_m, band.slope, 0.0, 0.0});
+  for (const Band& band : road.section().bands())
+    records.push_back({band.from_t_m, band.from_z_m, band.slope, 0.0, 0.0});
   network::LateralProfile lateral;
   lateral.shapes.push_back({0.0, CubicTable(std::move(records))});
   return lateral;
 }
 
-network::Lane Strip(int id, network::LaneType type, double width_m, ground::Surface surface, const FrictionTable& friction) {
+network::Lane Strip(int id, network::LaneType type, double width_m, ground::Surface surface,
+                    const FrictionTable& friction) {
   network::Lane lane;
   lane.id = id;
   lane.type = type;
   lane.width = design::Constant(width_m);
-  lane.materials.push_back({0.0, std::string(SurfaceName(surface)), friction[static_cast<std::size_t>(surface)], std::nullopt, {}});
+  lane.materials.push_back(
+      {0.0, std::string(SurfaceName(surface)), friction[static_cast<std::size_t>(surface)], std::nullopt, {}});
   return lane;
 }
 
@@ -89,7 +92,8 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
   section.right = Side(road.section(), false, spec.left_hand, friction);
   spec.sections.push_back(std::move(section));
   for (const Mark& mark : road.marks()) {
-    network::PaintedLine line{mark.from_s_m, mark.to_s_m, design::Constant(mark.t_m), mark.width_m, mark.stroke_m, mark.gap_m, "white"};
+    network::PaintedLine line{mark.from_s_m, mark.to_s_m, design::Constant(mark.t_m), mark.width_m, mark.stroke_m,
+                              mark.gap_m,    "white"};
     if (mark.colour == MarkColour::kYellow) line.colour = "yellow";
     spec.lines.push_back(std::move(line));
   }

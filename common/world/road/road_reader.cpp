@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/core/base/suggest.hpp"
+#include "common/core/geometry/angle.hpp"
 #include "common/world/design/element_name.hpp"
 #include "common/world/design/profile_reader.hpp"
-#include "common/core/geometry/angle.hpp"
 
 namespace rodeira::road {
 namespace {
@@ -29,7 +29,8 @@ constexpr Range kFall = {-0.2, 0.2};
 double ReadCurvature(const Map& map, std::string_view key) {
   const double radius = map.Number(key);
   if (std::fabs(radius) >= kSmallestRadius_m && std::fabs(radius) <= 1e7) return 1.0 / radius;
-  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key, radius, kSmallestRadius_m));
+  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
+                               radius, kSmallestRadius_m));
   return 0.0;
 }
 
@@ -37,7 +38,8 @@ geometry::PlanPiece ReadPiece(const Map& item) {
   geometry::PlanPiece piece{1.0, 0.0, 0.0};
   const design::ElementName name = design::ReadElementName(item);
   if (name.kind.empty()) {
-    piece.length_m = kElementLength_m.high;  // so that nothing that stands along it seems to stand behind the road's end
+    piece.length_m =
+        kElementLength_m.high;  // so that nothing that stands along it seems to stand behind the road's end
   } else if (name.kind == "line") {
     piece.length_m = item.Child(name.key).Number("length_m", kElementLength_m);
   } else if (name.kind == "arc") {
@@ -51,7 +53,8 @@ geometry::PlanPiece ReadPiece(const Map& item) {
     if (clothoid.Has("radius_start_m")) piece.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
     if (clothoid.Has("radius_end_m")) piece.curvature_end_1pm = ReadCurvature(clothoid, "radius_end_m");
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
-      clothoid.Problem("length_m", "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
+      clothoid.Problem("length_m",
+                       "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
   }
   return piece;
@@ -76,15 +79,18 @@ void ReadLanes(const Map& map, SectionSpec& section) {
     lane.width_m = item.Number("width_m", {1.0, 20.0});
     lane.speed_limit_mps = item.Number("speed_limit_kmh", {1.0, 400.0}) / 3.6;
     // Traffic keeps to the right unless told otherwise.
-    lane.direction = item.Choice("direction", {"along", "against"}, lane.id < 0 ? "along" : "against") == "along" ? 1 : -1;
-    if (lane.id == 0) item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
+    lane.direction =
+        item.Choice("direction", {"along", "against"}, lane.id < 0 ? "along" : "against") == "along" ? 1 : -1;
+    if (lane.id == 0)
+      item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
     if (!ids.insert(lane.id).second) item.Problem("id", fmt::format("lane {} stands twice", lane.id));
     section.lanes.push_back(lane);
   }
   if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "a road needs at least one lane");
   for (const int id : ids) {
     const int inner = id > 0 ? id - 1 : id + 1;
-    if (id != 0 && inner != 0 && !ids.contains(inner)) map.Problem("lanes", fmt::format("there is a lane {} but no lane {} between it and the axis", id, inner));
+    if (id != 0 && inner != 0 && !ids.contains(inner))
+      map.Problem("lanes", fmt::format("there is a lane {} but no lane {} between it and the axis", id, inner));
   }
   std::sort(section.lanes.begin(), section.lanes.end(), [](const Lane& a, const Lane& b) { return a.id < b.id; });
 }
@@ -124,12 +130,14 @@ void ReadMarks(const Map& map, double length_m, std::vector<Mark>& marks) {
     mark.width_m = item.Number("width_m", {0.01, 2.0}, 0.1);
     mark.from_s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
     mark.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
-    mark.colour = item.Choice("colour", {"white", "yellow"}, "white") == "white" ? MarkColour::kWhite : MarkColour::kYellow;
+    mark.colour =
+        item.Choice("colour", {"white", "yellow"}, "white") == "white" ? MarkColour::kWhite : MarkColour::kYellow;
     if (item.Choice("kind", {"continuous", "dashed"}) == "dashed") {
       mark.stroke_m = item.Number("stroke_m", {0.1, 100.0});
       mark.gap_m = item.Number("gap_m", {0.1, 100.0});
     }
-    if (!(mark.from_s_m < mark.to_s_m)) item.Problem("to_s_m", "a mark must end after its beginning: 'to_s_m' above 'from_s_m'");
+    if (!(mark.from_s_m < mark.to_s_m))
+      item.Problem("to_s_m", "a mark must end after its beginning: 'to_s_m' above 'from_s_m'");
     marks.push_back(mark);
   }
 }
@@ -138,7 +146,8 @@ void ReadMarks(const Map& map, double length_m, std::vector<Mark>& marks) {
 
 ground::Surface ReadSurface(const Map& map, std::string_view key, ground::Surface otherwise) {
   using ground::Surface;
-  const std::vector<Surface> surfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil};
+  const std::vector<Surface> surfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass,
+                                         Surface::kSoil};
   std::vector<std::string> names;
   for (const Surface surface : surfaces) names.emplace_back(SurfaceName(surface));
   const std::string name = map.Choice(key, names, SurfaceName(otherwise));

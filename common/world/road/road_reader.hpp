@@ -1,8 +1,8 @@
 #pragma once
 
 #include "common/core/config/config.hpp"
-#include "common/world/road/road.hpp"
 #include "common/core/ground/ground.hpp"
+#include "common/world/road/road.hpp"
 
 namespace rodeira::road {
 

@@ -19,8 +19,10 @@ std::vector<Band> SideBands(const SectionSpec& spec, double sign, double lanes_e
     if (strip_m <= 0.0) return;
     const double next = z - fall * strip_m;
     const double slope = -fall * sign;  // dz/dt
-    if (sign > 0.0) bands.push_back({width, width + strip_m, z, slope, surface});
-    else bands.push_back({-(width + strip_m), -width, next, slope, surface});
+    if (sign > 0.0)
+      bands.push_back({width, width + strip_m, z, slope, surface});
+    else
+      bands.push_back({-(width + strip_m), -width, next, slope, surface});
     width += strip_m;
     z = next;
   };

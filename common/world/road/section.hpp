@@ -8,8 +8,8 @@
 
 namespace rodeira::road {
 
-// A lane of constant width. The id's sign is OpenDRIVE's: negative to the right of the axis as seen along s, positive to
-// the left, counted from the axis outward (-1, -2 … and 1, 2 …).
+// A lane of constant width. The id's sign is OpenDRIVE's: negative to the right of the axis as seen along s, positive
+// to the left, counted from the axis outward (-1, -2 … and 1, 2 …).
 struct Lane {
   int id = 0;
   int direction = 1;  // of traffic: +1 along s, -1 against it

@@ -7,8 +7,12 @@ namespace rodeira::road {
 
 SquareLists::SquareLists(std::span<const Strip> strips) {
   if (strips.empty()) return;
-  const auto low_of = [](const Strip& strip) { return Eigen::Vector2d(strip.from_W.cwiseMin(strip.to_W).array() - strip.reach_m); };
-  const auto high_of = [](const Strip& strip) { return Eigen::Vector2d(strip.from_W.cwiseMax(strip.to_W).array() + strip.reach_m); };
+  const auto low_of = [](const Strip& strip) {
+    return Eigen::Vector2d(strip.from_W.cwiseMin(strip.to_W).array() - strip.reach_m);
+  };
+  const auto high_of = [](const Strip& strip) {
+    return Eigen::Vector2d(strip.from_W.cwiseMax(strip.to_W).array() + strip.reach_m);
+  };
   Eigen::Vector2d low_W = low_of(strips.front()), high_W = high_of(strips.front());
   double farthest_m = 0.0;
   for (const Strip& strip : strips) {
@@ -28,7 +32,8 @@ SquareLists::SquareLists(std::span<const Strip> strips) {
   for (std::size_t square = 0; square + 1 < first_.size(); ++square) first_[square + 1] += first_[square];
   strips_.resize(first_.back());
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-  for (std::uint32_t i = 0; i < strips.size(); ++i) each_square(strips[i], [&](std::size_t square) { strips_[next[square]++] = i; });
+  for (std::uint32_t i = 0; i < strips.size(); ++i)
+    each_square(strips[i], [&](std::size_t square) { strips_[next[square]++] = i; });
 }
 
 }  // namespace rodeira::road

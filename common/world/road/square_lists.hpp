@@ -36,11 +36,13 @@ class SquareLists {
     return Of(*square);
   }
   const SquareGrid& grid() const { return grid_; }
-  std::span<const std::uint32_t> Of(std::size_t square) const { return std::span(strips_).subspan(first_[square], first_[square + 1] - first_[square]); }
+  std::span<const std::uint32_t> Of(std::size_t square) const {
+    return std::span(strips_).subspan(first_[square], first_[square + 1] - first_[square]);
+  }
 
  private:
   SquareGrid grid_;
-  std::vector<std::uint32_t> first_;   // by square, where a square's list begins in strips_; one more at the end
+  std::vector<std::uint32_t> first_;  // by square, where a square's list begins in strips_; one more at the end
   std::vector<std::uint32_t> strips_;
 };
 

@@ -24,6 +24,8 @@ double StationNames::StationOf(std::uint32_t road, double s_m) const {
   return name == of_.end() ? s_m : name->second.second + s_m;
 }
 
-std::string StationNames::At(std::uint32_t road, double s_m) const { return fmt::format("{} at s = {:.1f} m", Road(road), StationOf(road, s_m)); }
+std::string StationNames::At(std::uint32_t road, double s_m) const {
+  return fmt::format("{} at s = {:.1f} m", Road(road), StationOf(road, s_m));
+}
 
 }  // namespace rodeira::road

@@ -14,15 +14,15 @@ struct OfRoad {
   std::string text;
 };
 
-// How places of a network's roads are called in sentences: parts of a road between junctions by their road, with its stations, where `own` says that
-// the network is a world file's; otherwise by the road's id.
+// How places of a network's roads are called in sentences: parts of a road between junctions by their road, with its
+// stations, where `own` says that the network is a world file's; otherwise by the road's id.
 class StationNames {
  public:
   StationNames(const network::Network& network, bool own);
 
   // "road 'a' at s = 12.0 m"
   std::string At(std::uint32_t road, double s_m) const;
-  std::string Road(std::uint32_t road) const;          // "road 'a'"
+  std::string Road(std::uint32_t road) const;              // "road 'a'"
   double StationOf(std::uint32_t road, double s_m) const;  // along the named road
 
  private:

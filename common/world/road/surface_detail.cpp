@@ -30,7 +30,8 @@ void PutAll(const surface::CrgSurface& surface, base::ByteWriter& out) {
   const surface::CrgShape& shape = surface.shape();
   for (const auto* numbers : {&shape.v_m, &shape.heights, &shape.line_z_m, &shape.banking}) {
     out.Put(static_cast<std::uint64_t>(numbers->size()));
-    for (const double number : *numbers) put(std::isnan(number) ? 1e300 : number);  // a missing height, whichever NaN it is
+    for (const double number : *numbers)
+      put(std::isnan(number) ? 1e300 : number);  // a missing height, whichever NaN it is
   }
   put(shape.line.begin_u_m());
   put(shape.line.step_m());
@@ -38,14 +39,17 @@ void PutAll(const surface::CrgSurface& surface, base::ByteWriter& out) {
   const surface::CrgOptions& options = shape.options;
   out.Put(static_cast<std::uint32_t>(options.border_u));
   out.Put(static_cast<std::uint32_t>(options.border_v));
-  for (const double number : {options.offset_u_m, options.offset_v_m, options.smooth_begin_m, options.smooth_end_m}) put(number);
+  for (const double number : {options.offset_u_m, options.offset_v_m, options.smooth_begin_m, options.smooth_end_m})
+    put(number);
   out.Put(static_cast<std::uint32_t>(options.close_track));
 }
 
 // What is laid on a road, as numbers.
 void PutLaid(const network::Laid& laid, base::ByteWriter& out) {
   const auto put = [&out](double value) { out.Put(value + 0.0); };  // -0 is 0
-  const auto put_piece = [&put](const network::LaidPiece& piece) { put(piece.from_s_m), put(piece.to_s_m), put(piece.right_t_m), put(piece.left_t_m); };
+  const auto put_piece = [&put](const network::LaidPiece& piece) {
+    put(piece.from_s_m), put(piece.to_s_m), put(piece.right_t_m), put(piece.left_t_m);
+  };
   out.Put(static_cast<std::uint64_t>(laid.patches.size()));
   for (const network::Patch& patch : laid.patches) {
     put_piece(patch.piece);
@@ -56,13 +60,14 @@ void PutLaid(const network::Laid& laid, base::ByteWriter& out) {
   for (const network::Bump& bump : laid.bumps) {
     put_piece(bump.piece);
     put(bump.side_m);
-    for (const geometry::Cubic& cubic : bump.height.records()) put(cubic.from), put(cubic.a), put(cubic.b), put(cubic.c), put(cubic.d);
+    for (const geometry::Cubic& cubic : bump.height.records())
+      put(cubic.from), put(cubic.a), put(cubic.b), put(cubic.c), put(cubic.d);
   }
 }
 
 std::optional<ground::Surface> SurfaceByName(std::string_view name) {
-  for (const ground::Surface surface : {ground::Surface::kAsphalt, ground::Surface::kConcrete, ground::Surface::kGravel, ground::Surface::kGrass,
-                                         ground::Surface::kSoil}) {
+  for (const ground::Surface surface : {ground::Surface::kAsphalt, ground::Surface::kConcrete, ground::Surface::kGravel,
+                                        ground::Surface::kGrass, ground::Surface::kSoil}) {
     if (name == ground::SurfaceName(surface)) return surface;
   }
   return std::nullopt;
@@ -90,19 +95,26 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
                                                           std::shared_ptr<const surface::CrgSurface> file) {
   const std::vector<std::string> modes = {"attached", "attached0", "genuine", "global"};
   const auto wrong = [&](std::string_view what, const std::string& found, const std::vector<std::string>& known) {
-    return base::WrongInput(fmt::format("'{}' is no {} of a measured surface{}", found, what, base::DidYouMean(found, known)),
-                            fmt::format("road {}, s {:g}, '{}'", road.id(), crg.s_start_m, crg.file));
+    return base::WrongInput(
+        fmt::format("'{}' is no {} of a measured surface{}", found, what, base::DidYouMean(found, known)),
+        fmt::format("road {}, s {:g}, '{}'", road.id(), crg.s_start_m, crg.file));
   };
   if (std::find(modes.begin(), modes.end(), crg.mode) == modes.end()) return wrong("mode", crg.mode, modes);
-  if (crg.orientation != "same" && crg.orientation != "opposite") return wrong("orientation", crg.orientation, {"same", "opposite"});
-  if (crg.purpose != "elevation" && crg.purpose != "friction") return wrong("purpose", crg.purpose, {"elevation", "friction"});
-  Stretch stretch{crg.s_start_m, crg.s_end_m, crg.s_offset_m, nullptr, std::move(file), 0, crg.t_offset_m, crg.z_offset_m, crg.z_scale, crg.orientation == "opposite"};
+  if (crg.orientation != "same" && crg.orientation != "opposite")
+    return wrong("orientation", crg.orientation, {"same", "opposite"});
+  if (crg.purpose != "elevation" && crg.purpose != "friction")
+    return wrong("purpose", crg.purpose, {"elevation", "friction"});
+  Stretch stretch{crg.s_start_m,   crg.s_end_m,
+                  crg.s_offset_m,  nullptr,
+                  std::move(file), 0,
+                  crg.t_offset_m,  crg.z_offset_m,
+                  crg.z_scale,     crg.orientation == "opposite"};
   stretch.friction = crg.purpose == "friction";
   if (crg.mode == "attached") return stretch;
   stretch.lay = crg.mode == "attached0" ? Lay::kInstead : Lay::kByItself;
   if (crg.mode != "genuine") return stretch;
-  // The line's beginning comes to lie on the road at sStart + sOffset and tOffset, in the road's direction there, turned by hOffset; of
-  // one that runs against the road its end, looking back.
+  // The line's beginning comes to lie on the road at sStart + sOffset and tOffset, in the road's direction there,
+  // turned by hOffset; of one that runs against the road its end, looking back.
   const surface::CrgReferenceLine& line = stretch.measured->line();
   const geometry::PlanPoint at = road.axis().Evaluate(crg.s_start_m + crg.s_offset_m);
   const double u = stretch.opposite ? line.end_u_m() : line.begin_u_m();
@@ -114,7 +126,8 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
   return stretch;
 }
 
-base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder, std::span<const network::Laid> laid, const PlaceOf& place_of) {
+base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network, const std::filesystem::path& folder,
+                                                std::span<const network::Laid> laid, const PlaceOf& place_of) {
   SurfaceDetail detail;
   std::map<std::string, std::shared_ptr<const surface::CrgSurface>> files;
   base::ByteWriter numbers;
@@ -123,13 +136,17 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
     std::vector<Stretch> stretches;
     for (std::size_t k = 0; k < spec.crg.size(); ++k) {
       const network::CrgSurface& crg = spec.crg[k];
-      const auto placed = [&](const base::Error& error) { return base::WrongInput(error.Text(), place_of ? place_of(network.roads()[i], k) : std::string()); };
+      const auto placed = [&](const base::Error& error) {
+        return base::WrongInput(error.Text(), place_of ? place_of(network.roads()[i], k) : std::string());
+      };
       const std::filesystem::path named = crg.file;
       const std::string path = (named.is_absolute() ? named : folder / named).string();
       auto& file = files[path];
       if (file == nullptr) {
         auto loaded = surface::LoadCrg(path);
-        if (!loaded) return placed(base::WrongInput(loaded.error().Text(), fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
+        if (!loaded)
+          return placed(base::WrongInput(loaded.error().Text(),
+                                         fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
         file = loaded.value().surface;
       }
       auto stretch = Place(network.roads()[i], crg, file);
@@ -140,9 +157,10 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
       stretches.push_back(std::move(stretch).value());
     }
     for (const network::Unevenness& uneven : spec.unevenness) {
-      stretches.push_back({uneven.s_start_m, uneven.s_end_m, uneven.s_offset_m,
-                           std::make_shared<const surface::Roughness>(surface::RoughnessSpec{uneven.density_m3, uneven.seed}), nullptr,
-                           base::Hash(fmt::format("{} {}", uneven.density_m3, uneven.seed))});
+      stretches.push_back(
+          {uneven.s_start_m, uneven.s_end_m, uneven.s_offset_m,
+           std::make_shared<const surface::Roughness>(surface::RoughnessSpec{uneven.density_m3, uneven.seed}), nullptr,
+           base::Hash(fmt::format("{} {}", uneven.density_m3, uneven.seed))});
     }
     if (stretches.empty()) continue;
     detail.roads_.resize(network.roads().size());
@@ -161,13 +179,18 @@ base::Digest SurfaceDetail::DigestOn(std::uint32_t road, double from_s_m, double
   for (const Stretch& stretch : roads_.empty() ? std::vector<Stretch>() : roads_[road]) {
     if (stretch.begin_m > to_s_m || stretch.end_m < from_s_m) continue;
     out.Put(stretch.source);
-    for (const double number : {stretch.begin_m, stretch.end_m, stretch.s_offset_m, stretch.t_offset_m, stretch.z_offset_m, stretch.z_scale}) put(number);
-    out.Put(static_cast<std::uint8_t>(stretch.opposite)), out.Put(stretch.lay), out.Put(static_cast<std::uint8_t>(stretch.friction));
+    for (const double number :
+         {stretch.begin_m, stretch.end_m, stretch.s_offset_m, stretch.t_offset_m, stretch.z_offset_m, stretch.z_scale})
+      put(number);
+    out.Put(static_cast<std::uint8_t>(stretch.opposite)), out.Put(stretch.lay),
+        out.Put(static_cast<std::uint8_t>(stretch.friction));
     for (const Eigen::Vector2d& p : {stretch.turn, stretch.from_W, stretch.to_W}) put(p.x()), put(p.y());
   }
   if (!laid_.empty()) {
     network::Laid laid;
-    const auto reaches_in = [&](const auto& lies) { return lies.piece.from_s_m <= to_s_m && lies.piece.to_s_m >= from_s_m; };
+    const auto reaches_in = [&](const auto& lies) {
+      return lies.piece.from_s_m <= to_s_m && lies.piece.to_s_m >= from_s_m;
+    };
     std::copy_if(laid_[road].patches.begin(), laid_[road].patches.end(), std::back_inserter(laid.patches), reaches_in);
     std::copy_if(laid_[road].bumps.begin(), laid_[road].bumps.end(), std::back_inserter(laid.bumps), reaches_in);
     if (!laid.empty()) PutLaid(laid, out);
@@ -189,7 +212,8 @@ SurfaceDetail SurfaceDetail::AsSeen() const {
     for (Stretch& stretch : stretches) {
       if (stretch.friction) continue;
       auto& file = smooth[stretch.measured.get()];
-      if (file == nullptr) file = std::make_shared<const surface::CrgSurface>(surface::Smoothed(*stretch.measured, kSeenReach_m));
+      if (file == nullptr)
+        file = std::make_shared<const surface::CrgSurface>(surface::Smoothed(*stretch.measured, kSeenReach_m));
       stretch.measured = file;
     }
   }
@@ -208,21 +232,24 @@ void SurfaceDetail::FindWays(const network::Network& network) {
       at.left_slope = at.right_slope = 0.0;  // they stay as they are there
       return at;
     };
-    const auto before = spec.predecessor && !spec.predecessor->s_m ? network.FindRoad(spec.predecessor->id) : std::nullopt;
+    const auto before =
+        spec.predecessor && !spec.predecessor->s_m ? network.FindRoad(spec.predecessor->id) : std::nullopt;
     const auto behind = spec.successor && !spec.successor->s_m ? network.FindRoad(spec.successor->id) : std::nullopt;
     if (before && !roads_[*before].empty()) ways_[*before].out = edges(0.0);
     if (behind && !roads_[*behind].empty()) ways_[*behind].in = edges(way.length_m());
   }
 }
 
-SurfaceDetail::Measured SurfaceDetail::Measure(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample) {
+SurfaceDetail::Measured SurfaceDetail::Measure(const Stretch& stretch, double s_m, double t_m,
+                                               const network::SurfaceSample& sample) {
   const double scale = stretch.z_scale, sign = stretch.opposite ? -1.0 : 1.0;
   if (stretch.lay == Lay::kByItself) {
     const Eigen::Vector2d back(stretch.turn.x(), -stretch.turn.y());
     const Eigen::Vector2d p = stretch.from_W + Turned(sample.p_W.head<2>() - stretch.to_W, back);
     const surface::CrgGround at = stretch.measured->Ground(p.x(), p.y());
     const Eigen::Vector2d slope = scale * Turned({at.slope_x, at.slope_y}, stretch.turn);
-    return {{scale * at.z_m + stretch.z_offset_m, slope.dot(sample.ds_W.head<2>()), slope.dot(sample.dt_W.head<2>())}, at.inside};
+    return {{scale * at.z_m + stretch.z_offset_m, slope.dot(sample.ds_W.head<2>()), slope.dot(sample.dt_W.head<2>())},
+            at.inside};
   }
   // The grid's u and v go along the road's s and t from the stretch's beginning; against it from its end.
   const surface::CrgReferenceLine& line = stretch.measured->line();
@@ -232,7 +259,8 @@ SurfaceDetail::Measured SurfaceDetail::Measure(const Stretch& stretch, double s_
   return {{scale * at.z_m + stretch.z_offset_m, sign * scale * at.dz_du, sign * scale * at.dz_dv}, at.inside};
 }
 
-std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, double t_m, const Eigen::Vector2d& p_W) const {
+std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, double t_m,
+                                                const Eigen::Vector2d& p_W) const {
   std::optional<double> friction;
   if (roads_.empty()) return friction;
   network::SurfaceSample sample;
@@ -246,7 +274,8 @@ std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, 
 }
 
 // What a stretch says over an even road at z = 0, with the fades of its own ends; nothing where it is not.
-std::optional<Raised> SurfaceDetail::HeightOf(const Stretch& stretch, double s_m, double t_m, const network::SurfaceSample& sample, Share& ends) {
+std::optional<Raised> SurfaceDetail::HeightOf(const Stretch& stretch, double s_m, double t_m,
+                                              const network::SurfaceSample& sample, Share& ends) {
   if (stretch.friction || s_m <= stretch.begin_m || s_m >= stretch.end_m) return std::nullopt;
   Raised raised;
   if (stretch.made != nullptr) {
@@ -267,8 +296,8 @@ std::optional<Raised> SurfaceDetail::HeightOf(const Stretch& stretch, double s_m
   return raised;
 }
 
-void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m,
-                        network::SurfaceSample& sample) const {
+void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const network::LaneSection& section, double s_m,
+                        double t_m, network::SurfaceSample& sample) const {
   const auto add = [&](const Raised& raised) {
     sample.p_W.z() += raised.z_m;
     sample.ds_W.z() += raised.by_s;
@@ -285,7 +314,8 @@ void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const ne
     Share ends;
     auto raised = HeightOf(stretch, s_m, t_m, sample, ends);
     if (!raised) continue;
-    const bool goes_out = stretch.end_m > road.length_m() && road.length_m() - s_m < kFadesAlong_m, comes_in = stretch.begin_m < 0.0 && s_m < kFadesAlong_m;
+    const bool goes_out = stretch.end_m > road.length_m() && road.length_m() - s_m < kFadesAlong_m,
+               comes_in = stretch.begin_m < 0.0 && s_m < kFadesAlong_m;
     if (goes_out || comes_in) {
       const RoadEdges edges(road, section, s_m);
       Share share = edges.FromLeft(t_m) * edges.FromRight(t_m);
@@ -304,7 +334,8 @@ void SurfaceDetail::Add(const network::Road& road, std::uint32_t index, const ne
   }
 }
 
-Raised SurfaceDetail::AddOnWay(const network::Road& way, std::uint32_t index, const network::LaneSection& section, double s_m, double t_m, Share& left) const {
+Raised SurfaceDetail::AddOnWay(const network::Road& way, std::uint32_t index, const network::LaneSection& section,
+                               double s_m, double t_m, Share& left) const {
   Raised all;
   if (roads_.empty() || roads_[index].empty()) return all;
   Share none{1.0, 0.0, 0.0};  // how much of the place is left by all of its stretches
@@ -342,10 +373,12 @@ std::vector<std::string> SurfaceDetail::Walls(const network::Network& network) c
     for (const Stretch& stretch : roads_[index]) {
       if (stretch.measured == nullptr) continue;
       const network::CrgSurface& crg = road.spec().crg[number++];
-      if (stretch.friction || stretch.lay != Lay::kOnTop || stretch.end_m - stretch.begin_m < 2.0 * kFadesAlong_m) continue;
+      if (stretch.friction || stretch.lay != Lay::kOnTop || stretch.end_m - stretch.begin_m < 2.0 * kFadesAlong_m)
+        continue;
       for (const bool begins : {true, false}) {
         const double s = begins ? stretch.begin_m + kFadesAlong_m : stretch.end_m - kFadesAlong_m;
-        if (s < 0.0 || s > road.length_m() || (begins ? stretch.begin_m < 0.0 : stretch.end_m > road.length_m())) continue;  // it goes on
+        if (s < 0.0 || s > road.length_m() || (begins ? stretch.begin_m < 0.0 : stretch.end_m > road.length_m()))
+          continue;  // it goes on
         double sum = 0.0;
         int count = 0;
         const auto section = static_cast<std::uint32_t>(road.SectionIndex(s));
@@ -360,9 +393,12 @@ std::vector<std::string> SurfaceDetail::Walls(const network::Network& network) c
           }
         }
         if (count == 0 || std::fabs(sum / count) < kWall_m) continue;
-        walls.push_back(fmt::format("the measured surface '{}' {} at s = {:.1f} m of road '{}' {:.2f} m {} the road, a wall within {:g} m; a z offset of {:.3f} m lays it on the road there",
-                                    std::filesystem::path(crg.file).filename().string(), begins ? "begins" : "ends", begins ? stretch.begin_m : stretch.end_m, road.id(), std::fabs(sum / count),
-                                    sum > 0.0 ? "above" : "below", kFadesAlong_m, stretch.z_offset_m - sum / count));
+        walls.push_back(
+            fmt::format("the measured surface '{}' {} at s = {:.1f} m of road '{}' {:.2f} m {} the road, a wall within "
+                        "{:g} m; a z offset of {:.3f} m lays it on the road there",
+                        std::filesystem::path(crg.file).filename().string(), begins ? "begins" : "ends",
+                        begins ? stretch.begin_m : stretch.end_m, road.id(), std::fabs(sum / count),
+                        sum > 0.0 ? "above" : "below", kFadesAlong_m, stretch.z_offset_m - sum / count));
       }
     }
   }
@@ -373,7 +409,8 @@ bool SurfaceDetail::On(std::uint32_t road, double low_s_m, double high_s_m) cons
   if (!roads_.empty() && !roads_[road].empty()) return true;
   const auto near = [&](const auto& laid) { return high_s_m >= laid.piece.from_s_m && low_s_m <= laid.piece.to_s_m; };
   if (laid_.empty()) return false;
-  return std::any_of(laid_[road].patches.begin(), laid_[road].patches.end(), near) || std::any_of(laid_[road].bumps.begin(), laid_[road].bumps.end(), near);
+  return std::any_of(laid_[road].patches.begin(), laid_[road].patches.end(), near) ||
+         std::any_of(laid_[road].bumps.begin(), laid_[road].bumps.end(), near);
 }
 
 void SurfaceDetail::Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const {

@@ -17,7 +17,8 @@ Share Share::operator*(const Share& other) const {
 
 Share Share::Mixed(const Share& other, double weight, double weight_by_s) const {
   const double rest = 1.0 - weight;
-  return {weight * value + rest * other.value, weight * by_s + rest * other.by_s + weight_by_s * (value - other.value), weight * by_t + rest * other.by_t};
+  return {weight * value + rest * other.value, weight * by_s + rest * other.by_s + weight_by_s * (value - other.value),
+          weight * by_t + rest * other.by_t};
 }
 
 void Raised::Fade(const Share& share) {

@@ -8,7 +8,8 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kCluster_m = 1.5 * network::BandIndex::kWidest_m;  // of a cluster's points from one another, and some more
+constexpr double kCluster_m =
+    1.5 * network::BandIndex::kWidest_m;  // of a cluster's points from one another, and some more
 
 }  // namespace
 
@@ -21,10 +22,12 @@ TunnelSides::TunnelSides(std::shared_ptr<const network::Network> network) : netw
       if (structure.bridge) continue;
       for (std::uint32_t i = 0; i < panels.size(); ++i) {
         const geometry::AxisPanel& panel = panels[i];
-        const double from = std::max({structure.s_m, panel.begin_s_m(), 0.0}), to = std::min({structure.s_m + structure.length_m, panel.end_s_m(), road.length_m()});
+        const double from = std::max({structure.s_m, panel.begin_s_m(), 0.0}),
+                     to = std::min({structure.s_m + structure.length_m, panel.end_s_m(), road.length_m()});
         if (!(to > from)) continue;
         parts_.push_back({index, i, {from, to}});
-        strips.push_back({road.axis().At(panel, -panel.half_m).p_W, road.axis().At(panel, panel.half_m).p_W, EdgesBeside(road, panel).beside_m + kBeside_m + kCluster_m});
+        strips.push_back({road.axis().At(panel, -panel.half_m).p_W, road.axis().At(panel, panel.half_m).p_W,
+                          EdgesBeside(road, panel).beside_m + kBeside_m + kCluster_m});
       }
     }
   }
@@ -44,7 +47,9 @@ std::optional<TunnelSides::Floor> TunnelSides::At(const Eigen::Vector2d& p_W) co
     if (away >= nearest) continue;
     nearest = away;
     floor = Floor{place.sample.p_W.z(), Eigen::Vector2d::Zero()};
-    if (place.pace > 0.0) floor->slope_W = place.sample.ds_W.z() / place.pace * place.axis.tangent_W;  // the height goes along with the road's
+    if (place.pace > 0.0)
+      floor->slope_W =
+          place.sample.ds_W.z() / place.pace * place.axis.tangent_W;  // the height goes along with the road's
   }
   return floor;
 }

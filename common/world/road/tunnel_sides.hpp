@@ -12,8 +12,8 @@
 
 namespace rodeira::road {
 
-// The floor of tunnels beside their roads: it goes on level across from the road's edge, so that a wheel that is pressed over it into the wall
-// stands on the floor and not on the hill.
+// The floor of tunnels beside their roads: it goes on level across from the road's edge, so that a wheel that is
+// pressed over it into the wall stands on the floor and not on the hill.
 class TunnelSides {
  public:
   static constexpr double kBeside_m = 5.0;  // so far it goes on
@@ -27,7 +27,8 @@ class TunnelSides {
 
   // False: none is here, nor at any point of a cluster (network::Cluster) that holds this one.
   bool MayHold(const Eigen::Vector2d& p_W) const { return !near_.At(p_W).empty(); }
-  // Of the nearest of the tunnels; on its road it is the road's own height. Nothing before their mouths and farther away.
+  // Of the nearest of the tunnels; on its road it is the road's own height. Nothing before their mouths and farther
+  // away.
   std::optional<Floor> At(const Eigen::Vector2d& p_W) const;
 
  private:

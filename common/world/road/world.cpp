@@ -88,11 +88,14 @@ World::World(WorldSpec spec)
     paint_ = std::make_shared<const MarkPaint>(network_);
     land_ = std::make_shared<const NetworkLand>(network_);
   } else if (network_ != nullptr) {
-    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_, detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
+    built_ = std::make_shared<const BuiltGround>(network_, spec.junctions, friction_,
+                                                 detail_ == nullptr ? SurfaceDetail() : *detail_, terrain_);
   }
 }
 
-std::shared_ptr<const World> World::Make(WorldSpec spec) { return std::shared_ptr<const World>(new World(std::move(spec))); }
+std::shared_ptr<const World> World::Make(WorldSpec spec) {
+  return std::shared_ptr<const World>(new World(std::move(spec)));
+}
 
 Extents World::extents() const {
   if (grid() != nullptr) {
@@ -109,7 +112,9 @@ std::unique_ptr<ground::Ground> World::MakeGround() const {
   if (built_ != nullptr) {
     together = [this](auto queries, auto points) { return built_->Together(queries, points); };
   } else if (open_drive()) {
-    together = [this](auto queries, auto points) { return NetworkGroundTogether(*network_, grounds_, friction_, paint_.get(), detail_.get(), queries, points); };
+    together = [this](auto queries, auto points) {
+      return NetworkGroundTogether(*network_, grounds_, friction_, paint_.get(), detail_.get(), queries, points);
+    };
   }
   return std::make_unique<WorldGround>(shared_from_this(), std::move(together));
 }
@@ -122,14 +127,18 @@ std::shared_ptr<const World> World::AsSeen() const {
   return seen;
 }
 
-base::Digest World::DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const { return detail_ == nullptr ? 0 : detail_->DigestOn(road, from_s_m, to_s_m); }
+base::Digest World::DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const {
+  return detail_ == nullptr ? 0 : detail_->DigestOn(road, from_s_m, to_s_m);
+}
 
 std::span<const std::shared_ptr<const design::JunctionSurface>> World::junctions() const {
-  return built_ == nullptr ? std::span<const std::shared_ptr<const design::JunctionSurface>>() : std::span(built_->junctions());
+  return built_ == nullptr ? std::span<const std::shared_ptr<const design::JunctionSurface>>()
+                           : std::span(built_->junctions());
 }
 
 SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
-  if (open_drive()) return NetworkGround(*network_, grounds_, *land_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
+  if (open_drive())
+    return NetworkGround(*network_, grounds_, *land_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
   if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
   SurfacePoint point = TerrainAt(x_m, y_m);
   for (const Road& road : roads_) {
@@ -153,7 +162,8 @@ void World::LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& poin
   const Eigen::Vector2d left_W = foot.at.left_W();
   // Along the axis s grows by 1 / (1 - k t) a metre; past an end it stands still and the straight distance counts.
   const double stretch = foot.beyond_m == 0.0 ? 1.0 / (1.0 - foot.at.curvature_1pm * foot.t_m) : 1.0;
-  const double z = profile.z_m + profile.grade * foot.beyond_m + band.from_z_m + band.slope * (foot.t_m - band.from_t_m);
+  const double z =
+      profile.z_m + profile.grade * foot.beyond_m + band.from_z_m + band.slope * (foot.t_m - band.from_t_m);
   const Eigen::Vector2d slope = profile.grade * stretch * along_W + band.slope * left_W;
   if (excess == 0.0) {
     const bool painted = road.IsPainted(foot.s_m, foot.t_m, foot.at.heading_rad);

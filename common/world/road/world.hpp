@@ -12,12 +12,12 @@
 
 #include "common/core/base/hash.hpp"
 #include "common/core/base/result.hpp"
+#include "common/core/ground/ground.hpp"
 #include "common/world/road/bare_terrain.hpp"
 #include "common/world/road/lane_grounds.hpp"
 #include "common/world/road/road.hpp"
 #include "common/world/road/world_spec.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
-#include "common/core/ground/ground.hpp"
 
 namespace rodeira::road {
 
@@ -34,11 +34,12 @@ struct Extents {
 };
 
 // A world: terrain (an elevation grid or a plane) and a network of roads; or the roads of an OpenDRIVE file alone.
-// Immutable and shared; the same file gives the same content hash, and the same content hash the same answers, bit by bit.
+// Immutable and shared; the same file gives the same content hash, and the same content hash the same answers, bit by
+// bit.
 class World : public std::enable_shared_from_this<World> {
  public:
-  // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or a traffic map (`.motors`). Wrong input where anything is missing, broken,
-  // out of range or does not fit together.
+  // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or a traffic map
+  // (`.motors`). Wrong input where anything is missing, broken, out of range or does not fit together.
   static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.
   static base::Result<std::shared_ptr<const World>> Parse(std::string_view text, const std::filesystem::path& name);
@@ -66,7 +67,8 @@ class World : public std::enable_shared_from_this<World> {
   const terrain::LaidPicture* ground_picture() const { return ground_picture_ ? &*ground_picture_ : nullptr; }
   // What stands on the ground at no road, on SUELO's highest surface there; null: nothing.
   const network::Standing* standing() const { return standing_.get(); }
-  // Of what lies on a road between two stations, measured or laid by an author, as SurfaceDetail::DigestOn says; 0: nothing.
+  // Of what lies on a road between two stations, measured or laid by an author, as SurfaceDetail::DigestOn says; 0:
+  // nothing.
   base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
   // The surfaces of the junctions of a network that is built into a terrain.
   std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
@@ -75,11 +77,12 @@ class World : public std::enable_shared_from_this<World> {
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
   // another, the height hint chooses; a world file of version 1 has one surface everywhere.
   std::unique_ptr<ground::Ground> MakeGround() const;
-  // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround). Beside
-  // a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the blend's width.
+  // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround).
+  // Beside a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the
+  // blend's width.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
-  // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of measured surfaces. This
-  // world itself where it has neither; the same network, hash and everything else.
+  // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of
+  // measured surfaces. This world itself where it has neither; the same network, hash and everything else.
   std::shared_ptr<const World> AsSeen() const;
   // The terrain without any road.
   SurfacePoint TerrainAt(double x_m, double y_m) const { return terrain_.At(x_m, y_m); }
@@ -102,8 +105,8 @@ class World : public std::enable_shared_from_this<World> {
   std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
   std::optional<terrain::LaidPicture> ground_picture_;
   FrictionTable friction_;
-  LaneGrounds grounds_;  // of an OpenDRIVE file
-  std::shared_ptr<const MarkPaint> paint_;  // the same
+  LaneGrounds grounds_;                      // of an OpenDRIVE file
+  std::shared_ptr<const MarkPaint> paint_;   // the same
   std::shared_ptr<const NetworkLand> land_;  // the same
   StartPose start_;
   base::Digest content_hash_ = 0;

@@ -10,8 +10,8 @@ namespace rodeira::road {
 namespace {
 
 constexpr double kStep_m = 1.0;
-constexpr double kSharpest = 0.95;      // curvature times the half width on the inner side
-constexpr double kNearerBy_m = 1e-6;    // what a projection may err, generously
+constexpr double kSharpest = 0.95;    // curvature times the half width on the inner side
+constexpr double kNearerBy_m = 1e-6;  // what a projection may err, generously
 constexpr double kCapStep_rad = 0.05;
 
 // Whether no element of the axis bends so sharply that the blend's inner edge nears the centre of the bend.
@@ -22,7 +22,8 @@ bool BendsAreWide(const Road& road, const config::Map& map) {
       const double inner = curvature > 0.0 ? road.section().blend_left_m() : -road.section().blend_right_m();
       if (std::fabs(curvature) * inner <= kSharpest) continue;
       const auto axis = map.Items("axis");
-      axis.Problem(i, fmt::format("the bend of radius {:.6g} m is too sharp for lanes, shoulder, verge and blend of together {:.6g} m on its inner side",
+      axis.Problem(i, fmt::format("the bend of radius {:.6g} m is too sharp for lanes, shoulder, verge and blend of "
+                                  "together {:.6g} m on its inner side",
                                   1.0 / std::fabs(curvature), inner));
       return false;
     }
@@ -66,15 +67,19 @@ void CheckRoadFits(const Road& road, const terrain::ElevationGrid* grid, const c
   for (const OutlinePoint& point : Outline(road)) {
     if (grid != nullptr && !left_terrain && !grid->At(point.p_W.x(), point.p_W.y()).inside) {
       left_terrain = true;
-      map.Problem("axis", fmt::format("road '{}' with its blend leaves the terrain at s = {:.0f} m, near ({:.1f}, {:.1f})", road.id(),
-                                      point.s_m, point.p_W.x(), point.p_W.y()));
+      map.Problem("axis",
+                  fmt::format("road '{}' with its blend leaves the terrain at s = {:.0f} m, near ({:.1f}, {:.1f})",
+                              road.id(), point.s_m, point.p_W.x(), point.p_W.y()));
     }
     const geometry::Foot foot = road.plan().Project(point.p_W.x(), point.p_W.y());
     if (!met_itself && foot.distance_m < point.distance_m - kNearerBy_m) {
       met_itself = true;
-      map.Problem("axis", fmt::format("road '{}' comes too near to itself: the blend at s = {:.0f} m reaches what belongs to s = {:.0f} m; "
-                                      "move the axis or narrow 'blend_m'",
-                                      road.id(), point.s_m, foot.s_m));
+      map.Problem(
+          "axis",
+          fmt::format(
+              "road '{}' comes too near to itself: the blend at s = {:.0f} m reaches what belongs to s = {:.0f} m; "
+              "move the axis or narrow 'blend_m'",
+              road.id(), point.s_m, foot.s_m));
     }
   }
 }

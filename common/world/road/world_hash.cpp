@@ -55,7 +55,8 @@ void PutStanding(Canonical& canonical, const network::Standing& standing) {
     canonical.out().PutString(object.subtype);
     canonical.PutAll(object.length_m, object.width_m, object.height_m, object.radius_m, object.z_offset_m);
   }
-  for (const auto& thing : standing.things) canonical.PutAll(thing.object, thing.at_W.x(), thing.at_W.y(), thing.heading_rad);
+  for (const auto& thing : standing.things)
+    canonical.PutAll(thing.object, thing.at_W.x(), thing.at_W.y(), thing.heading_rad);
   for (const auto& run : standing.runs) {
     canonical.PutAll(run.object, run.points_W.size());
     for (const Eigen::Vector2d& p : run.points_W) canonical.PutAll(p.x(), p.y());
@@ -81,7 +82,8 @@ base::Digest ContentHash(const WorldSpec& spec) {
   if (spec.network != nullptr && (spec.grid != nullptr || spec.plane)) {
     canonical.PutAll(4, static_cast<std::size_t>(HashOf(*spec.network)), spec.junctions.size());
   }
-  if (spec.detail != nullptr && spec.detail->digest() != 0) canonical.PutAll(5, static_cast<std::size_t>(spec.detail->digest()));
+  if (spec.detail != nullptr && spec.detail->digest() != 0)
+    canonical.PutAll(5, static_cast<std::size_t>(spec.detail->digest()));
   if (spec.standing != nullptr) PutStanding(canonical, *spec.standing);
   canonical.Put(spec.terrain_surface);
   canonical.Put(spec.terrain_friction.value_or(spec.friction[static_cast<std::size_t>(spec.terrain_surface)]));

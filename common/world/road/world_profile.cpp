@@ -45,9 +45,11 @@ std::string Diagram(double top, std::string_view title, const std::vector<Curve>
   if (!(high - low > 1e-9)) low -= 0.5, high += 0.5;
   const auto y = [&](double value) { return top + kHeight * (0.95 - 0.9 * (value - low) / (high - low)); };
   std::string svg = fmt::format("<text x='{}' y='{}'>{}</text>\n", kLeft, top - 5.0, title);
-  svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#999'/>\n", kLeft, top, kWidth, kHeight);
+  svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#999'/>\n", kLeft, top, kWidth,
+                     kHeight);
   for (const double value : {low, high}) {
-    svg += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{}</text>\n", kLeft - 5.0, y(value) + 4.0, Number(value));
+    svg += fmt::format("<text x='{}' y='{:.1f}' text-anchor='end'>{}</text>\n", kLeft - 5.0, y(value) + 4.0,
+                       Number(value));
   }
   if (low < 0.0 && high > 0.0) {
     svg += fmt::format("<path d='M{} {:.1f}h{}' stroke='#ccc'/>\n", kLeft, y(0.0), kWidth);
@@ -76,10 +78,13 @@ std::string Radii(const network::Network& network, const RoadChain& chain, doubl
     for (const geometry::PlanElement& element : network.roads()[part.road].axis().elements()) {
       const double k = element.curvature_start_1pm;
       const double middle = kLeft + kWidth * (part.from_s_m + element.s_m + 0.5 * element.length_m) / chain.length_m;
-      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm || middle < free_from) continue;
+      if (element.kind != geometry::PlanElement::Kind::kClothoid || k == 0.0 || k != element.curvature_end_1pm ||
+          middle < free_from)
+        continue;
       free_from = middle + 26.0;
       const double y = k < 0.0 ? top + 10.0 : top + kHeight - 3.0;  // where the curve is not
-      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' font-size='9' text-anchor='middle' fill='#555'>{:.0f}</text>\n", middle, y, 1.0 / std::fabs(k));
+      svg += fmt::format("<text x='{:.1f}' y='{:.1f}' font-size='9' text-anchor='middle' fill='#555'>{:.0f}</text>\n",
+                         middle, y, 1.0 / std::fabs(k));
     }
   }
   return svg;
@@ -108,12 +113,16 @@ std::string Profile(const World& world, const RoadChain& chain, double top) {
     right.values.push_back(Across(*road, s, -1.0));
   }
   const auto place = [top](int k) { return top + 20.0 + k * (kHeight + kGap); };
-  std::string svg = fmt::format("<text x='{}' y='{}' font-size='14'>road {}, {:.1f} m</text>\n", kLeft, top, Escaped(chain.name), chain.length_m);
+  std::string svg = fmt::format("<text x='{}' y='{}' font-size='14'>road {}, {:.1f} m</text>\n", kLeft, top,
+                                Escaped(chain.name), chain.length_m);
   svg += Diagram(place(0), "height in m: axis (red), terrain under it (green)", {axis, terrain});
   svg += Diagram(place(1), "grade in %, uphill positive", {grade});
-  svg += Diagram(place(2), "curvature in 1/m, to the left positive; radii of arcs in m", {curvature}) + Radii(network, chain, place(2));
-  svg += Diagram(place(3), "slope across in %, rising to the left positive: left of the axis (blue), right of it (red); equal: one slope",
-                 {left, right});
+  svg += Diagram(place(2), "curvature in 1/m, to the left positive; radii of arcs in m", {curvature}) +
+         Radii(network, chain, place(2));
+  svg += Diagram(
+      place(3),
+      "slope across in %, rising to the left positive: left of the axis (blue), right of it (red); equal: one slope",
+      {left, right});
   for (int i = 0; i <= 10; ++i) {
     svg += fmt::format("<text x='{}' y='{}' text-anchor='middle'>{:.0f} m</text>\n", kLeft + kWidth * i / 10.0,
                        place(kDiagrams - 1) + kHeight + 14.0, chain.length_m * i / 10.0);
@@ -126,7 +135,8 @@ std::string Profile(const World& world, const RoadChain& chain, double top) {
 std::string PlotProfiles(const World& world) {
   if (world.network() == nullptr || world.network()->roads().empty()) return {};
   std::vector<RoadChain> chains = ChainsOf(*world.network());
-  std::stable_sort(chains.begin(), chains.end(), [](const RoadChain& a, const RoadChain& b) { return a.length_m > b.length_m; });
+  std::stable_sort(chains.begin(), chains.end(),
+                   [](const RoadChain& a, const RoadChain& b) { return a.length_m > b.length_m; });
   chains.resize(std::min(chains.size(), kMostRoads));
   const double a_road = 40.0 + kDiagrams * (kHeight + kGap);
   std::string svg = fmt::format(

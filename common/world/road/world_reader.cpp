@@ -7,8 +7,8 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/config/either.hpp"
-#include "common/world/design/design_reader.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/world/design/design_reader.hpp"
 #include "common/world/road/named_network.hpp"
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/picture_reader.hpp"
@@ -32,7 +32,8 @@ constexpr const char* kVersion = "world/2";
 bool ReadVersion(const Map& root) {
   const std::string version = root.Text("rodeira");
   if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
-    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version, kVersion, kFirstVersion));
+    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version,
+                                        kVersion, kFirstVersion));
   }
   return version == kVersion;
 }
@@ -49,29 +50,36 @@ HillsSpec ReadHills(const Map& map) {
   hills.below_m = map.Number("below_m", {-50.0, 50.0}, 0.0);
   hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
   hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
-  if (hills.full_m <= hills.flat_m) map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
+  if (hills.full_m <= hills.flat_m)
+    map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
   hills.reach_m = map.Number("reach_m", {0.2, 1e6}, 3.0 * hills.full_m);
   hills.follow_structures = map.Flag("follow_structures", true);
-  if (hills.reach_m < hills.full_m) map.Problem("reach_m", "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
+  if (hills.reach_m < hills.full_m)
+    map.Problem(
+        "reach_m",
+        "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
   const List relief = map.Items("relief");
   for (std::size_t i = 0; i < relief.size(); ++i) {
     const Map layer = relief.At(i);
     hills.relief.push_back({layer.Number("wavelength_m", {1.0, 1e6}), layer.Number("amplitude_m", {0.0, 10'000.0})});
-    const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows * hills.spacing_m /
-                         hills.relief.back().wavelength_m;
+    const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows *
+                         hills.spacing_m / hills.relief.back().wavelength_m;
     if (nodes > 1e8) layer.Problem("wavelength_m", "the wavelength is too short for a terrain of this size");
   }
   if (map.Has("projection")) {
     auto wkt = terrain::ProjectionWkt(map.Text("projection"));
-    if (wkt) hills.projection_wkt = std::move(wkt).value();
-    else map.Problem("projection", wkt.error().message);
+    if (wkt)
+      hills.projection_wkt = std::move(wkt).value();
+    else
+      map.Problem("projection", wkt.error().message);
   }
   return hills;
 }
 
 void ReadFriction(const Map& map, WorldSpec& spec) {
   using ground::Surface;
-  for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
+  for (const Surface surface :
+       {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
     double& friction = spec.friction[static_cast<std::size_t>(surface)];
     friction = map.Number(SurfaceName(surface), {0.01, 2.0}, friction);
   }
@@ -145,8 +153,11 @@ Keys ReadKeys(const Map& root) {
   if (root.Has("network")) keys.network_file = root.Child("network").Path("file");
   const int grounds = (root.Has("ground") ? 1 : 0) + (root.Has("terrain") ? 1 : 0) + (keys.network_file ? 1 : 0);
   if (grounds != 1) {
-    root.Problem(grounds == 0 ? "" : keys.network_file ? "network" : "ground",
-                 "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane), or is the 'network' of an OpenDRIVE file");
+    root.Problem(grounds == 0        ? ""
+                 : keys.network_file ? "network"
+                                     : "ground",
+                 "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane), or is the "
+                 "'network' of an OpenDRIVE file");
   }
   if (root.Has("ground")) {
     ReadPlane(root.Child("ground"), keys.spec);
@@ -159,14 +170,18 @@ Keys ReadKeys(const Map& root) {
     keys.elevation_file = terrain.OptionalPath("file");
     keys.elevation_place = terrain.Place("file");
     if (terrain.Has("registration")) {
-      keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells : terrain::Registration::kPosts;
-      if (!keys.elevation_file) terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
+      keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells
+                                                                                        : terrain::Registration::kPosts;
+      if (!keys.elevation_file)
+        terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
     }
     const Map hills = terrain.OptionalChild("generate");
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
-    if (terrain.Has("generate") == terrain.Has("file")) terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
+    if (terrain.Has("generate") == terrain.Has("file"))
+      terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
   }
-  if (keys.second && root.Has("weather")) (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
+  if (keys.second && root.Has("weather"))
+    (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
   if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
     if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
@@ -174,7 +189,8 @@ Keys ReadKeys(const Map& root) {
   }
   const List roads = root.OptionalItems("roads");
   for (std::size_t i = 0; i < roads.size(); ++i) keys.spec.roads.push_back(ReadRoad(roads.At(i)));
-  if (roads.size() > 1) roads.Problem(1, "a second road; version 1 has one road a world, several need 'rodeira: world/2'");
+  if (roads.size() > 1)
+    roads.Problem(1, "a second road; version 1 has one road a world, several need 'rodeira: world/2'");
   if (root.Has("start")) ReadStart(root.Child("start"), keys.spec.roads, keys.spec.start);
   return keys;
 }
@@ -217,8 +233,11 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
     }
     keys.spec.grid = std::move(grid).value();
     if (const auto missing = terrain::MissingProjection(*keys.elevation_file)) {
-      reading.warnings.push_back(fmt::format("{}: '{}' says that its coordinates are those of '{}', which is not there: {}", keys.elevation_place, keys.elevation_file->filename().string(), missing->filename().string(),
-                                             keys.spec.grid->projection_wkt().empty() ? "nothing can say where on the earth it lies" : "they are taken for those of the UTM zone that it names"));
+      reading.warnings.push_back(fmt::format(
+          "{}: '{}' says that its coordinates are those of '{}', which is not there: {}", keys.elevation_place,
+          keys.elevation_file->filename().string(), missing->filename().string(),
+          keys.spec.grid->projection_wkt().empty() ? "nothing can say where on the earth it lies"
+                                                   : "they are taken for those of the UTM zone that it names"));
     }
   } else if (keys.hills) {
     keys.spec.grid = std::make_shared<const terrain::ElevationGrid>(MakeHills(*keys.hills, axis));
@@ -227,12 +246,14 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   return true;
 }
 
-// Where roads may lie: on the heights of a file, or on hills, which are made when the roads are known; on a plane anywhere.
+// Where roads may lie: on the heights of a file, or on hills, which are made when the roads are known; on a plane
+// anywhere.
 design::TerrainIsAt TerrainOf(const Keys& keys) {
   if (const auto grid = keys.spec.grid) return [grid](double x_m, double y_m) { return grid->At(x_m, y_m).inside; };
   if (!keys.hills) return {};
   const HillsSpec& hills = *keys.hills;
-  const double west = hills.west_m, south = hills.south_m, east = west + (hills.columns - 1) * hills.spacing_m, north = south + (hills.rows - 1) * hills.spacing_m;
+  const double west = hills.west_m, south = hills.south_m, east = west + (hills.columns - 1) * hills.spacing_m,
+               north = south + (hills.rows - 1) * hills.spacing_m;
   return [=](double x_m, double y_m) { return x_m >= west && x_m <= east && y_m >= south && y_m <= north; };
 }
 
@@ -240,8 +261,11 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   const Map root = file.root();
   WorldReading reading;
   if (keys.elevation_file && !PutTerrain(keys, std::span<const Road>(), reading)) return reading;
-  const std::string projection = keys.hills ? keys.hills->projection_wkt : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
-  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start, root.OptionalChild("start"), TerrainOf(keys));
+  const std::string projection = keys.hills                  ? keys.hills->projection_wkt
+                                 : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt()
+                                                             : "";
+  design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start,
+                                             root.OptionalChild("start"), TerrainOf(keys));
   std::move(design.warnings.begin(), design.warnings.end(), std::back_inserter(reading.warnings));
   reading.road_places = std::move(design.road_places);
   reading.missing = std::move(keys.missing);
@@ -254,18 +278,27 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (!design.standing.empty()) {
     keys.spec.standing = std::make_shared<const network::Standing>(std::move(design.standing));
     // What is drawn of roads and their things is drawn of things alone, too: they stand beside no road.
-    if (keys.spec.network == nullptr) keys.spec.network = design.network = std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
+    if (keys.spec.network == nullptr)
+      keys.spec.network = design.network =
+          std::make_shared<const network::Network>(network::NetworkSpec{keys.spec.name, projection, {}, {}, {}, {}});
   }
-  if (keys.hills && !PutTerrain(keys, design.network == nullptr ? std::vector<AxisPoint>() : AxisPoints(*design.network, keys.hills->follow_structures), reading)) return reading;
-  if (design.start) keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
-  else PutStart(root, {}, keys.spec, keys.spec.start);
+  if (keys.hills && !PutTerrain(keys,
+                                design.network == nullptr ? std::vector<AxisPoint>()
+                                                          : AxisPoints(*design.network, keys.hills->follow_structures),
+                                reading))
+    return reading;
+  if (design.start)
+    keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
+  else
+    PutStart(root, {}, keys.spec, keys.spec.start);
   if (design.network != nullptr) {
     auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
     if (!detail) {
       reading.problems.push_back(base::WrongInput(detail.error().Text(), file.path().string()));
       return reading;
     }
-    for (const std::string& wall : detail.value().Walls(*design.network)) reading.warnings.push_back(fmt::format("{}: {}", file.path().string(), wall));
+    for (const std::string& wall : detail.value().Walls(*design.network))
+      reading.warnings.push_back(fmt::format("{}: {}", file.path().string(), wall));
     keys.spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());
   }
   reading.problems = file.Problems();
@@ -278,7 +311,8 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
 
 WorldReading ReadWorld(const config::File& file) {
   const Map root = file.root();
-  if (const std::string version = root.Peek({"rodeira"}).value_or(kVersion); version != kVersion && version != kFirstVersion) {
+  if (const std::string version = root.Peek({"rodeira"}).value_or(kVersion);
+      version != kVersion && version != kFirstVersion) {
     (void)ReadVersion(root);
     (void)root.Keys();  // those of another version are not known here
     WorldReading reading;
@@ -297,7 +331,8 @@ WorldReading ReadWorld(const config::File& file) {
   for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
   if (!PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
   PutStart(root, roads, keys.spec, keys.spec.start);
-  for (std::size_t i = 0; i < roads.size(); ++i) CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
+  for (std::size_t i = 0; i < roads.size(); ++i)
+    CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
   reading.problems = file.Problems();
   reading.hills = std::move(keys.hills);
   if (reading.problems.empty()) reading.spec = std::move(keys.spec);

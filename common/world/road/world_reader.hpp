@@ -17,10 +17,12 @@ struct WorldReading {
   std::vector<base::Error> problems;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
   std::vector<std::string> warnings;
-  std::vector<std::string> road_places;  // "file:line" of the network's roads that the file itself has; those that lead through junctions are not among them
+  std::vector<std::string> road_places;  // "file:line" of the network's roads that the file itself has; those that lead
+                                         // through junctions are not among them
 };
 
-// Reads a world file (docs/formats.md) with the files that it names, makes its hills, and checks that all fits together.
+// Reads a world file (docs/formats.md) with the files that it names, makes its hills, and checks that all fits
+// together.
 WorldReading ReadWorld(const config::File& file);
 
 }  // namespace rodeira::road

@@ -22,7 +22,8 @@ namespace {
 
 double Degrees(double angle_rad) { return angle_rad * 180.0 / geometry::kPi; }
 
-constexpr const char* kVersion1IsNotWritten = "its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does";
+constexpr const char* kVersion1IsNotWritten =
+    "its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does";
 
 // How much the terrain is cut or filled to meet the road's verges, and the steepest slope of the blend.
 struct Earthwork {
@@ -74,22 +75,24 @@ std::string DescribeRoad(const World& world, const Road& road) {
   }
   const Earthwork work = EarthworkOf(world, road);
   std::string text = fmt::format("road {}\n", road.id());
-  text += fmt::format("  length_m: {:.3f}\n  bends: {} ({:.1f} a km, {:.0f} degrees turned a km)\n", road.length_m(), bends,
-                      1000.0 * bends / road.length_m(), Degrees(turned) * 1000.0 / road.length_m());
+  text += fmt::format("  length_m: {:.3f}\n  bends: {} ({:.1f} a km, {:.0f} degrees turned a km)\n", road.length_m(),
+                      bends, 1000.0 * bends / road.length_m(), Degrees(turned) * 1000.0 / road.length_m());
   if (sharpest > 0.0) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
-  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest, 100.0 * steepest_down, 100.0 * steepest_up);
+  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest,
+                      100.0 * steepest_down, 100.0 * steepest_up);
   for (const Lane& lane : road.lanes()) {
-    text += fmt::format("  lane {}: {} s, width_m {:.2f}, speed limit {:.0f} km/h\n", lane.id, lane.direction > 0 ? "along" : "against",
-                        lane.width_m, lane.speed_limit_mps * 3.6);
+    text += fmt::format("  lane {}: {} s, width_m {:.2f}, speed limit {:.0f} km/h\n", lane.id,
+                        lane.direction > 0 ? "along" : "against", lane.width_m, lane.speed_limit_mps * 3.6);
   }
-  text += fmt::format("  marks: {}\n  earthwork: cut {:.2f} m and fill {:.2f} m at most, steepest slope {:.2f}\n", road.marks().size(),
-                      work.cut_m, work.fill_m, work.steepest);
+  text += fmt::format("  marks: {}\n  earthwork: cut {:.2f} m and fill {:.2f} m at most, steepest slope {:.2f}\n",
+                      road.marks().size(), work.cut_m, work.fill_m, work.steepest);
   return text;
 }
 
 // The roads of a file of version 2, each with its parts put together again.
 std::string DescribeChains(const network::Network& network) {
-  std::string text = fmt::format("network: {} roads with {} junctions\n", ChainsOf(network).size(), network.junctions().size());
+  std::string text =
+      fmt::format("network: {} roads with {} junctions\n", ChainsOf(network).size(), network.junctions().size());
   for (const RoadChain& chain : ChainsOf(network)) {
     double sharpest = 0.0, up = 0.0, down = 0.0, lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (double at = 0.0; at <= chain.length_m; at += 1.0) {
@@ -104,7 +107,8 @@ std::string DescribeChains(const network::Network& network) {
     });
     text += fmt::format("road {}\n  length_m: {:.3f}\n  passes junctions: {}\n", chain.name, chain.length_m, junctions);
     if (sharpest > 1e-9) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
-    text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest, 100.0 * down, 100.0 * up);
+    text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest,
+                        100.0 * down, 100.0 * up);
   }
   return text;
 }
@@ -116,7 +120,9 @@ std::string ProjectionOf(const World& world) {
 }
 
 // Only an OpenDRIVE file has one.
-network::GeoOffset OffsetOf(const World& world) { return world.open_drive() ? world.network()->geo_offset() : network::GeoOffset(); }
+network::GeoOffset OffsetOf(const World& world) {
+  return world.open_drive() ? world.network()->geo_offset() : network::GeoOffset();
+}
 
 std::string DescribeEarth(const World& world, double x_m, double y_m) {
   const std::string projection = ProjectionOf(world);
@@ -125,13 +131,16 @@ std::string DescribeEarth(const World& world, double x_m, double y_m) {
   if (!map) return "";
   const Eigen::Vector2d on_map = OffsetOf(world).ToMap({x_m, y_m});
   const auto place = map.value().ToEarth(on_map.x(), on_map.y());
-  return place ? fmt::format("longitude_deg: {:.9f}\nlatitude_deg: {:.9f}\n", place->longitude_deg, place->latitude_deg) : "";
+  return place ? fmt::format("longitude_deg: {:.9f}\nlatitude_deg: {:.9f}\n", place->longitude_deg, place->latitude_deg)
+               : "";
 }
 
 // The place that SUELO's answer is of; between the roads of a junction and on a world's own ground, the nearest to it.
 std::optional<network::Place> AnsweredFrom(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
   std::optional<network::Place> place;
-  if (world.open_drive()) place = NetworkPlace(*world.network(), *world.land(), x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (world.open_drive())
+    place = NetworkPlace(*world.network(), *world.land(), x_m, y_m,
+                         z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
   return place ? place : world.network()->Locate(x_m, y_m, z_hint_m);
 }
 
@@ -143,7 +152,8 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   const auto file = config::File::Load(world_yaml);
   if (!file) return {};
   WorldReading reading = ReadWorld(file.value());
-  if (reading.spec && !reading.spec->roads.empty()) reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
+  if (reading.spec && !reading.spec->roads.empty())
+    reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
   // A road of version 1 is one alone.
   if (const std::filesystem::path named = OpenDriveOf(world_yaml); !named.empty()) {
     for (std::string& warning : CheckNetwork(named, false).warnings) reading.warnings.push_back(std::move(warning));
@@ -152,7 +162,10 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
     const BareTerrain terrain{spec.grid, spec.plane};
     for (const auto& said : {DescribeOverlaps(*spec.network, true), DescribePasses(*spec.network, terrain)}) {
       for (const OfRoad& sentence : said) {
-        reading.warnings.push_back(fmt::format("{}: {}", sentence.road < reading.road_places.size() ? reading.road_places[sentence.road] : world_yaml.string(), sentence.text));
+        reading.warnings.push_back(fmt::format(
+            "{}: {}",
+            sentence.road < reading.road_places.size() ? reading.road_places[sentence.road] : world_yaml.string(),
+            sentence.text));
       }
     }
   }
@@ -181,58 +194,75 @@ std::string DescribeWorld(const World& world) {
     float low = std::numeric_limits<float>::max(), high = std::numeric_limits<float>::lowest();
     std::size_t voids = 0;
     for (const float height : grid->heights_m()) {
-      if (height == terrain::ElevationGrid::kVoid) ++voids;
-      else low = std::min(low, height), high = std::max(high, height);
+      if (height == terrain::ElevationGrid::kVoid)
+        ++voids;
+      else
+        low = std::min(low, height), high = std::max(high, height);
     }
     const terrain::ElevationGrid::Frame& frame = grid->frame();
-    text += fmt::format("terrain: {} x {} heights every {:.6g} m x {:.6g} m, {:.2f} m to {:.2f} m, {} void\n", frame.columns, frame.rows,
-                        grid->spacing_x_m(), grid->spacing_y_m(), low, high, voids);
-    text += fmt::format("extents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", frame.west_m, frame.east_m, frame.south_m, frame.north_m);
+    text += fmt::format("terrain: {} x {} heights every {:.6g} m x {:.6g} m, {:.2f} m to {:.2f} m, {} void\n",
+                        frame.columns, frame.rows, grid->spacing_x_m(), grid->spacing_y_m(), low, high, voids);
+    text += fmt::format("extents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", frame.west_m, frame.east_m,
+                        frame.south_m, frame.north_m);
     const std::string& wkt = grid->projection_wkt();
     text += fmt::format("projection: {}\n", wkt.empty() ? "none" : wkt.substr(0, 70) + (wkt.size() > 70 ? "…" : ""));
   } else if (world.open_drive()) {
     text += DescribeNetwork(*world.network());
   } else {
-    text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x, world.plane()->slope_y);
+    text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x,
+                        world.plane()->slope_y);
   }
   for (const Road& road : world.roads()) text += DescribeRoad(world, road);
-  if (world.network() != nullptr && world.roads().empty() && !world.open_drive()) text += DescribeChains(*world.network());
+  if (world.network() != nullptr && world.roads().empty() && !world.open_drive())
+    text += DescribeChains(*world.network());
   const StartPose& start = world.start();
-  text += fmt::format("start: x_m {:.3f}, y_m {:.3f}, heading {:.2f} degrees", start.x_m, start.y_m, Degrees(start.heading_rad));
+  text += fmt::format("start: x_m {:.3f}, y_m {:.3f}, heading {:.2f} degrees", start.x_m, start.y_m,
+                      Degrees(start.heading_rad));
   if (start.road >= 0) {
-    text += fmt::format(" (road {}, lane {}, s_m {:.3f})", world.network()->roads()[static_cast<std::size_t>(start.road)].id(), start.lane, start.s_m);
+    text += fmt::format(" (road {}, lane {}, s_m {:.3f})",
+                        world.network()->roads()[static_cast<std::size_t>(start.road)].id(), start.lane, start.s_m);
   }
   return text + "\n";
 }
 
 std::string DescribePoint(const World& world, double x_m, double y_m, std::optional<double> z_hint_m) {
-  const ground::GroundPoint at = world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
+  const ground::GroundPoint at =
+      world.MakeGround()->At(x_m, y_m, z_hint_m.value_or(std::numeric_limits<double>::quiet_NaN()));
   std::string text = fmt::format("x_m: {}\ny_m: {}\n", x_m, y_m) + DescribeEarth(world, x_m, y_m);
   if (!at.inside) {
     const Extents extents = world.extents();
-    return text + fmt::format("inside: false\nextents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", extents.west_m, extents.east_m,
-                              extents.south_m, extents.north_m);
+    return text + fmt::format("inside: false\nextents_m: x {:.3f} to {:.3f}, y {:.3f} to {:.3f}\n", extents.west_m,
+                              extents.east_m, extents.south_m, extents.north_m);
   }
   const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
-  text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n", at.z_m, normal.x(),
-                      normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
-  if (world.roads().empty() && world.network() != nullptr) text += DescribePlace(*world.network(), AnsweredFrom(world, x_m, y_m, z_hint_m));
+  text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n",
+                      at.z_m, normal.x(), normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
+  if (world.roads().empty() && world.network() != nullptr)
+    text += DescribePlace(*world.network(), AnsweredFrom(world, x_m, y_m, z_hint_m));
   for (const Road& road : world.roads()) {
     const auto place = road.Locate(x_m, y_m, z_hint_m);
     if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;
     const Lane* lane = road.LaneAt(place->s_m, place->t_m);
-    text += fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\nlane: {}\n", road.id(), place->s_m, place->t_m, lane == nullptr ? "none" : std::to_string(lane->id));
+    text += fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\nlane: {}\n", road.id(), place->s_m, place->t_m,
+                        lane == nullptr ? "none" : std::to_string(lane->id));
   }
   return text;
 }
 
 base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_deg, double latitude_deg) {
   const std::string projection = ProjectionOf(world);
-  if (projection.empty()) return base::WrongInput("the world does not say where on the earth it lies: its terrain has no projection, its roads have no geoReference", world.name());
+  if (projection.empty())
+    return base::WrongInput(
+        "the world does not say where on the earth it lies: its terrain has no projection, its roads have no "
+        "geoReference",
+        world.name());
   const auto map = terrain::Geographic::Make(projection);
   if (!map) return map.error();
   const auto place = map.value().ToMap({longitude_deg, latitude_deg});
-  if (!place) return base::WrongInput(fmt::format("longitude {} and latitude {} are no place of the world's projection", longitude_deg, latitude_deg), world.name());
+  if (!place)
+    return base::WrongInput(
+        fmt::format("longitude {} and latitude {} are no place of the world's projection", longitude_deg, latitude_deg),
+        world.name());
   return OffsetOf(world).FromMap(*place);
 }
 

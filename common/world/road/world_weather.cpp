@@ -12,7 +12,8 @@ base::Result<std::optional<weather::Change>> WeatherOf(const std::filesystem::pa
   if (!file) return file.error();
   const config::Map root = file.value().root();
   if (!root.Has("weather")) return std::optional<weather::Change>();
-  return std::optional(weather::ReadStanding(root.Child("weather")));  // of what is wrong in it whoever loads the world tells
+  return std::optional(
+      weather::ReadStanding(root.Child("weather")));  // of what is wrong in it whoever loads the world tells
 }
 
 }  // namespace rodeira::road

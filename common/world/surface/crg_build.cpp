@@ -13,9 +13,9 @@ namespace rodeira::surface {
 namespace {
 
 constexpr double kSharpest_rad = 0.5 * geometry::kPi;
-constexpr double kGapRefused = 1e-2;   // of the length
+constexpr double kGapRefused = 1e-2;  // of the length
 constexpr double kGapTold = 1e-4;
-constexpr double kUneven = 1e-3;       // of the increment: points given by x and y
+constexpr double kUneven = 1e-3;  // of the increment: points given by x and y
 
 class Builder {
  public:
@@ -24,7 +24,8 @@ class Builder {
       : header_(header), road_(header.road), table_(table), modifiers_(modifiers), name_(name), warnings_(warnings) {}
 
   base::Result<CrgShape> Build(const CrgOptions& options) {
-    if (!road_.increment_m) return Wrong("key 'REFERENCE_LINE_INCREMENT' is missing; the distance of two rows was expected");
+    if (!road_.increment_m)
+      return Wrong("key 'REFERENCE_LINE_INCREMENT' is missing; the distance of two rows was expected");
     step_m_ = *road_.increment_m;
     auto columns = FindCrgColumns(header_, name_, warnings_);
     if (!columns) return columns.error();
@@ -33,10 +34,16 @@ class Builder {
     if (!points) return points.error();
     auto line_z = LineHeights();
     if (!line_z) return line_z.error();
-    std::vector<double> banking = RowValues(columns_.banking, road_.start_banking.value_or(0.0), modifiers_.scale_banking);
+    std::vector<double> banking =
+        RowValues(columns_.banking, road_.start_banking.value_or(0.0), modifiers_.scale_banking);
     if (const auto fine = Finite(banking, "banking"); !fine) return fine.error();
-    CrgShape shape{CrgReferenceLine(road_.start_u_m.value_or(0.0), step_m_ * modifiers_.scale_length, std::move(points).value()),
-                   std::move(columns_.v_m), {}, std::move(line_z).value(), std::move(banking), options};
+    CrgShape shape{
+        CrgReferenceLine(road_.start_u_m.value_or(0.0), step_m_ * modifiers_.scale_length, std::move(points).value()),
+        std::move(columns_.v_m),
+        {},
+        std::move(line_z).value(),
+        std::move(banking),
+        options};
     for (double& v : shape.v_m) v *= modifiers_.scale_width;
     shape.heights = Heights();
     return shape;
@@ -49,7 +56,8 @@ class Builder {
   std::vector<double> RowValues(int column, double otherwise, double scale) const {
     std::vector<double> values(table_.rows, otherwise * scale);
     if (column < 0) return values;
-    for (std::size_t row = 0; row < table_.rows; ++row) values[row] = scale * table_.At(row, static_cast<std::size_t>(column));
+    for (std::size_t row = 0; row < table_.rows; ++row)
+      values[row] = scale * table_.At(row, static_cast<std::size_t>(column));
     return values;
   }
 
@@ -57,7 +65,8 @@ class Builder {
   base::Status Finite(const std::vector<double>& values, std::string_view what, std::size_t from = 0) const {
     for (std::size_t row = from; row < values.size(); ++row) {
       if (!(std::fabs(values[row]) <= 1e9)) {
-        return Wrong(fmt::format("the reference line's {} in row {} is {}; a number was expected", what, row + 1, values[row]));
+        return Wrong(
+            fmt::format("the reference line's {} in row {} is {}; a number was expected", what, row + 1, values[row]));
       }
     }
     return {};
@@ -67,15 +76,16 @@ class Builder {
   base::Status Gap(double gap_m, std::string_view what) {
     const double length = step_m_ * static_cast<double>(table_.rows - 1);
     if (gap_m > kGapRefused * length) {
-      return Wrong(
-          fmt::format("the reference line's {} ends {:.4g} m beside the end that the header names; at most {:.4g} m (1 % of the "
-                      "length) were expected",
-                      what, gap_m, kGapRefused * length));
+      return Wrong(fmt::format(
+          "the reference line's {} ends {:.4g} m beside the end that the header names; at most {:.4g} m (1 % of the "
+          "length) were expected",
+          what, gap_m, kGapRefused * length));
     }
     if (gap_m > kGapTold * length) {
-      warnings_.push_back(fmt::format(
-          "the reference line's {} ends {:.4g} m beside the end that the header names; the gap is shared among the rows", what,
-          gap_m));
+      warnings_.push_back(
+          fmt::format("the reference line's {} ends {:.4g} m beside the end that the header names; the gap is shared "
+                      "among the rows",
+                      what, gap_m));
     }
     return {};
   }
@@ -91,8 +101,9 @@ class Builder {
       for (std::size_t row = 1; row < table_.rows; ++row) {
         const Eigen::Vector2d step = Point(row) - Point(row - 1);
         if (!(std::fabs(step.norm() - step_m_) <= kUneven * step_m_)) {
-          return Wrong(fmt::format("the reference line goes {:.6g} m from row {} to the next; REFERENCE_LINE_INCREMENT says {}",
-                                   step.norm(), row, step_m_));
+          return Wrong(
+              fmt::format("the reference line goes {:.6g} m from row {} to the next; REFERENCE_LINE_INCREMENT says {}",
+                          step.norm(), row, step_m_));
         }
         heading[row] = std::atan2(step.y(), step.x());
       }
@@ -102,8 +113,8 @@ class Builder {
     for (std::size_t row = 2; row < table_.rows; ++row) {
       const double turn = geometry::WrapAngle(heading[row] - heading[row - 1]);
       if (std::fabs(turn) >= kSharpest_rad) {
-        return Wrong(
-            fmt::format("the reference line turns by {:.3g} rad in row {}; less than 90 degrees were expected", turn, row));
+        return Wrong(fmt::format("the reference line turns by {:.3g} rad in row {}; less than 90 degrees were expected",
+                                 turn, row));
       }
     }
     if (modifiers_.scale_curvature != 1.0) {
@@ -134,7 +145,8 @@ class Builder {
     std::vector<Eigen::Vector2d> points = {begin};
     for (std::size_t row = 1; row < table_.rows; ++row) {
       const double heading = headings.value()[row];
-      points.push_back(points.back() + step_m_ * modifiers_.scale_length * Eigen::Vector2d(std::cos(heading), std::sin(heading)));
+      points.push_back(points.back() +
+                       step_m_ * modifiers_.scale_length * Eigen::Vector2d(std::cos(heading), std::sin(heading)));
     }
     if (!end || modifiers_.scale_curvature != 1.0) return points;
     const Eigen::Vector2d gap = begin + modifiers_.scale_length * (*end - begin) - points.back();
@@ -146,11 +158,13 @@ class Builder {
   }
 
   base::Result<std::vector<double>> LineHeights() {
-    const std::vector<double> slope = RowValues(columns_.slope, road_.start_slope.value_or(0.0), modifiers_.scale_slope);
+    const std::vector<double> slope =
+        RowValues(columns_.slope, road_.start_slope.value_or(0.0), modifiers_.scale_slope);
     if (const auto fine = Finite(slope, "slope", 1); !fine) return fine.error();
     const double begin = road_.start_z_m.value_or(0.0);
     std::vector<double> z = {begin};
-    for (std::size_t row = 1; row < table_.rows; ++row) z.push_back(z.back() + step_m_ * modifiers_.scale_length * slope[row]);
+    for (std::size_t row = 1; row < table_.rows; ++row)
+      z.push_back(z.back() + step_m_ * modifiers_.scale_length * slope[row]);
     if (!road_.end_z_m || !road_.start_z_m) return z;
     const double scale = modifiers_.scale_slope * modifiers_.scale_length;
     const double gap = begin + scale * (*road_.end_z_m - begin) - z.back();
@@ -166,7 +180,8 @@ class Builder {
     std::vector<double> heights(table_.rows * sections);
     for (std::size_t row = 0; row < table_.rows; ++row) {
       double* of_row = heights.data() + row * sections;
-      for (std::size_t i = 0; i < sections; ++i) of_row[i] = modifiers_.scale_height * table_.At(row, columns_.heights[i]);
+      for (std::size_t i = 0; i < sections; ++i)
+        of_row[i] = modifiers_.scale_height * table_.At(row, columns_.heights[i]);
       const auto there = [](double z) { return !std::isnan(z); };
       double* first = std::find_if(of_row, of_row + sections, there);
       if (first == of_row + sections || modifiers_.missing == 0) continue;
@@ -194,7 +209,8 @@ class Builder {
 }  // namespace
 
 base::Result<CrgShape> BuildCrgShape(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers,
-                                     const CrgOptions& options, std::string_view name, std::vector<std::string>& warnings) {
+                                     const CrgOptions& options, std::string_view name,
+                                     std::vector<std::string>& warnings) {
   return Builder(header, table, modifiers, name, warnings).Build(options);
 }
 

@@ -20,7 +20,8 @@ namespace rodeira::surface {
 // Wrong input where a part does not fit another: an end by more than 1 % of the length, a bend of 90 degrees in a row.
 // Smaller gaps, from 0.01 % on, are warnings.
 base::Result<CrgShape> BuildCrgShape(const CrgHeader& header, const CrgTable& table, const CrgModifiers& modifiers,
-                                     const CrgOptions& options, std::string_view name, std::vector<std::string>& warnings);
+                                     const CrgOptions& options, std::string_view name,
+                                     std::vector<std::string>& warnings);
 
 // Moves it as the modifiers say: the reference point to its place, or else turned and shifted.
 CrgShape PlaceCrgShape(CrgShape shape, const CrgModifiers& modifiers);

@@ -19,6 +19,7 @@ struct CrgColumns {
 
 // Sorts the header's columns out. Wrong input where one is there twice, where sections are partly placed and partly
 // counted, fewer than two, or at places that nothing names.
-base::Result<CrgColumns> FindCrgColumns(const CrgHeader& header, std::string_view name, std::vector<std::string>& warnings);
+base::Result<CrgColumns> FindCrgColumns(const CrgHeader& header, std::string_view name,
+                                        std::vector<std::string>& warnings);
 
 }  // namespace rodeira::surface

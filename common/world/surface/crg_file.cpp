@@ -17,12 +17,14 @@ base::Result<CrgFile> Finish(CrgHeader header, std::span<const std::byte> bytes,
   CrgFile file;
   file.warnings = header.warnings;
   const CrgModifiers modifiers = header.modifiers.value_or(CrgModifiers{});
-  auto shape = BuildCrgShape(header, table.value(), modifiers, header.options.value_or(CrgOptions{}), name, file.warnings);
+  auto shape =
+      BuildCrgShape(header, table.value(), modifiers, header.options.value_or(CrgOptions{}), name, file.warnings);
   if (!shape) return shape.error();
   auto surface = std::make_shared<const CrgSurface>(PlaceCrgShape(std::move(shape).value(), modifiers));
   if (surface->shape().options.close_track && !surface->closed()) {
     file.warnings.push_back(
-        "REFLINE_CONTINUATION asks for a closed track, but the ends do not meet within 60 degrees: the line goes on straight");
+        "REFLINE_CONTINUATION asks for a closed track, but the ends do not meet within 60 degrees: the line goes on "
+        "straight");
   }
   file.surface = std::move(surface);
   file.header = std::move(header);
@@ -50,13 +52,15 @@ base::Result<CrgFile> LoadCrg(const std::filesystem::path& path) {
   const std::filesystem::path other = path.parent_path() / header.value().other_file;
   const auto numbers = base::ReadBytes(other);
   if (!numbers) {
-    return base::WrongInput(fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message),
-                            path.string());
+    return base::WrongInput(
+        fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message),
+        path.string());
   }
   auto with_numbers = ReadCrgHeader(numbers.value(), other.string());
   if (!with_numbers) return with_numbers.error();
   if (with_numbers.value().data_offset == 0) {
-    return base::WrongInput("the file is named by another .crg and names a third one; one step is followed", other.string());
+    return base::WrongInput("the file is named by another .crg and names a third one; one step is followed",
+                            other.string());
   }
   if (header.value().options) with_numbers.value().options = header.value().options;
   if (header.value().modifiers) with_numbers.value().modifiers = header.value().modifiers;

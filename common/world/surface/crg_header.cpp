@@ -49,7 +49,8 @@ class HeaderReader {
     while (at < text_.size()) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
       ++line_;
-      if (end - at > kLongestLine) return Wrong("the line is too long for a header; no line that begins with '$$$$' ended it");
+      if (end - at > kLongestLine)
+        return Wrong("the line is too long for a header; no line that begins with '$$$$' ended it");
       const std::string_view line = text_.substr(at, end - at);
       at = std::min(end + 1, text_.size());
       if (line.starts_with("$$$$")) {
@@ -61,7 +62,8 @@ class HeaderReader {
     }
     if (header_.data_offset == 0 && header_.other_file.empty()) {
       return Wrong(
-          "this is no OpenCRG file: neither numbers after a line that begins with '$$$$' nor a $ROAD_CRG_FILE were found");
+          "this is no OpenCRG file: neither numbers after a line that begins with '$$$$' nor a $ROAD_CRG_FILE were "
+          "found");
     }
     return std::move(header_);
   }
@@ -69,7 +71,9 @@ class HeaderReader {
  private:
   enum class Section { kNone, kUnknown, kComment, kRoad, kOptions, kModifiers, kFile, kChannels };
 
-  base::Error Wrong(std::string_view message) const { return base::WrongInput(message, fmt::format("{}:{}", name_, line_)); }
+  base::Error Wrong(std::string_view message) const {
+    return base::WrongInput(message, fmt::format("{}:{}", name_, line_));
+  }
 
   void Warn(std::string_view what) {
     if (header_.warnings.size() < kMostWarnings) {
@@ -90,22 +94,33 @@ class HeaderReader {
     line = Trim(line.substr(0, line.find('!')));
     if (line.empty()) return {};
     switch (section_) {
-      case Section::kRoad: return Key(line, CrgRoadKeyTable());
-      case Section::kOptions: return Key(line, CrgOptionTable());
-      case Section::kModifiers: return Key(line, CrgModifierTable());
-      case Section::kFile: return FileName(line);
-      case Section::kChannels: return Channel(line);
-      default: return {};
+      case Section::kRoad:
+        return Key(line, CrgRoadKeyTable());
+      case Section::kOptions:
+        return Key(line, CrgOptionTable());
+      case Section::kModifiers:
+        return Key(line, CrgModifierTable());
+      case Section::kFile:
+        return FileName(line);
+      case Section::kChannels:
+        return Channel(line);
+      default:
+        return {};
     }
   }
 
   void Open(const std::string& name) {
     section_ = Section::kUnknown;
-    if (name == "$") section_ = Section::kNone;
-    else if (name == "$ct") section_ = Section::kComment;
-    else if (name == "$road_crg") section_ = Section::kRoad;
-    else if (name == "$road_crg_file") section_ = Section::kFile;
-    else if (name == "$kd_definition") section_ = Section::kChannels;
+    if (name == "$")
+      section_ = Section::kNone;
+    else if (name == "$ct")
+      section_ = Section::kComment;
+    else if (name == "$road_crg")
+      section_ = Section::kRoad;
+    else if (name == "$road_crg_file")
+      section_ = Section::kFile;
+    else if (name == "$kd_definition")
+      section_ = Section::kChannels;
     else if (name == "$road_crg_opts") {
       section_ = Section::kOptions;
       header_.options.emplace();
@@ -144,9 +159,10 @@ class HeaderReader {
 
   base::Status FileName(std::string_view line) {
     if (header_.other_file.empty() && line.starts_with('$')) {
-      return Wrong(fmt::format(
-          "the file name '{}' begins with an environment variable; a path was expected, so that a world is the same everywhere",
-          line.substr(0, 60)));
+      return Wrong(
+          fmt::format("the file name '{}' begins with an environment variable; a path was expected, so that a world is "
+                      "the same everywhere",
+                      line.substr(0, 60)));
     }
     header_.other_file += line;  // a long name goes on in the next line
     return {};
@@ -161,7 +177,8 @@ class HeaderReader {
       return {};
     }
     const std::size_t comma = text.find(',');
-    const std::string_view name = Trim(std::string_view(text).substr(2, comma == std::string::npos ? comma : comma - 2));
+    const std::string_view name =
+        Trim(std::string_view(text).substr(2, comma == std::string::npos ? comma : comma - 2));
     const std::string_view unit = comma == std::string::npos ? "" : Trim(std::string_view(text).substr(comma + 1));
     CrgChannel channel;
     std::string_view expected = "m";
@@ -183,9 +200,11 @@ class HeaderReader {
           name.substr(0, 60)));
     }
     if (unit != expected) {
-      return Wrong(fmt::format("column '{}' is in '{}'; '{}' was expected", name.substr(0, 60), unit.substr(0, 20), expected));
+      return Wrong(
+          fmt::format("column '{}' is in '{}'; '{}' was expected", name.substr(0, 60), unit.substr(0, 20), expected));
     }
-    if (header_.channels.size() >= kMostChannels) return Wrong(fmt::format("the file has more than {} columns", kMostChannels));
+    if (header_.channels.size() >= kMostChannels)
+      return Wrong(fmt::format("the file has more than {} columns", kMostChannels));
     header_.channels.push_back(channel);
     return {};
   }
@@ -196,22 +215,32 @@ class HeaderReader {
     const std::size_t equals = text.find('=');
     const bool at = text.starts_with("at v") && equals != std::string_view::npos;
     const auto value = Number(at ? text.substr(equals + 1) : text);
-    const bool fine = value && (at ? std::fabs(*value) <= 1e6 : *value >= 1.0 && *value <= 1e6 && *value == std::floor(*value));
+    const bool fine =
+        value && (at ? std::fabs(*value) <= 1e6 : *value >= 1.0 && *value <= 1e6 && *value == std::floor(*value));
     if (!fine) {
-      return Wrong(fmt::format("'long section {}' was found; 'long section at v = METRES' or 'long section NUMBER' was expected",
-                               text.substr(0, 40)));
+      return Wrong(
+          fmt::format("'long section {}' was found; 'long section at v = METRES' or 'long section NUMBER' was expected",
+                      text.substr(0, 40)));
     }
-    if (at) channel.v_m = value;
-    else channel.number = static_cast<int>(*value);
+    if (at)
+      channel.v_m = value;
+    else
+      channel.number = static_cast<int>(*value);
     return {};
   }
 
   base::Status Format(const std::string& name) {
-    if (name == "lrfi") header_.format = CrgFormat::kText10;
-    else if (name == "ldfi") header_.format = CrgFormat::kText20;
-    else if (name == "krbi") header_.format = CrgFormat::kFloat;
-    else if (name == "kdbi") header_.format = CrgFormat::kDouble;
-    else return Wrong(fmt::format("the numbers' format is '{}'; LRFI, LDFI, KRBI or KDBI was expected", name.substr(0, 20)));
+    if (name == "lrfi")
+      header_.format = CrgFormat::kText10;
+    else if (name == "ldfi")
+      header_.format = CrgFormat::kText20;
+    else if (name == "krbi")
+      header_.format = CrgFormat::kFloat;
+    else if (name == "kdbi")
+      header_.format = CrgFormat::kDouble;
+    else
+      return Wrong(
+          fmt::format("the numbers' format is '{}'; LRFI, LDFI, KRBI or KDBI was expected", name.substr(0, 20)));
     return {};
   }
 

@@ -9,7 +9,8 @@
 
 #include "common/core/base/result.hpp"
 
-// The head of an OpenCRG file (ASAM OpenCRG 1.2, chapter "Data format"): named sections of text, in front of the numbers.
+// The head of an OpenCRG file (ASAM OpenCRG 1.2, chapter "Data format"): named sections of text, in front of the
+// numbers.
 namespace rodeira::surface {
 
 // What a column of the file's numbers is.
@@ -67,16 +68,16 @@ struct CrgModifiers {
 };
 
 struct CrgHeader {
-  std::string comment;                    // $CT
+  std::string comment;  // $CT
   CrgRoadKeys road;
-  std::optional<CrgOptions> options;      // where the file has the section
+  std::optional<CrgOptions> options;  // where the file has the section
   std::optional<CrgModifiers> modifiers;
-  std::string other_file;                 // $ROAD_CRG_FILE: the numbers are there
+  std::string other_file;  // $ROAD_CRG_FILE: the numbers are there
   std::vector<CrgChannel> channels;
   CrgFormat format = CrgFormat::kNone;
-  std::size_t data_offset = 0;            // of the numbers in the file; 0: the file has none
-  int data_line = 0;                      // the line that they begin in
-  std::vector<std::string> warnings;      // what was passed over, each with its line
+  std::size_t data_offset = 0;        // of the numbers in the file; 0: the file has none
+  int data_line = 0;                  // the line that they begin in
+  std::vector<std::string> warnings;  // what was passed over, each with its line
 };
 
 // `name` stands in front of each line's number in messages. Wrong input: a key without a number, a value out of the

@@ -24,7 +24,8 @@ double Size(const ValueRange& range) { return std::max(range.size(), 1e-9); }
 
 std::string Frame(double top, double height, std::string_view title) {
   return fmt::format(
-      "<text x='{}' y='{}' font-size='13'>{}</text>\n<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#999'/>\n",
+      "<text x='{}' y='{}' font-size='13'>{}</text>\n<rect x='{}' y='{}' width='{}' height='{}' fill='none' "
+      "stroke='#999'/>\n",
       kLeft, top - 6, title, kLeft, top, kWidth, height);
 }
 
@@ -32,8 +33,8 @@ std::string Frame(double top, double height, std::string_view title) {
 std::string Ticks(double top, double low, double high) {
   std::string svg;
   for (int i = 0; i <= 10; ++i) {
-    svg += fmt::format("<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.4g}</text>\n", kLeft + kWidth * i / 10.0, top + 13,
-                       low + (high - low) * i / 10.0);
+    svg += fmt::format("<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.4g}</text>\n", kLeft + kWidth * i / 10.0,
+                       top + 13, low + (high - low) * i / 10.0);
   }
   return svg;
 }
@@ -56,9 +57,10 @@ std::string Plan(const CrgSurface& surface, double top) {
   }
   const double scale = std::min((kWidth - 20.0) / Size(x), (kPlanHeight - 20.0) / Size(y));
   const double mx = 0.5 * (x.low + x.high), my = 0.5 * (y.low + y.high);
-  std::string svg = Frame(top, kPlanHeight,
-                          fmt::format("from above: x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m; the dot is the beginning", x.low,
-                                      x.high, y.low, y.high));
+  std::string svg =
+      Frame(top, kPlanHeight,
+            fmt::format("from above: x {:.2f} to {:.2f} m, y {:.2f} to {:.2f} m; the dot is the beginning", x.low,
+                        x.high, y.low, y.high));
   const auto at = [&](const Eigen::Vector2d& p) {
     return Eigen::Vector2d(kLeft + 0.5 * kWidth + (p.x() - mx) * scale, top + 0.5 * kPlanHeight - (p.y() - my) * scale);
   };
@@ -101,11 +103,10 @@ std::string Raster(const CrgSurface& surface, double top) {
     }
   }
   if (!(z.low <= z.high)) z = {0.0, 0.0};
-  std::string svg = Frame(
-      top, kRasterHeight,
-      fmt::format(
-          "heights from {:.4g} m (dark) to {:.4g} m (light); across u in m, upward v from {:.4g} to {:.4g} m; white: missing",
-          z.low, z.high, v0, v0 + width));
+  std::string svg = Frame(top, kRasterHeight,
+                          fmt::format("heights from {:.4g} m (dark) to {:.4g} m (light); across u in m, upward v from "
+                                      "{:.4g} to {:.4g} m; white: missing",
+                                      z.low, z.high, v0, v0 + width));
   svg += "<g shape-rendering='crispEdges'>\n";
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns;) {
@@ -139,11 +140,11 @@ std::string Tracks(const CrgSurface& surface, double top) {
   }
   if (!(z.low <= z.high)) z = {0.0, 0.0};
   std::string svg = Frame(top, kTrackHeight,
-                          fmt::format("heights in m along v = {:.4g} m (blue), {:.4g} m (red), {:.4g} m (green)", tracks[0].first,
-                                      tracks[1].first, tracks[2].first));
+                          fmt::format("heights in m along v = {:.4g} m (blue), {:.4g} m (red), {:.4g} m (green)",
+                                      tracks[0].first, tracks[1].first, tracks[2].first));
   svg += fmt::format(
-      "<text x='{0}' y='{1}' text-anchor='end'>{2:.4g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.4g}</text>\n", kLeft - 5,
-      top + 10, z.high, top + kTrackHeight, z.low);
+      "<text x='{0}' y='{1}' text-anchor='end'>{2:.4g}</text><text x='{0}' y='{3}' text-anchor='end'>{4:.4g}</text>\n",
+      kLeft - 5, top + 10, z.high, top + kTrackHeight, z.low);
   for (std::size_t k = 0; k < 3; ++k) {
     std::string path;
     bool drawing = false;

@@ -9,8 +9,8 @@
 namespace rodeira::surface {
 namespace {
 
-constexpr std::size_t kLeaf = 8;          // segments
-constexpr double kStraight = 1e-12;       // of the length: what the points of a straight line may lie beside it
+constexpr std::size_t kLeaf = 8;     // segments
+constexpr double kStraight = 1e-12;  // of the length: what the points of a straight line may lie beside it
 constexpr double kEven = 1e-12;
 
 Eigen::Vector2d LeftOf(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
@@ -65,8 +65,10 @@ void CrgReferenceLine::Search(const Eigen::Vector2d& p, std::size_t node, std::s
   const double to_first = tree_[first].SquaredDistance(p), to_second = tree_[second].SquaredDistance(p);
   const auto go = [&](bool to_the_first) {
     if ((to_the_first ? to_first : to_second) > best.squared_m2) return;
-    if (to_the_first) Search(p, first, begin, middle, best);
-    else Search(p, second, middle, end, best);
+    if (to_the_first)
+      Search(p, first, begin, middle, best);
+    else
+      Search(p, second, middle, end, best);
   };
   go(to_first <= to_second);
   go(!(to_first <= to_second));
@@ -94,14 +96,16 @@ Eigen::Vector2d CrgReferenceLine::Position(double u_m, double v_m) const {
     const Eigen::Vector2d across = LeftOf(Chord(point).normalized());
     return points_[point] + (v_m / across.dot(left)) * across;
   };
-  if (at < 0.0 || at > last) return points_[at < 0.0 ? 0 : segments()] + (at - inside) * step_m_ * direction + v_m * left;
+  if (at < 0.0 || at > last)
+    return points_[at < 0.0 ? 0 : segments()] + (at - inside) * step_m_ * direction + v_m * left;
   return (1.0 - share) * crossing(i) + share * crossing(i + 1);
 }
 
 CrgFoot CrgReferenceLine::FootBeyond(const Eigen::Vector2d& p, bool at_end) const {
   const Eigen::Vector2d direction = Along(at_end ? segments() - 1 : 0).normalized();
   const Eigen::Vector2d from = p - (at_end ? points_.back() : points_.front());
-  return {(at_end ? end_u_m() : begin_u_m_) + from.dot(direction), from.dot(LeftOf(direction)), direction, LeftOf(direction)};
+  return {(at_end ? end_u_m() : begin_u_m_) + from.dot(direction), from.dot(LeftOf(direction)), direction,
+          LeftOf(direction)};
 }
 
 CrgFoot CrgReferenceLine::Project(double x_m, double y_m) const {
@@ -109,7 +113,8 @@ CrgFoot CrgReferenceLine::Project(double x_m, double y_m) const {
   if (straight_) {
     const Eigen::Vector2d along = points_.back() - points_.front();
     const Eigen::Vector2d from = p - points_.front();
-    const double a_metre = step_m_ * static_cast<double>(segments()) / along.squaredNorm();  // u a metre, over the length
+    const double a_metre =
+        step_m_ * static_cast<double>(segments()) / along.squaredNorm();  // u a metre, over the length
     const Eigen::Vector2d left = LeftOf(along.normalized());
     return {begin_u_m_ + from.dot(along) * a_metre, from.dot(left), along * a_metre, left};
   }

@@ -8,14 +8,14 @@ namespace rodeira::surface {
 // A place along and across a reference line, with how u and v change in the plane.
 struct CrgFoot {
   double u_m = 0.0;
-  double v_m = 0.0;  // positive to the left
+  double v_m = 0.0;                                      // positive to the left
   Eigen::Vector2d u_slope_W = Eigen::Vector2d::UnitX();  // du/d(x, y)
   Eigen::Vector2d v_slope_W = Eigen::Vector2d::UnitY();  // dv/d(x, y)
 };
 
-// The reference line of a curved regular grid: a polyline whose points stand every step_m of u. A point at (u, v) lies at
-// the distance v beside the segment of u; where two segments meet, the crossing line bisects their corner, and between
-// two crossing lines u grows evenly. Beyond its ends the line goes on straight. (ASAM OpenCRG 1.2, evaluation.)
+// The reference line of a curved regular grid: a polyline whose points stand every step_m of u. A point at (u, v) lies
+// at the distance v beside the segment of u; where two segments meet, the crossing line bisects their corner, and
+// between two crossing lines u grows evenly. Beyond its ends the line goes on straight. (ASAM OpenCRG 1.2, evaluation.)
 // Every answer is a pure function of the line: there is no history.
 class CrgReferenceLine {
  public:

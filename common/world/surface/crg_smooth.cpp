@@ -9,7 +9,8 @@
 namespace rodeira::surface {
 namespace {
 
-// The means of a line of heights, each over as many neighbours on either side as both lie within reach. at_m: ascending places.
+// The means of a line of heights, each over as many neighbours on either side as both lie within reach. at_m: ascending
+// places.
 void SmoothLine(const std::vector<double>& at_m, double reach_m, std::vector<double>& heights) {
   const std::size_t count = heights.size();
   std::vector<double> sums(count + 1, 0.0), known(count + 1, 0.0);
@@ -22,7 +23,9 @@ void SmoothLine(const std::vector<double>& at_m, double reach_m, std::vector<dou
   for (std::size_t i = 0; i < count; ++i) {
     if (std::isnan(heights[i])) continue;
     std::size_t aside = 0;
-    while (aside < i && i + aside + 1 < count && at_m[i] - at_m[i - aside - 1] <= reach_m && at_m[i + aside + 1] - at_m[i] <= reach_m) ++aside;
+    while (aside < i && i + aside + 1 < count && at_m[i] - at_m[i - aside - 1] <= reach_m &&
+           at_m[i + aside + 1] - at_m[i] <= reach_m)
+      ++aside;
     smooth[i] = (sums[i + aside + 1] - sums[i - aside]) / (known[i + aside + 1] - known[i - aside]);
   }
   heights = std::move(smooth);

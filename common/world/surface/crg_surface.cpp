@@ -8,8 +8,8 @@
 namespace rodeira::surface {
 namespace {
 
-constexpr double kEven = 1e-9;           // m: sections count as evenly spaced
-constexpr double kClosingCosine = 0.5;   // of 60 degrees
+constexpr double kEven = 1e-9;          // m: sections count as evenly spaced
+constexpr double kClosingCosine = 0.5;  // of 60 degrees
 constexpr double kParallel = 1e-9;
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -36,15 +36,15 @@ CrgSurface::CrgSurface(CrgShape shape) : shape_(std::move(shape)) {
   if (shape_.options.close_track) FindClosure();
 }
 
-// Both ends' prolongations meet in front of the one and behind the other: u goes over at their crossing, or in the middle
-// of the gap where they are parallel.
+// Both ends' prolongations meet in front of the one and behind the other: u goes over at their crossing, or in the
+// middle of the gap where they are parallel.
 void CrgSurface::FindClosure() {
   const CrgReferenceLine& line = shape_.line;
   const Eigen::Vector2d begin = line.points_W().front(), end = line.points_W().back();
   const Eigen::Vector2d ahead = line.DirectionAt(line.begin_u_m()), behind = line.DirectionAt(line.end_u_m());
   const double cosine = ahead.dot(behind);
   if (!(cosine > kClosingCosine)) return;
-  const double past_end = (begin - end).dot(ahead) / cosine;       // where the line across the start cuts the prolongation
+  const double past_end = (begin - end).dot(ahead) / cosine;  // where the line across the start cuts the prolongation
   const double before_begin = (end - begin).dot(behind) / cosine;  // and the line across the end that before the start
   if (!(past_end >= 0.0 && before_begin <= 0.0)) return;
   double low = 0.5 * before_begin * cosine, high = 0.5 * past_end * cosine;
@@ -121,7 +121,8 @@ CrgPoint CrgSurface::At(double u_m, double v_m) const {
   }
   const CrgOptions& options = shape_.options;
   const Cell along = AlongU(u), across = AcrossV(v_m);
-  if ((along.outside && options.border_u == CrgBorder::kNone) || (across.outside && options.border_v == CrgBorder::kNone)) {
+  if ((along.outside && options.border_u == CrgBorder::kNone) ||
+      (across.outside && options.border_v == CrgBorder::kNone)) {
     return point;
   }
 
@@ -138,7 +139,7 @@ CrgPoint CrgSurface::At(double u_m, double v_m) const {
   const double v = shape_.v_m[across.index] + q * across.size_m;
   const double line_z = shape_.line_z_m[along.index], line_step = shape_.line_z_m[along.index + 1] - line_z;
   const double bank = shape_.banking[along.index], bank_step = shape_.banking[along.index + 1] - bank;
-  const double onward = (1.0 - q) * (z10 - z00) + q * (z11 - z01);  // over one step of u
+  const double onward = (1.0 - q) * (z10 - z00) + q * (z11 - z01);    // over one step of u
   const double leftward = (1.0 - p) * (z01 - z00) + p * (z11 - z10);  // over the cell's width
   point.inside = true;
   point.z_m = (1.0 - q) * ((1.0 - p) * z00 + p * z10) + q * ((1.0 - p) * z01 + p * z11) + line_z + p * line_step +
@@ -155,7 +156,8 @@ CrgPoint CrgSurface::At(double u_m, double v_m) const {
 
   const double from_begin = (static_cast<double>(along.index) + p) * along.size_m;
   Smooth(from_begin, options.smooth_begin_m, along.outside ? 0.0 : along.sign, shape_.line_z_m.front(), point);
-  Smooth(length_m() - from_begin, options.smooth_end_m, along.outside ? 0.0 : -along.sign, shape_.line_z_m.back(), point);
+  Smooth(length_m() - from_begin, options.smooth_end_m, along.outside ? 0.0 : -along.sign, shape_.line_z_m.back(),
+         point);
   return point;
 }
 

@@ -57,7 +57,7 @@ class CrgSurface {
  private:
   struct Cell {
     std::size_t index = 0;
-    double share = 0.0;    // 0 to 1 within the cell
+    double share = 0.0;  // 0 to 1 within the cell
     double size_m = 0.0;
     double sign = 1.0;     // -1 where the grid is reflected
     bool outside = false;  // held at the border

@@ -42,8 +42,8 @@ class TextNumbers {
         }
         const std::size_t at = column % (kRecordBytes / width_) * width_;
         if (at >= now_.size()) {
-          return Wrong(fmt::format("number {} of the row is missing; {} were expected, each {} characters wide", column + 1,
-                                   columns, width_));
+          return Wrong(fmt::format("number {} of the row is missing; {} were expected, each {} characters wide",
+                                   column + 1, columns, width_));
         }
         std::string_view word = now_.substr(at, width_);
         while (word.starts_with(' ')) word.remove_prefix(1);
@@ -53,16 +53,17 @@ class TextNumbers {
           continue;
         }
         if (last_ && now_.size() < at + width_) {
-          return Wrong(fmt::format("the file is cut short within a number: it ends after '{}'; {} characters were expected", word, width_));
+          return Wrong(fmt::format(
+              "the file is cut short within a number: it ends after '{}'; {} characters were expected", word, width_));
         }
         if (word.starts_with('+')) word.remove_prefix(1);
         double value = 0.0;
         const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
         if (problem != std::errc() || end != word.data() + word.size() || !(std::fabs(value) <= kLargest)) {
-          return Wrong(
-              fmt::format("'{}' was found in columns {} to {}; a number up to 1e9, or one that begins with '*' where it is "
-                          "missing, was expected",
-                          word, at + 1, at + width_));
+          return Wrong(fmt::format(
+              "'{}' was found in columns {} to {}; a number up to 1e9, or one that begins with '*' where it is "
+              "missing, was expected",
+              word, at + 1, at + width_));
         }
         table.values.push_back(value);
       }
@@ -72,7 +73,9 @@ class TextNumbers {
   }
 
  private:
-  base::Error Wrong(std::string_view message) const { return base::WrongInput(message, fmt::format("{}:{}", name_, line_ - 1)); }
+  base::Error Wrong(std::string_view message) const {
+    return base::WrongInput(message, fmt::format("{}:{}", name_, line_ - 1));
+  }
 
   bool NextLine() {
     if (at_ >= text_.size()) return false;
@@ -109,7 +112,8 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
   const auto asked = RowsAsked(header.road);
   if (asked && *asked > static_cast<double>(there)) {
     return base::WrongInput(
-        fmt::format("the file is cut short: {} rows of {} numbers are there, and the header asks for {}", there, columns, *asked),
+        fmt::format("the file is cut short: {} rows of {} numbers are there, and the header asks for {}", there,
+                    columns, *asked),
         name);
   }
   CrgTable table{asked ? static_cast<std::size_t>(*asked) : there, columns, {}};
@@ -118,8 +122,8 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
     const std::byte* at = data.data() + i * size;
     table.values[i] = size == 4 ? BigEndian<float, std::uint32_t>(at) : BigEndian<double, std::uint64_t>(at);
     if (std::fabs(table.values[i]) > kLargest) {
-      return base::WrongInput(fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected", i / columns + 1,
-                                          i % columns + 1, table.values[i]),
+      return base::WrongInput(fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected",
+                                          i / columns + 1, i % columns + 1, table.values[i]),
                               name);
     }
   }
@@ -145,9 +149,10 @@ base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std
     return base::WrongInput("the header does not say how the numbers are written ('#:KRBI', KDBI, LRFI or LDFI)", name);
   }
   if (const auto asked = RowsAsked(header.road); asked && *asked < 2.0) {
-    return base::WrongInput(fmt::format("the header goes from u = {} to {} every {} m; at least 2 rows were expected",
-                                        header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m),
-                            name);
+    return base::WrongInput(
+        fmt::format("the header goes from u = {} to {} every {} m; at least 2 rows were expected",
+                    header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m),
+        name);
   }
   const bool text = header.format == CrgFormat::kText10 || header.format == CrgFormat::kText20;
   auto table = text ? TextNumbers(header, bytes, name).Read(header.channels.size()) : ReadBinary(header, bytes, name);
@@ -160,7 +165,8 @@ base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std
         name);
   }
   if (table.value().rows < 2) {
-    return base::WrongInput(fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows), name);
+    return base::WrongInput(fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows),
+                            name);
   }
   return table;
 }

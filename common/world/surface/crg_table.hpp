@@ -19,7 +19,8 @@ struct CrgTable {
 };
 
 // Reads the numbers behind the header, `bytes` being the whole file.
-// - LRFI, LDFI: text of 10 or 20 characters a number, 8 or 4 numbers a line; each row begins a line. A number that begins
+// - LRFI, LDFI: text of 10 or 20 characters a number, 8 or 4 numbers a line; each row begins a line. A number that
+// begins
 //   with '*' is missing.
 // - KRBI, KDBI: big-endian IEEE floats or doubles without gaps; what fills the last 80 bytes up is NaN.
 // The rows are those from start_u to end_u where the header has both, otherwise all that are there (two or more). Wrong

@@ -10,7 +10,7 @@
 namespace rodeira::surface {
 namespace {
 
-constexpr double kReference_1pm = 0.1;    // n0
+constexpr double kReference_1pm = 0.1;  // n0
 constexpr double kClassA_m3 = 16e-6;
 constexpr double kTwelfth = 1.0594630943592953;  // of an octave: 2^(1/12)
 constexpr double kTwoPi = 2.0 * geometry::kPi;
@@ -31,7 +31,8 @@ Four CosOfTurns(const Four& x) {
   const Four angle = kTwoPi * turns;
   const Four q = angle * angle;
   const Four low = 1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0 - q * (1.0 / 362880.0))));
-  const Four high = 1.0 / 39916800.0 - q * (1.0 / 6227020800.0 - q * (1.0 / 1307674368000.0 - q * (1.0 / 355687428096000.0)));
+  const Four high =
+      1.0 / 39916800.0 - q * (1.0 / 6227020800.0 - q * (1.0 / 1307674368000.0 - q * (1.0 / 355687428096000.0)));
   const Four q2 = q * q;
   const Four sum = low - q2 * q2 * q * high;
   return angle * sum;
@@ -53,15 +54,18 @@ double Roughness::BandVariance(double density_m3, double low_1pm, double high_1p
   return density_m3 * kReference_1pm * kReference_1pm * (1.0 / low_1pm - 1.0 / high_1pm);
 }
 
-double Roughness::variance_m2() const { return BandVariance(spec_.density_m3, kLowest_1pm, kLowest_1pm * (1 << kOctaves)); }
+double Roughness::variance_m2() const {
+  return BandVariance(spec_.density_m3, kLowest_1pm, kLowest_1pm * (1 << kOctaves));
+}
 
 Roughness::Roughness(const RoughnessSpec& spec) : spec_(spec) {
   if (!(spec_.density_m3 > 0.0)) return;
   waves_.resize(kOctaves * kWavesAnOctave / 4);
   double low = kLowest_1pm;
   for (std::uint64_t i = 0; i < kOctaves * kWavesAnOctave; ++i) {
-    const double high =
-        (i + 1) % kWavesAnOctave == 0 ? kLowest_1pm * static_cast<double>(1u << ((i + 1) / kWavesAnOctave)) : low * kTwelfth;
+    const double high = (i + 1) % kWavesAnOctave == 0
+                            ? kLowest_1pm * static_cast<double>(1u << ((i + 1) / kWavesAnOctave))
+                            : low * kTwelfth;
     const double along = base::RandomUniform({spec_.seed, kFrequency, i}, low, high);
     // As steep as the shortest wave allows: n / cos a <= 1 / shortest.
     const double cosine = along * kShortest_m;

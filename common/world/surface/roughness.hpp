@@ -15,8 +15,8 @@ struct RoughnessSpec {
   std::uint64_t seed = 0;
 };
 
-// The geometric mean of a class, 'A' (very good, 16e-6 m3) to 'H' (262144e-6 m3), four times the one before. Wrong input
-// for another letter.
+// The geometric mean of a class, 'A' (very good, 16e-6 m3) to 'H' (262144e-6 m3), four times the one before. Wrong
+// input for another letter.
 base::Result<double> RoughnessOfClass(char letter);
 
 // The height beside an even road, and its change.
@@ -51,7 +51,7 @@ class Roughness {
   static double BandVariance(double density_m3, double low_1pm, double high_1pm);
 
  private:
-  struct Waves {  // four of them
+  struct Waves {                           // four of them
     Eigen::Array4d along_1pm, across_1pm;  // cycles a metre
     Eigen::Array4d phase;                  // cycles
     Eigen::Array4d amplitude_m;

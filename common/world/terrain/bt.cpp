@@ -63,12 +63,13 @@ base::Status Check(const BtHeader& header) {
   }
   if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
   if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
-    return base::WrongInput(fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}",
-                                        header.left, header.right, header.bottom, header.top));
+    return base::WrongInput(
+        fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}", header.left,
+                    header.right, header.bottom, header.top));
   }
   if (!std::isfinite(header.vertical_scale) || header.vertical_scale < 0.0) {
-    return base::WrongInput(
-        fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected", header.vertical_scale));
+    return base::WrongInput(fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected",
+                                        header.vertical_scale));
   }
   return {};
 }
@@ -83,7 +84,9 @@ bool ExtentsHold(double west, double south, double east, double north, int colum
   return east - west >= kNarrowest * columns && north - south >= kNarrowest * rows;
 }
 
-bool LooksLikeBt(std::span<const std::byte> bytes) { return bytes.size() >= 7 && std::memcmp(bytes.data(), "binterr", 7) == 0; }
+bool LooksLikeBt(std::span<const std::byte> bytes) {
+  return bytes.size() >= 7 && std::memcmp(bytes.data(), "binterr", 7) == 0;
+}
 
 base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   if (bytes.size() < kBtHeaderBytes) {
@@ -96,22 +99,28 @@ base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   const bool known = magic.starts_with("binterr1.") && magic[9] >= '0' && magic[9] <= '3';
   if (!known) {
     for (char& letter : magic) letter = letter >= ' ' && letter <= '~' ? letter : '?';
-    return base::WrongInput(fmt::format("the file begins with '{}'; a .bt begins with 'binterr1.0' to 'binterr1.3'", magic));
+    return base::WrongInput(
+        fmt::format("the file begins with '{}'; a .bt begins with 'binterr1.0' to 'binterr1.3'", magic));
   }
   header.version_tenths = 10 + (magic[9] - '0');
   header.columns = At<std::int32_t>(bytes, 10);
   header.rows = At<std::int32_t>(bytes, 14);
-  if (header.version_tenths == 10) ParseVersion10(bytes, header);
-  else ParseLater(bytes, header);
+  if (header.version_tenths == 10)
+    ParseVersion10(bytes, header);
+  else
+    ParseLater(bytes, header);
   if (const auto fine = Check(header); !fine) return fine.error();
   return header;
 }
 
 base::Bytes BtHeaderBytes(const BtHeader& header) {
   std::int16_t unit = 1;
-  if (header.metres_a_unit == 0.0) unit = 0;
-  else if (header.metres_a_unit == 0.3048) unit = 2;
-  else if (header.metres_a_unit != 1.0) unit = 3;
+  if (header.metres_a_unit == 0.0)
+    unit = 0;
+  else if (header.metres_a_unit == 0.3048)
+    unit = 2;
+  else if (header.metres_a_unit != 1.0)
+    unit = 3;
   base::ByteWriter out;
   out.PutRaw(std::as_bytes(std::span("binterr1.3", 10)));
   out.Put(static_cast<std::int32_t>(header.columns));

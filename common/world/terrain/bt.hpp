@@ -21,19 +21,21 @@ struct BtHeader {
   int bytes_a_post = 4;  // 2 or 4
   bool floating = true;
   double metres_a_unit = 1.0;  // horizontally; 0: degrees
-  int utm_zone = 0;  // 0: none, the .prj says what the coordinates are
-  int datum = -2;    // unknown
+  int utm_zone = 0;            // 0: none, the .prj says what the coordinates are
+  int datum = -2;              // unknown
   // Of the outermost posts, in the file's unit.
   double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0;
   bool external_projection = false;  // a .prj beside the file says more
   double vertical_scale = 1.0;       // metres a unit of height
 
   std::uint64_t file_bytes() const {
-    return kBtHeaderBytes + static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(bytes_a_post);
+    return kBtHeaderBytes + static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) *
+                                static_cast<std::uint64_t>(bytes_a_post);
   }
 };
 
-// Whether a grid can stand within these edges: finite, none farther than 1e10 from 0, a millionth and more a column and row.
+// Whether a grid can stand within these edges: finite, none farther than 1e10 from 0, a millionth and more a column and
+// row.
 bool ExtentsHold(double west, double south, double east, double north, int columns, int rows);
 
 // Whether the bytes begin as a .bt does, whatever follows.

@@ -27,11 +27,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostPosts = 400'000'000;  // 1.6 GB of heights
 
-// Drivers that are not asked. A file is read, and nothing else: these call a server, log in to a database, or read what the file only names, among which are addresses of servers, pieces of programs and places in
-// memory.
-constexpr std::string_view kNotAsked[] = {"WMS", "WMTS", "WCS", "OGCAPI", "HTTP", "PLMOSAIC", "EEDA", "EEDAI", "DAAS", "RDA", "NGW", "STACIT", "STACTA", "STAC",  // servers
-                                          "PostGISRaster", "GeoRaster", "Rasterlite", "TileDB", "MSSQLSpatial",                                                // data bases
-                                          "VRT", "DERIVED", "GTI", "GDALG", "MEM", "Memory", "Zarr"};                                                          // what a file names
+// Drivers that are not asked. A file is read, and nothing else: these call a server, log in to a database, or read what
+// the file only names, among which are addresses of servers, pieces of programs and places in memory.
+constexpr std::string_view kNotAsked[] = {
+    "WMS",           "WMTS",      "WCS",        "OGCAPI", "HTTP",         "PLMOSAIC", "EEDA",
+    "EEDAI",         "DAAS",      "RDA",        "NGW",    "STACIT",       "STACTA",   "STAC",   // servers
+    "PostGISRaster", "GeoRaster", "Rasterlite", "TileDB", "MSSQLSpatial",                       // data bases
+    "VRT",           "DERIVED",   "GTI",        "GDALG",  "MEM",          "Memory",   "Zarr"};  // what a file names
 
 // All others of GDAL's that read rasters, in its order.
 std::vector<const char*> DriversAsked() {
@@ -41,7 +43,8 @@ std::vector<const char*> DriversAsked() {
     GDALDriver* driver = all->GetDriver(i);
     const char* name = driver->GetDescription();
     const bool raster = driver->GetMetadataItem(GDAL_DCAP_RASTER) != nullptr;
-    if (raster && std::find(std::begin(kNotAsked), std::end(kNotAsked), std::string_view(name)) == std::end(kNotAsked)) names.push_back(name);
+    if (raster && std::find(std::begin(kNotAsked), std::end(kNotAsked), std::string_view(name)) == std::end(kNotAsked))
+      names.push_back(name);
   }
   names.push_back(nullptr);
   return names;
@@ -68,9 +71,10 @@ base::Result<FileStart> ReadStart(const fs::path& path) {
   };
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(
-        fs::exists(path, problem) ? std::string("this is no plain file; an elevation file was expected") : "there is no such elevation file" + base::NearestFile(path),
-        path.string());
+    return base::WrongInput(fs::exists(path, problem)
+                                ? std::string("this is no plain file; an elevation file was expected")
+                                : "there is no such elevation file" + base::NearestFile(path),
+                            path.string());
   }
   auto head = read(path.string(), 2);
   if (!head) return base::WrongInput("the elevation file cannot be opened", path.string());
@@ -112,8 +116,10 @@ class UpgradedBt {
 };
 
 // The outermost heights, where the outermost edges (of posts the same, of cells half a cell farther out) are known.
-ElevationGrid::Frame FrameWithin(int columns, int rows, double west, double south, double east, double north, bool posts) {
-  const double half_x = posts ? 0.0 : 0.5 * (east - west) / columns, half_y = posts ? 0.0 : 0.5 * (north - south) / rows;
+ElevationGrid::Frame FrameWithin(int columns, int rows, double west, double south, double east, double north,
+                                 bool posts) {
+  const double half_x = posts ? 0.0 : 0.5 * (east - west) / columns,
+               half_y = posts ? 0.0 : 0.5 * (north - south) / rows;
   return {columns, rows, west + half_x, south + half_y, east - half_x, north - half_y};
 }
 
@@ -122,8 +128,8 @@ base::Result<ElevationGrid::Frame> FrameOfBt(const BtHeader& header, GDALDataset
   if (dataset.GetRasterXSize() != header.columns || dataset.GetRasterYSize() != header.rows) {
     return base::WrongInput("GDAL finds another number of heights than the .bt header says", path.string());
   }
-  // The header's extents are the outermost posts, unless told otherwise. GDAL always takes them for the edges of cells, so
-  // its frame is not used.
+  // The header's extents are the outermost posts, unless told otherwise. GDAL always takes them for the edges of cells,
+  // so its frame is not used.
   const double unit = header.metres_a_unit;
   return FrameWithin(header.columns, header.rows, header.left * unit, header.bottom * unit, header.right * unit,
                      header.top * unit, registration != Registration::kCells);
@@ -139,14 +145,16 @@ base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registrat
   const int columns = dataset.GetRasterXSize();
   const int rows = dataset.GetRasterYSize();
   if (g[2] != 0.0 || g[4] != 0.0 || !(g[1] > 0.0) || !(g[5] < 0.0)) {
-    return base::WrongInput("the raster is turned or mirrored; north up was expected (gdalwarp turns it)", path.string());
+    return base::WrongInput("the raster is turned or mirrored; north up was expected (gdalwarp turns it)",
+                            path.string());
   }
   if (columns < 2 || rows < 2) return base::WrongInput("the raster has fewer than 2 columns or rows", path.string());
   const double west = g[0] * unit, north = g[3] * unit, east = (g[0] + columns * g[1]) * unit,
                south = (g[3] + rows * g[5]) * unit;
   if (!ExtentsHold(west, south, east, north, columns, rows)) {
-    return base::WrongInput(fmt::format("the raster's edges enclose nothing: x {} to {}, y {} to {}", west, east, south, north),
-                            path.string());
+    return base::WrongInput(
+        fmt::format("the raster's edges enclose nothing: x {} to {}, y {} to {}", west, east, south, north),
+        path.string());
   }
   return FrameWithin(columns, rows, west, south, east, north, registration == Registration::kPosts);
 }
@@ -157,9 +165,9 @@ base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, cons
   const auto header = ParseBtHeader(start.head);
   if (!header) return base::WrongInput(header.error().message, path.string());
   if (start.size < header.value().file_bytes()) {
-    return base::WrongInput(fmt::format("the file is cut short: {} bytes{}, and {} x {} heights of {} bytes need {}", start.size,
-                                        start.gzipped ? " when unpacked" : "", header.value().columns, header.value().rows,
-                                        header.value().bytes_a_post, header.value().file_bytes()),
+    return base::WrongInput(fmt::format("the file is cut short: {} bytes{}, and {} x {} heights of {} bytes need {}",
+                                        start.size, start.gzipped ? " when unpacked" : "", header.value().columns,
+                                        header.value().rows, header.value().bytes_a_post, header.value().file_bytes()),
                             path.string());
   }
   return std::optional<BtHeader>(header.value());
@@ -192,11 +200,12 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   const std::string& name = upgraded.name().empty() ? start.value().gdal_name : upgraded.name();
   const std::array<const char*, 2> bt = {"BT", nullptr};
   const std::vector<const char*> others = DriversAsked();
-  const GDALDatasetUniquePtr dataset(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                                       header ? bt.data() : others.data()));
+  const GDALDatasetUniquePtr dataset(GDALDataset::Open(
+      name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, header ? bt.data() : others.data()));
   if (!dataset) {
     return base::WrongInput(
-        fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}", QuietGdal::Words()),
+        fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}",
+                    QuietGdal::Words()),
         path.string());
   }
   if (static_cast<std::uint64_t>(dataset->GetRasterXSize()) * static_cast<std::uint64_t>(dataset->GetRasterYSize()) >
@@ -208,14 +217,18 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   GDALDatasetUniquePtr warped;
   if (header && header->metres_a_unit == 0.0 && projection.value().geographic_wkt.empty()) {
     // A zone that its header says beside degrees is none of its own.
-    if (header->external_projection && !projection.value().wkt.empty()) return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
+    if (header->external_projection && !projection.value().wkt.empty())
+      return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
     projection.value().geographic_wkt = SRS_WKT_WGS84_LAT_LONG;
   } else if (header && header->metres_a_unit != 0.0 && !projection.value().geographic_wkt.empty()) {
     return base::WrongInput("the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());
   }
   if (!projection.value().geographic_wkt.empty()) {
-    if (dataset->GetRasterCount() != 1) return base::WrongInput(BandsSentence(dataset->GetRasterCount()), path.string());
-    auto metric = WarpedToMetres(*dataset, projection.value().geographic_wkt, header, registration == Registration::kPosts || (header && registration == Registration::kUsual), path);
+    if (dataset->GetRasterCount() != 1)
+      return base::WrongInput(BandsSentence(dataset->GetRasterCount()), path.string());
+    auto metric =
+        WarpedToMetres(*dataset, projection.value().geographic_wkt, header,
+                       registration == Registration::kPosts || (header && registration == Registration::kUsual), path);
     if (!metric) return metric.error();
     warped = std::move(metric).value();
     projection = MetricProjection(*warped->GetSpatialRef());
@@ -223,11 +236,13 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   }
   GDALDataset& read = warped ? *warped : *dataset;
   const auto frame = header && !warped ? FrameOfBt(*header, *dataset, registration, path)
-                                       : FrameOfRaster(read, warped ? Registration::kUsual : registration, projection.value().metres_a_unit, path);
+                                       : FrameOfRaster(read, warped ? Registration::kUsual : registration,
+                                                       projection.value().metres_a_unit, path);
   if (!frame) return frame.error();
   auto heights = ReadHeights(read, header, path);
   if (!heights) return heights.error();
-  return std::make_shared<const ElevationGrid>(frame.value(), std::move(heights).value(), std::move(projection).value().wkt);
+  return std::make_shared<const ElevationGrid>(frame.value(), std::move(heights).value(),
+                                               std::move(projection).value().wkt);
 }
 
 }  // namespace rodeira::terrain

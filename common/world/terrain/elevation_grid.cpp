@@ -40,7 +40,8 @@ GridSample ElevationGrid::At(double x_m, double y_m) const {
   // Height differences over one whole cell, eastward and northward.
   const double eastward = south_west ? south_east - corner : corner - north_west;
   const double northward = south_west ? north_west - corner : corner - south_east;
-  sample.z_m = south_west ? corner + u * eastward + v * northward : corner - (1.0 - u) * eastward - (1.0 - v) * northward;
+  sample.z_m =
+      south_west ? corner + u * eastward + v * northward : corner - (1.0 - u) * eastward - (1.0 - v) * northward;
   sample.slope_x = eastward * cells_per_m_x_;
   sample.slope_y = northward * cells_per_m_y_;
   sample.inside = true;

@@ -18,10 +18,12 @@ base::Result<OGRSpatialReference> FromDefinition(std::string_view definition) {
   const QuietGdal quiet;
   OGRSpatialReference reference;
   const std::string text(definition);
-  const bool fine = reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS) == OGRERR_NONE;
+  const bool fine =
+      reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS) == OGRERR_NONE;
   if (!fine) {
-    return base::WrongInput(fmt::format("'{}' is no coordinate system that PROJ knows; an EPSG code or WKT was expected",
-                                        text.substr(0, std::min<std::size_t>(60, text.find('\n')))));
+    return base::WrongInput(
+        fmt::format("'{}' is no coordinate system that PROJ knows; an EPSG code or WKT was expected",
+                    text.substr(0, std::min<std::size_t>(60, text.find('\n')))));
   }
   return reference;
 }
@@ -33,7 +35,8 @@ base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
   const OGRErr failed = reference.exportToWkt(&text);
   projection.geographic_wkt = text == nullptr ? "" : text;
   CPLFree(text);
-  if (failed != OGRERR_NONE || projection.geographic_wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  if (failed != OGRERR_NONE || projection.geographic_wkt.empty())
+    return base::WrongInput("the coordinate system cannot be written as WKT");
   return projection;
 }
 
@@ -41,8 +44,7 @@ base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
 
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) {
   if (reference.IsGeographic() != 0) {
-    return base::WrongInput(
-        "the coordinate system is in degrees; a projection in metres was expected");
+    return base::WrongInput("the coordinate system is in degrees; a projection in metres was expected");
   }
   Projection projection;
   projection.metres_a_unit = reference.GetLinearUnits();
@@ -57,7 +59,8 @@ base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) 
   const OGRErr failed = metric->exportToWkt(&text, options.data());
   projection.wkt = text == nullptr ? "" : text;
   CPLFree(text);
-  if (failed != OGRERR_NONE || projection.wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  if (failed != OGRERR_NONE || projection.wkt.empty())
+    return base::WrongInput("the coordinate system cannot be written as WKT");
   return projection;
 }
 

@@ -16,7 +16,7 @@
 namespace rodeira::terrain {
 namespace {
 
-constexpr double kPolar_deg = 84.0;  // UTM ends there
+constexpr double kPolar_deg = 84.0;   // UTM ends there
 constexpr double kWidest_deg = 12.0;  // so far from a zone's middle its scale is off by half a per cent
 constexpr double kMostTimes = 16.0;   // as many heights as the raster has, where its cells are long and thin
 constexpr double kDegree_m = 111'000.0;
@@ -44,46 +44,69 @@ class Arguments {
 
 }  // namespace
 
-base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& geographic_wkt, const std::optional<BtHeader>& bt, bool posts, const std::filesystem::path& path) {
-  const auto refuse = [&] { return base::WrongInput(fmt::format("the heights, in degrees, cannot be brought into metres; {}", QuietGdal::Words()), path.string()); };
+base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& geographic_wkt,
+                                                  const std::optional<BtHeader>& bt, bool posts,
+                                                  const std::filesystem::path& path) {
+  const auto refuse = [&] {
+    return base::WrongInput(
+        fmt::format("the heights, in degrees, cannot be brought into metres; {}", QuietGdal::Words()), path.string());
+  };
   const int columns = raster.GetRasterXSize(), rows = raster.GetRasterYSize();
   std::array<double, 6> g{};
-  if (raster.GetGeoTransform(g.data()) != CE_None) return base::WrongInput("the raster does not say where it lies (no georeference)", path.string());
+  if (raster.GetGeoTransform(g.data()) != CE_None)
+    return base::WrongInput("the raster does not say where it lies (no georeference)", path.string());
   if (bt) g = {bt->left, (bt->right - bt->left) / columns, 0.0, bt->top, 0.0, -(bt->top - bt->bottom) / rows};
   if (posts && columns > 1 && rows > 1 && g[2] == 0.0 && g[4] == 0.0) {
     const double step_x = g[1] * columns / (columns - 1), step_y = g[5] * rows / (rows - 1);
     g = {g[0] - 0.5 * step_x, step_x, 0.0, g[3] - 0.5 * step_y, 0.0, step_y};
   }
-  const double longitude = g[0] + 0.5 * columns * g[1] + 0.5 * rows * g[2], latitude = g[3] + 0.5 * columns * g[4] + 0.5 * rows * g[5];
+  const double longitude = g[0] + 0.5 * columns * g[1] + 0.5 * rows * g[2],
+               latitude = g[3] + 0.5 * columns * g[4] + 0.5 * rows * g[5];
   if (!(std::fabs(latitude) <= 90.0 && std::fabs(longitude) <= 720.0)) {
-    return base::WrongInput(fmt::format("the middle of the grid, in degrees, lies at longitude {} and latitude {}; a place on the earth was expected", longitude, latitude), path.string());
+    return base::WrongInput(fmt::format("the middle of the grid, in degrees, lies at longitude {} and latitude {}; a "
+                                        "place on the earth was expected",
+                                        longitude, latitude),
+                            path.string());
   }
   const double width = columns * std::fabs(g[1]) + rows * std::fabs(g[2]);
   if (!(width <= kWidest_deg)) {
-    return base::WrongInput(fmt::format("the grid, in degrees, spans {:.6g} degrees of longitude; at most {} was expected, which one map in metres holds (gdalwarp brings it into another one)", width, kWidest_deg), path.string());
-  }
-  // Square cells as small as the raster's are in either direction: where larger ones are asked for, GDAL's warper takes means of several heights.
-  const double across_m = std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0), along_m = std::hypot(g[4], g[5]) * kDegree_m, cell_m = std::min(across_m, along_m);
-  if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMostTimes)) {
-    return base::WrongInput(fmt::format("the cells, in degrees, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in metres (gdalwarp brings them into one of cells as they should be)", across_m, along_m),
+    return base::WrongInput(fmt::format("the grid, in degrees, spans {:.6g} degrees of longitude; at most {} was "
+                                        "expected, which one map in metres holds (gdalwarp brings it into another one)",
+                                        width, kWidest_deg),
                             path.string());
+  }
+  // Square cells as small as the raster's are in either direction: where larger ones are asked for, GDAL's warper takes
+  // means of several heights.
+  const double across_m = std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0),
+               along_m = std::hypot(g[4], g[5]) * kDegree_m, cell_m = std::min(across_m, along_m);
+  if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMostTimes)) {
+    return base::WrongInput(
+        fmt::format("the cells, in degrees, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in "
+                    "metres (gdalwarp brings them into one of cells as they should be)",
+                    across_m, along_m),
+        path.string());
   }
   GDALRasterBand* band = raster.GetRasterBand(1);
   int has_void = 0;
   const double no_data = band->GetNoDataValue(&has_void);
   const std::string map = fmt::format("EPSG:{}", MapFor(longitude, latitude));
   std::vector<std::string> lay{"-of", "VRT", "-a_srs", geographic_wkt, "-a_ullr"};
-  for (const double corner : {g[0], g[3], g[0] + columns * g[1], g[3] + rows * g[5]}) lay.push_back(fmt::format("{}", corner));
+  for (const double corner : {g[0], g[3], g[0] + columns * g[1], g[3] + rows * g[5]})
+    lay.push_back(fmt::format("{}", corner));
   if (g[2] != 0.0 || g[4] != 0.0) lay.resize(4);  // turned: as it says itself
   if (bt && has_void == 0) lay.insert(lay.end(), {"-a_nodata", "-32768"});
   Arguments lay_words(lay);
   GDALTranslateOptions* how_laid = GDALTranslateOptionsNew(lay_words.get(), nullptr);
   int failed = 0;
-  const GDALDatasetUniquePtr laid(GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&raster), how_laid, &failed)));
+  const GDALDatasetUniquePtr laid(
+      GDALDataset::FromHandle(GDALTranslate("", GDALDataset::ToHandle(&raster), how_laid, &failed)));
   GDALTranslateOptionsFree(how_laid);
   if (!laid || failed != 0) return refuse();
-  Arguments words({"-of", "MEM", "-ot", "Float32", "-r", "bilinear", "-et", "0", "-tr", fmt::format("{}", cell_m), fmt::format("{}", cell_m), "-t_srs", map, "-dstnodata",
-                   fmt::format("{}", has_void != 0 && std::isfinite(no_data) ? no_data : static_cast<double>(ElevationGrid::kVoid))});
+  Arguments words(
+      {"-of", "MEM", "-ot", "Float32", "-r", "bilinear", "-et", "0", "-tr", fmt::format("{}", cell_m),
+       fmt::format("{}", cell_m), "-t_srs", map, "-dstnodata",
+       fmt::format("{}",
+                   has_void != 0 && std::isfinite(no_data) ? no_data : static_cast<double>(ElevationGrid::kVoid))});
   GDALWarpAppOptions* how = GDALWarpAppOptionsNew(words.get(), nullptr);
   GDALDatasetH from = GDALDataset::ToHandle(laid.get());
   GDALDatasetUniquePtr warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, how, &failed)));

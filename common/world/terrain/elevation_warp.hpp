@@ -11,10 +11,13 @@
 
 namespace rodeira::terrain {
 
-// A raster in degrees brought into the UTM zone of its middle (WGS 84; near the poles the polar stereographic map UPS) by GDAL's warper: bilinear, north up, square cells as small as the raster's in either direction, voids where
-// the raster has none. `geographic_wkt`: its coordinates. `bt`: the header where it is a .bt. `posts`: the outermost heights stand on the edges,
-// which GDAL takes for those of cells.
-// Wrong input where GDAL cannot, or where it lies on no place of the earth.
-base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& geographic_wkt, const std::optional<BtHeader>& bt, bool posts, const std::filesystem::path& path);
+// A raster in degrees brought into the UTM zone of its middle (WGS 84; near the poles the polar stereographic map UPS)
+// by GDAL's warper: bilinear, north up, square cells as small as the raster's in either direction, voids where the
+// raster has none. `geographic_wkt`: its coordinates. `bt`: the header where it is a .bt. `posts`: the outermost
+// heights stand on the edges, which GDAL takes for those of cells. Wrong input where GDAL cannot, or where it lies on
+// no place of the earth.
+base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& geographic_wkt,
+                                                  const std::optional<BtHeader>& bt, bool posts,
+                                                  const std::filesystem::path& path);
 
 }  // namespace rodeira::terrain

@@ -16,7 +16,8 @@ bool IsMap(PJ_CONTEXT* context, const PJ* to_earth) {
   PJ* source = proj_get_source_crs(context, to_earth);
   const PJ_TYPE type = source == nullptr ? PJ_TYPE_UNKNOWN : proj_get_type(source);
   proj_destroy(source);
-  return type != PJ_TYPE_UNKNOWN && type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS && type != PJ_TYPE_GEOCENTRIC_CRS;
+  return type != PJ_TYPE_UNKNOWN && type != PJ_TYPE_GEOGRAPHIC_2D_CRS && type != PJ_TYPE_GEOGRAPHIC_3D_CRS &&
+         type != PJ_TYPE_GEOCENTRIC_CRS;
 }
 
 }  // namespace
@@ -49,13 +50,15 @@ base::Result<Geographic> Geographic::Make(const std::string& definition) {
   auto parts = std::make_shared<Parts>();
   PJ* raw = proj_create_crs_to_crs(parts->context, definition.c_str(), kEarth, nullptr);
   if (raw != nullptr) {
-    parts->to_earth = proj_normalize_for_visualization(parts->context, raw);  // east before north, longitude before latitude
+    parts->to_earth =
+        proj_normalize_for_visualization(parts->context, raw);  // east before north, longitude before latitude
     proj_destroy(raw);
   }
   const bool known = parts->to_earth != nullptr;
   // A system of longitudes and latitudes is no map.
   if (!known || !IsMap(parts->context, parts->to_earth)) {
-    return base::WrongInput(fmt::format("'{}' is no {}; a PROJ string, WKT or EPSG code of a projection was expected", definition.substr(0, std::min<std::size_t>(60, definition.find('\n'))),
+    return base::WrongInput(fmt::format("'{}' is no {}; a PROJ string, WKT or EPSG code of a projection was expected",
+                                        definition.substr(0, std::min<std::size_t>(60, definition.find('\n'))),
                                         known ? "projection" : "coordinate system that PROJ knows"));
   }
   return Geographic(std::move(parts));
@@ -66,7 +69,9 @@ std::optional<EarthPlace> Geographic::ToEarth(double x_m, double y_m) const {
   return at ? std::optional(EarthPlace{at->x(), at->y()}) : std::nullopt;
 }
 
-std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const { return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg); }
+std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const {
+  return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg);
+}
 
 std::optional<std::string> ProjString(const std::string& definition) {
   PJ_CONTEXT* context = proj_context_create();

@@ -15,12 +15,12 @@ struct EarthPlace {
   double latitude_deg = 0.0;
 };
 
-// Between a map's x, y (in the units of its coordinate system, which are metres in worlds) and places on the earth, by PROJ, without
-// its network. For one thread at a time.
+// Between a map's x, y (in the units of its coordinate system, which are metres in worlds) and places on the earth, by
+// PROJ, without its network. For one thread at a time.
 class Geographic {
  public:
-  // `definition`: a PROJ string, WKT or "EPSG:…", as an OpenDRIVE file's geoReference or an elevation file says it. Wrong input where PROJ
-  // does not know it, or it is no projection.
+  // `definition`: a PROJ string, WKT or "EPSG:…", as an OpenDRIVE file's geoReference or an elevation file says it.
+  // Wrong input where PROJ does not know it, or it is no projection.
   static base::Result<Geographic> Make(const std::string& definition);
 
   // Nothing where the projection has no such place.
@@ -34,7 +34,8 @@ class Geographic {
   std::shared_ptr<Parts> parts_;
 };
 
-// A coordinate system (a PROJ string, WKT, "EPSG:…") as a PROJ string without "+type=crs", as OpenDRIVE's geoReference wants it. Nothing where PROJ does not know it or has no string for it.
+// A coordinate system (a PROJ string, WKT, "EPSG:…") as a PROJ string without "+type=crs", as OpenDRIVE's geoReference
+// wants it. Nothing where PROJ does not know it or has no string for it.
 std::optional<std::string> ProjString(const std::string& definition);
 
 }  // namespace rodeira::terrain

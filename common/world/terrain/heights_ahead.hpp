@@ -4,8 +4,8 @@
 
 namespace rodeira::terrain {
 
-// Lets the processor fetch a large grid's heights before they are asked for: of many places at random each would be waited for. Changes no
-// answer. The grid must outlive it.
+// Lets the processor fetch a large grid's heights before they are asked for: of many places at random each would be
+// waited for. Changes no answer. The grid must outlive it.
 class HeightsAhead {
  public:
   static constexpr std::size_t kAhead = 12;  // so many questions before
@@ -24,7 +24,8 @@ class HeightsAhead {
   void Fetch(double x_m, double y_m) const {
     const double column = (x_m - west_m_) * columns_a_m_, row = (y_m - south_m_) * rows_a_m_;
     if (!(column >= 0.0 && column < columns_ - 1 && row >= 0.0 && row < rows_)) return;
-    const float* west = heights_m_ + static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row);
+    const float* west =
+        heights_m_ + static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row);
     __builtin_prefetch(west);
     __builtin_prefetch(west + rows_);
   }

@@ -21,11 +21,15 @@ base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
   if (!fs::is_regular_file(path, problem)) {
     return base::WrongInput(fmt::format("there is no texture file '{}'{}", path.string(), base::NearestFile(path)));
   }
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(fs::absolute(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
-  if (!dataset) return base::WrongInput(fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(), QuietGdal::Words()));
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(fs::absolute(path).c_str(),
+                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
+  if (!dataset)
+    return base::WrongInput(fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(),
+                                        QuietGdal::Words()));
   const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
   if (width < 1 || height < 1 || dataset->GetRasterCount() < 1 || width > kMostPicture_px || height > kMostPicture_px) {
-    return base::WrongInput(fmt::format("the picture '{}' has {} x {} pixels; at most {} a side were expected", path.string(), width, height, kMostPicture_px));
+    return base::WrongInput(fmt::format("the picture '{}' has {} x {} pixels; at most {} a side were expected",
+                                        path.string(), width, height, kMostPicture_px));
   }
   return dataset;
 }
@@ -34,11 +38,14 @@ base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
 bool ReadBand(GDALRasterBand& band, PictureFile& picture, std::size_t colour) {
   const auto count = static_cast<std::size_t>(picture.width_px) * static_cast<std::size_t>(picture.height_px);
   if (band.GetRasterDataType() == GDT_Byte) {
-    return band.RasterIO(GF_Read, 0, 0, picture.width_px, picture.height_px, picture.rgb.data() + colour, picture.width_px, picture.height_px, GDT_Byte, 3,
-                         3 * static_cast<GSpacing>(picture.width_px), nullptr) == CE_None;
+    return band.RasterIO(GF_Read, 0, 0, picture.width_px, picture.height_px, picture.rgb.data() + colour,
+                         picture.width_px, picture.height_px, GDT_Byte, 3, 3 * static_cast<GSpacing>(picture.width_px),
+                         nullptr) == CE_None;
   }
   std::vector<std::uint16_t> deep(count);
-  if (band.RasterIO(GF_Read, 0, 0, picture.width_px, picture.height_px, deep.data(), picture.width_px, picture.height_px, GDT_UInt16, 0, 0, nullptr) != CE_None) return false;
+  if (band.RasterIO(GF_Read, 0, 0, picture.width_px, picture.height_px, deep.data(), picture.width_px,
+                    picture.height_px, GDT_UInt16, 0, 0, nullptr) != CE_None)
+    return false;
   for (std::size_t i = 0; i < count; ++i) picture.rgb[3 * i + colour] = static_cast<std::uint8_t>(deep[i] >> 8);
   return true;
 }
@@ -79,7 +86,8 @@ base::Result<PictureFile> ReadPicture(const fs::path& path) {
   const bool coloured = dataset.GetRasterCount() >= 3;
   for (int colour = 0; colour < 3; ++colour) {
     if (!ReadBand(*dataset.GetRasterBand(coloured ? colour + 1 : 1), picture, static_cast<std::size_t>(colour))) {
-      return base::WrongInput(fmt::format("the picture '{}' is cut short or broken; {}", path.string(), QuietGdal::Words()));
+      return base::WrongInput(
+          fmt::format("the picture '{}' is cut short or broken; {}", path.string(), QuietGdal::Words()));
     }
   }
   const GDALColorTable* table = coloured ? nullptr : dataset.GetRasterBand(1)->GetColorTable();

@@ -11,8 +11,8 @@
 // Pictures that lie on the ground.
 namespace rodeira::terrain {
 
-// How a picture lies, seen from above, its upper edge in the north: its lower left corner and its size on the ground. It
-// repeats in both directions from there, or is there once.
+// How a picture lies, seen from above, its upper edge in the north: its lower left corner and its size on the ground.
+// It repeats in both directions from there, or is there once.
 struct LaidPicture {
   std::string file;
   double west_m = 0.0, south_m = 0.0;
@@ -22,7 +22,8 @@ struct LaidPicture {
   bool operator==(const LaidPicture&) const = default;
 };
 
-// Where a picture lies by a world file beside it (.jgw, .pgw …) or by its own georeference: the edges, in its map's unit.
+// Where a picture lies by a world file beside it (.jgw, .pgw …) or by its own georeference: the edges, in its map's
+// unit.
 struct PicturePlace {
   double west = 0.0, south = 0.0, east = 0.0, north = 0.0;
 };
@@ -40,8 +41,8 @@ struct PictureFile {
 // No picture is wider or higher.
 inline constexpr int kMostPicture_px = 16'384;
 
-// Both read JPEG, PNG, BMP and TIFF by GDAL; transparency is not looked at. Wrong input where there is no such file (the nearest name
-// beside it is told), or it is no such picture, or a larger one.
+// Both read JPEG, PNG, BMP and TIFF by GDAL; transparency is not looked at. Wrong input where there is no such file
+// (the nearest name beside it is told), or it is no such picture, or a larger one.
 base::Result<PictureFacts> LookAtPicture(const std::filesystem::path& path);
 base::Result<PictureFile> ReadPicture(const std::filesystem::path& path);
 

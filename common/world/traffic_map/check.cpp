@@ -9,14 +9,22 @@ namespace {
 
 std::string NameOf(const Finding& finding) {
   switch (finding.element) {
-    case Element::kCurve: return fmt::format("curve {}", finding.number);
-    case Element::kLane: return fmt::format("lane {}", finding.number);
-    case Element::kConnection: return fmt::format("connection {} to {}", finding.number, finding.to);
-    case Element::kHeights: return fmt::format("heights of curve {}", finding.number);
-    case Element::kLights: return "lights";
-    case Element::kSign: return fmt::format("sign of lane {}", finding.number);
-    case Element::kFlow: return fmt::format("flow of lane {}", finding.number);
-    case Element::kMap: break;
+    case Element::kCurve:
+      return fmt::format("curve {}", finding.number);
+    case Element::kLane:
+      return fmt::format("lane {}", finding.number);
+    case Element::kConnection:
+      return fmt::format("connection {} to {}", finding.number, finding.to);
+    case Element::kHeights:
+      return fmt::format("heights of curve {}", finding.number);
+    case Element::kLights:
+      return "lights";
+    case Element::kSign:
+      return fmt::format("sign of lane {}", finding.number);
+    case Element::kFlow:
+      return fmt::format("flow of lane {}", finding.number);
+    case Element::kMap:
+      break;
   }
   return "map";
 }
@@ -26,7 +34,8 @@ std::string NameOf(const Finding& finding) {
 std::string Finding::Text() const { return NameOf(*this) + ": " + sentence; }
 
 std::string Finding::Place(const std::string& file) const {
-  const bool beside = element == Element::kHeights || element == Element::kLights || element == Element::kSign || element == Element::kFlow;
+  const bool beside = element == Element::kHeights || element == Element::kLights || element == Element::kSign ||
+                      element == Element::kFlow;
   const std::string name = beside ? file + ".yaml" : file;
   return line == 0 ? name : fmt::format("{}:{}", name, line);
 }

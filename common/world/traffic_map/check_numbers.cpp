@@ -17,7 +17,8 @@ void CheckTwice(const std::vector<Line<Value>>& lines, Findings& findings) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const std::size_t found = *first.Find(lines[i].value.id);
     if (found != i)
-      findings.Add(Severity::kError, lines[i], fmt::format("its number is taken already, in line {}", lines[found].number));
+      findings.Add(Severity::kError, lines[i],
+                   fmt::format("its number is taken already, in line {}", lines[found].number));
   }
 }
 
@@ -32,8 +33,9 @@ void CheckConnectionsTwice(const MapFile& map, Findings& findings) {
     if (key(order[i]) != key(order[i - 1])) continue;
     const auto& [first, again] = std::pair(lines[order[i - 1]], lines[order[i]]);
     const bool differ = first.value.stop != again.value.stop;
-    findings.Add(Severity::kError, again,
-                 fmt::format("it is there already, in line {}{}", first.number, differ ? ", and with another STOP flag" : ""));
+    findings.Add(
+        Severity::kError, again,
+        fmt::format("it is there already, in line {}{}", first.number, differ ? ", and with another STOP flag" : ""));
   }
 }
 
@@ -43,9 +45,11 @@ void CheckSides(const MapFile& map, std::vector<bool>& used, Findings& findings)
     for (const bool is_left : {true, false}) {
       const std::int32_t number = is_left ? line.value.left.curve : line.value.right.curve;
       const auto found = curves.Find(number);
-      if (found) used[*found] = true;
+      if (found)
+        used[*found] = true;
       else
-        findings.Add(Severity::kError, line, fmt::format("its {} curve {} does not exist", is_left ? "left" : "right", number));
+        findings.Add(Severity::kError, line,
+                     fmt::format("its {} curve {} does not exist", is_left ? "left" : "right", number));
     }
     if (line.value.left.curve == line.value.right.curve) {
       findings.Add(Severity::kError, line, fmt::format("curve {} is on both of its sides", line.value.left.curve));
@@ -58,8 +62,10 @@ void CheckConnections(const MapFile& map, Findings& findings) {
   for (const auto& line : map.connections) {
     if (!lanes.Find(line.value.from))
       findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.from));
-    if (!lanes.Find(line.value.to)) findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.to));
-    if (line.value.from == line.value.to) findings.Add(Severity::kError, line, "it leads back into the lane that it comes from");
+    if (!lanes.Find(line.value.to))
+      findings.Add(Severity::kError, line, fmt::format("lane {} does not exist", line.value.to));
+    if (line.value.from == line.value.to)
+      findings.Add(Severity::kError, line, "it leads back into the lane that it comes from");
   }
 }
 
@@ -76,7 +82,8 @@ void CheckLights(const MapFile& map, const Heights& heights, Findings& findings)
       const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), number);
       if (problem != std::errc() || end != name.data() + name.size() || !lanes.Find(number))
         findings.Add(Severity::kError, *phase, fmt::format("the map has no lane {}", name));
-      if (!lit.insert(name).second) findings.Add(Severity::kError, *phase, fmt::format("lane {} has other lights already", name));
+      if (!lit.insert(name).second)
+        findings.Add(Severity::kError, *phase, fmt::format("lane {} has other lights already", name));
     }
   }
 }
@@ -89,8 +96,10 @@ void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) 
   }
   for (const LaneFlow& flow : heights.flows) {
     const auto lane = lanes.Find(flow.lane);
-    if (!lane) findings.Add(Severity::kError, flow, "the map has no such lane");
-    else if (map.lanes[*lane].value.mode != LaneMode::kStart) findings.Add(Severity::kError, flow, "it is no start lane: nobody begins there");
+    if (!lane)
+      findings.Add(Severity::kError, flow, "the map has no such lane");
+    else if (map.lanes[*lane].value.mode != LaneMode::kStart)
+      findings.Add(Severity::kError, flow, "it is no start lane: nobody begins there");
   }
 }
 
@@ -101,13 +110,19 @@ void CheckPriorities(const MapFile& map, const Heights& heights, Findings& findi
     if (sign.kind == SignKind::kSpeedLimit) continue;
     const LaneSign& before = *first.emplace(sign.lane, &sign).first->second;
     if (before.kind != sign.kind) {
-      findings.Add(Severity::kWarning, sign, fmt::format("'{}', but it has '{}' already, in line {}; one of 'stop', 'give_way' and 'priority' a lane was expected", NameOf(sign.kind), NameOf(before.kind), before.line));
+      findings.Add(
+          Severity::kWarning, sign,
+          fmt::format(
+              "'{}', but it has '{}' already, in line {}; one of 'stop', 'give_way' and 'priority' a lane was expected",
+              NameOf(sign.kind), NameOf(before.kind), before.line));
     }
   }
   for (const auto& line : map.connections) {
     const auto sign = first.find(line.value.from);
     if (line.value.stop && sign != first.end() && sign->second->kind != SignKind::kStop) {
-      findings.Add(Severity::kWarning, *sign->second, fmt::format("'{}', but its connection to lane {} has a STOP flag", NameOf(sign->second->kind), line.value.to));
+      findings.Add(Severity::kWarning, *sign->second,
+                   fmt::format("'{}', but its connection to lane {} has a STOP flag", NameOf(sign->second->kind),
+                               line.value.to));
       first.erase(sign);
     }
   }
@@ -123,13 +138,17 @@ void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings
   CheckSides(map, used, findings);
   CheckConnections(map, findings);
   const auto has = [&](LaneMode mode) {
-    return std::any_of(map.lanes.begin(), map.lanes.end(), [mode](const auto& line) { return line.value.mode == mode; });
+    return std::any_of(map.lanes.begin(), map.lanes.end(),
+                       [mode](const auto& line) { return line.value.mode == mode; });
   };
-  if (!has(LaneMode::kStart)) findings.AddToMap(Severity::kError, "no lane is a start lane (mode 1); at least one is needed");
-  if (!has(LaneMode::kEnd)) findings.AddToMap(Severity::kError, "no lane is an end lane (mode 2); at least one is needed");
+  if (!has(LaneMode::kStart))
+    findings.AddToMap(Severity::kError, "no lane is a start lane (mode 1); at least one is needed");
+  if (!has(LaneMode::kEnd))
+    findings.AddToMap(Severity::kError, "no lane is an end lane (mode 2); at least one is needed");
   const NumberIndex curves(map.curves);
   for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i] && curves.Find(map.curves[i].value.id) == i) findings.Add(Severity::kWarning, map.curves[i], "no lane uses it");
+    if (!used[i] && curves.Find(map.curves[i].value.id) == i)
+      findings.Add(Severity::kWarning, map.curves[i], "no lane uses it");
   }
   CheckLights(map, heights, findings);
   CheckSigns(map, heights, findings);

@@ -18,8 +18,8 @@ class Findings {
     all_.push_back({severity, Element::kLane, lane.value.id, 0, lane.number, std::move(sentence)});
   }
   void Add(Severity severity, const Line<Connection>& connection, std::string sentence) {
-    all_.push_back(
-        {severity, Element::kConnection, connection.value.from, connection.value.to, connection.number, std::move(sentence)});
+    all_.push_back({severity, Element::kConnection, connection.value.from, connection.value.to, connection.number,
+                    std::move(sentence)});
   }
   void Add(Severity severity, const CurveHeights& heights, std::string sentence) {
     all_.push_back({severity, Element::kHeights, heights.curve, 0, heights.line, std::move(sentence)});

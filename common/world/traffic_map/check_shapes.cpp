@@ -14,7 +14,8 @@ namespace {
 constexpr double kShortest_m = 0.01;  // of a curve
 constexpr double kNarrowest_m = 1.5;  // of a lane: the narrowest car
 constexpr double kWidest_m = 12.0;
-constexpr double kWidestGap_m = 0.05;  // between the borders of lanes that are connected: a network closes no more (opendrive::Tolerance)
+constexpr double kWidestGap_m =
+    0.05;  // between the borders of lanes that are connected: a network closes no more (opendrive::Tolerance)
 constexpr double kSharpestKink_rad = 0.1;
 constexpr double kHighestStep_m = 0.02;
 constexpr double kSteepest = 0.2;
@@ -62,8 +63,11 @@ Worst Sample(const LaneShape& shape) {
 
 // What makes two borders that run against each other run alike.
 std::string Turned(const Lane& lane) {
-  if (lane.left.inverted == lane.right.inverted) return lane.left.inverted ? "one must not be inverted" : "one must be inverted";
-  return fmt::format("curve {} is inverted and must not be, or curve {} must be too", lane.left.inverted ? lane.left.curve : lane.right.curve, lane.left.inverted ? lane.right.curve : lane.left.curve);
+  if (lane.left.inverted == lane.right.inverted)
+    return lane.left.inverted ? "one must not be inverted" : "one must be inverted";
+  return fmt::format("curve {} is inverted and must not be, or curve {} must be too",
+                     lane.left.inverted ? lane.left.curve : lane.right.curve,
+                     lane.left.inverted ? lane.right.curve : lane.left.curve);
 }
 
 // False: there is no lane to speak of, and how it meets others says nothing.
@@ -76,13 +80,15 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
   const auto head = [](const Border& border) { return border.plan.Tangent(0.0); };
   // Borders of a hairpin may have runs of little meaning, but their beginnings point the same way.
   if (run(shape.left()).dot(run(shape.right())) < 0.0 && head(shape.left()).dot(head(shape.right())) < 0.0) {
-    return refuse(fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve, line.value.right.curve, Turned(line.value)));
+    return refuse(fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve,
+                              line.value.right.curve, Turned(line.value)));
   }
   if (shape.length_m() < kShortest_m) return refuse("it has no length");
   const Worst worst = Sample(shape);
   if (worst.widest_m < 0.0) {
-    return refuse(fmt::format("its left curve {} lies to the right of its right curve {}; exchange them, or invert both",
-                              line.value.left.curve, line.value.right.curve));
+    return refuse(
+        fmt::format("its left curve {} lies to the right of its right curve {}; exchange them, or invert both",
+                    line.value.left.curve, line.value.right.curve));
   }
   if (worst.crossed) return refuse("its borders cross");
   if (worst.narrowest_m < kNarrowest_m)
@@ -100,16 +106,21 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
 
 void CheckJoint(const Line<Connection>& line, const LaneShape& from, const LaneShape& to, Findings& findings) {
   const LanePoint end = from.AtParameter(1.0), begin = to.AtParameter(0.0);
-  const auto apart = [](const Border& before, const Border& after) { return (after.plan.p_W[0] - before.plan.p_W[3]).norm(); };
+  const auto apart = [](const Border& before, const Border& after) {
+    return (after.plan.p_W[0] - before.plan.p_W[3]).norm();
+  };
   const double gap = std::max(apart(from.left(), to.left()), apart(from.right(), to.right()));
   const double kink = std::acos(std::clamp(end.tangent_W.dot(begin.tangent_W), -1.0, 1.0));
   const double step = begin.z_m - end.z_m;
   if (gap > kWidestGap_m)
     findings.Add(Severity::kError, line,
-                 fmt::format("{:.2f} m lie between the borders of the one where it ends and those of the other where it begins; at most {:.2f} m are closed", gap, kWidestGap_m));
+                 fmt::format("{:.2f} m lie between the borders of the one where it ends and those of the other where "
+                             "it begins; at most {:.2f} m are closed",
+                             gap, kWidestGap_m));
   if (kink > kSharpestKink_rad)
     findings.Add(Severity::kWarning, line, fmt::format("the direction jumps by {:.1f} degrees", kink * kDegree));
-  if (std::abs(step) > kHighestStep_m) findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
+  if (std::abs(step) > kHighestStep_m)
+    findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
 }
 
 void CheckPicture(const MapFile& map, Findings& findings) {
@@ -119,12 +130,16 @@ void CheckPicture(const MapFile& map, Findings& findings) {
     findings.AddToMap(Severity::kError,
                       fmt::format("the {} bytes behind the line 'i' are no PNG or JPEG picture", map.picture.size()));
   } else if (picture->width_px > 16384 || picture->height_px > 16384) {
-    findings.AddToMap(Severity::kError, fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
-                                                      picture->width_px, picture->height_px));
+    findings.AddToMap(Severity::kError,
+                      fmt::format("the picture has {} by {} pixels; up to 16384 each way can be shown",
+                                  picture->width_px, picture->height_px));
   } else if (!picture->ends) {
-    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' end before the {} picture does", map.picture.size(), picture->kind));
+    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' end before the {} picture does",
+                                                    map.picture.size(), picture->kind));
   } else if (!picture->fits) {
-    findings.AddToMap(Severity::kError, fmt::format("the {} bytes behind the line 'i' are too few for a {} picture of {} by {} pixels", map.picture.size(), picture->kind, picture->width_px, picture->height_px));
+    findings.AddToMap(Severity::kError,
+                      fmt::format("the {} bytes behind the line 'i' are too few for a {} picture of {} by {} pixels",
+                                  map.picture.size(), picture->kind, picture->width_px, picture->height_px));
   }
 }
 
@@ -133,7 +148,8 @@ void CheckPicture(const MapFile& map, Findings& findings) {
 void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings) {
   for (const auto& line : map.curves) {
     const Cubic cubic = BorderOf({}, line.value, heights).plan;
-    if (cubic.PolygonLength() < kShortest_m) findings.Add(Severity::kError, line, "it is empty: its four points coincide");
+    if (cubic.PolygonLength() < kShortest_m)
+      findings.Add(Severity::kError, line, "it is empty: its four points coincide");
   }
   std::vector<std::optional<LaneShape>> shapes = ShapesOf(map, heights);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -142,7 +158,8 @@ void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings)
   const NumberIndex lanes(map.lanes);
   for (const auto& line : map.connections) {
     const auto from = lanes.Find(line.value.from), to = lanes.Find(line.value.to);
-    if (from && to && from != to && shapes[*from] && shapes[*to]) CheckJoint(line, *shapes[*from], *shapes[*to], findings);
+    if (from && to && from != to && shapes[*from] && shapes[*to])
+      CheckJoint(line, *shapes[*from], *shapes[*to], findings);
   }
   CheckPicture(map, findings);
 }

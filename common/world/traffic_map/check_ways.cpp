@@ -36,7 +36,8 @@ std::vector<std::size_t> LanesOf(const MapFile& map, LaneMode mode) {
 void CheckWays(const MapFile& map, Findings& findings) {
   const NumberIndex index(map.lanes);
   Ways onward(map.lanes.size()), back(map.lanes.size());
-  std::vector<bool> leaves(map.lanes.size(), false), arrives(map.lanes.size(), false);  // by any connection, broken ones too
+  std::vector<bool> leaves(map.lanes.size(), false),
+      arrives(map.lanes.size(), false);  // by any connection, broken ones too
   for (const auto& line : map.connections) {
     const auto from = index.Find(line.value.from), to = index.Find(line.value.to);
     if (from) leaves[*from] = true;

@@ -14,11 +14,15 @@ constexpr std::string_view kFirst = "rodeira: motors/1\n";
 constexpr std::size_t kRule = 0, kHeights = 1;  // of the parts
 constexpr std::array<std::string_view, 5> kParts = {"rule", "heights_m", "lights", "signs", "flows_vehph"};
 
-std::string HeightLine(const CurveHeights& one) { return fmt::format("  {}: [{}]\n", one.curve, fmt::join(one.z_m, ", ")); }
+std::string HeightLine(const CurveHeights& one) {
+  return fmt::format("  {}: [{}]\n", one.curve, fmt::join(one.z_m, ", "));
+}
 
 // A name as a YAML scalar that reads as that text.
 std::string Scalar(const std::string& name) {
-  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; });
+  const bool plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+  });
   if (plain) return name;
   std::string text = "'";
   for (const char c : name) text += c == '\'' ? std::string("''") : std::string(1, c);
@@ -26,8 +30,9 @@ std::string Scalar(const std::string& name) {
 }
 
 std::string LightText(const lights::LightPlan& plan) {
-  std::string text = fmt::format("  - offset_s: {}\n    amber_s: {}\n    all_red_s: {}\n    red_amber_s: {}\n    phases:\n", plan.offset_s, plan.amber_s,
-                                 plan.all_red_s, plan.red_amber_s);
+  std::string text =
+      fmt::format("  - offset_s: {}\n    amber_s: {}\n    all_red_s: {}\n    red_amber_s: {}\n    phases:\n",
+                  plan.offset_s, plan.amber_s, plan.all_red_s, plan.red_amber_s);
   for (const lights::Phase& phase : plan.phases) {
     std::vector<std::string> green;
     for (const std::string& name : phase.green) green.push_back(Scalar(name));
@@ -123,7 +128,9 @@ std::string Renewed(const Block& block, const Heights& heights, const Heights& l
       for (const std::string_view line : block.lines) {
         const std::string start = fmt::format("{}:", one.curve);
         const std::size_t at = line.find_first_not_of(' ');
-        if (at == std::string_view::npos || at == 0 || line.substr(at, start.size()) != start || line.find(']') == std::string_view::npos) continue;
+        if (at == std::string_view::npos || at == 0 || line.substr(at, start.size()) != start ||
+            line.find(']') == std::string_view::npos)
+          continue;
         kept.push_back(one);
         kept_lines.push_back(WithLineEnd(line));
       }
@@ -158,7 +165,8 @@ std::string Renewed(const Block& block, const Heights& heights, const Heights& l
 }
 
 // The text with the parts that were edited written anew.
-std::string Edited(const Heights& heights, const Heights& loaded, const std::vector<Block>& blocks, const std::array<bool, kParts.size()>& edited) {
+std::string Edited(const Heights& heights, const Heights& loaded, const std::vector<Block>& blocks,
+                   const std::array<bool, kParts.size()>& edited) {
   std::string result;
   std::array<bool, kParts.size()> written{};
   for (const Block& block : blocks) {
@@ -187,7 +195,8 @@ std::string CompanionText(const Heights& heights) {
 
 std::string CompanionText(const Heights& heights, const Heights& loaded, const std::string& text) {
   std::array<bool, kParts.size()> edited{};
-  for (std::size_t part = 0; part < kParts.size(); ++part) edited[part] = PartText(heights, part) != PartText(loaded, part);
+  for (std::size_t part = 0; part < kParts.size(); ++part)
+    edited[part] = PartText(heights, part) != PartText(loaded, part);
   if (std::find(edited.begin(), edited.end(), true) == edited.end()) return text;
   const std::string anew = CompanionText(heights);
   const std::string edited_text = Edited(heights, loaded, BlocksOf(text), edited);

@@ -7,7 +7,8 @@ namespace rodeira::traffic_map {
 namespace {
 
 // Nodes and weights of the eight-point Gauss-Legendre rule on [-1, 1] (Abramowitz and Stegun, table 25.4).
-constexpr std::array<double, 4> kNodes = {0.183434642495649805, 0.525532409916328986, 0.796666477413626740, 0.960289856497536232};
+constexpr std::array<double, 4> kNodes = {0.183434642495649805, 0.525532409916328986, 0.796666477413626740,
+                                          0.960289856497536232};
 constexpr std::array<double, 4> kWeights = {0.362683783378361983, 0.313706645877887287, 0.222381034453374471,
                                             0.101228536290376259};
 constexpr int kDeepest = 24;  // halvings; only a cusp goes so deep, and only on one side
@@ -16,7 +17,8 @@ double Panel(const Cubic& curve, double t0, double t1) {
   const double middle = 0.5 * (t0 + t1), half = 0.5 * (t1 - t0);
   double sum = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i) {
-    sum += kWeights[i] * (curve.Slope(middle - half * kNodes[i]).norm() + curve.Slope(middle + half * kNodes[i]).norm());
+    sum +=
+        kWeights[i] * (curve.Slope(middle - half * kNodes[i]).norm() + curve.Slope(middle + half * kNodes[i]).norm());
   }
   return half * sum;
 }
@@ -25,7 +27,8 @@ double Refined(const Cubic& curve, double t0, double t1, double whole, double to
   const double middle = 0.5 * (t0 + t1);
   const double first = Panel(curve, t0, middle), second = Panel(curve, middle, t1);
   if (std::abs(first + second - whole) <= tolerance_m || depth == kDeepest) return first + second;
-  return Refined(curve, t0, middle, first, tolerance_m, depth + 1) + Refined(curve, middle, t1, second, tolerance_m, depth + 1);
+  return Refined(curve, t0, middle, first, tolerance_m, depth + 1) +
+         Refined(curve, middle, t1, second, tolerance_m, depth + 1);
 }
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -68,7 +71,9 @@ double Cubic::Curvature(double t) const {
   return speed <= 0.0 ? 0.0 : Cross(slope, Bend(t)) / (speed * speed * speed);
 }
 
-double Cubic::PolygonLength() const { return (p_W[1] - p_W[0]).norm() + (p_W[2] - p_W[1]).norm() + (p_W[3] - p_W[2]).norm(); }
+double Cubic::PolygonLength() const {
+  return (p_W[1] - p_W[0]).norm() + (p_W[2] - p_W[1]).norm() + (p_W[3] - p_W[2]).norm();
+}
 
 double ArcLength(const Cubic& curve, double t0, double t1) {
   return Refined(curve, t0, t1, Panel(curve, t0, t1), 1e-12 * curve.PolygonLength(), 0);

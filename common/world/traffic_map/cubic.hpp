@@ -17,7 +17,8 @@ struct Cubic {
   // Unit vector along the curve. Where dB/dt vanishes (control points that coincide at an end) its limit from within;
   // +x where all four points coincide.
   Eigen::Vector2d Tangent(double t) const;
-  // Positive to the left, 1/m: (x'y'' − y'x'')/|B'|³. Where dB/dt vanishes, the value a millionth of the curve further in.
+  // Positive to the left, 1/m: (x'y'' − y'x'')/|B'|³. Where dB/dt vanishes, the value a millionth of the curve further
+  // in.
   double Curvature(double t) const;
   Cubic Reversed() const { return {{p_W[3], p_W[2], p_W[1], p_W[0]}}; }
   // Sides of the control polygon added up: no part of the curve is longer, m.

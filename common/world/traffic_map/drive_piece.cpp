@@ -65,7 +65,8 @@ DriveError Compare(const LaneShape& lane, const DrivePiece& piece) {
     const double offset = Value(piece.left, d);
     const Eigen::Vector2d off_left = p + offset * left - at.p_W - at.left_m * at.left_W();
     const Eigen::Vector2d off_right = p + (offset - Value(piece.width, d)) * left - at.p_W - at.right_m * at.left_W();
-    error.Include({(p - at.p_W).norm(), std::max(off_left.norm(), off_right.norm()), std::abs(Value(piece.z, d) - at.z_m)});
+    error.Include(
+        {(p - at.p_W).norm(), std::max(off_left.norm(), off_right.norm()), std::abs(Value(piece.z, d) - at.z_m)});
   }
   return error;
 }
@@ -91,7 +92,8 @@ void DriveError::Include(const DriveError& other) {
   height_m = std::max(height_m, other.height_m);
 }
 
-base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m, const FitBounds& bounds, DriveError& error) {
+base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m,
+                                              const FitBounds& bounds, DriveError& error) {
   std::vector<DrivePiece> pieces;
   std::vector<double> ends = {to_m};  // of the pieces to come, the next one last
   for (double s = from_m; !ends.empty();) {
@@ -99,7 +101,8 @@ base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from
     const DriveError off = Compare(lane, piece);
     if (!(off.Most() <= bounds.off_m) || LengthOff(piece) > bounds.length_m) {
       if (piece.length_m < kShortest_m)
-        return base::WrongInput(fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
+        return base::WrongInput(
+            fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
       ends.push_back(0.5 * (s + ends.back()));
       continue;
     }

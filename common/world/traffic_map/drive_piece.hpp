@@ -40,8 +40,9 @@ struct FitBounds {
   double length_m = std::numeric_limits<double>::infinity();
 };
 
-// A stretch of the lane in pieces, each halved until all its errors, measured at ten places, are within the bounds; `error` is what
-// remains. Wrong input where a piece of 5 cm is not near enough yet.
-base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m, const FitBounds& bounds, DriveError& error);
+// A stretch of the lane in pieces, each halved until all its errors, measured at ten places, are within the bounds;
+// `error` is what remains. Wrong input where a piece of 5 cm is not near enough yet.
+base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from_m, double to_m,
+                                              const FitBounds& bounds, DriveError& error);
 
 }  // namespace rodeira::traffic_map

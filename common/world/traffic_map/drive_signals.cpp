@@ -18,7 +18,8 @@ bool Stops(const LaneMap& map, const MapLane& lane) {
 // A lane's places on its own road.
 class LaneOnRoad {
  public:
-  LaneOnRoad(const LaneMap& map, const PlannedRoad& plan) : part_(plan.parts[plan.own]), lane_(map.lanes[part_.lane]), left_hand_(map.left_hand) {
+  LaneOnRoad(const LaneMap& map, const PlannedRoad& plan)
+      : part_(plan.parts[plan.own]), lane_(map.lanes[part_.lane]), left_hand_(map.left_hand) {
     for (std::size_t i = 0; i < plan.own; ++i) before_m_ += plan.parts[i].length_m();
   }
   const MapLane& lane() const { return lane_; }
@@ -37,7 +38,8 @@ class LaneOnRoad {
   double before_m_ = 0.0;
 };
 
-pugi::xml_node WriteSignal(pugi::xml_node signals, const LaneOnRoad& lane, double s_m, const std::string& id, const char* name, const char* type) {
+pugi::xml_node WriteSignal(pugi::xml_node signals, const LaneOnRoad& lane, double s_m, const std::string& id,
+                           const char* name, const char* type) {
   const bool light = std::string_view(name) == "light";
   pugi::xml_node signal = signals.append_child("signal");
   Set(signal, "s", lane.StationOf(s_m));
@@ -55,7 +57,8 @@ pugi::xml_node WriteSignal(pugi::xml_node signals, const LaneOnRoad& lane, doubl
 }
 
 // What is painted where one stops or gives way: before the sign, or at the end of the lane; nothing twice.
-void WriteLinesAcross(pugi::xml_node signals, const LaneOnRoad& lane, bool stops_at_end, const std::vector<MapSign>& signs) {
+void WriteLinesAcross(pugi::xml_node signals, const LaneOnRoad& lane, bool stops_at_end,
+                      const std::vector<MapSign>& signs) {
   std::set<std::pair<double, bool>> lines;  // s, and whether one stops there
   const auto line = [&](double s_m, bool stops) { lines.emplace(std::max(s_m - kLineBefore_m, 0.0), stops); };
   if (stops_at_end) line(lane.length_m(), true);
@@ -82,8 +85,12 @@ void WriteLinesAcross(pugi::xml_node signals, const LaneOnRoad& lane, bool stops
 
 }  // namespace
 
-void Set(pugi::xml_node node, const char* name, double value) { node.append_attribute(name) = fmt::format("{}", value).c_str(); }
-void Set(pugi::xml_node node, const char* name, std::string_view value) { node.append_attribute(name) = std::string(value).c_str(); }
+void Set(pugi::xml_node node, const char* name, double value) {
+  node.append_attribute(name) = fmt::format("{}", value).c_str();
+}
+void Set(pugi::xml_node node, const char* name, std::string_view value) {
+  node.append_attribute(name) = std::string(value).c_str();
+}
 
 std::vector<MapSign> SignsOf(const LaneMap& map, std::size_t lane) {
   const bool stop = Stops(map, map.lanes[lane]);
@@ -99,16 +106,19 @@ void WriteSignals(const LaneMap& map, const PlannedRoad& plan, pugi::xml_node ro
   const LaneOnRoad at(map, plan);
   const MapLane& lane = at.lane();
   const std::size_t index = plan.parts[plan.own].lane;
-  const bool lit = std::any_of(map.lights.begin(), map.lights.end(), [&](const MapLight& light) { return light.lane == index; });
+  const bool lit =
+      std::any_of(map.lights.begin(), map.lights.end(), [&](const MapLight& light) { return light.lane == index; });
   const bool stop = Stops(map, lane);
   const std::vector<MapSign> signs = SignsOf(map, index);
   if (!lit && !stop && signs.empty()) return;
   pugi::xml_node signals = road.append_child("signals");
   if (stop) WriteSignal(signals, at, at.length_m(), fmt::format("{}", lane.id), "STOP", "206");
   for (std::size_t i = 0; i < signs.size(); ++i) {
-    constexpr std::array<const char*, kSignKinds> kNames = {"STOP", "give way", "priority", "speed limit"}, kTypes = {"206", "205", "301", "274"};
+    constexpr std::array<const char*, kSignKinds> kNames = {"STOP", "give way", "priority", "speed limit"},
+                                                  kTypes = {"206", "205", "301", "274"};
     const auto kind = static_cast<std::size_t>(signs[i].kind);
-    pugi::xml_node signal = WriteSignal(signals, at, signs[i].s_m, fmt::format("{} sign {}", lane.id, i + 1), kNames[kind], kTypes[kind]);
+    pugi::xml_node signal =
+        WriteSignal(signals, at, signs[i].s_m, fmt::format("{} sign {}", lane.id, i + 1), kNames[kind], kTypes[kind]);
     if (signs[i].kind == SignKind::kSpeedLimit) Set(signal, "value", signs[i].limit_kmh), Set(signal, "unit", "km/h");
   }
   if (lit) WriteSignal(signals, at, at.length_m(), fmt::format("light {}", lane.id), "light", "1000001");
@@ -126,7 +136,9 @@ void WriteController(const LaneMap& map, std::size_t light, pugi::xml_node root)
   pugi::xml_node data = controller.append_child("userData");
   Set(data, "code", "rodeira:times");
   const network::LightTimes& times = map.lights[light].times;
-  Set(data, "value", fmt::format("{} {} {} {} {}", times.cycle_s, times.green_from_s, times.green_s, times.amber_s, times.red_amber_s));
+  Set(data, "value",
+      fmt::format("{} {} {} {} {}", times.cycle_s, times.green_from_s, times.green_s, times.amber_s,
+                  times.red_amber_s));
 }
 
 }  // namespace rodeira::traffic_map

@@ -62,8 +62,10 @@ void ReadFlows(const config::Map& all, Heights& heights) {
     if (const auto number = NumberOf(all, key, "lane")) flow.lane = *number;
     flow.vehph = all.Number(key, {0.0, 10'000.0});
     flow.line = LineOf(all.Place(key));
-    const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane, [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
-    if (at != heights.flows.end() && at->lane == flow.lane) all.Problem(key, fmt::format("lane {} has a flow already", flow.lane));
+    const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane,
+                                     [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
+    if (at != heights.flows.end() && at->lane == flow.lane)
+      all.Problem(key, fmt::format("lane {} has a flow already", flow.lane));
     heights.flows.insert(at, flow);
   }
 }

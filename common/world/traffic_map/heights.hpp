@@ -40,13 +40,15 @@ struct LaneFlow {
   std::size_t line = 0;
 };
 
-// What a `.motors` file has no place for: the companion FILE.motors.yaml beside it. Curves that it does not name lie at 0.
+// What a `.motors` file has no place for: the companion FILE.motors.yaml beside it. Curves that it does not name lie at
+// 0.
 struct Heights {
   std::vector<CurveHeights> curves;       // by ascending number, each once
   std::vector<lights::LightPlan> lights;  // of each junction; names are numbers of lanes, at whose end a light stands
   std::vector<LaneSign> signs;
-  std::vector<LaneFlow> flows;            // by ascending number, each once
-  bool left_hand = false;                 // the map's traffic keeps to the left: who comes from the left has priority, signs stand on the left
+  std::vector<LaneFlow> flows;  // by ascending number, each once
+  bool left_hand =
+      false;  // the map's traffic keeps to the left: who comes from the left has priority, signs stand on the left
 
   std::array<double, 4> Of(std::int32_t curve) const;
 };

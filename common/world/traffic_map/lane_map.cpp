@@ -23,7 +23,8 @@ Border BorderOf(const LaneSide& side, const Curve& curve, const Heights& heights
   Border border;
   border.z_m = heights.Of(curve.id);
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
-    border.plan.p_W[i] = Eigen::Vector2d(static_cast<double>(curve.points[i].x_m), static_cast<double>(curve.points[i].y_m));
+    border.plan.p_W[i] =
+        Eigen::Vector2d(static_cast<double>(curve.points[i].x_m), static_cast<double>(curve.points[i].y_m));
   }
   if (side.inverted) {
     border.plan = border.plan.Reversed();
@@ -38,7 +39,7 @@ namespace {
 void FindNeighbours(const MapFile& file, LaneMap& map) {
   struct Use {
     std::size_t lane;
-    bool is_left;      // the lane's left side
+    bool is_left;       // the lane's left side
     bool to_the_right;  // of the curve lies the lane
   };
   std::map<std::int32_t, std::vector<Use>> uses;  // by curve
@@ -81,11 +82,13 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
     map.connections.push_back({from, to, connection.stop});
   }
   for (const lights::LightPlan& plan : heights.lights) {
-    for (const std::string& lane : plan.Names()) map.lights.push_back({*lanes.Find(std::stoi(lane)), *lights::TimesOf(plan, lane)});
+    for (const std::string& lane : plan.Names())
+      map.lights.push_back({*lanes.Find(std::stoi(lane)), *lights::TimesOf(plan, lane)});
   }
   for (const LaneSign& sign : heights.signs) {
     const std::size_t lane = *lanes.Find(sign.lane);
-    map.signs.push_back({lane, sign.kind, std::max(0.0, map.lanes[lane].shape.length_m() - sign.before_end_m), sign.limit_kmh});
+    map.signs.push_back(
+        {lane, sign.kind, std::max(0.0, map.lanes[lane].shape.length_m() - sign.before_end_m), sign.limit_kmh});
   }
   if (const auto picture = ReadPictureInfo(file.picture)) {
     map.picture_height_m = 10.0 * static_cast<double>(file.scale.value.value);
@@ -96,7 +99,8 @@ base::Result<LaneMap> MakeLaneMap(const MapFile& file, const Heights& heights, c
 
 bool BeginsAndEndsAtItsEdge(const LaneMap& map) {
   return std::all_of(map.lanes.begin(), map.lanes.end(), [](const MapLane& lane) {
-    return (lane.mode == LaneMode::kStart) == lane.arriving.empty() && (lane.mode == LaneMode::kEnd) == lane.onward.empty();
+    return (lane.mode == LaneMode::kStart) == lane.arriving.empty() &&
+           (lane.mode == LaneMode::kEnd) == lane.onward.empty();
   });
 }
 

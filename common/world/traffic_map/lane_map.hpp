@@ -40,7 +40,8 @@ struct MapLane {
   LaneShape shape;
   std::vector<std::size_t> onward;  // connections that leave it, in the file's order
   std::vector<std::size_t> arriving;
-  std::optional<std::size_t> left{}, right{};  // the lane beside, which has the same curve for a side and lies across it; nothing where several do
+  std::optional<std::size_t> left{},
+      right{};  // the lane beside, which has the same curve for a side and lies across it; nothing where several do
 };
 
 struct MapConnection {
@@ -59,7 +60,7 @@ struct MapLight {
 struct MapSign {
   std::size_t lane = 0;
   SignKind kind = SignKind::kGiveWay;
-  double s_m = 0.0;  // along the lane
+  double s_m = 0.0;        // along the lane
   double limit_kmh = 0.0;  // of a speed limit
 };
 
@@ -72,13 +73,14 @@ struct LaneMap {
   std::vector<std::size_t> end_lanes;
   std::vector<MapLight> lights;  // at most one a lane
   bool left_hand = false;
-  std::vector<MapSign> signs;    // in the file's order; STOP of connections stands there
+  std::vector<MapSign> signs;  // in the file's order; STOP of connections stands there
   // The picture on the ground, centred on the origin; no size where there is none that can be read.
   double picture_width_m = 0.0;
   double picture_height_m = 0.0;
 };
 
-// Whether vehicles begin on every lane that no connection leads to, end on every lane that none leaves, and nowhere else: what any network says by itself.
+// Whether vehicles begin on every lane that no connection leads to, end on every lane that none leaves, and nowhere
+// else: what any network says by itself.
 bool BeginsAndEndsAtItsEdge(const LaneMap& map);
 
 // Wrong input with the first error of CheckMap; warnings do not hinder. `name` stands for the file in messages.

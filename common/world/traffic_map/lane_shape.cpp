@@ -56,7 +56,11 @@ double Offset(const Cubic& border, const LanePoint& at) {
 }  // namespace
 
 LaneShape::LaneShape(const Border& left, const Border& right)
-    : left_(left), right_(right), middle_(Mean(left.plan, right.plan)), z_m_(Mean(left.z_m, right.z_m)), along_(middle_) {}
+    : left_(left),
+      right_(right),
+      middle_(Mean(left.plan, right.plan)),
+      z_m_(Mean(left.z_m, right.z_m)),
+      along_(middle_) {}
 
 LanePoint LaneShape::AtParameter(double t) const {
   LanePoint at;
@@ -67,7 +71,8 @@ LanePoint LaneShape::AtParameter(double t) const {
   at.curvature_1pm = middle_.Curvature(t);
   const double u = 1.0 - t;
   at.z_m = u * u * u * z_m_[0] + 3.0 * u * u * t * z_m_[1] + 3.0 * u * t * t * z_m_[2] + t * t * t * z_m_[3];
-  const double rise = 3.0 * (u * u * (z_m_[1] - z_m_[0]) + 2.0 * u * t * (z_m_[2] - z_m_[1]) + t * t * (z_m_[3] - z_m_[2]));
+  const double rise =
+      3.0 * (u * u * (z_m_[1] - z_m_[0]) + 2.0 * u * t * (z_m_[2] - z_m_[1]) + t * t * (z_m_[3] - z_m_[2]));
   const double run = middle_.Slope(t).norm();
   at.grade = run > 0.0 ? rise / run : 0.0;
   at.left_m = Offset(left_.plan, at);

@@ -112,8 +112,8 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name);
 base::Result<MapFile> LoadMap(const std::filesystem::path& path);
 
 // The bytes of the file: those of ParseMap again where nothing was edited. New numbers are the shortest text that gives
-// the same float32; new lines stand behind the others of their kind and end with LF. The byte 'i' stands nowhere before the
-// line `i`, where the original program looks for it (A.17).
+// the same float32; new lines stand behind the others of their kind and end with LF. The byte 'i' stands nowhere before
+// the line `i`, where the original program looks for it (A.17).
 std::string WriteMap(const MapFile& map);
 base::Status SaveMap(const MapFile& map, const std::filesystem::path& path);
 

@@ -29,7 +29,8 @@ class Fields {
     Number value{};
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
     constexpr std::string_view kKind = std::is_integral_v<Number> ? "a whole number" : "a number with a decimal point";
-    const bool whole = problem == std::errc() && end == text.data() + text.size() && std::isfinite(static_cast<double>(value));
+    const bool whole =
+        problem == std::errc() && end == text.data() + text.size() && std::isfinite(static_cast<double>(value));
     if (!whole || value < least || value > most) {
       Refuse(what, text, fmt::format("{} from {} to {}", kKind, least, most));
       return {};
@@ -56,8 +57,8 @@ class Fields {
  private:
   void Refuse(std::string_view what, std::string_view found, const std::string& expected) {
     constexpr std::size_t kShown = 40;
-    Refuse(
-        fmt::format("{} is '{}{}'; {} was expected", what, found.substr(0, kShown), found.size() > kShown ? "…" : "", expected));
+    Refuse(fmt::format("{} is '{}{}'; {} was expected", what, found.substr(0, kShown), found.size() > kShown ? "…" : "",
+                       expected));
   }
 
   std::vector<std::string_view> fields_;
@@ -82,7 +83,8 @@ std::string_view Truth(bool value) { return value ? "True" : "False"; }
 // The shortest decimal number that reads as the same float32; with an exponent only where it is very small.
 std::string Shortest(float value) {
   constexpr float kPlain = 1e-5f;
-  const auto format = value != 0.0f && std::abs(value) < kPlain ? std::chars_format::scientific : std::chars_format::fixed;
+  const auto format =
+      value != 0.0f && std::abs(value) < kPlain ? std::chars_format::scientific : std::chars_format::fixed;
   std::array<char, 64> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format).ptr;
   return std::string(buffer.data(), end);
@@ -99,7 +101,8 @@ base::Result<Curve> ReadLine(std::string_view line) {
   Fields fields(line);
   if (fields.count() == 26)
     return base::WrongInput("a line 'p' with 26 fields instead of 14: are the numbers written with a decimal comma?");
-  if (fields.count() != 14) return WrongCount('p', fields.count(), "14: p, the curve's number, x, height, z of four points");
+  if (fields.count() != 14)
+    return WrongCount('p', fields.count(), "14: p, the curve's number, x, height, z of four points");
   Curve curve;
   curve.id = fields.Id("the curve's number");
   for (std::size_t i = 0; i < curve.points.size(); ++i) {
@@ -158,7 +161,8 @@ std::string LineText(const Curve& curve) {
 }
 
 std::string LineText(const Lane& lane) {
-  return fmt::format("l,{},{},{},{}\n", lane.id, SideText(lane.left), SideText(lane.right), static_cast<int>(lane.mode));
+  return fmt::format("l,{},{},{},{}\n", lane.id, SideText(lane.left), SideText(lane.right),
+                     static_cast<int>(lane.mode));
 }
 
 std::string LineText(const Connection& connection) {

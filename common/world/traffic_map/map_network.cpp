@@ -1,7 +1,7 @@
 #include "common/world/traffic_map/map_network.hpp"
 
-#include "common/world/traffic_map/open_drive.hpp"
 #include "common/world/opendrive/import.hpp"
+#include "common/world/traffic_map/open_drive.hpp"
 
 namespace rodeira::traffic_map {
 
@@ -10,7 +10,8 @@ base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& m
   if (!drive) return base::WrongInput(drive.error().message, name);
   const auto import = opendrive::Read(drive.value().xml, name);
   if (!import) return import.error();
-  // A line of the OpenDRIVE in between would say nothing to whoever wrote the map; its roads have the numbers of the lanes.
+  // A line of the OpenDRIVE in between would say nothing to whoever wrote the map; its roads have the numbers of the
+  // lanes.
   if (!import.value().errors.empty()) return base::WrongInput(import.value().errors.front().Text(), name);
   return import.value().network;
 }

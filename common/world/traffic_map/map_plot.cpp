@@ -50,11 +50,11 @@ std::string DrawBorder(const Border& border, BorderType type, std::string_view l
   const network::LineKind& paint = PaintOf(type);
   if (paint.lines == 0) return "";
   const std::string dash = paint.gap_m == 0.0 ? ""
-                                              : fmt::format(" stroke-dasharray=\"{:.2f} {:.2f}\"", paint.stroke_m * paper.scale,
-                                                            paint.gap_m * paper.scale);
+                                              : fmt::format(" stroke-dasharray=\"{:.2f} {:.2f}\"",
+                                                            paint.stroke_m * paper.scale, paint.gap_m * paper.scale);
   const auto stroke = [&](double width_m, std::string_view colour) {
-    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"{}/>\n", paper.Curve(border.plan),
-                       colour, std::max(0.6, width_m * paper.scale), dash);
+    return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\"{}/>\n",
+                       paper.Curve(border.plan), colour, std::max(0.6, width_m * paper.scale), dash);
   };
   if (paint.lines == 1) return stroke(paint.width_m, "#ffffff");
   return stroke(2.0 * paint.width_m + network::kLinesApart_m, "#ffffff") + stroke(network::kLinesApart_m, lane_colour);
@@ -89,8 +89,8 @@ std::string DrawName(const MapLane& lane, const Paper& paper) {
 std::string DrawStop(const MapLane& lane, const Paper& paper) {
   const LanePoint at = lane.shape.AtParameter(1.0);
   const Eigen::Vector2d left = at.p_W + at.left_m * at.left_W(), right = at.p_W + at.right_m * at.left_W();
-  return fmt::format("<path d=\"M{}L{}\" stroke=\"#e03030\" stroke-width=\"{:.2f}\"/>\n", paper.Point(left), paper.Point(right),
-                     std::max(1.5, 0.5 * paper.scale));
+  return fmt::format("<path d=\"M{}L{}\" stroke=\"#e03030\" stroke-width=\"{:.2f}\"/>\n", paper.Point(left),
+                     paper.Point(right), std::max(1.5, 0.5 * paper.scale));
 }
 
 double HighestOf(const MapLane& lane) {
@@ -115,7 +115,8 @@ std::string DrawRule(const Paper& paper) {
 std::string PlotMap(const LaneMap& map) {
   const Paper paper(map);
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" height=\"{1:.0f}\">\n",
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\">\n",
       paper.X(paper.east_m), paper.Y(paper.south_m));
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#dfe6d8\"/>\n";
   std::vector<double> heights;

@@ -28,7 +28,8 @@ base::Status TakeLine(std::string_view text, std::size_t number, MapFile& map) {
   if (letter == "l") return Append(text, number, map.lanes);
   if (letter == "c") return Append(text, number, map.connections);
   if (letter == "s") {
-    if (map.scale.number != 0) return base::WrongInput(fmt::format("a second line 's'; the first is line {}", map.scale.number));
+    if (map.scale.number != 0)
+      return base::WrongInput(fmt::format("a second line 's'; the first is line {}", map.scale.number));
     return Take(text, number, map.scale);
   }
   if (letter == "i")
@@ -52,12 +53,14 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name) 
       if (bytes.size() - at > kLongestLine)
         return base::WrongInput(fmt::format("the line has more than {} bytes", kLongestLine), At(name, number));
       return base::WrongInput(
-          fmt::format("the file ends at byte {} without a line 'i', behind which the picture stands", bytes.size()), name);
+          fmt::format("the file ends at byte {} without a line 'i', behind which the picture stands", bytes.size()),
+          name);
     }
     const std::string_view text = bytes.substr(at, length + 1);
     at += text.size();
     if (text == "i\n") break;
-    if (auto status = TakeLine(text, number, map); !status) return base::WrongInput(status.error().message, At(name, number));
+    if (auto status = TakeLine(text, number, map); !status)
+      return base::WrongInput(status.error().message, At(name, number));
   }
   if (map.scale.number == 0) return base::WrongInput("there is no line 's' with the picture's scale", name);
   map.picture = bytes.substr(at);

@@ -23,7 +23,8 @@ std::string DescribePicture(const MapFile& map) {
   if (!picture) return fmt::format("{} bytes of an unknown kind", map.picture.size());
   const double height_m = 10.0 * static_cast<double>(map.scale.value.value);
   return fmt::format("{}, {} x {} pixels, {} bytes, {:.6g} x {:.6g} m on the ground", picture->kind, picture->width_px,
-                     picture->height_px, map.picture.size(), height_m * picture->width_px / picture->height_px, height_m);
+                     picture->height_px, map.picture.size(), height_m * picture->width_px / picture->height_px,
+                     height_m);
 }
 
 }  // namespace
@@ -45,8 +46,8 @@ std::string DescribeMap(const MapFile& map, const Heights& heights, const std::v
   }
   table += Row("connections", fmt::format("{}, {} with STOP", map.connections.size(), stops));
   table += Row("picture", DescribePicture(map));
-  return table +
-         Row("found", fmt::format("{} errors, {} warnings", errors, static_cast<std::ptrdiff_t>(findings.size()) - errors));
+  return table + Row("found", fmt::format("{} errors, {} warnings", errors,
+                                          static_cast<std::ptrdiff_t>(findings.size()) - errors));
 }
 
 }  // namespace rodeira::traffic_map

@@ -39,13 +39,16 @@ std::string WriteMap(const MapFile& map) {
   Place(map.lanes, last, all);
   Place(map.connections, last, all);
   Place(std::vector<Line<Scale>>{map.scale}, last, all);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Placed& a, const Placed& b) { return std::tie(a.behind, a.added) < std::tie(b.behind, b.added); });
+  std::stable_sort(all.begin(), all.end(), [](const Placed& a, const Placed& b) {
+    return std::tie(a.behind, a.added) < std::tie(b.behind, b.added);
+  });
   std::string bytes;
   for (const Placed& line : all) bytes += line.text;
   return bytes + "i\n" + map.picture;
 }
 
-base::Status SaveMap(const MapFile& map, const std::filesystem::path& path) { return base::WriteWhole(path, WriteMap(map)); }
+base::Status SaveMap(const MapFile& map, const std::filesystem::path& path) {
+  return base::WriteWhole(path, WriteMap(map));
+}
 
 }  // namespace rodeira::traffic_map

@@ -6,22 +6,28 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "common/world/network/marking.hpp"
 #include "common/world/traffic_map/border_paint.hpp"
 #include "common/world/traffic_map/drive_piece.hpp"
 #include "common/world/traffic_map/drive_signals.hpp"
-#include "common/world/network/marking.hpp"
 
 namespace rodeira::traffic_map {
 namespace {
 
 constexpr double kLength_m = 0.5e-3;  // ASAM allows twice that between a curve and its element
 void SetCubic(pugi::xml_node node, const Cubic1& c, const char* suffix = "") {
-  for (std::size_t i = 0; i < c.size(); ++i) Set(node, (std::string(1, static_cast<char>('a' + i)) + suffix).c_str(), c[i]);
+  for (std::size_t i = 0; i < c.size(); ++i)
+    Set(node, (std::string(1, static_cast<char>('a' + i)) + suffix).c_str(), c[i]);
 }
 
 class Writer {
  public:
-  Writer(const LaneMap& map, const std::string& name, Junctions kind) : map_(map), kind_(kind), tells_modes_(kind == Junctions::kDirect || !BeginsAndEndsAtItsEdge(map)), own_(map.left_hand ? "1" : "-1"), plan_(PlanRoads(map, kind)) {
+  Writer(const LaneMap& map, const std::string& name, Junctions kind)
+      : map_(map),
+        kind_(kind),
+        tells_modes_(kind == Junctions::kDirect || !BeginsAndEndsAtItsEdge(map)),
+        own_(map.left_hand ? "1" : "-1"),
+        plan_(PlanRoads(map, kind)) {
     if (kind == Junctions::kCommon) bounds_.length_m = kLength_m;
     root_ = document_.append_child("OpenDRIVE");
     pugi::xml_node header = root_.append_child("header");
@@ -165,12 +171,14 @@ class Writer {
       }
     }
     for (std::size_t i = 0; i < parts.size(); ++i) {
-      WriteSection(lanes, parts[i], i > 0 || plan.before.road != kNoRoad, i + 1 < parts.size() || plan.behind.road != kNoRoad, i == plan.own);
+      WriteSection(lanes, parts[i], i > 0 || plan.before.road != kNoRoad,
+                   i + 1 < parts.size() || plan.behind.road != kNoRoad, i == plan.own);
     }
   }
 
   // linked_*: the lane goes on there, and no junction decides into which. own: the road is this lane's.
-  void WriteSection(pugi::xml_node lanes, const FittedPart& part, bool linked_before, bool linked_behind, bool own) const {
+  void WriteSection(pugi::xml_node lanes, const FittedPart& part, bool linked_before, bool linked_behind,
+                    bool own) const {
     const MapLane& lane = map_.lanes[part.part.lane];
     pugi::xml_node section = lanes.append_child("laneSection");
     Set(section, "s", part.s_m);
@@ -206,7 +214,9 @@ class Writer {
 
   // Lanes beside on roads of their own, outside of junctions. OpenDRIVE has no word for them either.
   void WriteNeighbours(pugi::xml_node node, std::size_t lane) const {
-    const auto is_own_road = [&](std::size_t of) { return plan_.roads[of].parts.size() == 1 && plan_.roads[of].junction == kNoJunction; };
+    const auto is_own_road = [&](std::size_t of) {
+      return plan_.roads[of].parts.size() == 1 && plan_.roads[of].junction == kNoJunction;
+    };
     const auto write = [&](const char* code, const std::optional<std::size_t>& beside) {
       if (!beside || !is_own_road(lane) || !is_own_road(*beside)) return;
       pugi::xml_node data = node.append_child("userData");
@@ -242,7 +252,8 @@ class Writer {
       pugi::xml_node connection = junction.append_child("connection");
       Set(connection, "id", fmt::format("{}", count++));
       Set(connection, "incomingRoad", fmt::format("{}", plan_.roads[way.from].id));
-      Set(connection, kind_ == Junctions::kDirect ? "linkedRoad" : "connectingRoad", fmt::format("{}", plan_.roads[way.to].id));
+      Set(connection, kind_ == Junctions::kDirect ? "linkedRoad" : "connectingRoad",
+          fmt::format("{}", plan_.roads[way.to].id));
       Set(connection, "contactPoint", "start");
       pugi::xml_node link = connection.append_child("laneLink");
       Set(link, "from", own_);
@@ -264,6 +275,8 @@ class Writer {
 
 }  // namespace
 
-base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name, Junctions junctions) { return Writer(map, name, junctions).Write(); }
+base::Result<OpenDrive> ToOpenDrive(const LaneMap& map, const std::string& name, Junctions junctions) {
+  return Writer(map, name, junctions).Write();
+}
 
 }  // namespace rodeira::traffic_map

@@ -31,17 +31,21 @@ class Planner {
   // A lane that lies in one junction with both its ends: its road is a connecting road.
   bool IsWay(std::size_t lane) const {
     const MapLane& at = map_.lanes[lane];
-    return kind_ == Junctions::kCommon && at.arriving.size() == 1 && at.onward.size() == 1 && !IsLink(at.arriving[0]) && !IsLink(at.onward[0]);
+    return kind_ == Junctions::kCommon && at.arriving.size() == 1 && at.onward.size() == 1 && !IsLink(at.arriving[0]) &&
+           !IsLink(at.onward[0]);
   }
 
   std::size_t GroupOf(std::size_t connection) {
     while (group_[connection] != connection) connection = group_[connection] = group_[group_[connection]];
     return connection;
   }
-  // Connections share a junction that leave the same lane or arrive at the same lane, and so on; those of a way through too.
+  // Connections share a junction that leave the same lane or arrive at the same lane, and so on; those of a way through
+  // too.
   void Group() {
     std::iota(group_.begin(), group_.end(), std::size_t{0});
-    const auto join = [&](std::size_t a, std::size_t b) { group_[std::max(GroupOf(a), GroupOf(b))] = std::min(GroupOf(a), GroupOf(b)); };
+    const auto join = [&](std::size_t a, std::size_t b) {
+      group_[std::max(GroupOf(a), GroupOf(b))] = std::min(GroupOf(a), GroupOf(b));
+    };
     for (std::size_t lane = 0; lane < map_.lanes.size(); ++lane) {
       const MapLane& at = map_.lanes[lane];
       for (const auto* beside : {&at.onward, &at.arriving}) {
@@ -70,8 +74,10 @@ class Planner {
       if (IsLink(i) || IsWay(c.from) || IsWay(c.to)) continue;
       const bool head = map_.lanes[c.to].arriving.size() == 1;
       const double length = map_.lanes[head ? c.to : c.from].shape.length_m(), cut = std::min(kEnd_m, length / 3.0);
-      if (head) begin_m_[c.to] = cut;
-      else end_m_[c.from] = length - cut;
+      if (head)
+        begin_m_[c.to] = cut;
+      else
+        end_m_[c.from] = length - cut;
     }
   }
 
@@ -120,7 +126,9 @@ class Planner {
       return;
     }
     PlannedRoad road;
-    road.id = 1 + std::max_element(plan_.roads.begin(), plan_.roads.end(), [](const auto& a, const auto& b) { return a.id < b.id; })->id;
+    road.id = 1 + std::max_element(plan_.roads.begin(), plan_.roads.end(), [](const auto& a, const auto& b) {
+                    return a.id < b.id;
+                  })->id;
     road.name = fmt::format("lane {} to {}", map_.lanes[c.from].id, map_.lanes[c.to].id);
     AddEnd(c.from, road.parts);
     AddBegin(c.to, road.parts);

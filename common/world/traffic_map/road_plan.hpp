@@ -12,7 +12,8 @@ namespace rodeira::traffic_map {
 // How connections become junctions of OpenDRIVE, where they are no simple links.
 enum class Junctions : std::uint8_t {
   kDirect,  // direct junctions (1.7): every lane is one road, as it is
-  kCommon,  // common junctions with connecting roads, which other programs read: lanes that lie between two connections, and otherwise an end of a lane
+  kCommon,  // common junctions with connecting roads, which other programs read: lanes that lie between two
+            // connections, and otherwise an end of a lane
 };
 
 // A stretch of a lane, m along it.

@@ -21,7 +21,8 @@ std::string Quoted(const std::string& text) {
 
 }  // namespace
 
-base::Result<OpenDrive> WriteWorld(const LaneMap& map, const std::filesystem::path& path, const std::string& description) {
+base::Result<OpenDrive> WriteWorld(const LaneMap& map, const std::filesystem::path& path,
+                                   const std::string& description) {
   const std::string name = path.stem().string();
   auto drive = ToOpenDrive(map, name);
   if (!drive) return base::WrongInput(drive.error().message);
@@ -30,10 +31,12 @@ base::Result<OpenDrive> WriteWorld(const LaneMap& map, const std::filesystem::pa
   roads.replace_extension(".xodr");
   std::error_code problem;
   if (!alone && std::filesystem::exists(roads, problem) && !std::filesystem::exists(path, problem))
-    return base::WrongInput("this file is there already and is not this world's; another name was expected", roads.string());
+    return base::WrongInput("this file is there already and is not this world's; another name was expected",
+                            roads.string());
   if (auto status = base::WriteWhole(roads, drive.value().xml); !status) return status.error();
   if (alone) return drive;
-  const std::string world = fmt::format("rodeira: world/2\nname: {}\ndescription: {}\nnetwork: {{file: {}}}\n", Quoted(name), Quoted(description), Quoted(roads.filename().string()));
+  const std::string world = fmt::format("rodeira: world/2\nname: {}\ndescription: {}\nnetwork: {{file: {}}}\n",
+                                        Quoted(name), Quoted(description), Quoted(roads.filename().string()));
   if (auto status = base::WriteWhole(path, world); !status) return status.error();
   return drive;
 }

@@ -8,8 +8,8 @@
 
 namespace rodeira::weather {
 
-// Weathers that a person asks for by a word: fine, overcast, rain, fog, dusk, night. All of it is said, so that each is the same
-// whatever was before; but for the hour, which only dusk, night and fine change.
+// Weathers that a person asks for by a word: fine, overcast, rain, fog, dusk, night. All of it is said, so that each is
+// the same whatever was before; but for the hour, which only dusk, night and fine change.
 struct NamedWeather {
   std::string_view name;
   Change change;

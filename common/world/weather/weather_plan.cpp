@@ -46,7 +46,8 @@ class Course {
 
 Weather WeatherPlan::At(double time_s) const {
   const Weather first;
-  Course wetness(first.wetness), rain(first.rain_mmph), visibility(first.visibility_m, true), clouds(first.clouds), hour(first.hour);
+  Course wetness(first.wetness), rain(first.rain_mmph), visibility(first.visibility_m, true), clouds(first.clouds),
+      hour(first.hour);
   for (const Change& change : changes_) {
     if (change.at_s > time_s) break;
     if (change.wetness) wetness.Turn(change.at_s, *change.wetness, change.over_s);
@@ -62,7 +63,8 @@ Weather WeatherPlan::At(double time_s) const {
 }
 
 void WeatherPlan::Add(const Change& change) {
-  const auto later = std::upper_bound(changes_.begin(), changes_.end(), change.at_s, [](double at_s, const Change& other) { return at_s < other.at_s; });
+  const auto later = std::upper_bound(changes_.begin(), changes_.end(), change.at_s,
+                                      [](double at_s, const Change& other) { return at_s < other.at_s; });
   changes_.insert(later, change);
 }
 
@@ -88,7 +90,8 @@ WeatherPlan ReadWeather(const config::List& items) {
     change.at_s = map.Number("at_s", {0.0, kLongest_s}, 0.0);
     change.over_s = map.Number("over_s", {0.0, kLongest_s}, 0.0);
     if (!changes.empty() && change.at_s < changes.back().at_s) {
-      map.Problem("at_s", fmt::format("'at_s' is {} and follows {}; times that do not descend were expected", change.at_s, changes.back().at_s));
+      map.Problem("at_s", fmt::format("'at_s' is {} and follows {}; times that do not descend were expected",
+                                      change.at_s, changes.back().at_s));
     }
     changes.push_back(change);
   }

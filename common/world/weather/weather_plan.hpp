@@ -15,8 +15,9 @@ struct Change {
   std::optional<double> wetness, rain_mmph, visibility_m, clouds, hour;
 };
 
-// The weather of a run as a function of time alone. A change of a quantity that is still changing begins where that one is then.
-// The visibility changes evenly in its reciprocal (which is how fog looks); the hour goes forward, past midnight if it must.
+// The weather of a run as a function of time alone. A change of a quantity that is still changing begins where that one
+// is then. The visibility changes evenly in its reciprocal (which is how fog looks); the hour goes forward, past
+// midnight if it must.
 class WeatherPlan {
  public:
   WeatherPlan() = default;
@@ -33,7 +34,8 @@ class WeatherPlan {
   std::vector<Change> changes_;
 };
 
-// What a mapping says of a weather without times (docs/formats.md), at once at the beginning. Problems stay in the file's collection.
+// What a mapping says of a weather without times (docs/formats.md), at once at the beginning. Problems stay in the
+// file's collection.
 Change ReadStanding(const config::Map& map);
 
 // A list of changes (docs/formats.md). Problems stay in the file's collection.

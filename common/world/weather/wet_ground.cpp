@@ -6,13 +6,20 @@ using ground::Surface;
 
 double FrictionLeft(Surface surface) {
   switch (surface) {
-    case Surface::kAsphalt: return 0.70;
-    case Surface::kConcrete: return 0.70;
-    case Surface::kGravel: return 0.85;
-    case Surface::kGrass: return 0.55;
-    case Surface::kSoil: return 0.55;
-    case Surface::kRoadMark: return 0.50;
-    case Surface::kOutside: break;
+    case Surface::kAsphalt:
+      return 0.70;
+    case Surface::kConcrete:
+      return 0.70;
+    case Surface::kGravel:
+      return 0.85;
+    case Surface::kGrass:
+      return 0.55;
+    case Surface::kSoil:
+      return 0.55;
+    case Surface::kRoadMark:
+      return 0.50;
+    case Surface::kOutside:
+      break;
   }
   return 1.0;
 }

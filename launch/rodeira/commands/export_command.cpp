@@ -56,10 +56,12 @@ int Export(const ExportOptions& options) {
     }
     for (const std::string& sentence : report.value().left_out) fmt::print("left out  {}\n", sentence);
   }
-  for (const std::string& loss : report.value().losses) fmt::print(stderr, "rodeira: {}: {}\n", options.recording, loss);
+  for (const std::string& loss : report.value().losses)
+    fmt::print(stderr, "rodeira: {}: {}\n", options.recording, loss);
   const bool whole = report.value().losses.empty() && reader.value().condition().whole;
   if (whole) return 0;
-  fmt::print(stderr, "rodeira: {} is not whole: the tables in {} hold what could be read\n", options.recording, options.csv);
+  fmt::print(stderr, "rodeira: {} is not whole: the tables in {} hold what could be read\n", options.recording,
+             options.csv);
   return 1;
 }
 

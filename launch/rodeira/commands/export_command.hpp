@@ -11,8 +11,8 @@ struct ExportOptions {
   bool quiet = false;
 };
 
-// Writes the tables and says what they are. Status 1 where the recording is not whole: the tables are there then, with what
-// could be read.
+// Writes the tables and says what they are. Status 1 where the recording is not whole: the tables are there then, with
+// what could be read.
 int Export(const ExportOptions& options);
 
 }  // namespace rodeira::cli

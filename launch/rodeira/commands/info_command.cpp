@@ -16,7 +16,8 @@ namespace {
 void PrintWhatItIs(const record::McapReader& in, const std::string& file) {
   const auto& statistics = in.statistics();
   fmt::print("{}  {}, {}\n", file, Size(in.condition().file_bytes), in.condition().whole ? "whole" : "not whole");
-  fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n", static_cast<double>(statistics.first_log_time_ns) * 1e-9,
+  fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n",
+             static_cast<double>(statistics.first_log_time_ns) * 1e-9,
              static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
   for (const char* name : {"rodeira", "rodeira.meta", "rodeira.branch", "rodeira.end", record::kRepairMetadata}) {
     const auto metadata = in.FindMetadata(name);
@@ -31,7 +32,8 @@ void PrintSources(const RecordingAudit& audit) {
   fmt::print(kLine, "topic", "source", "type", "rate", "samples", "size", "audit");
   for (const RecordedSource& source : audit.sources) {
     const std::string rate = source.rate_hz ? fmt::format("{:g} Hz", *source.rate_hz) : "";
-    fmt::print(kLine, source.topic, source.source, source.type, rate, source.samples, Size(source.bytes), source.Verdict());
+    fmt::print(kLine, source.topic, source.source, source.type, rate, source.samples, Size(source.bytes),
+               source.Verdict());
   }
 }
 
@@ -63,12 +65,14 @@ int Info(const std::string& file) {
   fmt::print("content   {}  (of all samples: recordings with the same one are identical)\n", base::Hex(audit.content));
   for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
   if (audit.steps_without_wall_time.value_or(0) > 0) {
-    fmt::print("wall      the wall times of {} steps are missing: a clock that was lost had not said them yet\n", *audit.steps_without_wall_time);
+    fmt::print("wall      the wall times of {} steps are missing: a clock that was lost had not said them yet\n",
+               *audit.steps_without_wall_time);
   }
   const bool whole = in.condition().whole && audit.damages.empty();
   if (!whole) fmt::print("what to do: rodeira repair {} --out REPAIRED.mcap\n", file);
   if (!audit.lossless()) {
-    fmt::print("{}\n", audit.last_step && audit.has_every_sample() ? "damaged, though no source lacks a sample" : "not lossless: samples of the run are missing");
+    fmt::print("{}\n", audit.last_step && audit.has_every_sample() ? "damaged, though no source lacks a sample"
+                                                                   : "not lossless: samples of the run are missing");
   } else if (whole && audit.broken_off) {
     fmt::print("no gaps; the run was broken off at step {}\n", audit.last_step.value_or(0));
   } else if (whole && audit.last_step) {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/commands/wheel_wizard.hpp"
+#include "launch/rodeira/interrupt.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -21,11 +21,13 @@ int Refuse(const base::Error& error) {
 
 }  // namespace
 
-int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say, const std::function<bool()>& wait) {
+int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say,
+               const std::function<bool()>& wait) {
   auto begun = WheelWizard::Begin();
   if (!begun) return Refuse(begun.error());
   WheelWizard& wizard = *begun.value();
-  for (const nodes::JoystickInfo& info : wizard.devices()) say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
+  for (const nodes::JoystickInfo& info : wizard.devices())
+    say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
   std::string said_prompt, said_remark;
   while (!wizard.done()) {
     if (wizard.remark() != said_remark && !wizard.remark().empty()) say(wizard.remark());
@@ -40,7 +42,8 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
   const auto file = wizard.Write(options.out, options.lock_deg);
   if (!file) return Refuse(file.error());
   say(fmt::format("written: {}", file.value().string()));
-  say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}", file.value().string())
+  say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}",
+                                file.value().string())
                   : "drive with it: rodeira run launch/wheel.yaml");
   return 0;
 }

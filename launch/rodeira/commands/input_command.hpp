@@ -15,7 +15,8 @@ struct InputOptions {
 };
 
 // `say` prints a line to the person; `wait` waits for 10 ms and is false where the person has had enough.
-int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say, const std::function<bool()>& wait);
+int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say,
+               const std::function<bool()>& wait);
 // The same at the terminal, until Ctrl-C.
 int SetUpInput(const InputOptions& options);
 

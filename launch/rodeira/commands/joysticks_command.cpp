@@ -17,7 +17,8 @@ using WallClock = std::chrono::steady_clock;
 
 constexpr double kMoved = 655.0;  // a hundredth of an axis' whole way
 
-void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected, std::optional<double> duration_s) {
+void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected,
+           std::optional<double> duration_s) {
   CatchInterrupts();
   std::vector<std::string> guids;
   for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
@@ -25,7 +26,8 @@ void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& 
   std::vector<input_devices::DeviceReading> before;
   for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
   const auto begin = WallClock::now();
-  while (!Interrupted() && (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
+  while (!Interrupted() &&
+         (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
     joysticks.Update();
     for (std::size_t place = 0; place < guids.size(); ++place) {
       fmt::print("{}", JoystickMoves(connected[place].name, before[place], joysticks.reading(place)));
@@ -45,10 +47,13 @@ std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected) {
   return text;
 }
 
-std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before, const input_devices::DeviceReading& now) {
+std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before,
+                          const input_devices::DeviceReading& now) {
   std::string text;
-  if (before.connected != now.connected) text += fmt::format("{}: {}\n", device, now.connected ? "is there" : "was unplugged");
-  if (before.connected != now.connected || before.axes.size() != now.axes.size() || before.buttons.size() != now.buttons.size()) {
+  if (before.connected != now.connected)
+    text += fmt::format("{}: {}\n", device, now.connected ? "is there" : "was unplugged");
+  if (before.connected != now.connected || before.axes.size() != now.axes.size() ||
+      before.buttons.size() != now.buttons.size()) {
     before = now;
     return text;
   }
@@ -87,19 +92,21 @@ Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected, const 
   for (const auto& entry : std::filesystem::directory_iterator(input_folder, problem)) {
     if (entry.path().filename().string().starts_with("event") && ::access(entry.path().c_str(), R_OK) != 0) ++closed;
   }
-  // Keyboards and mice are among these, and closed to everybody but root: only with no joystick at all is it worth a word.
+  // Keyboards and mice are among these, and closed to everybody but root: only with no joystick at all is it worth a
+  // word.
   if (connected.empty() && closed > 0) {
     return Warning(
         check,
-        fmt::format("none, but {} devices in {} may not be read: if a wheel is plugged in, add yourself to the group input "
-                    "(sudo usermod -aG input $USER) and log in again",
-                    closed, input_folder.string()));
+        fmt::format(
+            "none, but {} devices in {} may not be read: if a wheel is plugged in, add yourself to the group input "
+            "(sudo usermod -aG input $USER) and log in again",
+            closed, input_folder.string()));
   }
   if (connected.empty()) return Ok(check, "none is connected (only `source: joystick` needs one)");
   std::string names;
   for (const nodes::JoystickInfo& info : connected)
-    names +=
-        fmt::format("{}{} '{}' ({} axes, {} buttons)", names.empty() ? "" : ", ", info.guid, info.name, info.axes, info.buttons);
+    names += fmt::format("{}{} '{}' ({} axes, {} buttons)", names.empty() ? "" : ", ", info.guid, info.name, info.axes,
+                         info.buttons);
   return Ok(check, names);
 }
 

@@ -22,7 +22,8 @@ int ListJoysticks(const JoysticksOptions& options);
 std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected);
 // "axis 2: 32767 -> 1200" and "button 4: down", a line each, for what differs by more than a hundredth of an axis' way;
 // `before` is brought up to date for those.
-std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before, const input_devices::DeviceReading& now);
+std::string JoystickMoves(const std::string& device, input_devices::DeviceReading& before,
+                          const input_devices::DeviceReading& now);
 
 // The line of `rodeira doctor`: information, and a warning where devices are there that this person may not read.
 Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected,

@@ -25,13 +25,15 @@ void Describe(const multibody::Mechanism& mechanism, const multibody::RunSummary
   const multibody::System& system = *mechanism.system;
   fmt::print("mechanism        {}\n", system.drawing().name.empty() ? "without a name" : system.drawing().name);
   fmt::print("variables        {} ({} degrees of freedom)\n", system.variables(), system.degrees_of_freedom());
-  fmt::print("steps            {} of {:.6g} s, {:.2f} iterations a step (at most {}), {:.2f} factorisations\n", s.steps, s.step_s,
-             static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.most_iterations,
+  fmt::print("steps            {} of {:.6g} s, {:.2f} iterations a step (at most {}), {:.2f} factorisations\n", s.steps,
+             s.step_s, static_cast<double>(s.iterations) / static_cast<double>(s.steps), s.most_iterations,
              static_cast<double>(s.factorisations) / static_cast<double>(s.steps));
   fmt::print("constraints      |Φ| up to {:.2g}, |dΦ/dt| up to {:.2g}\n", s.violation_m, s.violation_mps);
   fmt::print("energy           {:.9g} J to {:.9g} J\n", s.energy_start_J, s.energy_end_J);
-  fmt::print("wall time        {:.3g} s, {:.3g} times real time\n", wall_s, static_cast<double>(s.steps) * s.step_s / wall_s);
-  for (const multibody::Output& output : mechanism.outputs) fmt::print("{:<16} {}\n", output.name, output.ValueOf(system));
+  fmt::print("wall time        {:.3g} s, {:.3g} times real time\n", wall_s,
+             static_cast<double>(s.steps) * s.step_s / wall_s);
+  for (const multibody::Output& output : mechanism.outputs)
+    fmt::print("{:<16} {}\n", output.name, output.ValueOf(system));
 }
 
 }  // namespace
@@ -64,7 +66,8 @@ int RunMechanismFile(const MechanismOptions& options) {
   }
   if (!options.svg.empty()) {
     const std::string title = mechanism.value().system->drawing().name;
-    if (auto written = base::WriteWhole(options.svg, plot::ToSvg(table, title)); !written) return Complain(written.error());
+    if (auto written = base::WriteWhole(options.svg, plot::ToSvg(table, title)); !written)
+      return Complain(written.error());
     if (!options.quiet) fmt::print("wrote            {}\n", options.svg);
   }
   return 0;

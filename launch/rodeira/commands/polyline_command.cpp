@@ -25,8 +25,8 @@ Eigen::Vector3d Vector(const std::vector<double>& numbers, const Eigen::Vector3d
 }
 
 base::Result<Polyline> OffsetOf(const Polyline& line, const PolylineOptions& options) {
-  auto offset =
-      geometry::Offset(line, options.left_m, options.keep_length ? geometry::Mitre::kKeepLength : geometry::Mitre::kKeepWidth);
+  auto offset = geometry::Offset(line, options.left_m,
+                                 options.keep_length ? geometry::Mitre::kKeepLength : geometry::Mitre::kKeepWidth);
   for (const geometry::OffsetFault& fault : offset.faults) {
     const base::Error error = base::WrongInput(geometry::FaultText(fault, options.left_m), options.files[0]);
     if (!options.despite_faults) return error;
@@ -41,7 +41,8 @@ base::Result<Polyline> Made(const std::vector<Polyline>& lines, const PolylineOp
   const bool z_wanted =
       options.by_m.size() > 2 || (options.command == "scale" && options.about_m.size() > 2) || options.z_factor > 0.0;
   if (z_wanted && !line.has_z) return base::WrongInput("the line has no heights (z_m) to be moved", options.files[0]);
-  if (options.command == "join") return geometry::Joined(lines, options.files, {options.within_m, options.bridge, options.turn});
+  if (options.command == "join")
+    return geometry::Joined(lines, options.files, {options.within_m, options.bridge, options.turn});
   if (options.command == "translate") return geometry::Translated(line, Vector(options.by_m, Eigen::Vector3d::Zero()));
   if (options.command == "rotate") {
     return geometry::Rotated(line, options.angle_deg * geometry::kPi / 180.0, Vector(options.about_m, first).head<2>());

@@ -23,7 +23,8 @@ struct PolylineOptions {
   double step_m = 1.0;  // between the points of a road's axis
 };
 
-// `rodeira polyline`: chains of points in CSV files, and axes of roads ("WORLD.yaml#ROAD"), put together and moved. Returns the exit status.
+// `rodeira polyline`: chains of points in CSV files, and axes of roads ("WORLD.yaml#ROAD"), put together and moved.
+// Returns the exit status.
 int Polylines(const PolylineOptions& options);
 
 }  // namespace rodeira::cli

@@ -9,14 +9,14 @@
 #include <filesystem>
 #include <utility>
 
-#include "common/world/traffic_map/heights.hpp"
-#include "common/world/road/map_world.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/map_lights.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
 #include "common/traffic/tight_bends.hpp"
+#include "common/world/road/map_world.hpp"
+#include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
 
 namespace rodeira::cli {
@@ -43,11 +43,17 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
     settings = std::move(loaded).value();
   }
   settings.seed = options.seed;
-  if (!options.physics.empty()) settings.physics = options.physics == "full" ? traffic::Physics::kFull : traffic::Physics::kPlanar;
-  if (!options.driver.empty()) settings.driver = options.driver == "motors" ? traffic::DriverKind::kMotors : traffic::DriverKind::kStandard;
+  if (!options.physics.empty())
+    settings.physics = options.physics == "full" ? traffic::Physics::kFull : traffic::Physics::kPlanar;
+  if (!options.driver.empty())
+    settings.driver = options.driver == "motors" ? traffic::DriverKind::kMotors : traffic::DriverKind::kStandard;
   if (settings.driver == traffic::DriverKind::kMotors) {
-    if (options.physics == "planar") return base::WrongInput("'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
-    if (settings.pedestrians) return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected", options.settings);
+    if (options.physics == "planar")
+      return base::WrongInput(
+          "'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
+    if (settings.pedestrians)
+      return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected",
+                              options.settings);
     settings.physics = traffic::Physics::kFull;
   }
   if (settings.demand.flows.empty() && road::IsTrafficMap(options.map)) {
@@ -61,20 +67,30 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
 }
 
 void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
-  fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting, r.arrivals);
-  fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left, r.began);
+  fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting,
+             r.arrivals);
+  fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left,
+             r.began);
   fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
   const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
-  fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres, r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
-  const auto who = [](double time_s, std::uint32_t id) { return time_s > 0.0 ? fmt::format("{:.1f} s (car {})", time_s, id) : std::string("0.0 s"); };
-  fmt::print("standing         {:.1f} % of the time, at most {}, with room ahead {}\n", r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, who(r.longest_stand_s, r.longest_stand_id),
+  fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres,
+             r.driven_km > 0.0 ? 100.0 * litres / r.driven_km : 0.0);
+  const auto who = [](double time_s, std::uint32_t id) {
+    return time_s > 0.0 ? fmt::format("{:.1f} s (car {})", time_s, id) : std::string("0.0 s");
+  };
+  fmt::print("standing         {:.1f} % of the time, at most {}, with room ahead {}\n",
+             r.vehicle_s > 0.0 ? 100.0 * r.standing_s / r.vehicle_s : 0.0, who(r.longest_stand_s, r.longest_stand_id),
              who(r.longest_with_room_s, r.longest_with_room_id));
-  fmt::print("hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in all\n", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
+  fmt::print(
+      "hardest braking  {:.2f} m/s2 with a foot on the brake, which asks it for {:.2f} m/s2 at most; {:.2f} m/s2 in "
+      "all\n",
+      r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
   fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
   fmt::print("collisions       {}\n", r.collisions);
-  fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane, r.wheels_off);
-  fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s, options.duration_s / wall_s,
-             r.vehicle_s / options.step_s / wall_s);
+  fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane,
+             r.wheels_off);
+  fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s,
+             options.duration_s / wall_s, r.vehicle_s / options.step_s / wall_s);
   for (const std::string& incident : r.incidents) fmt::print("incident         {}\n", incident);
 }
 
@@ -85,7 +101,8 @@ struct FlowsSeen {
 
 void Describe(const FlowsSeen& seen) {
   for (std::size_t f = 0; f < seen.flows.size(); ++f) {
-    fmt::print("flow {:<12}{} arrived, {} of them without a vehicle yet\n", f + 1, seen.flows[f].arrived, seen.flows[f].arrived - seen.flows[f].given);
+    fmt::print("flow {:<12}{} arrived, {} of them without a vehicle yet\n", f + 1, seen.flows[f].arrived,
+               seen.flows[f].arrived - seen.flows[f].given);
   }
   if (!seen.flows.empty()) fmt::print("lanes missed     {} times a route's lane was not reached\n", seen.missed);
 }
@@ -113,7 +130,8 @@ int TrafficRun(const TrafficOptions& options) {
   settings.warm_s = options.warm_s, settings.every_s = options.every_s;
   if (!options.quiet && settings.traffic.physics == traffic::Physics::kFull) {
     const lanes::Graph graph(*network);
-    for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic)) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));
+    for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic))
+      fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));
   }
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto begin = Clock::now();

@@ -6,25 +6,27 @@
 
 namespace rodeira::cli {
 
-// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE] [--csv DIR [--every S]] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
+// `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE]
+// [--csv DIR [--every S]] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
-  std::optional<std::uint32_t> vehicles;  // as the settings say; without settings 50, or with flows at most 1000 at a time
+  std::optional<std::uint32_t>
+      vehicles;  // as the settings say; without settings 50, or with flows at most 1000 at a time
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;
-  std::string driver;   // standard or motors; empty: as the settings say
-  std::string physics;  // planar or full; empty: as the settings say
+  std::string driver;    // standard or motors; empty: as the settings say
+  std::string physics;   // planar or full; empty: as the settings say
   std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
-  std::string csv;  // folder; empty: no tables
+  std::string csv;       // folder; empty: no tables
   double warm_s = 0.0;   // tables and heat leave out so much of the beginning
   double every_s = 0.0;  // rows of intervals.csv; 0: no such table
-  std::string heat;     // .svg or .tif; empty: none
+  std::string heat;      // .svg or .tif; empty: none
   double pixel_m = 1.0;  // of heat.tif
-  std::string fcd;      // .xml; empty: none
-  std::string diagram;  // .svg; empty: none
-  std::string lane;     // of the diagram, "ROAD:LANE"; empty: the longest one
+  std::string fcd;       // .xml; empty: none
+  std::string diagram;   // .svg; empty: none
+  std::string lane;      // of the diagram, "ROAD:LANE"; empty: the longest one
   bool quiet = false;
 };
 

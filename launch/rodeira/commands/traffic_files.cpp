@@ -24,7 +24,9 @@ bool EndsOn(const std::string& file, const char* ending) { return std::filesyste
 
 // "ROAD:LANE", a track of the network.
 base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::string& wish) {
-  const auto longest = std::max_element(graph.tracks().begin(), graph.tracks().end(), [](const lanes::Track& a, const lanes::Track& b) { return a.length_m() < b.length_m(); });
+  const auto longest =
+      std::max_element(graph.tracks().begin(), graph.tracks().end(),
+                       [](const lanes::Track& a, const lanes::Track& b) { return a.length_m() < b.length_m(); });
   if (longest == graph.tracks().end()) return base::WrongInput("the map has no lane", "--diagram");
   if (wish.empty()) return static_cast<std::uint32_t>(longest - graph.tracks().begin());
   const auto colon = wish.rfind(':');
@@ -39,7 +41,9 @@ base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::stri
     if (good && id == road && key.lane == lane) return track;
     known.push_back(fmt::format("{}:{}", id, key.lane));
   }
-  return base::WrongInput(fmt::format("'{}' was found; a drivable lane as ROAD:LANE was expected{}", wish, base::DidYouMean(wish, known)), "--lane");
+  return base::WrongInput(
+      fmt::format("'{}' was found; a drivable lane as ROAD:LANE was expected{}", wish, base::DidYouMean(wish, known)),
+      "--lane");
 }
 
 base::Status WriteText(const std::string& file, const std::string& text) {
@@ -49,24 +53,38 @@ base::Status WriteText(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-std::string TrafficFiles::InFolder(const char* name) const { return (std::filesystem::path(options_.csv) / name).string(); }
+std::string TrafficFiles::InFolder(const char* name) const {
+  return (std::filesystem::path(options_.csv) / name).string();
+}
 
 base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, const network::Network& network) {
   TrafficFiles files(options);
-  if (!(options.warm_s < options.duration_s)) return base::WrongInput(fmt::format("{} s are left out of {} s; less was expected", options.warm_s, options.duration_s), "--warm");
-  if (options.every_s > 0.0 && options.csv.empty()) return base::WrongInput("a table every so many seconds was asked for, and no folder for it; --csv FOLDER was expected", "--every");
-  if (options.every_s > 0.0 && options.every_s < options.step_s) return base::WrongInput(fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s), "--every");
+  if (!(options.warm_s < options.duration_s))
+    return base::WrongInput(
+        fmt::format("{} s are left out of {} s; less was expected", options.warm_s, options.duration_s), "--warm");
+  if (options.every_s > 0.0 && options.csv.empty())
+    return base::WrongInput(
+        "a table every so many seconds was asked for, and no folder for it; --csv FOLDER was expected", "--every");
+  if (options.every_s > 0.0 && options.every_s < options.step_s)
+    return base::WrongInput(
+        fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s),
+        "--every");
   if (!options.heat.empty() && !EndsOn(options.heat, ".svg") && !EndsOn(options.heat, ".tif"))
     return base::WrongInput(fmt::format("'{}' was found; a file on .svg or .tif was expected", options.heat), "--heat");
-  if (options.pixel_m != 1.0 && !EndsOn(options.heat, ".tif")) return base::WrongInput(fmt::format("a pixel of {} m was given for '{}'; a file on .tif was expected", options.pixel_m, options.heat), "--pixel");
-  if (!options.fcd.empty() && !EndsOn(options.fcd, ".xml")) return base::WrongInput(fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
+  if (options.pixel_m != 1.0 && !EndsOn(options.heat, ".tif"))
+    return base::WrongInput(
+        fmt::format("a pixel of {} m was given for '{}'; a file on .tif was expected", options.pixel_m, options.heat),
+        "--pixel");
+  if (!options.fcd.empty() && !EndsOn(options.fcd, ".xml"))
+    return base::WrongInput(fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
   if (!options.diagram.empty()) {
     const auto track = FindTrack(lanes::Graph(network), options.lane);
     if (!track) return track.error();
     files.diagram_.emplace(track.value());
   }
   if (EndsOn(options.heat, ".tif")) {
-    if (auto status = traffic::CheckHeatRaster(lanes::Graph(network), options.pixel_m, options.heat); !status) return status.error();
+    if (auto status = traffic::CheckHeatRaster(lanes::Graph(network), options.pixel_m, options.heat); !status)
+      return status.error();
   }
   for (const std::string& file : {options.heat, options.diagram}) {  // before it drives for hours
     if (file.empty()) continue;
@@ -74,7 +92,8 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   }
   if (!options.csv.empty()) {
     std::error_code problem;
-    if (std::filesystem::exists(options.csv, problem) && !std::filesystem::is_directory(options.csv, problem)) return base::WrongInput("a file is there; a folder was expected", "--csv " + options.csv);
+    if (std::filesystem::exists(options.csv, problem) && !std::filesystem::is_directory(options.csv, problem))
+      return base::WrongInput("a file is there; a folder was expected", "--csv " + options.csv);
     std::filesystem::create_directories(options.csv, problem);
     files.trajectories_.open(files.InFolder("trajectories.csv"));
     if (problem || !files.trajectories_) return base::Failed("the folder cannot be written to", options.csv);
@@ -92,10 +111,11 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
 void TrafficFiles::WriteTrajectories(const traffic::StudyMoment& moment) {
   for (const traffic::AgentPose& pose : moment.model.poses()) {
     const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
-    trajectories_ << fmt::format("{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{}\n", moment.time_s, pose.id, pose.trip,
-                                 pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()), pose.speed_mps,
-                                 pose.acceleration_mps2, base::CsvCell(moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id()),
-                                 pose.lane);
+    trajectories_ << fmt::format(
+        "{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{}\n", moment.time_s, pose.id, pose.trip,
+        pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()), pose.speed_mps,
+        pose.acceleration_mps2,
+        base::CsvCell(moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id()), pose.lane);
   }
 }
 
@@ -107,10 +127,12 @@ void TrafficFiles::Write(const traffic::StudyMoment& moment) {
   if (diagram_) diagram_->Add(moment.time_s, moment.model);
 }
 
-base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Network& network, const traffic::StudyResult& result) {
+base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Network& network,
+                                                           const traffic::StudyResult& result) {
   std::vector<std::string> written;
   const lanes::Graph graph(network);
-  const std::string title = fmt::format("{}: {} vehicles, {:.0f} s", network.name(), result.on_road + result.waiting, options_.duration_s);
+  const std::string title =
+      fmt::format("{}: {} vehicles, {:.0f} s", network.name(), result.on_road + result.waiting, options_.duration_s);
   const auto text = [&](const std::string& file, const std::string& content) {
     written.push_back(file);
     return WriteText(file, content);
@@ -119,13 +141,18 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     trajectories_.close();
     if (!trajectories_) return base::Failed("the table could not be written to its end", InFolder("trajectories.csv"));
     written.push_back(InFolder("trajectories.csv"));
-    if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status) return status.error();
-    if (auto status = text(InFolder("queues.csv"), traffic::QueueTable(graph, *result.lanes)); !status) return status.error();
-    if (auto status = text(InFolder("flows.csv"), traffic::FlowTable(graph, *result.lanes)); !status) return status.error();
+    if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status)
+      return status.error();
+    if (auto status = text(InFolder("queues.csv"), traffic::QueueTable(graph, *result.lanes)); !status)
+      return status.error();
+    if (auto status = text(InFolder("flows.csv"), traffic::FlowTable(graph, *result.lanes)); !status)
+      return status.error();
     if (result.intervals) {
-      if (auto status = text(InFolder("intervals.csv"), traffic::IntervalTable(graph, *result.intervals)); !status) return status.error();
+      if (auto status = text(InFolder("intervals.csv"), traffic::IntervalTable(graph, *result.intervals)); !status)
+        return status.error();
     }
-    if (auto status = text(InFolder("trips.csv"), traffic::TripTable(graph, *result.lanes)); !status) return status.error();
+    if (auto status = text(InFolder("trips.csv"), traffic::TripTable(graph, *result.lanes)); !status)
+      return status.error();
   }
   if (fcd_.is_open()) {
     fcd_ << traffic::FloatingCarsEnd();
@@ -137,9 +164,11 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     if (auto status = text(options_.diagram, diagram_->ToSvg(graph, title)); !status) return status.error();
   }
   if (EndsOn(options_.heat, ".svg")) {
-    if (auto status = text(options_.heat, traffic::SpeedMap(graph, *result.lanes, title)); !status) return status.error();
+    if (auto status = text(options_.heat, traffic::SpeedMap(graph, *result.lanes, title)); !status)
+      return status.error();
   } else if (!options_.heat.empty()) {
-    if (auto status = traffic::WriteHeatRaster(graph, *result.lanes, options_.pixel_m, options_.heat); !status) return status.error();
+    if (auto status = traffic::WriteHeatRaster(graph, *result.lanes, options_.pixel_m, options_.heat); !status)
+      return status.error();
     written.push_back(options_.heat);
   }
   return written;

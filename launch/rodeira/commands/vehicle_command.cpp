@@ -28,10 +28,14 @@ base::Result<std::vector<const manoeuvres::Manoeuvre*>> Chosen(const VehicleOpti
     for (const manoeuvres::Manoeuvre& manoeuvre : manoeuvres::Manoeuvres()) chosen.push_back(&manoeuvre);
   }
   if (chosen.size() > 1 && (!options.csv.empty() || !options.svg.empty())) {
-    return base::WrongInput(fmt::format("{} manoeuvres are to be driven; --out FOLDER writes them all, --csv and --svg are of one", chosen.size()),
-                            options.csv.empty() ? "--svg" : "--csv");
+    return base::WrongInput(
+        fmt::format("{} manoeuvres are to be driven; --out FOLDER writes them all, --csv and --svg are of one",
+                    chosen.size()),
+        options.csv.empty() ? "--svg" : "--csv");
   }
-  if (!(options.step_s > 0.0 && options.step_s <= 0.1)) return base::WrongInput(fmt::format("{} s was found; over 0 and at most 0.1 s was expected", options.step_s), "--step");
+  if (!(options.step_s > 0.0 && options.step_s <= 0.1))
+    return base::WrongInput(fmt::format("{} s was found; over 0 and at most 0.1 s was expected", options.step_s),
+                            "--step");
   return chosen;
 }
 
@@ -43,7 +47,8 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
     csv = options.out + "/" + manoeuvre.name + ".csv";
     svg = options.out + "/" + manoeuvre.name + ".svg";
   }
-  const std::string title = fmt::format("{}: {}", std::filesystem::path(options.file).filename().string(), manoeuvre.what);
+  const std::string title =
+      fmt::format("{}: {}", std::filesystem::path(options.file).filename().string(), manoeuvre.what);
   if (!csv.empty()) {
     if (auto status = base::WriteWhole(csv, plot::ToCsv(table)); !status) return status;
   }

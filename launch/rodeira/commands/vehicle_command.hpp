@@ -16,8 +16,8 @@ struct VehicleOptions {
   bool quiet = false;
 };
 
-// `rodeira vehicle test`: a vehicle file on the proving ground, without a network. Returns the exit status: 1 where a manoeuvre
-// could not be driven, 2 for wrong input.
+// `rodeira vehicle test`: a vehicle file on the proving ground, without a network. Returns the exit status: 1 where a
+// manoeuvre could not be driven, 2 for wrong input.
 int TestVehicle(const VehicleOptions& options);
 
 }  // namespace rodeira::cli

@@ -23,13 +23,20 @@ base::Result<RunOptions> RunOf(const ViewOptions& options) {
     if (chosen == nullptr && (options.screen.empty() || screen == options.screen)) chosen = &node;
   }
   if (views.empty()) return base::WrongInput("no node of kind view was found; one was expected", options.launch_file);
-  if (chosen == nullptr) return base::WrongInput(fmt::format("no view looks through a screen '{}'{}", options.screen, base::DidYouMean(options.screen, screens)), options.launch_file);
+  if (chosen == nullptr)
+    return base::WrongInput(
+        fmt::format("no view looks through a screen '{}'{}", options.screen, base::DidYouMean(options.screen, screens)),
+        options.launch_file);
   RunOptions run;
   run.launch_file = options.launch_file;
   run.duration_s = options.duration_s;
   if (!options.screen.empty() && !chosen->host.empty()) {
     run.host = chosen->host;
-    if (options.headset) return base::WrongInput("--headset would make another run of this PC's part than of the others'; 'headset: true' at the view was expected", options.launch_file);
+    if (options.headset)
+      return base::WrongInput(
+          "--headset would make another run of this PC's part than of the others'; 'headset: true' at the view was "
+          "expected",
+          options.launch_file);
     return run;
   }
   for (const std::string& view : views) {

@@ -15,8 +15,9 @@ struct ViewOptions {
   std::optional<double> duration_s;
 };
 
-// The run that shows it. Where the launch file gives the screen's view to a host: that host's part of the run, which waits for the clock;
-// otherwise the whole run, with this one of its views alone. Wrong input where no view, or none with that screen, is in the launch file.
+// The run that shows it. Where the launch file gives the screen's view to a host: that host's part of the run, which
+// waits for the clock; otherwise the whole run, with this one of its views alone. Wrong input where no view, or none
+// with that screen, is in the launch file.
 base::Result<RunOptions> RunOf(const ViewOptions& options);
 
 // The exit status of the program comes back.

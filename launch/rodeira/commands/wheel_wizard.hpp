@@ -12,7 +12,8 @@
 
 namespace rodeira::cli {
 
-// Setting up a wheel, whoever shows it, a terminal or a window: reads the devices, asks for one movement after the other, writes the file.
+// Setting up a wheel, whoever shows it, a terminal or a window: reads the devices, asks for one movement after the
+// other, writes the file.
 class WheelWizard {
  public:
   static constexpr int kMovements = 6;         // at most
@@ -21,8 +22,8 @@ class WheelWizard {
   // With all devices that are plugged in now. Wrong input where there is none.
   static base::Result<std::unique_ptr<WheelWizard>> Begin();
 
-  // What the devices say now, dt_s after the step before. Failed where nothing that was asked for has happened for kPatience_s, or no
-  // device is there any more.
+  // What the devices say now, dt_s after the step before. Failed where nothing that was asked for has happened for
+  // kPatience_s, or no device is there any more.
   base::Status Step(double dt_s);
   bool done() const { return setup_.stage() == input_devices::WheelSetup::Stage::kDone; }
 
@@ -34,8 +35,8 @@ class WheelWizard {
   const std::vector<nodes::JoystickInfo>& devices() const { return connected_; }
   const std::vector<input_devices::DeviceReading>& readings() const { return readings_; }
 
-  // Once done: the file that was written, `out` or the user's by the steering wheel's GUID. `lock_deg`: of the car's steering wheel where the
-  // device's is at its end.
+  // Once done: the file that was written, `out` or the user's by the steering wheel's GUID. `lock_deg`: of the car's
+  // steering wheel where the device's is at its end.
   base::Result<std::filesystem::path> Write(const std::optional<std::filesystem::path>& out, double lock_deg) const;
 
  private:

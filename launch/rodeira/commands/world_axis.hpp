@@ -15,8 +15,8 @@ struct AxisName {
 };
 std::optional<AxisName> AxisNameOf(std::string_view text);
 
-// The axis of a world's road as a chain of points with heights, `step_m` apart (the last piece may be shorter). Wrong input where the world
-// cannot be read or has no such road (with the nearest name).
+// The axis of a world's road as a chain of points with heights, `step_m` apart (the last piece may be shorter). Wrong
+// input where the world cannot be read or has no such road (with the nearest name).
 base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m);
 
 }  // namespace rodeira::cli

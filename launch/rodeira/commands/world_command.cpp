@@ -33,12 +33,15 @@ int Complain(const base::Error& error) {
   return error.exit_status();
 }
 
-// Lights that are green together where their ways cross, which a run that has traffic refuses. What cannot be read is told elsewhere.
+// Lights that are green together where their ways cross, which a run that has traffic refuses. What cannot be read is
+// told elsewhere.
 int CheckLights(const std::string& world_file) {
   const auto world = road::World::Load(world_file);
   if (!world || world.value()->network() == nullptr) return 0;
   const auto controllers = world.value()->network()->controllers();
-  if (std::none_of(controllers.begin(), controllers.end(), [](const network::Controller& controller) { return controller.times.has_value(); })) return 0;
+  if (std::none_of(controllers.begin(), controllers.end(),
+                   [](const network::Controller& controller) { return controller.times.has_value(); }))
+    return 0;
   const lanes::Graph graph(*world.value()->network());
   const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
   return status ? 0 : Complain(status.error());
@@ -67,14 +70,18 @@ int CheckBuilt(const WorldOptions& options) {
   if (!problems.empty()) return problems.front().exit_status();
   std::error_code none;
   const bool is_seen = std::filesystem::exists(folder / nodes::kManifest, none);
-  fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest, is_seen ? fmt::format(" and '{}'", nodes::kManifest) : "");
+  fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest,
+             is_seen ? fmt::format(" and '{}'", nodes::kManifest) : "");
   return 0;
 }
 
 // What is asked of the files of a world, which a traffic map is not.
 base::Error NoWorldFile(const WorldOptions& options) {
   const std::string name = std::filesystem::path(options.world_file).stem().string();
-  return base::WrongInput(fmt::format("this is a traffic map; `rodeira map convert {} -o {}.yaml` makes a world file of it, -o {}.xodr an OpenDRIVE file", options.world_file, name, name), options.world_file);
+  return base::WrongInput(fmt::format("this is a traffic map; `rodeira map convert {} -o {}.yaml` makes a world file "
+                                      "of it, -o {}.xodr an OpenDRIVE file",
+                                      options.world_file, name, name),
+                          options.world_file);
 }
 
 int Check(const WorldOptions& options) {
@@ -82,7 +89,8 @@ int Check(const WorldOptions& options) {
   if (std::filesystem::is_directory(options.world_file, none)) return CheckBuilt(options);
   if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
   if (options.strict) return Complain(base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
-  for (const std::string& warning : road::WorldWarnings(options.world_file)) fmt::print(stderr, "rodeira: warning: {}\n", warning);
+  for (const std::string& warning : road::WorldWarnings(options.world_file))
+    fmt::print(stderr, "rodeira: warning: {}\n", warning);
   const auto problems = road::WorldProblems(options.world_file);
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
@@ -98,7 +106,8 @@ int Written(const std::filesystem::path& file, const base::Status& status) {
 }
 
 // The OpenDRIVE file of a world that is one, with its measured surfaces, which are added to `files`.
-int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy, std::vector<std::filesystem::path>& files) {
+int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy,
+                  std::vector<std::filesystem::path>& files) {
   const auto text = base::ReadText(file);
   if (!text) return Complain(text.error());
   const auto warnings = road::CopyMeasured(file, copy, &files);
@@ -137,17 +146,19 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
   if (!options.quiet && ::isatty(STDERR_FILENO) != 0) {
     database.progress = [](std::size_t done, std::size_t of) {
       constexpr std::size_t kWidth = 40;
-      fmt::print(stderr, "\r[{:<{}}] {} of {} tiles{}", std::string(done * kWidth / of, '='), kWidth, done, of, done == of ? "\n" : "");
+      fmt::print(stderr, "\r[{:<{}}] {} of {} tiles{}", std::string(done * kWidth / of, '='), kWidth, done, of,
+                 done == of ? "\n" : "");
     };
   }
   const auto report = nodes::WriteDatabase(world, database);
   if (!report) return Complain(report.error());
-  fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(), report.value().tiles, report.value().built,
-             report.value().tiles - report.value().built);
+  fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(),
+             report.value().tiles, report.value().built, report.value().tiles - report.value().built);
   return 0;
 }
 
-// What is seen, where the roads are not of version 1; the roads as OpenDRIVE; the world file with all that it names; and a list of all these but what is seen.
+// What is seen, where the roads are not of version 1; the roads as OpenDRIVE; the world file with all that it names;
+// and a list of all these but what is seen.
 int Build(const WorldOptions& options) {
   const auto loaded = road::World::Load(options.world_file);
   if (!loaded) return Complain(loaded.error());
@@ -157,12 +168,15 @@ int Build(const WorldOptions& options) {
   if (!road::IsOpenDrive(options.world_file)) {
     if (const int status = WriteWorldFile(options, world, files); status != 0) return status;
   }
-  if (const std::string why = road::WhyNoTiles(world); !why.empty()) fmt::print(stderr, "rodeira: warning: {}: {}\n", options.world_file, why);
-  else if (const int status = BuildDatabase(options, world); status != 0) return status;
+  if (const std::string why = road::WhyNoTiles(world); !why.empty())
+    fmt::print(stderr, "rodeira: warning: {}: {}\n", options.world_file, why);
+  else if (const int status = BuildDatabase(options, world); status != 0)
+    return status;
   if (world.network() != nullptr && !world.network()->roads().empty()) {
     std::error_code problem;
     std::filesystem::create_directories(out, problem);
-    const int status = world.open_drive() ? CopyOpenDrive(road::OpenDriveOf(options.world_file), copy, files) : Written(copy, road::WriteOpenDrive(world, copy));
+    const int status = world.open_drive() ? CopyOpenDrive(road::OpenDriveOf(options.world_file), copy, files)
+                                          : Written(copy, road::WriteOpenDrive(world, copy));
     if (status != 0) return status;
     files.emplace_back("world.xodr");
     for (const auto& measured : std::filesystem::directory_iterator(out / "world_surfaces", problem)) {
@@ -178,21 +192,26 @@ int Build(const WorldOptions& options) {
 
 int World(const WorldOptions& options) {
   if (options.command == "check") return Check(options);
-  if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export")) return Complain(NoWorldFile(options));
+  if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export"))
+    return Complain(NoWorldFile(options));
   if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {
     const auto status = road::WriteOpenDrive(*world.value(), options.out);
-    if (!status) return Complain(status.error().context.empty() ? base::WrongInput(status.error().message, options.world_file) : status.error());
+    if (!status)
+      return Complain(status.error().context.empty() ? base::WrongInput(status.error().message, options.world_file)
+                                                     : status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }
   if (options.command == "map" && world) {
-    if (auto status = base::WriteWhole(options.out, road::PlotWorld(*world.value())); !status) return Complain(status.error());
+    if (auto status = base::WriteWhole(options.out, road::PlotWorld(*world.value())); !status)
+      return Complain(status.error());
     fmt::print("wrote {}\n", options.out);
     if (options.profile.empty()) return 0;
     const std::string profile = road::PlotProfiles(*world.value());
-    if (profile.empty()) return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (profile.empty())
+      return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
     if (auto status = base::WriteWhole(options.profile, profile); !status) return Complain(status.error());
     fmt::print("wrote {}\n", options.profile);
     return 0;
@@ -209,10 +228,12 @@ int World(const WorldOptions& options) {
     return 0;
   }
   fmt::print("{}", road::DescribeWorld(*world.value()));
-  for (const auto& [file, drawn] : {std::pair(options.svg, &road::PlotWorld), std::pair(options.profile, &road::PlotProfiles)}) {
+  for (const auto& [file, drawn] :
+       {std::pair(options.svg, &road::PlotWorld), std::pair(options.profile, &road::PlotProfiles)}) {
     if (file.empty()) continue;
     const std::string svg = drawn(*world.value());
-    if (svg.empty()) return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (svg.empty())
+      return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
     if (auto status = base::WriteWhole(file, svg); !status) return Complain(status.error());
     fmt::print("wrote {}\n", file);
   }

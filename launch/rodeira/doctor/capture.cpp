@@ -46,8 +46,10 @@ int WaitOrKill(pid_t pid, WallClock::time_point until, bool& too_late) {
     if (ended == pid || (ended < 0 && errno != EINTR)) return status;
     if (too_late) continue;
     too_late = WallClock::now() >= until;
-    if (too_late) ::kill(pid, SIGKILL);
-    else ::usleep(1000);
+    if (too_late)
+      ::kill(pid, SIGKILL);
+    else
+      ::usleep(1000);
   }
 }
 

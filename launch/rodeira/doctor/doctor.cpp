@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/user_folders.hpp"
+#include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/doctor/built_with.hpp"
 #include "launch/rodeira/doctor/doctor_gl.hpp"
 #include "launch/rodeira/doctor/doctor_machine.hpp"
 #include "launch/rodeira/doctor/doctor_network.hpp"
 #include "launch/rodeira/interrupt.hpp"
-#include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/run/processes.hpp"
-#include "common/core/base/user_folders.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
 namespace rodeira::cli {
@@ -26,7 +26,8 @@ using Check = std::function<Finding()>;
 
 Finding LookForJoysticks() {
   auto joysticks = nodes::Joysticks::Start();
-  if (!joysticks) return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
+  if (!joysticks)
+    return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
   joysticks.value()->Update();
   return CheckJoysticks(joysticks.value()->Connected());
 }
@@ -56,22 +57,32 @@ std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transp
 }
 
 std::string Summary(std::span<const Finding> findings) {
-  const auto count = [&](Verdict verdict) { return std::count_if(findings.begin(), findings.end(), [verdict](const Finding& f) { return f.verdict == verdict; }); };
+  const auto count = [&](Verdict verdict) {
+    return std::count_if(findings.begin(), findings.end(),
+                         [verdict](const Finding& f) { return f.verdict == verdict; });
+  };
   const auto faults = count(Verdict::kFault);
   const auto warnings = count(Verdict::kWarning);
-  const auto number = [](auto n, const char* what) { return n == 0 ? fmt::format("no {}", what) : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  const auto number = [](auto n, const char* what) {
+    return n == 0 ? fmt::format("no {}", what) : fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
   return fmt::format("{}, {}\n", number(faults, "fault"), number(warnings, "warning"));
 }
 
 }  // namespace
 
 std::string FindingLine(const Finding& finding) {
-  const char* word = finding.verdict == Verdict::kOk ? "ok" : finding.verdict == Verdict::kWarning ? "warning" : "fault";
+  const char* word = finding.verdict == Verdict::kOk        ? "ok"
+                     : finding.verdict == Verdict::kWarning ? "warning"
+                                                            : "fault";
   return fmt::format("{:<7}  {:<17}  {}\n", word, finding.check, finding.sentence);
 }
 
 int StatusOf(std::span<const Finding> findings) {
-  return std::any_of(findings.begin(), findings.end(), [](const Finding& finding) { return finding.verdict == Verdict::kFault; }) ? 1 : 0;
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.verdict == Verdict::kFault; })
+             ? 1
+             : 0;
 }
 
 int Doctor(const DoctorOptions& options) {

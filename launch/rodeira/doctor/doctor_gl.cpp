@@ -61,30 +61,47 @@ std::vector<EGLDisplay> Displays(Gl& gl) {
   std::vector<EGLDisplay> displays;
   std::array<EGLDeviceEXT, 16> devices{};
   EGLint count = 0;
-  if (gl.Call<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT", static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE) {
+  if (gl.Call<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT", static_cast<EGLint>(devices.size()), devices.data(),
+                                         &count) == EGL_TRUE) {
     for (EGLint i = 0; i < count; ++i) {
-      displays.push_back(gl.Call<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT", EGLenum{EGL_PLATFORM_DEVICE_EXT}, devices[static_cast<std::size_t>(i)],
-                                                                  static_cast<const EGLint*>(nullptr)));
+      displays.push_back(gl.Call<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+          "eglGetPlatformDisplayEXT", EGLenum{EGL_PLATFORM_DEVICE_EXT}, devices[static_cast<std::size_t>(i)],
+          static_cast<const EGLint*>(nullptr)));
     }
   }
-  displays.push_back(gl.Call<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT", EGLenum{EGL_PLATFORM_SURFACELESS_MESA}, static_cast<void*>(EGL_DEFAULT_DISPLAY),
-                                                              static_cast<const EGLint*>(nullptr)));
+  displays.push_back(gl.Call<PFNEGLGETPLATFORMDISPLAYEXTPROC>(
+      "eglGetPlatformDisplayEXT", EGLenum{EGL_PLATFORM_SURFACELESS_MESA}, static_cast<void*>(EGL_DEFAULT_DISPLAY),
+      static_cast<const EGLint*>(nullptr)));
   displays.push_back(RODEIRA_GL(gl, eglGetDisplay, EGL_DEFAULT_DISPLAY));
   std::erase(displays, EGL_NO_DISPLAY);
   return displays;
 }
 
 base::Status MakeContext(Gl& gl, EGLDisplay display) {
-  const auto failed = [&](const char* what) { return base::Failed(fmt::format("{} failed (0x{:x})", what, RODEIRA_GL(gl, eglGetError))); };
+  const auto failed = [&](const char* what) {
+    return base::Failed(fmt::format("{} failed (0x{:x})", what, RODEIRA_GL(gl, eglGetError)));
+  };
   EGLint major = 0;
   EGLint minor = 0;
   if (RODEIRA_GL(gl, eglInitialize, display, &major, &minor) != EGL_TRUE) return failed("eglInitialize");
   if (RODEIRA_GL(gl, eglBindAPI, EGLenum{EGL_OPENGL_API}) != EGL_TRUE) return failed("eglBindAPI(EGL_OPENGL_API)");
-  const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8,
-                           EGL_BLUE_SIZE,    8,               EGL_DEPTH_SIZE,      24,             EGL_NONE};
+  const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                           EGL_PBUFFER_BIT,
+                           EGL_RENDERABLE_TYPE,
+                           EGL_OPENGL_BIT,
+                           EGL_RED_SIZE,
+                           8,
+                           EGL_GREEN_SIZE,
+                           8,
+                           EGL_BLUE_SIZE,
+                           8,
+                           EGL_DEPTH_SIZE,
+                           24,
+                           EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;
-  if (RODEIRA_GL(gl, eglChooseConfig, display, wanted, &config, EGLint{1}, &found) != EGL_TRUE || found < 1) return failed("eglChooseConfig for a pbuffer with 24 bits of depth");
+  if (RODEIRA_GL(gl, eglChooseConfig, display, wanted, &config, EGLint{1}, &found) != EGL_TRUE || found < 1)
+    return failed("eglChooseConfig for a pbuffer with 24 bits of depth");
   const EGLint size[] = {EGL_WIDTH, kSize, EGL_HEIGHT, kSize, EGL_NONE};
   const EGLSurface surface = RODEIRA_GL(gl, eglCreatePbufferSurface, display, config, size);
   if (surface == EGL_NO_SURFACE) return failed("eglCreatePbufferSurface");
@@ -97,10 +114,12 @@ base::Status MakeContext(Gl& gl, EGLDisplay display) {
 
 base::Status UseShaders(Gl& gl) {
   const GLuint program = gl.Call<PFNGLCREATEPROGRAMPROC>("glCreateProgram");
-  for (const auto& [kind, text] : {std::pair(GLenum{GL_VERTEX_SHADER}, kVertexShader), std::pair(GLenum{GL_FRAGMENT_SHADER}, kFragmentShader)}) {
+  for (const auto& [kind, text] :
+       {std::pair(GLenum{GL_VERTEX_SHADER}, kVertexShader), std::pair(GLenum{GL_FRAGMENT_SHADER}, kFragmentShader)}) {
     const GLuint shader = gl.Call<PFNGLCREATESHADERPROC>("glCreateShader", kind);
     const GLchar* source = text;
-    gl.Call<PFNGLSHADERSOURCEPROC>("glShaderSource", shader, GLsizei{1}, static_cast<const GLchar* const*>(&source), static_cast<const GLint*>(nullptr));
+    gl.Call<PFNGLSHADERSOURCEPROC>("glShaderSource", shader, GLsizei{1}, static_cast<const GLchar* const*>(&source),
+                                   static_cast<const GLint*>(nullptr));
     gl.Call<PFNGLCOMPILESHADERPROC>("glCompileShader", shader);
     gl.Call<PFNGLATTACHSHADERPROC>("glAttachShader", program, shader);
   }
@@ -125,12 +144,16 @@ base::Status Draw(Gl& gl) {
   RODEIRA_GL(gl, glEnd);
   std::array<unsigned char, 4> inside{};
   std::array<unsigned char, 4> outside{};
-  RODEIRA_GL(gl, glReadPixels, kSize / 4, kSize / 4, 1, 1, GLenum{GL_RGBA}, GLenum{GL_UNSIGNED_BYTE}, static_cast<void*>(inside.data()));
-  RODEIRA_GL(gl, glReadPixels, 3 * kSize / 4, 3 * kSize / 4, 1, 1, GLenum{GL_RGBA}, GLenum{GL_UNSIGNED_BYTE}, static_cast<void*>(outside.data()));
+  RODEIRA_GL(gl, glReadPixels, kSize / 4, kSize / 4, 1, 1, GLenum{GL_RGBA}, GLenum{GL_UNSIGNED_BYTE},
+             static_cast<void*>(inside.data()));
+  RODEIRA_GL(gl, glReadPixels, 3 * kSize / 4, 3 * kSize / 4, 1, 1, GLenum{GL_RGBA}, GLenum{GL_UNSIGNED_BYTE},
+             static_cast<void*>(outside.data()));
   if (!gl.missing().empty()) return base::Failed(fmt::format("OpenGL has no {}", gl.missing()));
   if (std::memcmp(inside.data(), "\0\xFF\0", 3) != 0 || std::memcmp(outside.data(), "\0\0\xFF", 3) != 0) {
-    return base::Failed(fmt::format("a drawn pixel is ({}, {}, {}) where (0, 255, 0) was expected, and beside it ({}, {}, {}) instead of (0, 0, 255)", inside[0], inside[1],
-                                    inside[2], outside[0], outside[1], outside[2]));
+    return base::Failed(
+        fmt::format("a drawn pixel is ({}, {}, {}) where (0, 255, 0) was expected, and beside it ({}, {}, {}) instead "
+                    "of (0, 0, 255)",
+                    inside[0], inside[1], inside[2], outside[0], outside[1], outside[2]));
   }
   return {};
 }
@@ -184,7 +207,8 @@ Finding CheckGl(const GlSettings& settings) {
   std::string why = LineWith(drawing.output, "fault");
   if (drawing.too_late) why = "drawing took more than 30 s";
   if (!drawing.status && !drawing.too_late) why = "the driver crashed";
-  return Fault("GL", fmt::format("no off-screen picture can be drawn: {}; without it the view node cannot run: {}", why, kInstall));
+  return Fault("GL", fmt::format("no off-screen picture can be drawn: {}; without it the view node cannot run: {}", why,
+                                 kInstall));
 }
 
 }  // namespace rodeira::cli

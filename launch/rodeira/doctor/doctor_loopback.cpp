@@ -1,4 +1,5 @@
-// Two processes that talk over DDS, for CheckLoopBack: with both ends in one process Fast DDS would pass the transport by.
+// Two processes that talk over DDS, for CheckLoopBack: with both ends in one process Fast DDS would pass the transport
+// by.
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
@@ -31,7 +32,9 @@ namespace topics = idl::topics;
 constexpr int kPoints = 4;  // a car's wheels
 constexpr auto kStartPatience = 20s;
 
-const char* Word(launch::Transport transport) { return transport == launch::Transport::kSharedMemory ? "shared_memory" : "udp"; }
+const char* Word(launch::Transport transport) {
+  return transport == launch::Transport::kSharedMemory ? "shared_memory" : "udp";
+}
 
 // Payloads move from the listener to whoever waits for them.
 class Queue {
@@ -70,7 +73,8 @@ struct End {
     auto made_writer = participant->MakeWriter(out, dds::Delivery::kSaidAgain);
     if (!made_writer) return made_writer.error();
     writer = std::move(made_writer).value();
-    auto made_reader = participant->MakeReader(in, dds::Delivery::kSaidAgain, [this](base::Bytes&& bytes) { queue.Push(std::move(bytes)); });
+    auto made_reader = participant->MakeReader(in, dds::Delivery::kSaidAgain,
+                                               [this](base::Bytes&& bytes) { queue.Push(std::move(bytes)); });
     if (!made_reader) return made_reader.error();
     reader = std::move(made_reader).value();
     return {};
@@ -104,8 +108,10 @@ base::Status Ask(End& end, std::uint64_t number, bool again, const LoopBackSetti
     }
   }
   if (settings.cancelled()) return base::Failed("stopped by a signal");
-  return base::Failed(fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:g} s", number, settings.round_trips,
-                                  Word(settings.transport), settings.domain, std::chrono::duration<double>(settings.patience).count()));
+  return base::Failed(
+      fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:g} s", number,
+                  settings.round_trips, Word(settings.transport), settings.domain,
+                  std::chrono::duration<double>(settings.patience).count()));
 }
 
 // Until the partner has said "ready" on its standard output.
@@ -123,7 +129,8 @@ base::Status WaitUntilReady(Child& partner, const LoopBackSettings& settings) {
   }
   if (settings.cancelled()) return base::Failed("stopped by a signal");
   const std::string sentence = said.substr(0, said.find('\n'));
-  return base::Failed(fmt::format("the second process ({}) did not become ready{}{}", settings.program, sentence.empty() ? "" : ": ", sentence));
+  return base::Failed(fmt::format("the second process ({}) did not become ready{}{}", settings.program,
+                                  sentence.empty() ? "" : ": ", sentence));
 }
 
 base::Result<LoopBack> Measure(End& end, const LoopBackSettings& settings) {
@@ -146,11 +153,15 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   const std::string run = fmt::format("doctor-{:08x}{:08x}", device(), device());
   const auto before = SharedMemoryFiles();
   base::Result<LoopBack> measured = base::Failed("not measured");
-  auto partner = Child::Start("doctor", {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain), "--transport", Word(settings.transport)}, true);
+  auto partner = Child::Start("doctor",
+                              {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain),
+                               "--transport", Word(settings.transport)},
+                              true);
   if (!partner) return partner.error();
   {
     End end;
-    base::Status status = end.Open({settings.domain, run, "doctor", settings.transport, {}, false}, topics::kGroundRequest, topics::kGroundReply);
+    base::Status status = end.Open({settings.domain, run, "doctor", settings.transport, {}, false},
+                                   topics::kGroundRequest, topics::kGroundReply);
     if (status.ok()) status = WaitUntilReady(partner.value(), settings);
     measured = status.ok() ? Measure(end, settings) : base::Result<LoopBack>(status.error());
   }
@@ -167,7 +178,9 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
 int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transport transport) {
   ::signal(SIGTERM, SIG_IGN);  // the end of standard input ends it, with nothing left in shared memory
   End end;
-  if (auto status = end.Open({domain, run, "doctor's second process", transport, {}, false}, topics::kGroundReply, topics::kGroundRequest); !status) {
+  if (auto status = end.Open({domain, run, "doctor's second process", transport, {}, false}, topics::kGroundReply,
+                             topics::kGroundRequest);
+      !status) {
     fmt::print("{}\n", status.error().Text());
     return status.error().exit_status();
   }

@@ -90,7 +90,8 @@ std::vector<DebianPackage> ParsePackages(std::string_view text) {
   for (std::string line; std::getline(lines, line);) {
     const auto mark = line.find('#');
     const std::string name = line.substr(0, line.find_first_of(" \t#"));
-    if (!name.empty()) packages.push_back({name, mark != std::string::npos && line.find("to run", mark) != std::string::npos});
+    if (!name.empty())
+      packages.push_back({name, mark != std::string::npos && line.find("to run", mark) != std::string::npos});
   }
   return packages;
 }
@@ -98,26 +99,33 @@ std::vector<DebianPackage> ParsePackages(std::string_view text) {
 Finding CheckPackages(const std::vector<DebianPackage>& packages, const std::string& dpkg_query) {
   const std::string check = "packages";
   if (::access(dpkg_query.c_str(), X_OK) != 0) {
-    return Warning(check, fmt::format("there is no {}: this is no Debian, and what tools/packages.txt names cannot be looked up", dpkg_query));
+    return Warning(
+        check, fmt::format("there is no {}: this is no Debian, and what tools/packages.txt names cannot be looked up",
+                           dpkg_query));
   }
   std::vector<std::string> command{dpkg_query, "-W", "-f", "is ${Package} ${Status}\n"};
   for (const DebianPackage& package : packages) command.push_back(package.name);
   const Captured asked = CaptureProgram(command, 20s);
-  if (asked.status != 0 && asked.status != 1) return Warning(check, fmt::format("{} says nothing: {}", dpkg_query, asked.FirstLine()));
+  if (asked.status != 0 && asked.status != 1)
+    return Warning(check, fmt::format("{} says nothing: {}", dpkg_query, asked.FirstLine()));
   std::set<std::string> installed;
   std::istringstream lines(asked.output);
   for (std::string line; std::getline(lines, line);) {
     constexpr std::string_view kInstalled = " install ok installed";
-    if (line.starts_with("is ") && line.ends_with(kInstalled)) installed.insert(line.substr(3, line.size() - 3 - kInstalled.size()));
+    if (line.starts_with("is ") && line.ends_with(kInstalled))
+      installed.insert(line.substr(3, line.size() - 3 - kInstalled.size()));
   }
   std::vector<std::string> to_run;
   std::vector<std::string> to_build;
   for (const DebianPackage& package : packages) {
     if (!installed.contains(package.name)) (package.to_run ? to_run : to_build).push_back(package.name);
   }
-  if (!to_run.empty()) return Fault(check, fmt::format("{} not installed: sudo apt-get install {}", to_run.size() == 1 ? "a package is" : "packages are", fmt::join(to_run, " ")));
+  if (!to_run.empty())
+    return Fault(check, fmt::format("{} not installed: sudo apt-get install {}",
+                                    to_run.size() == 1 ? "a package is" : "packages are", fmt::join(to_run, " ")));
   if (!to_build.empty()) {
-    return Warning(check, fmt::format("enough to run; not installed, to build and test: {} (tools/install does it)", fmt::join(to_build, " ")));
+    return Warning(check, fmt::format("enough to run; not installed, to build and test: {} (tools/install does it)",
+                                      fmt::join(to_build, " ")));
   }
   return Ok(check, fmt::format("all {} of tools/packages.txt are installed", packages.size()));
 }
@@ -125,20 +133,27 @@ Finding CheckPackages(const std::vector<DebianPackage>& packages, const std::str
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder) {
   std::vector<std::string> problems;
   for (const std::string& program : programs) {
-    if (const std::string problem = ProblemOf(folder / program); !problem.empty()) problems.push_back(program + " " + problem);
+    if (const std::string problem = ProblemOf(folder / program); !problem.empty())
+      problems.push_back(program + " " + problem);
   }
-  if (problems.empty()) return Ok("programs", fmt::format("{} in {} start", fmt::join(programs, ", "), folder.string()));
-  return Fault("programs", fmt::format("in {}: {}; build again (ninja -C build) or copy the whole folder", folder.string(), fmt::join(problems, ", ")));
+  if (problems.empty())
+    return Ok("programs", fmt::format("{} in {} start", fmt::join(programs, ", "), folder.string()));
+  return Fault("programs", fmt::format("in {}: {}; build again (ninja -C build) or copy the whole folder",
+                                       folder.string(), fmt::join(problems, ", ")));
 }
 
 Finding CheckMathematics(bool fixed, base::Digest digest) {
   const std::string check = "mathematics";
   if (!fixed) {
-    return Fault(check, fmt::format("the mathematics library chose its code by this processor (digest {}): runs will not give the same bits elsewhere; "
-                                    "set GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 before the start (is /proc mounted?)", base::Hex(digest)));
+    return Fault(
+        check, fmt::format("the mathematics library chose its code by this processor (digest {}): runs will not give "
+                           "the same bits elsewhere; "
+                           "set GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-FMA4,-AVX2 before the start (is /proc mounted?)",
+                           base::Hex(digest)));
   }
   if (digest == kDebian12Mathematics) return Ok(check, fmt::format("digest {}, that of Debian 12", base::Hex(digest)));
-  return Warning(check, fmt::format("digest {} (glibc {}), that of Debian 12 is {}: only PCs with the same digest can share a run or compare digests",
+  return Warning(check, fmt::format("digest {} (glibc {}), that of Debian 12 is {}: only PCs with the same digest can "
+                                    "share a run or compare digests",
                                     base::Hex(digest), ::gnu_get_libc_version(), base::Hex(kDebian12Mathematics)));
 }
 
@@ -148,13 +163,18 @@ Finding CheckSockets(const std::filesystem::path& proc) {
   std::string found;
   for (const char* name : {"rmem_max", "wmem_max"}) {
     const auto bytes = NumberIn(proc / "sys/net/core" / name);
-    if (!bytes) return Warning(check, fmt::format("{} cannot be read; at least {} bytes were expected there", (proc / "sys/net/core" / name).string(), kSocketBufferBytes));
+    if (!bytes)
+      return Warning(check, fmt::format("{} cannot be read; at least {} bytes were expected there",
+                                        (proc / "sys/net/core" / name).string(), kSocketBufferBytes));
     found += fmt::format("{}net.core.{} is {}", found.empty() ? "" : ", ", name, *bytes);
     if (*bytes < kSocketBufferBytes) small.push_back(fmt::format("net.core.{}=4194304", name));
   }
   if (small.empty()) return Ok(check, found);
-  return Warning(check, fmt::format("{}; at least {} were expected, or UDP between PCs loses samples and sends them again: sudo sysctl -w {}", found, kSocketBufferBytes,
-                                    fmt::join(small, " ")));
+  return Warning(
+      check,
+      fmt::format(
+          "{}; at least {} were expected, or UDP between PCs loses samples and sends them again: sudo sysctl -w {}",
+          found, kSocketBufferBytes, fmt::join(small, " ")));
 }
 
 DisplayPlace DisplayPlace::OfThisProcess() {
@@ -167,17 +187,24 @@ Finding CheckDisplay(const DisplayPlace& place) {
     return Ok(check, fmt::format("a window can be opened (WAYLAND_DISPLAY={})", place.wayland));
   }
   if (const auto number = LocalDisplay(place.x11)) {
-    if (Reaches(place.x11_sockets / fmt::format("X{}", *number))) return Ok(check, fmt::format("a window can be opened (DISPLAY={})", place.x11));
+    if (Reaches(place.x11_sockets / fmt::format("X{}", *number)))
+      return Ok(check, fmt::format("a window can be opened (DISPLAY={})", place.x11));
   } else if (!place.x11.empty()) {
-    return Ok(check, fmt::format("DISPLAY={} is another PC's; whether it lets us in shows when a window opens", place.x11));
+    return Ok(check,
+              fmt::format("DISPLAY={} is another PC's; whether it lets us in shows when a window opens", place.x11));
   }
-  if (place.x11.empty() && place.wayland.empty()) return Ok(check, "none (neither DISPLAY nor WAYLAND_DISPLAY is set): pictures are drawn off-screen");
-  return Warning(check, fmt::format("DISPLAY='{}' and WAYLAND_DISPLAY='{}' lead to no display server: pictures are drawn off-screen", place.x11, place.wayland));
+  if (place.x11.empty() && place.wayland.empty())
+    return Ok(check, "none (neither DISPLAY nor WAYLAND_DISPLAY is set): pictures are drawn off-screen");
+  return Warning(
+      check,
+      fmt::format("DISPLAY='{}' and WAYLAND_DISPLAY='{}' lead to no display server: pictures are drawn off-screen",
+                  place.x11, place.wayland));
 }
 
 Finding CheckCores(unsigned int cores) {
   if (cores >= 2) return Ok("cores", fmt::format("{} are there", cores));
-  return Warning("cores", fmt::format("{} was found; at least 2 were expected, or a run of several processes is slow", cores));
+  return Warning("cores",
+                 fmt::format("{} was found; at least 2 were expected, or a run of several processes is slow", cores));
 }
 
 Finding CheckMemory(const std::filesystem::path& proc) {
@@ -186,9 +213,11 @@ Finding CheckMemory(const std::filesystem::path& proc) {
     unsigned long long kib = 0;
     if (std::sscanf(line.c_str(), "MemAvailable: %llu kB", &kib) != 1) continue;
     const std::uint64_t bytes = kib * 1024;
-    if (bytes >= kMemoryBytes) return Ok("memory", fmt::format("{:.0f} MB are free", static_cast<double>(bytes) / kMega));
-    return Warning("memory", fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs", static_cast<double>(bytes) / kMega,
-                                         static_cast<double>(kMemoryBytes) / kMega));
+    if (bytes >= kMemoryBytes)
+      return Ok("memory", fmt::format("{:.0f} MB are free", static_cast<double>(bytes) / kMega));
+    return Warning("memory",
+                   fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs",
+                               static_cast<double>(bytes) / kMega, static_cast<double>(kMemoryBytes) / kMega));
   }
   return Warning("memory", fmt::format("{} does not say how much is free", (proc / "meminfo").string()));
 }
@@ -200,17 +229,24 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   while (!std::filesystem::exists(there, problem) && there.has_relative_path()) there = there.parent_path();
   struct statvfs info {};
   if (!std::filesystem::is_directory(there, problem)) {
-    return Fault(check, fmt::format("recordings go to {}, but {} is no folder; set XDG_DATA_HOME or name each by --record", folder.string(), there.string()));
+    return Fault(check,
+                 fmt::format("recordings go to {}, but {} is no folder; set XDG_DATA_HOME or name each by --record",
+                             folder.string(), there.string()));
   }
   std::string refused = WriteProblem(there);
   if (refused.empty() && ::statvfs(there.c_str(), &info) != 0) refused = std::strerror(errno);
   if (!refused.empty()) {
-    return Fault(check, fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record", folder.string(), there.string(), refused));
+    return Fault(
+        check,
+        fmt::format("recordings go to {}, but {} takes no files ({}); set XDG_DATA_HOME or name each by --record",
+                    folder.string(), there.string(), refused));
   }
   const std::uint64_t free_bytes = static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
-  const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(), static_cast<double>(free_bytes) / kMega);
+  const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(),
+                                        static_cast<double>(free_bytes) / kMega);
   if (free_bytes >= wanted_bytes) return Ok(check, found);
-  return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found, static_cast<double>(wanted_bytes) / kMega));
+  return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found,
+                                    static_cast<double>(wanted_bytes) / kMega));
 }
 
 }  // namespace rodeira::cli

@@ -24,7 +24,8 @@ struct DebianPackage {
 std::vector<DebianPackage> ParsePackages(std::string_view text);
 
 // Fault where one that a run needs is not installed, warning where only building lacks one or there is no dpkg.
-Finding CheckPackages(const std::vector<DebianPackage>& packages, const std::string& dpkg_query = "/usr/bin/dpkg-query");
+Finding CheckPackages(const std::vector<DebianPackage>& packages,
+                      const std::string& dpkg_query = "/usr/bin/dpkg-query");
 
 // Each of `programs` lies in `folder`, may be executed, and starts (answers --help).
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder);
@@ -39,9 +40,9 @@ Finding CheckSockets(const std::filesystem::path& proc = "/proc");
 
 // Information only: whether a window can be opened, by an attempt to reach the display server.
 struct DisplayPlace {
-  std::string x11;                                        // $DISPLAY
-  std::string wayland;                                    // $WAYLAND_DISPLAY
-  std::string runtime_folder;                             // $XDG_RUNTIME_DIR
+  std::string x11;             // $DISPLAY
+  std::string wayland;         // $WAYLAND_DISPLAY
+  std::string runtime_folder;  // $XDG_RUNTIME_DIR
   std::filesystem::path x11_sockets = "/tmp/.X11-unix";
   static DisplayPlace OfThisProcess();
 };

@@ -14,8 +14,8 @@ namespace {
 constexpr double kMega = 1e6;
 constexpr int kParticipants = 10;
 
-// The ports that RTPS reserves (DDSI-RTPS 2.2, 9.6.1.1): one each for the multicast of discovery and of samples, then two
-// a participant.
+// The ports that RTPS reserves (DDSI-RTPS 2.2, 9.6.1.1): one each for the multicast of discovery and of samples, then
+// two a participant.
 std::vector<int> PortsOf(std::uint32_t domain) {
   const int base = 7400 + 250 * static_cast<int>(domain);
   std::vector<int> ports{base, base + 1};
@@ -43,20 +43,30 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
   const std::string where = folder.string();
   std::error_code gone;
   if (!std::filesystem::is_directory(folder, gone)) {
-    return Fault(check, fmt::format("there is no folder {0}; a tmpfs was expected there: sudo mount -t tmpfs tmpfs {0}, or use transport: udp", where));
+    return Fault(
+        check,
+        fmt::format(
+            "there is no folder {0}; a tmpfs was expected there: sudo mount -t tmpfs tmpfs {0}, or use transport: udp",
+            where));
   }
   if (const std::string problem = WriteProblem(folder); !problem.empty()) {
-    return Fault(check, fmt::format("{0} takes no files ({1}); it was expected to be writable for everybody: sudo chmod 1777 {0}, or use transport: udp", where, problem));
+    return Fault(check, fmt::format("{0} takes no files ({1}); it was expected to be writable for everybody: sudo "
+                                    "chmod 1777 {0}, or use transport: udp",
+                                    where, problem));
   }
   struct statvfs info {};
-  const std::uint64_t free_bytes = ::statvfs(folder.c_str(), &info) == 0 ? static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize : 0;
+  const std::uint64_t free_bytes =
+      ::statvfs(folder.c_str(), &info) == 0 ? static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize : 0;
   const std::set<std::string> dead = DeadFiles({}, folder);
-  const std::string left = dead.empty() ? "" : fmt::format("{} file{} of dead processes of yours ({:.0f} MB) there: rodeira doctor --clean", dead.size(),
-                                                           dead.size() == 1 ? "" : "s", MegabytesOf(dead, folder));
+  const std::string left =
+      dead.empty() ? ""
+                   : fmt::format("{} file{} of dead processes of yours ({:.0f} MB) there: rodeira doctor --clean",
+                                 dead.size(), dead.size() == 1 ? "" : "s", MegabytesOf(dead, folder));
   const std::string found = fmt::format("{} has {:.0f} MB free", where, static_cast<double>(free_bytes) / kMega);
   if (free_bytes < wanted_bytes) {
-    return Fault(check, fmt::format("{}; at least {:.0f} MB were expected: {}", found, static_cast<double>(wanted_bytes) / kMega,
-                                    left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
+    return Fault(
+        check, fmt::format("{}; at least {:.0f} MB were expected: {}", found, static_cast<double>(wanted_bytes) / kMega,
+                           left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
   }
   if (!left.empty()) return Warning(check, fmt::format("{}; {}", found, left));
   return Ok(check, found);
@@ -68,8 +78,10 @@ Finding CheckPorts(std::uint32_t domain) {
   for (const int port : ports) {
     if (!dds::UdpPortIsFree(port)) taken.push_back(port);
   }
-  if (taken.empty()) return Ok("ports", fmt::format("UDP {} to {} (domain {}) are free", ports.front(), ports.back(), domain));
-  return Warning("ports", fmt::format("UDP {} (domain {}) {} taken by another program, maybe of the same domain; where that is not wanted, choose another --domain",
+  if (taken.empty())
+    return Ok("ports", fmt::format("UDP {} to {} (domain {}) are free", ports.front(), ports.back(), domain));
+  return Warning("ports", fmt::format("UDP {} (domain {}) {} taken by another program, maybe of the same domain; where "
+                                      "that is not wanted, choose another --domain",
                                       fmt::join(taken, ", "), domain, taken.size() == 1 ? "is" : "are"));
 }
 
@@ -78,11 +90,13 @@ Finding CheckLoopBack(const LoopBackSettings& settings) {
   const std::string check = shared ? "DDS shared memory" : "DDS udp";
   const auto measured = MeasureLoopBack(settings);
   if (!measured) {
-    return Fault(check, fmt::format("{}; {}", measured.error().Text(),
-                                    shared ? "look at 'shared memory' above, or use transport: udp"
-                                           : "is the loop-back interface up (ip link show lo), does a firewall drop UDP?"));
+    return Fault(check,
+                 fmt::format("{}; {}", measured.error().Text(),
+                             shared ? "look at 'shared memory' above, or use transport: udp"
+                                    : "is the loop-back interface up (ip link show lo), does a firewall drop UDP?"));
   }
-  return Ok(check, fmt::format("{} round trips between two processes, a batch of four ground points each: median {:.0f} us, 99 of 100 within {:.0f} us",
+  return Ok(check, fmt::format("{} round trips between two processes, a batch of four ground points each: median "
+                               "{:.0f} us, 99 of 100 within {:.0f} us",
                                settings.round_trips, measured.value().median_us, measured.value().worst_percent_us));
 }
 

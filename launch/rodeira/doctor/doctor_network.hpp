@@ -25,7 +25,7 @@ Finding CheckPorts(std::uint32_t domain);
 struct LoopBackSettings {
   launch::Transport transport = launch::Transport::kSharedMemory;
   std::uint32_t domain = 0;
-  std::string program;                       // `rodeira`, which answers in a process of its own
+  std::string program;  // `rodeira`, which answers in a process of its own
   int round_trips = 500;
   std::chrono::milliseconds patience{3000};  // for each answer
   std::function<bool()> cancelled = [] { return false; };

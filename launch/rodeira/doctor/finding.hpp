@@ -13,13 +13,19 @@ enum class Verdict {
 
 // What one check of `rodeira doctor` says.
 struct Finding {
-  std::string check;     // "shared memory"
+  std::string check;  // "shared memory"
   Verdict verdict = Verdict::kOk;
   std::string sentence;  // what was found and, where that is not well, what was expected and what to do
 };
 
-inline Finding Ok(std::string check, std::string sentence) { return {std::move(check), Verdict::kOk, std::move(sentence)}; }
-inline Finding Warning(std::string check, std::string sentence) { return {std::move(check), Verdict::kWarning, std::move(sentence)}; }
-inline Finding Fault(std::string check, std::string sentence) { return {std::move(check), Verdict::kFault, std::move(sentence)}; }
+inline Finding Ok(std::string check, std::string sentence) {
+  return {std::move(check), Verdict::kOk, std::move(sentence)};
+}
+inline Finding Warning(std::string check, std::string sentence) {
+  return {std::move(check), Verdict::kWarning, std::move(sentence)};
+}
+inline Finding Fault(std::string check, std::string sentence) {
+  return {std::move(check), Verdict::kFault, std::move(sentence)};
+}
 
 }  // namespace rodeira::cli

@@ -10,9 +10,9 @@
 #include "common/runtime/replay/recorded_node.hpp"
 #include "common/runtime/replay/splice.hpp"
 #include "launch/rodeira/replay/continued_node.hpp"
-#include "launch/rodeira/run/local_nodes.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -40,13 +40,20 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   const auto& roster = parent.roster();
   const double dt_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
   if (at < parent.branched_at()) {
-    return base::WrongInput(fmt::format("--from {:.3f} s was found, but this recording left its parent at {:.3f} s; what lies before is the parent's to branch from",
-                                        static_cast<double>(at) * dt_s, static_cast<double>(parent.branched_at()) * dt_s), parent.path().string());
+    return base::WrongInput(
+        fmt::format("--from {:.3f} s was found, but this recording left its parent at {:.3f} s; what lies before is "
+                    "the parent's to branch from",
+                    static_cast<double>(at) * dt_s, static_cast<double>(parent.branched_at()) * dt_s),
+        parent.path().string());
   }
-  const bool has_snapshots = std::any_of(roster.nodes().begin(), roster.nodes().end(), [](const auto& node) { return node.snapshots.has_value(); });
-  if (at == 0 && !has_snapshots) return base::WrongInput("--from 0 was found; a run without snapshots has no states at its beginning", parent.path().string());
+  const bool has_snapshots = std::any_of(roster.nodes().begin(), roster.nodes().end(),
+                                         [](const auto& node) { return node.snapshots.has_value(); });
+  if (at == 0 && !has_snapshots)
+    return base::WrongInput("--from 0 was found; a run without snapshots has no states at its beginning",
+                            parent.path().string());
   if (at < 0 || at > parent.last_step()) {
-    return base::WrongInput(fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s", static_cast<double>(at) * dt_s, static_cast<double>(parent.last_step()) * dt_s),
+    return base::WrongInput(fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s",
+                                        static_cast<double>(at) * dt_s, static_cast<double>(parent.last_step()) * dt_s),
                             parent.path().string());
   }
   Step common = 1;
@@ -54,8 +61,10 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
     if (node.role == lockstep::Role::kStepped && !node.is_sink()) common = std::lcm(common, node.period);
   }
   if (at % common != 0) {
-    return base::WrongInput(fmt::format("--from {:.3f} s was found; a branch begins where all nodes are activated, the nearest such time is {:.3f} s",
-                                        static_cast<double>(at) * dt_s, static_cast<double>(lockstep::FloorTo(at + common / 2, common)) * dt_s),
+    return base::WrongInput(fmt::format("--from {:.3f} s was found; a branch begins where all nodes are activated, the "
+                                        "nearest such time is {:.3f} s",
+                                        static_cast<double>(at) * dt_s,
+                                        static_cast<double>(lockstep::FloorTo(at + common / 2, common)) * dt_s),
                             parent.path().string());
   }
   return {};
@@ -64,8 +73,8 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
 using GoingOn = std::map<NodeIndex, ContinuedNode*>;
 
 // Each node's state for its new model, but for those that go on themselves; the names of those that had to take over.
-base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes, const GoingOn& go_on,
-                                             std::vector<Snapshot>& snapshots) {
+base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, const std::vector<lockstep::Node*>& nodes,
+                                             const GoingOn& go_on, std::vector<Snapshot>& snapshots) {
   std::vector<std::string> taken_over;
   for (NodeIndex n = 0; n < nodes.size(); ++n) {
     if (nodes[n] == nullptr || go_on.contains(n)) continue;
@@ -97,14 +106,18 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
 // The changes name the node, or one of its keys.
 bool IsNamed(const std::string& node, const launch::Overrides& changes) {
   const std::string own = "nodes." + node;
-  return std::any_of(changes.begin(), changes.end(), [&](const auto& change) { return change.first == own || change.first.starts_with(own + "."); });
+  return std::any_of(changes.begin(), changes.end(),
+                     [&](const auto& change) { return change.first == own || change.first.starts_with(own + "."); });
 }
 
 // Those without a state that the changes leave as they are.
-std::set<NodeIndex> Unchanged(const std::vector<NodeIndex>& without_state, const launch::Launch& launch, const launch::Overrides& changes) {
+std::set<NodeIndex> Unchanged(const std::vector<NodeIndex>& without_state, const launch::Launch& launch,
+                              const launch::Overrides& changes) {
   std::set<NodeIndex> unchanged;
-  const bool other_model = std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first.starts_with("vehicle"); });
-  if (std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first == "world"; })) return unchanged;
+  const bool other_model = std::any_of(changes.begin(), changes.end(),
+                                       [](const auto& change) { return change.first.starts_with("vehicle"); });
+  if (std::any_of(changes.begin(), changes.end(), [](const auto& change) { return change.first == "world"; }))
+    return unchanged;
   for (const NodeIndex n : without_state) {
     if (other_model && launch.node(n).kind->name == "vehicle") continue;
     if (!IsNamed(launch.node(n).name, changes)) unchanged.insert(n);
@@ -137,7 +150,8 @@ std::vector<std::string> NamesOf(const launch::Launch& launch, const std::vector
   return names;
 }
 
-base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchWish& wish, const std::filesystem::path& own) {
+base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchWish& wish,
+                                          const std::filesystem::path& own) {
   launch::Overrides changes = wish.changes;
   changes.emplace_back("nodes." + NodeOfKind(parent.launch(), "recorder") + ".config.file", "\"" + own.string() + "\"");
   if (!wish.with_view) return changes;
@@ -150,13 +164,17 @@ base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, con
 
 // As long as is wished, or as the changes say; otherwise as long as the parent.
 base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchWish& wish) {
-  const bool says = std::any_of(wish.changes.begin(), wish.changes.end(), [](const auto& change) { return change.first == "duration_s"; });
+  const bool says = std::any_of(wish.changes.begin(), wish.changes.end(),
+                                [](const auto& change) { return change.first == "duration_s"; });
   const auto duration_s = changed.launch().duration_s();
   if (wish.last_step || !says || !duration_s) return wish.last_step.value_or(changed.last_step());
-  const auto last_step = static_cast<Step>(std::llround(*duration_s * 1e9 / static_cast<double>(changed.roster().base_step_ns())));
+  const auto last_step =
+      static_cast<Step>(std::llround(*duration_s * 1e9 / static_cast<double>(changed.roster().base_step_ns())));
   if (last_step > wish.at) return last_step;
-  return base::WrongInput(fmt::format("duration_s = {} was found; the branch begins at {:.3f} s", *duration_s,
-                                      static_cast<double>(wish.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9), wish.parent);
+  return base::WrongInput(
+      fmt::format("duration_s = {} was found; the branch begins at {:.3f} s", *duration_s,
+                  static_cast<double>(wish.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9),
+      wish.parent);
 }
 
 }  // namespace
@@ -188,17 +206,21 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   const std::set<NodeIndex> unchanged = Unchanged(without_state.value(), launch, wish.changes);
   GoingOn go_on;
   launch::RunLogBoard log;
-  auto nodes = LocalNodes::Make(launch, [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
-    if (unchanged.contains(n)) {
-      auto continued = std::make_unique<ContinuedNode>();
-      go_on[n] = continued.get();
-      return continued;
-    }
-    if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, wish.at);
-    const std::string_view kind = launch.node(n).kind->name;
-    if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view")) return replay::MakeNullSink();
-    return nullptr;
-  }, &log);
+  auto nodes = LocalNodes::Make(
+      launch,
+      [&](NodeIndex n) -> std::unique_ptr<lockstep::Node> {
+        if (unchanged.contains(n)) {
+          auto continued = std::make_unique<ContinuedNode>();
+          go_on[n] = continued.get();
+          return continued;
+        }
+        if (is_replayed(n)) return replay::MakeRecordedNode(parent.value(), n, wish.at);
+        const std::string_view kind = launch.node(n).kind->name;
+        if (roster.node(n).is_sink() && kind != "recorder" && !(wish.with_view && kind == "view"))
+          return replay::MakeNullSink();
+        return nullptr;
+      },
+      &log);
   if (!nodes) return changed.value().Named(nodes.error());
 
   auto states = StatesAt(parent.value(), wish, outcome);
@@ -208,7 +230,8 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     if (is_replayed(n)) snapshots[n].state.clear();
   }
-  for (const auto& [n, continued] : go_on) continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
+  for (const auto& [n, continued] : go_on)
+    continued->Follow(*states.value().nodes->nodes()[n], states.value().last_published[n], roster);
   auto taken_over = Adapt(roster, nodes.value().nodes(), go_on, snapshots);
   if (!taken_over) return changed.value().Named(taken_over.error());
   outcome.taken_over = std::move(taken_over).value();
@@ -223,19 +246,25 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
-  const bool stopped_at_once = !ran.ok && ran.last_step < wish.at && stopped();  // a fault of nobody: no step was driven yet
-  if (!ran.ok && !stopped_at_once) return changed.value().Named(base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
+  const bool stopped_at_once =
+      !ran.ok && ran.last_step < wish.at && stopped();  // a fault of nobody: no step was driven yet
+  if (!ran.ok && !stopped_at_once)
+    return changed.value().Named(
+        base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   // What a person has driven cannot be driven again: it is kept.
   if (stopped_at_once || (stopped() && outcome.live.empty())) {
-    return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)), wish.parent);
+    return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)),
+                        wish.parent);
   }
   outcome.last_step = ran.last_step;
 
-  record::TextMap about{{"parent", std::filesystem::path(wish.parent).filename().string()},
-                        {"step", std::to_string(wish.at)},
-                        {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
+  record::TextMap about{
+      {"parent", std::filesystem::path(wish.parent).filename().string()},
+      {"step", std::to_string(wish.at)},
+      {"time_s", fmt::format("{}", static_cast<double>(wish.at) * static_cast<double>(roster.base_step_ns()) * 1e-9)}};
   for (const auto& [key, value] : wish.changes) about["change " + key] = value;
-  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording, outcome.live.empty() ? wish.stop_requested : std::function<bool()>());
+  if (auto status = replay::Splice(parent.value(), own, wish.at, about, wish.recording,
+                                   outcome.live.empty() ? wish.stop_requested : std::function<bool()>());
       !status)
     return status.error();
   return outcome;

@@ -13,14 +13,15 @@
 namespace rodeira::cli {
 
 struct BranchWish {
-  std::string parent;               // recording
-  lockstep::Step at = 0;            // base steps: where the branch leaves its parent
-  launch::Overrides changes;        // of the launch file
+  std::string parent;                       // recording
+  lockstep::Step at = 0;                    // base steps: where the branch leaves its parent
+  launch::Overrides changes;                // of the launch file
   std::optional<lockstep::Step> last_step;  // none: the parent's
-  std::string recording;            // the new file
-  std::function<bool()> stop_requested = {};  // it fails then, and there is no new file; driven by a person, it ends there
-  bool with_view = false;           // the launch file's view shows the branch as it is driven; otherwise it is not drawn
-  double pace = 0.0;                // of the branch behind T, as Pacer: 0 as fast as possible, 1 real time
+  std::string recording;                    // the new file
+  std::function<bool()> stop_requested =
+      {};                  // it fails then, and there is no new file; driven by a person, it ends there
+  bool with_view = false;  // the launch file's view shows the branch as it is driven; otherwise it is not drawn
+  double pace = 0.0;       // of the branch behind T, as Pacer: 0 as fast as possible, 1 real time
   std::function<std::optional<lockstep::Asked>()> next_command = {};  // of an operator, for the branch behind T
 };
 
@@ -28,20 +29,21 @@ struct BranchOutcome {
   lockstep::Step recomputed_from = 0;
   lockstep::Step at = 0;
   lockstep::Step last_step = 0;
-  std::vector<std::string> live;        // nodes that a person drove
-  std::vector<std::string> without_state;  // cannot save it: the parent was computed again from its first step
-  std::vector<std::string> taken_over;  // nodes whose model began from what the parent had published
-  std::string recorded_by_another;      // as RecordedByAnother, of the parent
+  std::vector<std::string> live;                 // nodes that a person drove
+  std::vector<std::string> without_state;        // cannot save it: the parent was computed again from its first step
+  std::vector<std::string> taken_over;           // nodes whose model began from what the parent had published
+  std::string recorded_by_another;               // as RecordedByAnother, of the parent
   std::optional<replay::Difference> difference;  // the parent could not be repeated: there is no branch then
 };
 
-// A run that is its parent up to a step and goes on with other settings from there (X4). The parent's nodes are computed
-// again from the snapshot before that step, every sample compared; then each node goes on with the changed configuration
-// from its state, or, where that does not fit another model, from what the parent had published (Node::TakeOver). Samples
-// valid up to the step are the parent's. A node that cannot save its state goes on itself, where the changes name neither it nor the
-// world; then it begins from what the parent had published. A node that takes live input (a wheel, a keyboard) is driven by a person where the
-// changes name it, `nodes.NAME.…`; otherwise by its recorded samples. Wrong input: a step outside the run or between two
-// activations of a node, changes that change the roster, a view where there is none.
+// A run that is its parent up to a step and goes on with other settings from there (X4). The parent's nodes are
+// computed again from the snapshot before that step, every sample compared; then each node goes on with the changed
+// configuration from its state, or, where that does not fit another model, from what the parent had published
+// (Node::TakeOver). Samples valid up to the step are the parent's. A node that cannot save its state goes on itself,
+// where the changes name neither it nor the world; then it begins from what the parent had published. A node that takes
+// live input (a wheel, a keyboard) is driven by a person where the changes name it, `nodes.NAME.…`; otherwise by its
+// recorded samples. Wrong input: a step outside the run or between two activations of a node, changes that change the
+// roster, a view where there is none.
 base::Result<BranchOutcome> Branch(const BranchWish& wish);
 // The names of the nodes that a person would drive, without computing anything.
 base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish);

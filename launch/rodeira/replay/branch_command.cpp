@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "common/runtime/launch/pace.hpp"
-#include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/interrupt.hpp"
-#include "launch/rodeira/run/operator.hpp"
+#include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
+#include "launch/rodeira/run/operator.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -31,7 +31,8 @@ bool IsFile(const std::string& text) {
 
 std::string Absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
 
-// A file is meant as seen from here, not from the recorded launch file; also within `{source: keyboard, keyboard: FILE}`.
+// A file is meant as seen from here, not from the recorded launch file; also within `{source: keyboard, keyboard:
+// FILE}`.
 std::string WithFilesFromHere(const std::string& value) {
   if (IsFile(value)) return "\"" + Absolute(value) + "\"";
   constexpr std::string_view kBetween = "{}[],: \"'";
@@ -47,14 +48,19 @@ std::string WithFilesFromHere(const std::string& value) {
 }
 
 base::Result<BranchWish> WishOf(const ReplayOptions& options) {
-  if (!options.from_s) return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
-  if (options.record.empty()) return base::WrongInput("--record is missing: into which file?", "rodeira replay --branch");
+  if (!options.from_s)
+    return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
+  if (options.record.empty())
+    return base::WrongInput("--record is missing: into which file?", "rodeira replay --branch");
   const auto parent = replay::RecordedRun::Open(options.file);
   if (!parent) return parent.error();
   const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());
   const auto steps = [&](double seconds) { return static_cast<Step>(std::llround(seconds * steps_a_second)); };
-  if (const double from = *options.from_s * steps_a_second; std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
-    return base::WrongInput(fmt::format("--from {} s was found; a multiple of the base step of {} s was expected", *options.from_s, 1.0 / steps_a_second), options.file);
+  if (const double from = *options.from_s * steps_a_second;
+      std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
+    return base::WrongInput(fmt::format("--from {} s was found; a multiple of the base step of {} s was expected",
+                                        *options.from_s, 1.0 / steps_a_second),
+                            options.file);
   }
   BranchWish wish;
   wish.parent = options.file;
@@ -73,13 +79,16 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options) {
 }
 
 void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
-  const std::string basis = outcome.recomputed_from == outcome.at ? fmt::format("the states recorded at step {}", outcome.at)
-                                                                  : fmt::format("repeated from step {} to {}, identical", outcome.recomputed_from, outcome.at);
+  const std::string basis =
+      outcome.recomputed_from == outcome.at
+          ? fmt::format("the states recorded at step {}", outcome.at)
+          : fmt::format("repeated from step {} to {}, identical", outcome.recomputed_from, outcome.at);
   fmt::print("parent    {} ({})\nbranch    steps {} to {}\n", options.file, basis, outcome.at, outcome.last_step);
   for (const auto& [key, value] : options.changes) fmt::print("changed   {} = {}\n", key, value);
   if (!outcome.without_state.empty()) fmt::print("{}", ComputedFromTheStart(outcome.without_state));
   if (!outcome.live.empty()) fmt::print("driven by a person: {}\n", fmt::join(outcome.live, ", "));
-  if (!outcome.taken_over.empty()) fmt::print("began from what was published: {}\n", fmt::join(outcome.taken_over, ", "));
+  if (!outcome.taken_over.empty())
+    fmt::print("began from what was published: {}\n", fmt::join(outcome.taken_over, ", "));
   fmt::print("wrote     {}\n", options.record);
 }
 
@@ -97,8 +106,8 @@ int MakeBranch(const ReplayOptions& options) {
   desk.reset();  // the terminal is a terminal again
   if (!outcome) return Complain(outcome.error());
   if (outcome.value().difference) {
-    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file, outcome.value().difference->Text(),
-               outcome.value().recorded_by_another);
+    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file,
+               outcome.value().difference->Text(), outcome.value().recorded_by_another);
     return 1;
   }
   Tell(options, outcome.value());

@@ -6,7 +6,8 @@
 
 namespace rodeira::cli {
 
-void ContinuedNode::Follow(lockstep::Node& node, std::vector<lockstep::Sample> published, const lockstep::Roster& roster) {
+void ContinuedNode::Follow(lockstep::Node& node, std::vector<lockstep::Sample> published,
+                           const lockstep::Roster& roster) {
   RODEIRA_ASSERT(!published.empty());
   node_ = &node;
   roster_ = &roster;
@@ -15,9 +16,11 @@ void ContinuedNode::Follow(lockstep::Node& node, std::vector<lockstep::Sample> p
 
 base::Status ContinuedNode::Initialise(lockstep::Outbox&) { RODEIRA_ASSERT(!"a node goes on behind its beginning"); }
 
-base::Status ContinuedNode::Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) {
+base::Status ContinuedNode::Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox,
+                                 lockstep::Outbox& outbox) {
   if (published_.empty()) return node_->Step(step, inbox, outbox);
-  for (const lockstep::Sample& sample : std::exchange(published_, {})) outbox.Put(roster_->source(sample.source()).topic, *sample.payload);
+  for (const lockstep::Sample& sample : std::exchange(published_, {}))
+    outbox.Put(roster_->source(sample.source()).topic, *sample.payload);
   return {};
 }
 

@@ -6,8 +6,9 @@
 
 namespace rodeira::cli {
 
-// In a branch at step T: a node of the parent's that cannot save its state goes on itself. It has done its activation at T already,
-// on the same samples and so with the same result: that one is said again, and only those behind it are computed.
+// In a branch at step T: a node of the parent's that cannot save its state goes on itself. It has done its activation
+// at T already, on the same samples and so with the same result: that one is said again, and only those behind it are
+// computed.
 class ContinuedNode final : public lockstep::Node {
  public:
   // Before the run: the node, which outlives this, and what it published at its activation at T.

@@ -11,8 +11,8 @@
 
 namespace rodeira::cli {
 
-// Reads a recording's marks (MarksOf) beside the window that shows it, by a thread and a reader of its own: of an hour with a scenario all
-// chunks are read.
+// Reads a recording's marks (MarksOf) beside the window that shows it, by a thread and a reader of its own: of an hour
+// with a scenario all chunks are read.
 class MarksReader {
  public:
   explicit MarksReader(const std::filesystem::path& file);

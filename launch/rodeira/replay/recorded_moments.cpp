@@ -14,7 +14,8 @@ namespace {
 constexpr double kSaidAgain_s = 1.0;  // details of the traffic are said ten times a second: whoever drives is in them
 }
 
-RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources, Step view_period)
+RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources,
+                                 Step view_period)
     : run_(run), tape_(run, std::move(sources)), view_period_(view_period) {}
 
 base::Result<scene::Moment> RecordedMoments::Exactly(Step step) {

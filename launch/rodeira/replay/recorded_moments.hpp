@@ -12,7 +12,8 @@ namespace rodeira::cli {
 class RecordedMoments {
  public:
   // `sources`: cars and traffic, as the view is wired; `view_period`: of its activations. The run must outlive it.
-  RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources, lockstep::Step view_period);
+  RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources,
+                  lockstep::Step view_period);
 
   // As the window shows it: between the moments of the two activations around that time (the last one: the run's end).
   base::Result<scene::Moment> At(std::int64_t time_ns);

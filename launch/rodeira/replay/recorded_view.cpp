@@ -34,7 +34,9 @@ std::optional<lockstep::NodeIndex> ViewOf(const lockstep::Roster& roster) {
 void AddSource(const lockstep::Roster& roster, lockstep::SourceIndex source, Seen& seen) {
   const std::string& topic = roster.source(source).topic;
   if (topic == topics::kVehicleState) seen.cars.push_back(source);
-  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kTrafficDetails || topic == topics::kSignalsState || topic == topics::kWeatherState) seen.sources.push_back(source);
+  if (topic == topics::kVehicleState || topic == topics::kTrafficState || topic == topics::kTrafficDetails ||
+      topic == topics::kSignalsState || topic == topics::kWeatherState)
+    seen.sources.push_back(source);
 }
 
 // "1280x720"
@@ -42,13 +44,13 @@ base::Status TakeSize(const std::string& text, nodes::ViewSettings& settings) {
   const char* end = text.data() + text.size();
   const auto [cross, first] = std::from_chars(text.data(), end, settings.width_px);
   const bool crossed = first == std::errc{} && cross != end && *cross == 'x';
-  const auto [rest, second] =
-      crossed ? std::from_chars(cross + 1, end, settings.height_px) : std::from_chars_result{cross, std::errc::invalid_argument};
+  const auto [rest, second] = crossed ? std::from_chars(cross + 1, end, settings.height_px)
+                                      : std::from_chars_result{cross, std::errc::invalid_argument};
   const bool good = second == std::errc{} && rest == end && settings.width_px >= 64 && settings.width_px <= 7680 &&
                     settings.height_px >= 64 && settings.height_px <= 4320;
   if (good) return {};
-  return base::WrongInput(fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text),
-                          "--size");
+  return base::WrongInput(
+      fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text), "--size");
 }
 
 base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& options, Seen& seen) {
@@ -115,7 +117,8 @@ std::string Rounded(const std::string& words) {
     const std::string word = words.substr(at, end - at);
     double number = 0.0;
     const auto [rest, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-    out += (out.empty() ? "" : " ") + (problem == std::errc{} && rest == word.data() + word.size() ? fmt::format("{:g}", number) : word);
+    out += (out.empty() ? "" : " ") +
+           (problem == std::errc{} && rest == word.data() + word.size() ? fmt::format("{:g}", number) : word);
     at = end + 1;
   }
   return out;
@@ -148,25 +151,31 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
     seen.period = std::max<Step>(1, std::llround(kViewPeriod_s * 1e9 / static_cast<double>(roster.base_step_ns())));
     for (lockstep::SourceIndex source = 0; source < roster.sources().size(); ++source) AddSource(roster, source, seen);
     for (const lockstep::SourceIndex car : seen.cars) {
-      if (auto autopilot = nodes::AutopilotOf(run.launch(), roster.source(car).node)) seen.settings.autopilots[car] = std::move(*autopilot);
+      if (auto autopilot = nodes::AutopilotOf(run.launch(), roster.source(car).node))
+        seen.settings.autopilots[car] = std::move(*autopilot);
     }
   }
   if (seen.sources.empty())
-    return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see", run.path().string());
+    return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see",
+                            run.path().string());
   if (auto status = TakeWishes(roster, options, seen); !status) return status.error();
   return seen;
 }
 
-base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& run, const std::function<bool()>& stop) {
+base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& run,
+                                                     const std::function<bool()>& stop) {
   std::vector<nodes::ReplayMark> marks;
   auto status = ForEachOf<msg::Remark>(run, topics::kRemarks, stop, [&](const msg::Remark& remark, std::int64_t) {
     if (remark.kind() != "mark" && remark.kind() != "fault") return;
-    marks.push_back({std::max<std::int64_t>(remark.time_ns(), 0), Shortened(remark.text().empty() ? remark.kind() : remark.text())});
+    marks.push_back({std::max<std::int64_t>(remark.time_ns(), 0),
+                     Shortened(remark.text().empty() ? remark.kind() : remark.text())});
   });
   if (!status) return status.error();
-  status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, stop, [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
-    for (const msg::ScenarioEvent& event : events.events()) marks.push_back({time_ns, TextOf(event), nodes::MarkKind::kEvent});
-  });
+  status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, stop,
+                                          [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
+                                            for (const msg::ScenarioEvent& event : events.events())
+                                              marks.push_back({time_ns, TextOf(event), nodes::MarkKind::kEvent});
+                                          });
   if (!status) return status.error();
   std::ranges::stable_sort(marks, {}, &nodes::ReplayMark::time_ns);
   return marks;

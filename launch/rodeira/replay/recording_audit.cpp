@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "common/data/record/text_number.hpp"
 #include "common/runtime/lockstep/sample.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
-#include "common/data/record/text_number.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -29,7 +29,9 @@ class WallCover {
     uncovered_ += std::max<std::int64_t>(wall.value().after_step() - covered_, 0);
     covered_ = std::max<std::int64_t>(covered_, wall.value().through_step());
   }
-  std::int64_t UncoveredThrough(std::int64_t last_step) const { return uncovered_ + std::max<std::int64_t>(last_step - covered_, 0); }
+  std::int64_t UncoveredThrough(std::int64_t last_step) const {
+    return uncovered_ + std::max<std::int64_t>(last_step - covered_, 0);
+  }
 
  private:
   std::int64_t covered_ = -1;
@@ -108,21 +110,29 @@ RecordingAudit Audit(const record::McapReader& reader) {
       const auto snapshot = lockstep::Snapshot::FromSample(message.value()->data);
       source.without_state = snapshot && !snapshot.value().has_state;
     }
-    if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data)) continue;
-    const auto name = names.try_emplace(message.value()->channel, base::Hash(source.topic + '\n' + source.source)).first->second;
+    if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data))
+      continue;
+    const auto name =
+        names.try_emplace(message.value()->channel, base::Hash(source.topic + '\n' + source.source)).first->second;
     result.content = base::Combine(result.content, base::Combine(name, lockstep::PayloadDigest(message.value()->data)));
     const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
     if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));
   }
-  if (result.last_step && *result.last_step < 0) result.damages.push_back(fmt::format("its last words say that the run ended at step {}", *result.last_step));
+  if (result.last_step && *result.last_step < 0)
+    result.damages.push_back(fmt::format("its last words say that the run ended at step {}", *result.last_step));
   for (const auto& [key, audit] : steps.Finish()) {
     RecordedSource& source = sources[static_cast<record::ChannelId>(key.second)];
     source.audit = audit;
     const auto period = static_cast<std::int64_t>(periods[static_cast<record::ChannelId>(key.second)]);
     const bool ended = result.last_step && !result.broken_off;
-    const auto delay = static_cast<std::int64_t>(record::WholeNumber(reader.channels().at(static_cast<record::ChannelId>(key.second)).metadata, "delay_steps").value_or(period));
-    if (ended && *result.last_step >= 0 && audit.count > 0 && static_cast<std::int64_t>(audit.last_step) > *result.last_step + delay) {
-      result.damages.push_back(fmt::format("its last words say that the run ended at step {}, but node '{}' has samples through step {}", *result.last_step, source.source, audit.last_step));
+    const auto delay = static_cast<std::int64_t>(
+        record::WholeNumber(reader.channels().at(static_cast<record::ChannelId>(key.second)).metadata, "delay_steps")
+            .value_or(period));
+    if (ended && *result.last_step >= 0 && audit.count > 0 &&
+        static_cast<std::int64_t>(audit.last_step) > *result.last_step + delay) {
+      result.damages.push_back(
+          fmt::format("its last words say that the run ended at step {}, but node '{}' has samples through step {}",
+                      *result.last_step, source.source, audit.last_step));
     }
     source.ends_early = ended && static_cast<std::int64_t>(audit.last_step) < *result.last_step / period * period;
   }

@@ -15,14 +15,16 @@ namespace {
 double LastSample(const record::McapReader& reader) {
   record::Query end;
   const std::uint64_t last_ns = reader.statistics().last_log_time_ns;
-  end.from_ns = last_ns - std::min<std::uint64_t>(last_ns, 2'000'000'000);  // remarks may lie behind it, but not by much
+  end.from_ns =
+      last_ns - std::min<std::uint64_t>(last_ns, 2'000'000'000);  // remarks may lie behind it, but not by much
   end.channels.emplace();
   for (const auto& [id, channel] : reader.channels()) {
     if (channel.metadata.contains("source_number")) end.channels->insert(id);
   }
   std::uint64_t time_ns = 0;
   auto cursor = reader.Messages(end);
-  for (auto message = cursor.Next(); message && message.value(); message = cursor.Next()) time_ns = std::max(time_ns, message.value()->log_time_ns);
+  for (auto message = cursor.Next(); message && message.value(); message = cursor.Next())
+    time_ns = std::max(time_ns, message.value()->log_time_ns);
   return static_cast<double>(time_ns) * 1e-9;
 }
 
@@ -32,7 +34,8 @@ std::string AuditLine(const record::McapReader& reader) {
   if (!end || !end.value()) return "";
   record::TextMap entries = end.value()->entries;
   if (!entries.contains("missing")) return "";
-  if (entries["missing"] == "0") return fmt::format("audit   lossless: {} samples of {} sources\n", entries["samples"], entries["sources"]);
+  if (entries["missing"] == "0")
+    return fmt::format("audit   lossless: {} samples of {} sources\n", entries["samples"], entries["sources"]);
   return fmt::format("audit   {} samples are missing; rodeira info says which\n", entries["missing"]);
 }
 
@@ -54,23 +57,30 @@ std::string WrittenFile(const std::string& recording, double reached_s) {
   const auto reader = record::McapReader::Open(recording);
   if (!reader) return text + fmt::format("lost    {}\n", reader.error().Text());
   if (reader.value().condition().whole) return text + AuditLine(reader.value());
-  return text + fmt::format("lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n", LastSample(reader.value()), reached_s, recording);
+  return text +
+         fmt::format(
+             "lost    its end: it holds {:.3f} s of {:.3f} s; what to do: rodeira repair {} --out REPAIRED.mcap\n",
+             LastSample(reader.value()), reached_s, recording);
 }
 
 std::string WithoutStateLine(const std::string& node) {
-  return fmt::format("state   node '{}' cannot save its state: replayed from the first step, and not to be started again\n", node);
+  return fmt::format(
+      "state   node '{}' cannot save its state: replayed from the first step, and not to be started again\n", node);
 }
 
 std::string ComputedFromTheStart(const std::vector<std::string>& nodes) {
   std::string text;
-  for (const std::string& node : nodes) text += fmt::format("node '{}' cannot save its state: all is computed again from step 0\n", node);
+  for (const std::string& node : nodes)
+    text += fmt::format("node '{}' cannot save its state: all is computed again from step 0\n", node);
   return text;
 }
 
 std::string RecordedByAnother(const std::string& version, const std::string& commit) {
   if (version == nodes::ProgramVersion() && commit == nodes::ProgramCommit()) return {};
-  return fmt::format("recorded by another program (version {}, commit {}; this one is version {}, commit {}): other sources may give other bits\n", version, commit,
-                     nodes::ProgramVersion(), nodes::ProgramCommit());
+  return fmt::format(
+      "recorded by another program (version {}, commit {}; this one is version {}, commit {}): other sources may give "
+      "other bits\n",
+      version, commit, nodes::ProgramVersion(), nodes::ProgramCommit());
 }
 
 }  // namespace rodeira::cli

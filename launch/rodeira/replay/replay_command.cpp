@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "launch/rodeira/replay/branch_command.hpp"
 #include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/replay/branch_command.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
 
@@ -27,12 +27,15 @@ int Complain(const base::Error& error) {
 // A line on the terminal that is written over; nothing where standard error is no terminal.
 class Progress {
  public:
-  Progress(bool quiet, double base_step_s, lockstep::Step last) : shown_(!quiet && ::isatty(STDERR_FILENO) != 0), base_step_s_(base_step_s), last_(last) {}
+  Progress(bool quiet, double base_step_s, lockstep::Step last)
+      : shown_(!quiet && ::isatty(STDERR_FILENO) != 0), base_step_s_(base_step_s), last_(last) {}
   ~Progress() {
     if (shown_) fmt::print(stderr, "\r\033[K");
   }
   void Show(lockstep::Step step) const {
-    if (shown_) fmt::print(stderr, "\r\033[Kverified {:.1f} s of {:.1f} s", static_cast<double>(step) * base_step_s_, static_cast<double>(last_) * base_step_s_);
+    if (shown_)
+      fmt::print(stderr, "\r\033[Kverified {:.1f} s of {:.1f} s", static_cast<double>(step) * base_step_s_,
+                 static_cast<double>(last_) * base_step_s_);
   }
 
  private:
@@ -52,17 +55,22 @@ int Watch(const ReplayOptions& options) {
 }  // namespace
 
 int Replay(const ReplayOptions& options) {
-  const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) + (options.watch.frames.empty() ? 0 : 1) +
-                     (options.changes.empty() ? 0 : 1);
+  const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) +
+                     (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
   if (wishes != 1) {
-    return Complain(base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected", wishes == 0 ? "nothing" : "more than one thing"), "rodeira replay"));
+    return Complain(
+        base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
+                                     wishes == 0 ? "nothing" : "more than one thing"),
+                         "rodeira replay"));
   }
   if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {
-    return Complain(base::WrongInput(fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s), "rodeira replay"));
+    return Complain(base::WrongInput(
+        fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s), "rodeira replay"));
   }
   if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);
-  if (!options.record.empty()) return Complain(base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
+  if (!options.record.empty())
+    return Complain(base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
   if (options.pace) return Complain(base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
   if (!options.verify) return Watch(options);
   const auto run = replay::RecordedRun::Open(options.file);
@@ -70,25 +78,31 @@ int Replay(const ReplayOptions& options) {
   const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;
   const auto from = static_cast<lockstep::Step>(std::floor(options.from_s.value_or(0.0) / base_step_s + 1e-9));
   if (from > run.value().last_step()) {
-    return Complain(base::WrongInput(fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
-                                                 static_cast<double>(run.value().last_step()) * base_step_s), options.file));
+    return Complain(base::WrongInput(
+        fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
+                    static_cast<double>(run.value().last_step()) * base_step_s),
+        options.file));
   }
   const Progress progress(options.quiet, base_step_s, run.value().last_step());
   const auto begin = std::chrono::steady_clock::now();
-  const auto verdict = Verify(run.value(), from, [&](lockstep::Step step) { progress.Show(step); }, Interrupted);
+  const auto verdict = Verify(
+      run.value(), from, [&](lockstep::Step step) { progress.Show(step); }, Interrupted);
   if (!verdict) return Complain(verdict.error());
   const Verdict& found = verdict.value();
-  if (!found.substituted.empty()) fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
+  if (!found.substituted.empty())
+    fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
   if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
   if (found.difference) {
     fmt::print("{}\n{}", found.difference->Text(), RecordedByAnother(run.value().version(), run.value().commit()));
     return 1;
   }
-  fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n", found.last_step - found.first_step, found.nodes,
-             found.samples, found.snapshots, static_cast<double>(found.first_step) * base_step_s,
+  fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n",
+             found.last_step - found.first_step, found.nodes, found.samples, found.snapshots,
+             static_cast<double>(found.first_step) * base_step_s,
              std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   if (found.first_step > from) {
-    fmt::print("not computed: what lies before {:.3f} s is its parent's; verify that one, {}\n", static_cast<double>(found.first_step) * base_step_s, run.value().parent());
+    fmt::print("not computed: what lies before {:.3f} s is its parent's; verify that one, {}\n",
+               static_cast<double>(found.first_step) * base_step_s, run.value().parent());
   }
   return 0;
 }

@@ -18,7 +18,7 @@ struct ReplayOptions {
   std::vector<std::pair<std::string, std::string>> changes;  // --branch
   std::optional<double> for_s;                               // of the branch: simulated seconds behind it
   std::string record;                                        // of the branch
-  std::optional<std::string> pace;                           // of the branch; none: real where a person drives or watches
+  std::optional<std::string> pace;  // of the branch; none: real where a person drives or watches
   bool quiet = false;
 };
 

@@ -10,7 +10,8 @@
 
 namespace rodeira::cli {
 
-base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from, const std::function<void(lockstep::Step)>& on_progress,
+base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from,
+                             const std::function<void(lockstep::Step)>& on_progress,
                              const std::function<bool()>& stop_requested) {
   Recomputation wish;
   wish.from = from;
@@ -32,14 +33,19 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   for (const lockstep::NodeSpec& node : roster.nodes()) {
     if (!node.outputs.empty()) ahead = std::max(ahead, node.delay - node.period);
   }
-  const auto at = run.SnapshotAtOrBefore(wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
+  const auto at = run.SnapshotAtOrBefore(
+      wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
   if (!at) return at.error();
   if (wish.snapshot_at && *wish.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
-    return base::WrongInput(fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it", run.last_step(), at.value()), run.path().string());
+    return base::WrongInput(fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it",
+                                        run.last_step(), at.value()),
+                            run.path().string());
   }
   if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
-    return base::WrongInput(fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}", *wish.snapshot_at, at.value()),
-                            run.path().string());
+    return base::WrongInput(
+        fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}",
+                    *wish.snapshot_at, at.value()),
+        run.path().string());
   }
   Recomputed recomputed;
   Verdict& verdict = recomputed.verdict;
@@ -61,7 +67,9 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   });
   if (!nodes) return run.Named(nodes.error());
   if (!run.world_hash().empty() && run.world_hash() != base::Hex(nodes.value().world_hash())) {
-    return base::WrongInput(fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(), base::Hex(nodes.value().world_hash())), run.path().string());
+    return base::WrongInput(fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(),
+                                        base::Hex(nodes.value().world_hash())),
+                            run.path().string());
   }
 
   lockstep::InProcessSettings settings;
@@ -94,16 +102,20 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   };
   const auto interrupted = [&wish] { return wish.stop_requested && wish.stop_requested(); };
   settings.stop_requested = [&] { return stop.load() || interrupted(); };
-  if (wish.on_progress) settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
+  if (wish.on_progress)
+    settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  if (interrupted() && !comparison.differs()) return base::Failed(fmt::format("interrupted at step {}", std::max(outcome.last_step, at.value())), run.path().string());
+  if (interrupted() && !comparison.differs())
+    return base::Failed(fmt::format("interrupted at step {}", std::max(outcome.last_step, at.value())),
+                        run.path().string());
   comparison.Finish(std::min(outcome.last_step, run.last_step()));
   for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
     recomputed.snapshots[n].node = n;
     recomputed.snapshots[n].at = *wish.snapshot_at;
   }
   if (comparison.problem()) return *comparison.problem();
-  if (!outcome.ok && !comparison.first()) return run.Named(base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault)));
+  if (!outcome.ok && !comparison.first())
+    return run.Named(base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault)));
   verdict.last_step = outcome.last_step;
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();

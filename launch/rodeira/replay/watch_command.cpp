@@ -43,7 +43,8 @@ base::Status Watch(const WatchOptions& options) {
   if (!seen) return seen.error();
   if (!nodes::HasDisplay()) {
     return base::WrongInput(
-        "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without one",
+        "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without "
+        "one",
         "--view");
   }
   MarksReader marks(options.file);
@@ -63,7 +64,8 @@ base::Status Watch(const WatchOptions& options) {
       player, [&] { return marks.Take(); }, [&](std::int64_t time_ns) { return moments.At(time_ns); }, Interrupted);
 }
 
-base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,
+base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run,
+                                           const std::vector<lockstep::SourceIndex>& cars,
                                            const std::vector<double>& at_s) {
   std::vector<Step> steps;
   for (const double time_s : at_s) {
@@ -78,14 +80,18 @@ base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run, const
 }
 
 // Of single times, or of a film.
-base::Result<std::vector<Step>> StepsOf(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars, const WatchOptions& options) {
+base::Result<std::vector<Step>> StepsOf(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,
+                                        const WatchOptions& options) {
   if (!options.at_s.empty()) return FrameSteps(run, cars, options.at_s);
   if (!options.fps) return base::WrongInput("--at S or --fps N was expected beside it", "--frames");
   if (auto status = CheckTime(run, "--from", options.from_s); !status) return status.error();
   const double last_s = static_cast<double>(run.last_step() * run.roster().base_step_ns()) * 1e-9;
-  auto steps = nodes::FilmSteps(run.roster(), cars, *options.fps, options.from_s, std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
+  auto steps = nodes::FilmSteps(run.roster(), cars, *options.fps, options.from_s,
+                                std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
   if (!steps) return base::WrongInput(steps.error().message, "--fps");
-  std::erase_if(steps.value(), [&](Step step) { return step > run.last_step(); });  // the sample nearest to the run's end may lie behind it
+  std::erase_if(steps.value(), [&](Step step) {
+    return step > run.last_step();
+  });  // the sample nearest to the run's end may lie behind it
   return steps;
 }
 
@@ -100,7 +106,8 @@ base::Status WriteFrames(const WatchOptions& options) {
   settings.frame_steps = std::move(steps).value();
   settings.folder = options.frames;
   settings.window = nodes::WindowWish::kNever;
-  if (auto status = nodes::PrepareFolder(settings.folder); !status) return base::WrongInput(status.error().message, "--frames");
+  if (auto status = nodes::PrepareFolder(settings.folder); !status)
+    return base::WrongInput(status.error().message, "--frames");
   auto world = nodes::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());
   auto stage = nodes::Stage::Open(settings, std::move(world).value());
@@ -111,7 +118,8 @@ base::Status WriteFrames(const WatchOptions& options) {
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
     const auto file = settings.folder / nodes::FrameName(step);
-    if (auto status = stage.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status) return status;
+    if (auto status = stage.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status)
+      return status;
   }
   return stage.value()->Drain();
 }

@@ -17,22 +17,27 @@ namespace rodeira::cli {
 
 base::Result<std::filesystem::path> ControlFolder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const std::filesystem::path folder = runtime != nullptr && *runtime != '\0' ? std::filesystem::path(runtime) / "rodeira"
-                                                                               : std::filesystem::path(fmt::format("/tmp/rodeira-{}", ::getuid()));
+  const std::filesystem::path folder = runtime != nullptr && *runtime != '\0'
+                                           ? std::filesystem::path(runtime) / "rodeira"
+                                           : std::filesystem::path(fmt::format("/tmp/rodeira-{}", ::getuid()));
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
-    return base::Failed(fmt::format("the folder of control sockets cannot be made: {}", std::strerror(errno)), folder.string());
+    return base::Failed(fmt::format("the folder of control sockets cannot be made: {}", std::strerror(errno)),
+                        folder.string());
   }
   struct stat found {};
-  if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != ::getuid() || (found.st_mode & 077) != 0) {
+  if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != ::getuid() ||
+      (found.st_mode & 077) != 0) {
     return base::Failed("this is no folder that belongs to you alone; no control socket can be there", folder.string());
   }
   return folder;
 }
 
 std::filesystem::path ControlSocket(const std::filesystem::path& folder, const std::string& run) {
-  const bool plain = !run.empty() && run.size() <= 40 && run.front() != '.' && std::all_of(run.begin(), run.end(), [](unsigned char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.';
-  });
+  const bool plain = !run.empty() && run.size() <= 40 && run.front() != '.' &&
+                     std::all_of(run.begin(), run.end(), [](unsigned char c) {
+                       return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+                              c == '-' || c == '.';
+                     });
   return folder / ((plain ? run : base::Hex(base::Hash(run))) + ".ctl");
 }
 

@@ -37,7 +37,8 @@ base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::file
     return base::Failed("a run of this name is controlled there already", path);
   }
   const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 || ::listen(file, 8) != 0) {
+  if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
+      ::listen(file, 8) != 0) {
     const int error = errno;
     if (file >= 0) ::close(file);
     return base::Failed(fmt::format("no control socket can be made: {}", std::strerror(error)), path);
@@ -82,11 +83,14 @@ std::optional<AskedLine> ControlServer::Next() {
       connection->open = false;
     }
     if (end == std::string::npos) continue;
-    AskedLine asked{connection->pending.substr(0, end), [connection](const std::string& answer) { connection->Say(answer); }};
+    AskedLine asked{connection->pending.substr(0, end),
+                    [connection](const std::string& answer) { connection->Say(answer); }};
     connection->pending.erase(0, end + 1);
     return asked;
   }
-  std::erase_if(connections_, [](const auto& connection) { return !connection->open && connection->pending.find('\n') == std::string::npos; });
+  std::erase_if(connections_, [](const auto& connection) {
+    return !connection->open && connection->pending.find('\n') == std::string::npos;
+  });
   return std::nullopt;
 }
 

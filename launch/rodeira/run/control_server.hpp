@@ -11,15 +11,15 @@
 
 namespace rodeira::cli {
 
-// A line that somebody asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later and
-// even when who asked has gone.
+// A line that somebody asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later
+// and even when who asked has gone.
 struct AskedLine {
   std::string line;
   std::function<void(const std::string&)> answer;
 };
 
-// The control socket of a run: a line in, a line out, as often as one likes on a connection (docs/formats.md). It has no
-// thread: its owner calls Next() some twenty times a second.
+// The control socket of a run: a line in, a line out, as often as one likes on a connection (docs/formats.md). It has
+// no thread: its owner calls Next() some twenty times a second.
 class ControlServer {
  public:
   // Failed where a living run has this socket already, or none can be made.

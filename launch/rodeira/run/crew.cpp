@@ -20,18 +20,24 @@ base::Status MakeSureItIsDead(Child& child) {
     child.Poll();
     if (!child.ended()) ::usleep(1000);
   }
-  return child.ended() ? base::Status() : base::Failed(fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
+  return child.ended() ? base::Status()
+                       : base::Failed(fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
 }
 
 }  // namespace
 
-Crew::Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
-    : options_(options), placement_(placement), launch_(launch), overrides_(std::move(overrides)),
+Crew::Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+           launch::Overrides overrides)
+    : options_(options),
+      placement_(placement),
+      launch_(launch),
+      overrides_(std::move(overrides)),
       domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(options.run) % 200))) {}
 
 std::vector<std::string> Crew::Command(const std::string& program) const {
-  std::vector<std::string> command{ProgramFolder() + "/" + program, "--launch", launch_.path().string(), "--run", options_.run, "--domain",
-                                   std::to_string(domain_)};
+  std::vector<std::string> command{
+      ProgramFolder() + "/" + program, "--launch", launch_.path().string(), "--run", options_.run, "--domain",
+      std::to_string(domain_)};
   for (const auto& [key, value] : overrides_) {
     command.push_back("--set");
     command.push_back(key + "=" + value);
@@ -51,7 +57,8 @@ std::vector<std::string> Crew::ClockCommand(const std::string& pace) const {
 }
 
 base::Status Crew::StartClock() {
-  auto child = Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", ClockCommand(options_.pace), true);
+  auto child =
+      Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", ClockCommand(options_.pace), true);
   if (!child) return child.error();
   children_.push_back(std::move(child).value());
   return {};
@@ -59,10 +66,12 @@ base::Status Crew::StartClock() {
 
 base::Status Crew::RestartClock(const ClocksPlace& place) {
   if (auto status = MakeSureItIsDead(clock()); !status) return status;
-  const std::string pace = place.begun_ns < 0 ? options_.pace : place.pace > 0.0 ? fmt::format("{}", place.pace) : "max";
+  const std::string pace = place.begun_ns < 0 ? options_.pace
+                           : place.pace > 0.0 ? fmt::format("{}", place.pace)
+                                              : "max";
   std::vector<std::string> command = ClockCommand(pace);
-  command.insert(command.end(), {"--incarnation", std::to_string(++clocks_life_), "--clock-id", std::to_string(place.id), "--begun-ns",
-                                 std::to_string(place.begun_ns)});
+  command.insert(command.end(), {"--incarnation", std::to_string(++clocks_life_), "--clock-id",
+                                 std::to_string(place.id), "--begun-ns", std::to_string(place.begun_ns)});
   if (place.paused) command.emplace_back("--paused");
   auto child = Child::Start("clock", command, true);
   if (!child) return child.error();
@@ -84,7 +93,8 @@ base::Status Crew::StartNodes() {
 }
 
 base::Result<bool> Crew::RestartNode(const std::string& name, std::uint32_t life) {
-  const auto child = std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
+  const auto child =
+      std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
   if (child == children_.end()) return false;
   if (auto status = MakeSureItIsDead(*child); !status) return status.error();
   std::vector<std::string> command = Command(std::string(launch_.node(launch_.roster().Find(name)).kind->program));
@@ -107,7 +117,8 @@ void Crew::EndAll(bool orderly, std::optional<WallClock::time_point> interrupted
   }
   auto until = WallClock::now() + 1500ms;
   if (interrupted_at) until = std::min(until, *interrupted_at + 1700ms);
-  while (WallClock::now() < until && std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
+  while (WallClock::now() < until &&
+         std::any_of(children_.begin(), children_.end(), [](const Child& child) { return !child.ended(); })) {
     std::this_thread::sleep_for(5ms);
     for (Child& child : children_) child.Poll();
   }

@@ -18,7 +18,8 @@ namespace rodeira::cli {
 class Crew {
  public:
   // All outlive it; options.run is the run's name.
-  Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides);
+  Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+       launch::Overrides overrides);
 
   // The clock, or on the other PCs of a laboratory who follows it. First.
   base::Status StartClock();
@@ -37,7 +38,8 @@ class Crew {
   // Another life of a node; the old process is dead then. False where the node is another PC's.
   base::Result<bool> RestartNode(const std::string& name, std::uint32_t life);
 
-  // Everybody goes: by themselves where the run ended in good order, or by force before two seconds have passed since Ctrl-C.
+  // Everybody goes: by themselves where the run ended in good order, or by force before two seconds have passed since
+  // Ctrl-C.
   void EndAll(bool orderly, std::optional<std::chrono::steady_clock::time_point> interrupted_at);
 
   void Poll();

@@ -34,10 +34,15 @@ base::Result<std::filesystem::path> FindRun(const std::string& run) {
     for (const auto& socket : living) {
       if (socket == wanted) return socket;
     }
-    return base::WrongInput(fmt::format("no run '{}' of yours is going on on this PC{}", run, names.empty() ? "" : base::DidYouMean(run, names)), "ctl --run");
+    return base::WrongInput(fmt::format("no run '{}' of yours is going on on this PC{}", run,
+                                        names.empty() ? "" : base::DidYouMean(run, names)),
+                            "ctl --run");
   }
   if (living.empty()) return base::WrongInput("no run of yours is going on on this PC", "ctl");
-  if (living.size() > 1) return base::WrongInput(fmt::format("{} runs are going on: {}; choose one by --run NAME", living.size(), fmt::join(names, ", ")), "ctl");
+  if (living.size() > 1)
+    return base::WrongInput(
+        fmt::format("{} runs are going on: {}; choose one by --run NAME", living.size(), fmt::join(names, ", ")),
+        "ctl");
   return living.front();
 }
 
@@ -63,9 +68,11 @@ std::string Ask(int file, const std::string& line) {
 
 int Ctl(const CtlOptions& options) {
   std::string line = fmt::format("{}", fmt::join(options.words, " "));
-  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20; }, ' ');  // a line is a command
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20; }, ' ');  // a line is a command
   // Nonsense is refused whether there is a run or not.
-  if (const auto command = launch::ParseCommand(line); !command) return Complain(base::WrongInput(command.error().Text(), "ctl"));
+  if (const auto command = launch::ParseCommand(line); !command)
+    return Complain(base::WrongInput(command.error().Text(), "ctl"));
   const auto socket = FindRun(options.run);
   if (!socket) return Complain(socket.error());
   const std::string name = socket.value().stem().string();

@@ -32,9 +32,11 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
   report.digest = base::Hex(outcome.digest);
   if (!outcome.fault.empty()) report.faults.push_back(outcome.fault);
   for (const lockstep::Report& node : outcome.reports) {
-    const double mean_us = node.steps == 0 ? 0.0 : static_cast<double>(node.busy_ns) * 1e-3 / static_cast<double>(node.steps);
+    const double mean_us =
+        node.steps == 0 ? 0.0 : static_cast<double>(node.busy_ns) * 1e-3 / static_cast<double>(node.steps);
     report.nodes.push_back({roster.node(node.node).name, node.steps, mean_us, static_cast<double>(node.worst_ns) * 1e-3,
-                            static_cast<double>(node.median_interval_ns) * 1e-3, static_cast<double>(node.p99_interval_ns) * 1e-3, node.server_calls, node.cannot_save});
+                            static_cast<double>(node.median_interval_ns) * 1e-3,
+                            static_cast<double>(node.p99_interval_ns) * 1e-3, node.server_calls, node.cannot_save});
   }
   return report;
 }
@@ -52,7 +54,9 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   }
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
-  if (seconds) settings.last_step = static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
+  if (seconds)
+    settings.last_step =
+        static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
   settings.stop_requested = Interrupted;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };

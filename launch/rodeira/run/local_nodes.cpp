@@ -10,8 +10,8 @@ namespace {
 
 class LocalContext final : public launch::NodeContext {
  public:
-  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world, launch::LiveKeysBoard& keys,
-               launch::LiveRequestsBoard& requests, launch::RunLogBoard* log)
+  LocalContext(const launch::Launch& launch, lockstep::NodeIndex index, std::shared_ptr<const road::World> world,
+               launch::LiveKeysBoard& keys, launch::LiveRequestsBoard& requests, launch::RunLogBoard* log)
       : NodeContext(launch, index), world_(std::move(world)), keys_(keys), requests_(requests), log_(log) {
     if (world_ != nullptr) ground_ = world_->MakeGround();
   }
@@ -21,7 +21,8 @@ class LocalContext final : public launch::NodeContext {
   }
   bool ground_is_here() const override { return true; }
   base::Result<launch::WorldSummary> World() override {
-    if (world_ == nullptr) return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
+    if (world_ == nullptr)
+      return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
     return nodes::Summary(*world_);
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
@@ -42,7 +43,8 @@ class LocalContext final : public launch::NodeContext {
 base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch& launch) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "road") continue;
-    if (launch.world().empty()) return base::WrongInput("key 'world' is missing; a road server needs a world file", launch.path().string());
+    if (launch.world().empty())
+      return base::WrongInput("key 'world' is missing; a road server needs a world file", launch.path().string());
     return road::World::Load(launch.world());
   }
   return std::shared_ptr<const road::World>();
@@ -53,14 +55,16 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
 LocalNodes::~LocalNodes() = default;
 
-base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in, launch::RunLogBoard* log) {
+base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const StandIn& stand_in,
+                                          launch::RunLogBoard* log) {
   const auto& roster = launch.roster();
   auto world = LoadWorld(launch);
   if (!world) return world.error();
   LocalNodes made;
   if (world.value() != nullptr) made.world_hash_ = world.value()->content_hash();
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    made.contexts_.push_back(std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.requests_, log));
+    made.contexts_.push_back(
+        std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.requests_, log));
     made.nodes_.push_back(nullptr);
     if (roster.node(n).role == lockstep::Role::kService) continue;
     if (auto other = stand_in ? stand_in(n) : nullptr) {
@@ -69,9 +73,12 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       continue;
     }
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
-    if (factory == nullptr) return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind), fmt::format("node '{}'", roster.node(n).name));
+    if (factory == nullptr)
+      return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
+                              fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());
-    if (!node) return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+    if (!node)
+      return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
     made.owned_.push_back(std::move(node).value());
     made.nodes_.back() = made.owned_.back().get();
   }

@@ -14,9 +14,10 @@ class LocalNodes {
   // A node that stands for the roster's own (of a recording), or null where the launch file's is made.
   using StandIn = std::function<std::unique_ptr<lockstep::Node>(lockstep::NodeIndex)>;
 
-  // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive it.
-  // `log`: where the clock's log passes, outlives it; null: no node hears of it.
-  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {}, launch::RunLogBoard* log = nullptr);
+  // Wrong input where a configuration, the world or another file is wrong; it names the node. The launch must outlive
+  // it. `log`: where the clock's log passes, outlives it; null: no node hears of it.
+  static base::Result<LocalNodes> Make(const launch::Launch& launch, const StandIn& stand_in = {},
+                                       launch::RunLogBoard* log = nullptr);
   LocalNodes(LocalNodes&&) noexcept;
   ~LocalNodes();
 
@@ -30,7 +31,7 @@ class LocalNodes {
 
  private:
   LocalNodes() = default;
-  std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();              // the nodes use it
+  std::unique_ptr<launch::LiveKeysBoard> keys_ = std::make_unique<launch::LiveKeysBoard>();  // the nodes use it
   std::unique_ptr<launch::LiveRequestsBoard> requests_ = std::make_unique<launch::LiveRequestsBoard>();  // likewise
   std::vector<std::unique_ptr<launch::NodeContext>> contexts_;
   std::vector<std::unique_ptr<lockstep::Node>> owned_;

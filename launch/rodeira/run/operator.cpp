@@ -15,19 +15,28 @@ namespace rodeira::cli {
 
 std::string CommandOfKey(char key) {
   switch (key) {
-    case ' ': return "toggle";
+    case ' ':
+      return "toggle";
     case '\n':
-    case '\r': return "step";
+    case '\r':
+      return "step";
     case '+':
-    case '=': return "faster";  // where + needs Shift
-    case '-': return "slower";
-    case 'm': return "mark key m";
-    case 'q': return "stop";
-    default: return "";
+    case '=':
+      return "faster";  // where + needs Shift
+    case '-':
+      return "slower";
+    case 'm':
+      return "mark key m";
+    case 'q':
+      return "stop";
+    default:
+      return "";
   }
 }
 
-std::string_view KeyHelp() { return "space pause or go on, enter one step, + - twice or half the pace, m marker, q stop, h these keys"; }
+std::string_view KeyHelp() {
+  return "space pause or go on, enter one step, + - twice or half the pace, m marker, q stop, h these keys";
+}
 
 Operator::Operator(const std::string& run, bool quiet) : quiet_(quiet) {
   if (::isatty(STDERR_FILENO) != 0) keys_ = TerminalKeys::Open(STDIN_FILENO);
@@ -49,7 +58,9 @@ void Operator::Show(const std::string& text) const {
 }
 
 std::optional<AskedLine> Operator::Next() {
-  const std::int64_t now_ms = std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  const std::int64_t now_ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch())
+          .count();
   if (now_ms - looked_ms_ < 10) return std::nullopt;
   while (keys_ != nullptr) {
     const auto key = keys_->Next();
@@ -62,7 +73,9 @@ std::optional<AskedLine> Operator::Next() {
   if (server_ != nullptr) {
     if (auto asked = server_->Next()) return asked;
   }
-  if (buttons_ != nullptr && buttons_->Pressed()) return AskedLine{CommandOfKey(' '), [this](const std::string& answer) { Show(answer.substr(answer.find(' ') + 1)); }};
+  if (buttons_ != nullptr && buttons_->Pressed())
+    return AskedLine{CommandOfKey(' '),
+                     [this](const std::string& answer) { Show(answer.substr(answer.find(' ') + 1)); }};
   looked_ms_ = now_ms;  // only where everything that was there has been taken
   return std::nullopt;
 }

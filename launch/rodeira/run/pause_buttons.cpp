@@ -16,16 +16,20 @@ bool NamesWheel(const launch::LaunchNode& node) {
 }
 
 // As the input finds its own.
-std::optional<input_devices::WheelSettings> WheelOf(const launch::Launch& launch, const launch::LaunchNode& node, nodes::Joysticks& joysticks) {
+std::optional<input_devices::WheelSettings> WheelOf(const launch::Launch& launch, const launch::LaunchNode& node,
+                                                    nodes::Joysticks& joysticks) {
   std::filesystem::path file;
   if (NamesWheel(node)) {
     file = (launch.path().parent_path() / *node.config->Peek({"config", "wheel"})).lexically_normal();
   } else {
     for (const nodes::JoystickInfo& info : joysticks.Connected()) {
-      if (const auto own = input_devices::WheelFileOf(info.guid); file.empty() && std::filesystem::exists(own)) file = own;
+      if (const auto own = input_devices::WheelFileOf(info.guid); file.empty() && std::filesystem::exists(own))
+        file = own;
     }
   }
-  return input_devices::PeekWheel(file, [&](const std::string& device) { return node.config->Peek({"config", "devices", device}); });
+  return input_devices::PeekWheel(file, [&](const std::string& device) {
+    return node.config->Peek({"config", "devices", device});
+  });
 }
 
 }  // namespace
@@ -45,7 +49,8 @@ std::unique_ptr<PauseButtons> PauseButtons::Open(const launch::Launch& launch) {
     }
     const auto wheel = WheelOf(launch, node, *made->joysticks_);
     if (!wheel && !NamesWheel(node) && !made->TakePad()) return nullptr;  // as the input goes on without one
-    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kPause)] : std::optional<input_devices::ButtonUse>();
+    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kPause)]
+                            : std::optional<input_devices::ButtonUse>();
     if (!use) continue;
     made->buttons_.push_back({guids.size(), use->button, true});
     guids.push_back(wheel->devices[use->device].guid);
@@ -74,7 +79,8 @@ bool PauseButtons::Pressed() {
   }
   for (Button& button : buttons_) {
     const input_devices::DeviceReading& reading = joysticks_->reading(button.place);
-    const bool down = reading.connected && button.button < reading.buttons.size() && reading.buttons[button.button] != 0;
+    const bool down =
+        reading.connected && button.button < reading.buttons.size() && reading.buttons[button.button] != 0;
     any = any || (down && !button.down);
     button.down = down;
   }

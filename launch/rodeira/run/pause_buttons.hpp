@@ -9,11 +9,13 @@
 
 namespace rodeira::cli {
 
-// Buttons of steering wheels (`pause` of a wheel file) and game pads (start) that pause the run and let it go on, on the PC where the clock is. As the terminal's
-// keys they are the operator's: the clock stands, and what it does is a remark, no sample.
+// Buttons of steering wheels (`pause` of a wheel file) and game pads (start) that pause the run and let it go on, on
+// the PC where the clock is. As the terminal's keys they are the operator's: the clock stands, and what it does is a
+// remark, no sample.
 class PauseButtons {
  public:
-  // Those of the launch file's inputs with `source: joystick` or `gamepad`. Null where no wheel file names one, and no game pad may drive; what is wrong there the input says.
+  // Those of the launch file's inputs with `source: joystick` or `gamepad`. Null where no wheel file names one, and no
+  // game pad may drive; what is wrong there the input says.
   static std::unique_ptr<PauseButtons> Open(const launch::Launch& launch);
 
   // Whether one was pressed since the last call. Never waits.

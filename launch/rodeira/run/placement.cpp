@@ -18,18 +18,22 @@ base::Error BelongsToTheClock(const char* option, const launch::Lab& lab) {
 
 }  // namespace
 
-base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides) {
+base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions& options,
+                                        launch::Overrides& overrides) {
   Placement placement;
   const std::string file = !options.lab.empty() ? options.lab : launch.lab().string();
   if (options.host.empty()) {
     if (options.lab.empty()) return placement;
-    return base::WrongInput(fmt::format("which PC is this? --host NAME was expected, of a host in {}", options.lab), "--lab");
+    return base::WrongInput(fmt::format("which PC is this? --host NAME was expected, of a host in {}", options.lab),
+                            "--lab");
   }
   if (file.empty()) {
-    return base::WrongInput("no laboratory file says where the hosts are; --lab FILE, or 'lab: FILE' in the launch file, was expected",
-                            "--host");
+    return base::WrongInput(
+        "no laboratory file says where the hosts are; --lab FILE, or 'lab: FILE' in the launch file, was expected",
+        "--host");
   }
-  if (options.in_process) return base::WrongInput("a run in one process has one host; --host was not expected", "--in-process");
+  if (options.in_process)
+    return base::WrongInput("a run in one process has one host; --host was not expected", "--in-process");
   auto lab = launch::Lab::Load(file);
   if (!lab) return lab.error();
   const auto host = lab.value().Host(options.host);
@@ -38,15 +42,21 @@ base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions
   placement.lab_ = std::move(lab).value();
   placement.host_ = host.value().name;
   if (!dds::IsOwnAddress(host.value().address)) {
-    return base::WrongInput(fmt::format("host '{}' has the address {}, which this PC does not have; is it another one of the hosts, "
-                                        "is its network up (ip address)?", placement.host_, host.value().address), file);
+    return base::WrongInput(
+        fmt::format("host '{}' has the address {}, which this PC does not have; is it another one of the hosts, "
+                    "is its network up (ip address)?",
+                    placement.host_, host.value().address),
+        file);
   }
   if (!placement.has_clock()) {
     if (options.duration_s) return BelongsToTheClock("--for", *placement.lab_);
     if (!options.pace.empty()) return BelongsToTheClock("--pace", *placement.lab_);
     if (std::ranges::none_of(launch.nodes(), [&](const launch::LaunchNode& node) { return placement.Has(node); })) {
-      return base::WrongInput(fmt::format("no node belongs to host '{0}'; say 'host: {0}' at a node, or --set nodes.NAME.host={0} on every PC",
-                                          placement.host_), launch.path().string());
+      return base::WrongInput(
+          fmt::format(
+              "no node belongs to host '{0}'; say 'host: {0}' at a node, or --set nodes.NAME.host={0} on every PC",
+              placement.host_),
+          launch.path().string());
     }
   }
   if (options.run.empty()) options.run = placement.lab_->run();

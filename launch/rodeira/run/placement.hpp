@@ -12,8 +12,8 @@ namespace rodeira::cli {
 class Placement {
  public:
   // Fills in what the laboratory says: run and domain where the command line names none, and `overrides` for all
-  // processes of this PC. Wrong input: an unknown host, one without anything to do, one with an address that this PC does
-  // not have; options that belong to another host.
+  // processes of this PC. Wrong input: an unknown host, one without anything to do, one with an address that this PC
+  // does not have; options that belong to another host.
   static base::Result<Placement> Find(const launch::Launch& launch, RunOptions& options, launch::Overrides& overrides);
 
   bool has_clock() const { return !lab_ || lab_->clock() == host_; }

@@ -38,8 +38,12 @@ int Complain(const base::Error& error) {
 // The processes of a run, their clock's words, and their end.
 class ProcessRun {
  public:
-  ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides)
-      : options_(options), placement_(placement), launch_(launch), crew_(options, placement, launch, std::move(overrides)) {
+  ProcessRun(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+             launch::Overrides overrides)
+      : options_(options),
+        placement_(placement),
+        launch_(launch),
+        crew_(options, placement, launch, std::move(overrides)) {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
     if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
@@ -99,18 +103,23 @@ class ProcessRun {
         if (auto status = RestartNode(wish); !status) return status;
       }
       for (const std::string& reason : std::exchange(report_.paused_by, {})) {
-        Tell(reason + "; the run waits: it goes on when the node does; `rodeira ctl restart NODE` or `rodeira ctl stop` decide otherwise");
+        Tell(reason +
+             "; the run waits: it goes on when the node does; `rodeira ctl restart NODE` or `rodeira ctl stop` decide "
+             "otherwise");
       }
       crew_.Poll();
       Child& clock = crew_.clock();
       if ((clock.ended() || clock.stopped()) && MayRestartClock()) {
-        if (auto status = RestartClock(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step)); !status) return status;
+        if (auto status = RestartClock(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
+            !status)
+          return status;
         continue;
       }
       if (clock.ended()) {
         while (ReadClock(0)) {
         }
-        if (!report_.ended && clock.exit_status() != 2) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
+        if (!report_.ended && clock.exit_status() != 2)
+          Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
         return {};
       }
       if (clock.stopped()) {
@@ -136,7 +145,8 @@ class ProcessRun {
   void AskClock() {
     while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
       // What would end a line or a text is no part of a command.
-      std::replace_if(asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
+      std::replace_if(
+          asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
       crew_.clock().Send(fmt::format("do {} {}", ++asked_, asked->line));
       answers_[asked_] = std::move(asked->answer);
     }
@@ -161,11 +171,12 @@ class ProcessRun {
   void TellClock(const Child& broken) {
     if (!told_.insert(broken.name()).second) return;
     const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
-    if (node.recovery == lockstep::Policy::kStop) Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
+    if (node.recovery == lockstep::Policy::kStop)
+      Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
     crew_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
   }
-  // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its number yet (0) is
-  // known to nobody: another one draws its own.
+  // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
+  // number yet (0) is known to nobody: another one draws its own.
   bool MayRestartClock() {
     while (ReadClock(0)) {
     }
@@ -216,11 +227,14 @@ class ProcessRun {
   void ShowProgress() {
     if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
     if (!report_.ready) {
-      fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for, crew_.has_nodes() ? "" : " on " + placement_.ClocksPlace());
+      fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for,
+                 crew_.has_nodes() ? "" : " on " + placement_.ClocksPlace());
     } else {
-      const double simulated_s = static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
-      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s, report_.wall_s,
-                 report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0, report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
+      const double simulated_s =
+          static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
+      fmt::print(stderr, "\r\033[K{:.1f} s simulated, {:.1f} s passed, {:.2f} × real time{}{}", simulated_s,
+                 report_.wall_s, report_.wall_s > 0.0 ? simulated_s / report_.wall_s : 0.0,
+                 report_.paused ? ", paused" : "", desk_ && desk_->has_keys() ? " (h: keys)" : "");
     }
     shown_ = true;
   }
@@ -254,7 +268,7 @@ class ProcessRun {
   std::map<std::size_t, std::function<void(const std::string&)>> answers_;
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
-  std::set<std::string> told_;  // nodes of which the clock was told that they are lost
+  std::set<std::string> told_;          // nodes of which the clock was told that they are lost
   std::int64_t clocks_last_step_ = -1;  // where it was lost …
   int clocks_losses_ = 0;               // … so often
   bool shown_ = false;
@@ -263,7 +277,8 @@ class ProcessRun {
 
 }  // namespace
 
-int RunProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch, launch::Overrides overrides) {
+int RunProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+                 launch::Overrides overrides) {
   return ProcessRun(options, placement, launch, std::move(overrides)).Run();
 }
 

@@ -113,7 +113,8 @@ std::string Child::Fate() const {
 
 void Child::Send(const std::string& line) const {
   const std::string text = line + "\n";
-  if (in_ >= 0) [[maybe_unused]] const ssize_t sent = ::write(in_, text.data(), text.size());
+  if (in_ >= 0) [[maybe_unused]]
+    const ssize_t sent = ::write(in_, text.data(), text.size());
 }
 
 std::string ProgramFolder() {

@@ -11,8 +11,8 @@
 
 namespace rodeira::cli {
 
-// A child process of `rodeira run`, in a process group of its own (a terminal's Ctrl-C reaches only the parent), told by
-// SIGTERM when the parent dies, however it dies.
+// A child process of `rodeira run`, in a process group of its own (a terminal's Ctrl-C reaches only the parent), told
+// by SIGTERM when the parent dies, however it dies.
 class Child {
  public:
   // Pipes for standard input and output only where asked for; standard error stays the parent's.
@@ -36,7 +36,7 @@ class Child {
   std::optional<int> exit_status() const { return exit_status_; }  // where it left by itself
   // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)".
   std::string Fate() const;
-  int out() const { return out_; }  // to read from; -1 without pipes
+  int out() const { return out_; }           // to read from; -1 without pipes
   void Send(const std::string& line) const;  // to its standard input
   void CloseInput();
 

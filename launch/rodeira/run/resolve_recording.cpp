@@ -34,7 +34,8 @@ std::string FreeName(const launch::Launch& launch, const std::string& name) {
 
 }  // namespace
 
-base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options, launch::Overrides& overrides) {
+base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options,
+                              launch::Overrides& overrides) {
   std::string recorder;
   std::string own;  // what the launch file says
   for (const launch::LaunchNode& node : launch.nodes()) {
@@ -43,7 +44,8 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
     if (options.no_record || !recorder.empty()) continue;
     if (!placement.Has(node)) {
       if (options.record.empty()) return {};
-      return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name), "--record");
+      return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name),
+                              "--record");
     }
     recorder = node.name;
     own = node.config->OptionalChild("config").Peek({"file"}).value_or("");
@@ -58,15 +60,20 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
     options.record = DatedRecording(launch.name());
     std::filesystem::create_directories(base::UserDataFolder(), problem);
     if (problem) {
-      const std::string what = fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record", problem.message());
+      const std::string what =
+          fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record",
+                      problem.message());
       return base::Failed(what, base::UserDataFolder().string());
     }
   }
   options.record = std::filesystem::absolute(options.record, problem).string();
-  if (std::filesystem::exists(options.record, problem)) return base::WrongInput("the file exists; a recording is never overwritten", options.record);
+  if (std::filesystem::exists(options.record, problem))
+    return base::WrongInput("the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {
     if (!placement.host().empty()) {
-      return base::WrongInput("the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'", "--record");
+      return base::WrongInput(
+          "the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'",
+          "--record");
     }
     recorder = FreeName(launch, "recorder");
     overrides.emplace_back("nodes." + recorder + ".kind", "recorder");

@@ -29,7 +29,8 @@ std::string FreshRunName() {
 }  // namespace
 
 int Run(const RunOptions& options) {
-  if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace) return Complain(pace.error());
+  if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)
+    return Complain(pace.error());
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
@@ -44,7 +45,8 @@ int Run(const RunOptions& options) {
     auto found = Placement::Find(launch.value(), resolved, overrides);
     if (!found) return Complain(found.error());
     placement = std::move(found).value();
-    if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status) return Complain(status.error());
+    if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status)
+      return Complain(status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (launch.ok() && !resolved.meta.empty()) {

@@ -14,8 +14,8 @@ namespace rodeira::cli {
 struct RunOptions {
   std::string launch_file;
   std::optional<double> duration_s;
-  std::string pace;  // empty: as the launch file says, otherwise as fast as it can
-  std::string record;       // empty: as the launch file says, otherwise a dated file in the folder of recordings
+  std::string pace;    // empty: as the launch file says, otherwise as fast as it can
+  std::string record;  // empty: as the launch file says, otherwise a dated file in the folder of recordings
   bool no_record = false;
   std::optional<std::uint64_t> seed;
   launch::Overrides overrides;
@@ -23,9 +23,9 @@ struct RunOptions {
   bool in_process = false;
   bool headless = false;
   bool quiet = false;
-  std::string lab;          // laboratory file; empty: as the launch file says
-  std::string host;         // only what belongs to this host of the laboratory; empty: all
-  std::string run;          // empty: a name of its own
+  std::string lab;   // laboratory file; empty: as the launch file says
+  std::string host;  // only what belongs to this host of the laboratory; empty: all
+  std::string run;   // empty: a name of its own
   std::optional<std::uint32_t> domain;
 };
 

@@ -44,9 +44,11 @@ base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string
     const auto equals = pair.find('=');
     const std::string key = pair.substr(0, equals);
     if (equals == std::string::npos || !IsName(key)) {
-      return base::WrongInput(fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
+      return base::WrongInput(
+          fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
     }
-    overrides.emplace_back("nodes." + recorder + ".config.meta." + key, Quoted(std::string_view(pair).substr(equals + 1)));
+    overrides.emplace_back("nodes." + recorder + ".config.meta." + key,
+                           Quoted(std::string_view(pair).substr(equals + 1)));
   }
   return {};
 }

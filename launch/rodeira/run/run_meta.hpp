@@ -8,8 +8,8 @@
 
 namespace rodeira::cli {
 
-// `--meta KEY=VALUE`: adds overrides that hand each pair to the recorder of `launch`. Wrong input where it is no pair, the key is no
-// name (letters, digits, _ and -), or nothing is recorded.
+// `--meta KEY=VALUE`: adds overrides that hand each pair to the recorder of `launch`. Wrong input where it is no pair,
+// the key is no name (letters, digits, _ and -), or nothing is recorded.
 base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string>& meta, launch::Overrides& overrides);
 
 }  // namespace rodeira::cli

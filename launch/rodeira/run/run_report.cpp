@@ -44,7 +44,8 @@ std::vector<std::string> Words(std::string_view line, std::size_t count) {
 void RunReport::Take(std::string_view line) {
   const auto rest = [&](std::string_view start) { return std::string(line.substr(start.size())); };
   if (line.starts_with("progress ")) {
-    step = std::max(step, Number<std::int64_t>(line, "step"));  // another life of the clock has not heard everybody at once
+    step = std::max(step,
+                    Number<std::int64_t>(line, "step"));  // another life of the clock has not heard everybody at once
     wall_s = Number<double>(line, "wall_s");
     paused = Number<int>(line, "paused") != 0;
     pace = Number<double>(line, "pace");
@@ -97,19 +98,21 @@ void RunReport::Take(std::string_view line) {
 
 std::string RunReport::Table(double base_step_s, const std::string& recording) const {
   const double simulated_s = static_cast<double>(std::max<std::int64_t>(step, 0)) * base_step_s;
-  std::string text = fmt::format("simulated {:.3f} s in {:.2f} s ({:.2f} × real time)", simulated_s, wall_s, wall_s > 0.0 ? simulated_s / wall_s : 0.0);
+  std::string text = fmt::format("simulated {:.3f} s in {:.2f} s ({:.2f} × real time)", simulated_s, wall_s,
+                                 wall_s > 0.0 ? simulated_s / wall_s : 0.0);
   if (paused_s > 0.0) text += fmt::format(", of it paused {:.2f} s", paused_s);
   if (paced_steps > 0) {
-    text += fmt::format("\nlate    mean {:.3f} ms, worst {:.3f} ms, {} of {} steps late, {:.3f} s given up", late_mean_s * 1e3, late_worst_s * 1e3, late_steps,
-                        paced_steps, slipped_s);
+    text += fmt::format("\nlate    mean {:.3f} ms, worst {:.3f} ms, {} of {} steps late, {:.3f} s given up",
+                        late_mean_s * 1e3, late_worst_s * 1e3, late_steps, paced_steps, slipped_s);
   }
   std::size_t width = 4;
   for (const Node& node : nodes) width = std::max(width, node.name.size());
   // Computing a step, and from one step to the next.
-  text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs", "worst µs", "apart µs", "99 % µs", "server calls");
+  text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs",
+                      "worst µs", "apart µs", "99 % µs", "server calls");
   for (const Node& node : nodes) {
-    text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>9.1f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps, node.mean_us, node.worst_us,
-                        node.apart_us, node.apart_p99_us, node.server_calls);
+    text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>9.1f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps,
+                        node.mean_us, node.worst_us, node.apart_us, node.apart_p99_us, node.server_calls);
   }
   for (const Node& node : nodes) {
     if (node.cannot_save) text += WithoutStateLine(node.name);

@@ -19,12 +19,12 @@ struct RunReport {
     std::uint64_t server_calls = 0;
     bool cannot_save = false;  // its state
   };
-  bool met = false;            // said by who follows a clock on another PC
+  bool met = false;  // said by who follows a clock on another PC
   bool ready = false;
   bool ended = false;
   bool ok = false;
-  std::int64_t step = 0;       // progress; at the end the last step of the run
-  double wall_s = 0.0;         // since the first grant
+  std::int64_t step = 0;  // progress; at the end the last step of the run
+  double wall_s = 0.0;    // since the first grant
   double slipped_s = 0.0;
   double paused_s = 0.0;
   bool paused = false;         // now
@@ -36,7 +36,7 @@ struct RunReport {
   double late_mean_s = 0.0;
   double late_worst_s = 0.0;
   std::string digest;
-  std::string waiting_for;     // before ready
+  std::string waiting_for;  // before ready
   std::vector<std::string> faults;
   std::vector<std::string> remarks;  // refused reports and strangers
   // What became of lost nodes: the newest that the clock asked for, and all that happened, for people.
@@ -45,7 +45,7 @@ struct RunReport {
     std::uint32_t life = 0;
     std::string reason;
   };
-  std::vector<Restart> wanted;       // taken by who starts processes
+  std::vector<Restart> wanted;  // taken by who starts processes
   std::vector<std::string> recovered;
   std::vector<std::string> paused_by;  // sentences
   std::vector<Node> nodes;

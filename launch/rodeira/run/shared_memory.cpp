@@ -12,7 +12,8 @@ namespace rodeira::cli {
 namespace {
 
 bool IsFastDds(const std::string& name) {
-  for (const char* start : {"fastrtps_", "sem.fastrtps_", "fast_datasharing", "sem.fast_datasharing", "fastdds_", "sem.fastdds_"}) {
+  for (const char* start :
+       {"fastrtps_", "sem.fastrtps_", "fast_datasharing", "sem.fast_datasharing", "fastdds_", "sem.fastdds_"}) {
     if (name.starts_with(start)) return true;
   }
   return false;
@@ -51,8 +52,8 @@ std::string GroupOf(std::string name) {
   return name;
 }
 
-// Fast DDS locks a file beside each segment and port as long as it lives: this tells of processes too that /proc does not
-// show, in a container with the same /dev/shm.
+// Fast DDS locks a file beside each segment and port as long as it lives: this tells of processes too that /proc does
+// not show, in a container with the same /dev/shm.
 bool IsLocked(const std::filesystem::path& folder, const std::string& group) {
   for (const char* end : {"_el", "_sl"}) {
     const int file = ::open((folder / (group + end)).c_str(), O_RDONLY | O_CLOEXEC);
@@ -80,7 +81,8 @@ std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::
   std::set<std::string> dead;
   for (const std::string& name : SharedMemoryFiles(folder)) {
     struct stat info {};
-    if (!before.contains(name) && ::stat((folder / name).c_str(), &info) == 0 && info.st_uid == ::geteuid()) dead.insert(name);
+    if (!before.contains(name) && ::stat((folder / name).c_str(), &info) == 0 && info.st_uid == ::geteuid())
+      dead.insert(name);
   }
   if (dead.empty()) return dead;
   const std::set<std::string> used = InUse(folder);
@@ -92,7 +94,8 @@ std::set<std::string> DeadFiles(const std::set<std::string>& before, const std::
     const std::string port = name.substr(at, name.find_first_not_of("0123456789", at + 13) - at);
     for (const std::string& other : used) {
       const auto there = other.find(port);
-      if (there != std::string::npos && !std::isdigit(static_cast<unsigned char>(other.c_str()[there + port.size()]))) return true;
+      if (there != std::string::npos && !std::isdigit(static_cast<unsigned char>(other.c_str()[there + port.size()])))
+        return true;
     }
     return false;
   };

@@ -15,7 +15,8 @@ namespace rodeira::cli {
 namespace {
 
 bool Same(const termios& a, const termios& b) {
-  return a.c_lflag == b.c_lflag && a.c_iflag == b.c_iflag && a.c_cc[VMIN] == b.c_cc[VMIN] && a.c_cc[VTIME] == b.c_cc[VTIME];
+  return a.c_lflag == b.c_lflag && a.c_iflag == b.c_iflag && a.c_cc[VMIN] == b.c_cc[VMIN] &&
+         a.c_cc[VTIME] == b.c_cc[VTIME];
 }
 
 // For the handler of Ctrl-Z alone.

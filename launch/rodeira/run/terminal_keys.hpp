@@ -8,8 +8,9 @@
 
 namespace rodeira::cli {
 
-// Single keys of a terminal, without echo and without waiting for Enter. Ctrl-C, Ctrl-Z and the rest keep their meaning.
-// The terminal is put back as it was by the destructor, and by a guardian process however this process ends (kill -9 too).
+// Single keys of a terminal, without echo and without waiting for Enter. Ctrl-C, Ctrl-Z and the rest keep their
+// meaning. The terminal is put back as it was by the destructor, and by a guardian process however this process ends
+// (kill -9 too).
 class TerminalKeys {
  public:
   // Null where `file` is no terminal. Call it before there are threads.

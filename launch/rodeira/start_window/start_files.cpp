@@ -19,7 +19,8 @@ std::vector<fs::path> FilesIn(const fs::path& folder, const std::set<std::string
   std::error_code problem;
   for (fs::directory_iterator entry(folder, problem), end; !problem && entry != end; entry.increment(problem)) {
     std::error_code unread;
-    if (entry->is_regular_file(unread) && endings.contains(entry->path().extension().string())) files.push_back(entry->path());
+    if (entry->is_regular_file(unread) && endings.contains(entry->path().extension().string()))
+      files.push_back(entry->path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -32,7 +33,8 @@ std::vector<fs::path> NewestIn(const fs::path& folder) {
     const auto written = fs::last_write_time(file, unread);
     if (!unread) dated.emplace_back(written, file);
   }
-  std::sort(dated.begin(), dated.end(), [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+  std::sort(dated.begin(), dated.end(),
+            [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
   std::vector<fs::path> files;
   for (const auto& [written, file] : dated) {
     if (files.size() < StartFiles::kRecent) files.push_back(file);
@@ -61,11 +63,13 @@ std::vector<fs::path> WholeIn(const fs::path& folder, const std::string& kind, c
   std::erase_if(files, [&](const fs::path& file) { return !IsOfKind(file, kind); });
   std::string included;
   for (const fs::path& file : files) included += LineOf(file, "include:");
-  std::erase_if(files, [&](const fs::path& file) { return included.find(file.filename().string()) != std::string::npos; });
+  std::erase_if(files,
+                [&](const fs::path& file) { return included.find(file.filename().string()) != std::string::npos; });
   return files;
 }
 
-std::vector<fs::path> FilesFor(const fs::path& root, const fs::path& own, const std::string& kind, const std::set<std::string>& endings) {
+std::vector<fs::path> FilesFor(const fs::path& root, const fs::path& own, const std::string& kind,
+                               const std::set<std::string>& endings) {
   std::vector<fs::path> files = FilesIn(own, endings);
   const auto add = [&files](const std::vector<fs::path>& more) { files.insert(files.end(), more.begin(), more.end()); };
   std::vector<fs::path> folders;
@@ -100,7 +104,8 @@ fs::path FindStartRoot(const std::vector<fs::path>& near) {
   for (const fs::path& begin : near) {
     for (fs::path folder = begin; !folder.empty(); folder = folder.parent_path()) {
       std::error_code problem;
-      if (fs::is_regular_file(folder / kStartLaunch, problem) && fs::is_directory(folder / "configs", problem)) return folder;
+      if (fs::is_regular_file(folder / kStartLaunch, problem) && fs::is_directory(folder / "configs", problem))
+        return folder;
       if (folder == folder.parent_path()) break;
     }
   }

@@ -28,17 +28,20 @@ std::string Quoted(const std::string& text) {
 std::string DriverValue(const StartFiles& files, const StartChoice& choice) {
   if (choice.driver == StartDriver::kKeyboard) return "{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}";
   if (choice.driver == StartDriver::kAutopilot) {
-    return fmt::format("{{source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: {}}}", Quoted(Named(files.root, choice.vehicle)));
+    return fmt::format("{{source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: {}}}",
+                       Quoted(Named(files.root, choice.vehicle)));
   }
   if (choice.driver == StartDriver::kPad) return "{source: gamepad}";
-  return choice.wheel.empty() ? "{source: joystick, keyboard: ../configs/drivers/keyboard.yaml}" : fmt::format("{{source: joystick, wheel: {}}}", Quoted(Named(files.root, choice.wheel)));
+  return choice.wheel.empty() ? "{source: joystick, keyboard: ../configs/drivers/keyboard.yaml}"
+                              : fmt::format("{{source: joystick, wheel: {}}}", Quoted(Named(files.root, choice.wheel)));
 }
 
 }  // namespace
 
 StartChoice DefaultChoice(const StartFiles& files) {
   const auto named = [](const std::vector<fs::path>& all, const char* name) {
-    const auto found = std::find_if(all.begin(), all.end(), [name](const fs::path& file) { return file.filename() == name; });
+    const auto found =
+        std::find_if(all.begin(), all.end(), [name](const fs::path& file) { return file.filename() == name; });
     return found != all.end() ? *found : all.empty() ? fs::path() : all.front();
   };
   StartChoice choice;
@@ -52,15 +55,20 @@ std::string WhatIsMissing(const StartFiles& files, const StartChoice& choice) {
   std::error_code problem;
   if (choice.way == StartWay::kWatch) {
     if (choice.recording.empty()) return "choose a recording";
-    return fs::is_regular_file(choice.recording, problem) ? "" : fmt::format("there is no file '{}'", choice.recording.string());
+    return fs::is_regular_file(choice.recording, problem)
+               ? ""
+               : fmt::format("there is no file '{}'", choice.recording.string());
   }
   if (files.root.empty()) return "the folders launch and configs were found neither here nor beside the program";
   if (choice.world.empty()) return "choose a world";
   if (!fs::is_regular_file(choice.world, problem)) return fmt::format("there is no file '{}'", choice.world.string());
   const fs::path ending = choice.world.extension();
-  if (ending != ".yaml" && ending != ".xodr" && ending != ".motors") return fmt::format("'{}' is no world; a file that ends on .yaml, .xodr or .motors was expected", choice.world.string());
+  if (ending != ".yaml" && ending != ".xodr" && ending != ".motors")
+    return fmt::format("'{}' is no world; a file that ends on .yaml, .xodr or .motors was expected",
+                       choice.world.string());
   if (choice.vehicle.empty()) return "choose a vehicle";
-  return fs::is_regular_file(choice.vehicle, problem) ? "" : fmt::format("there is no file '{}'", choice.vehicle.string());
+  return fs::is_regular_file(choice.vehicle, problem) ? ""
+                                                      : fmt::format("there is no file '{}'", choice.vehicle.string());
 }
 
 std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& choice) {
@@ -73,8 +81,10 @@ std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& c
   set("world", Quoted(Named(files.root, choice.world)));
   set("nodes.ego.config.vehicle", Quoted(Named(files.root, choice.vehicle)));
   if (choice.driver != StartDriver::kKeyboard) set("nodes.driver.config", DriverValue(files, choice));
-  if (choice.traffic > 0) set("nodes.traffic.config.vehicles", std::to_string(choice.traffic));
-  else set("nodes.traffic.kind", "none");
+  if (choice.traffic > 0)
+    set("nodes.traffic.config.vehicles", std::to_string(choice.traffic));
+  else
+    set("nodes.traffic.kind", "none");
   if (!choice.records) {
     set("nodes.recorder.kind", "none");
     arguments.emplace_back("--no-record");
@@ -83,7 +93,10 @@ std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& c
 }
 
 std::string ShellText(const std::vector<std::string>& arguments) {
-  const auto is_plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("-_./=:,+@%").find(c) != std::string_view::npos; };
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           std::string_view("-_./=:,+@%").find(c) != std::string_view::npos;
+  };
   std::string text = "rodeira";
   for (const std::string& argument : arguments) {
     text += ' ';

@@ -15,8 +15,8 @@ struct StartChoice {
   StartWay way = StartWay::kDrive;
   std::filesystem::path world, vehicle;
   StartDriver driver = StartDriver::kKeyboard;
-  std::filesystem::path wheel;   // of kWheel; empty: the one that is plugged in
-  int traffic = 20;              // cars; 0: none
+  std::filesystem::path wheel;  // of kWheel; empty: the one that is plugged in
+  int traffic = 20;             // cars; 0: none
   bool records = true;
   std::filesystem::path recording;  // of kWatch
 };

@@ -27,7 +27,8 @@ constexpr float kListWidth = 260.0F;  // of a list of files, with the field for 
 constexpr float kLabelWidth = 100.0F;
 
 // One of several files.
-void ListFiles(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen, const std::function<std::string(const std::filesystem::path&)>& name) {
+void ListFiles(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen,
+               const std::function<std::string(const std::filesystem::path&)>& name) {
   if (!ImGui::BeginCombo(label, chosen.empty() ? "none" : name(chosen).c_str(), ImGuiComboFlags_HeightLarge)) return;
   for (const auto& file : files) {
     if (ImGui::Selectable(name(file).c_str(), file == chosen)) chosen = file;
@@ -73,7 +74,9 @@ void StartedRun::Poll() {
 void StartedRun::Stop() const { child_.Signal(SIGINT); }
 
 std::string StartedRun::State() const {
-  if (!child_.ended()) return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded", std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
+  if (!child_.ended())
+    return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded",
+                       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
   if (child_.exit_status() == 0) return "has ended";
   return child_.Fate();
 }
@@ -81,7 +84,8 @@ std::string StartedRun::State() const {
 void StartWindow::Draw(int width_px, int height_px) {
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize({static_cast<float>(width_px), static_cast<float>(height_px)});
-  ImGui::Begin("start", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+  ImGui::Begin("start", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
   ImGui::TextUnformatted("Rodeira");
   ImGui::Separator();
   if (wheel_.open()) {
@@ -103,8 +107,10 @@ void StartWindow::DrawChoices() {
     LookForRecordings();
   }
   ImGui::Spacing();
-  if (choice_.way == StartWay::kDrive) DrawDrive();
-  else DrawWatch();
+  if (choice_.way == StartWay::kDrive)
+    DrawDrive();
+  else
+    DrawWatch();
   DrawCommand();
   ImGui::EndDisabled();
 }
@@ -118,9 +124,11 @@ void StartWindow::TakeWheel(const std::filesystem::path& file) {
 }
 
 // One of the files that were found, or any other one, by its path.
-void StartWindow::ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) const {
+void StartWindow::ChooseFile(const char* label, const std::vector<std::filesystem::path>& files,
+                             std::filesystem::path& chosen) const {
   ImGui::SetNextItemWidth(kListWidth);
-  ListFiles(fmt::format("##{}", label).c_str(), files, chosen, [this](const std::filesystem::path& file) { return ShownName(files_.root, file); });
+  ListFiles(fmt::format("##{}", label).c_str(), files, chosen,
+            [this](const std::filesystem::path& file) { return ShownName(files_.root, file); });
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-kLabelWidth);
   TypeFile(label, chosen);
@@ -147,14 +155,16 @@ void StartWindow::DrawDrive() {
 void StartWindow::DrawWheel() {
   if (ImGui::Button("set up a steering wheel")) wheel_.Open();
   if (choice_.driver == StartDriver::kWheel && !files_.wheels.empty()) {
-    ListFiles("wheel", files_.wheels, choice_.wheel, [](const std::filesystem::path& file) { return file.filename().string(); });
+    ListFiles("wheel", files_.wheels, choice_.wheel,
+              [](const std::filesystem::path& file) { return file.filename().string(); });
   }
   if (!wheel_.said().empty()) ImGui::TextWrapped("%s", wheel_.said().c_str());
 }
 
 // Who has chosen none, or the newest, has the newest.
 void StartWindow::LookForRecordings() {
-  const bool newest = choice_.recording.empty() || (!files_.recordings.empty() && choice_.recording == files_.recordings.front());
+  const bool newest =
+      choice_.recording.empty() || (!files_.recordings.empty() && choice_.recording == files_.recordings.front());
   files_.FindRecordings();
   if (newest && !files_.recordings.empty()) choice_.recording = files_.recordings.front();
 }
@@ -177,8 +187,10 @@ void StartWindow::DrawCommand() {
   if (ImGui::Button("start", {140.0F, 32.0F})) {
     problem_.clear();
     auto run = StartedRun::Start(program_, arguments);
-    if (run) run_.emplace(std::move(run).value());
-    else problem_ = run.error().Text();
+    if (run)
+      run_.emplace(std::move(run).value());
+    else
+      problem_ = run.error().Text();
   }
   ImGui::SameLine();
   if (ImGui::Button("copy the command", {0.0F, 32.0F})) ImGui::SetClipboardText(text.c_str());
@@ -214,7 +226,8 @@ int StartByWindow() {
     return window.error().exit_status();
   }
   CatchInterrupts();
-  StartWindow start(FindStartFiles(root, base::UserDataFolder(), base::UserConfigFolder()), ProgramFolder() + "/rodeira");
+  StartWindow start(FindStartFiles(root, base::UserDataFolder(), base::UserConfigFolder()),
+                    ProgramFolder() + "/rodeira");
   while (!Interrupted() && window.value()->BeginFrame(start.wheel().open() ? kWheelWait_ms : kWait_ms)) {
     start.Draw(window.value()->width_px(), window.value()->height_px());
     window.value()->EndFrame();

@@ -37,11 +37,13 @@ class StartedRun {
   std::vector<std::string> lines_;
 };
 
-// The window in which a person without a command chooses one: world, vehicle, driver, traffic, recording, or a recording to watch; the
-// command that does the same stands below. What was begun says there how it goes. A steering wheel is set up here too.
+// The window in which a person without a command chooses one: world, vehicle, driver, traffic, recording, or a
+// recording to watch; the command that does the same stands below. What was begun says there how it goes. A steering
+// wheel is set up here too.
 class StartWindow {
  public:
-  StartWindow(StartFiles files, std::string program) : files_(std::move(files)), program_(std::move(program)), choice_(DefaultChoice(files_)) {}
+  StartWindow(StartFiles files, std::string program)
+      : files_(std::move(files)), program_(std::move(program)), choice_(DefaultChoice(files_)) {}
 
   // Draws the panels of one frame; between BeginFrame and EndFrame.
   void Draw(int width_px, int height_px);
@@ -53,7 +55,8 @@ class StartWindow {
  private:
   void DrawChoices();
   void DrawDrive();
-  void ChooseFile(const char* label, const std::vector<std::filesystem::path>& files, std::filesystem::path& chosen) const;
+  void ChooseFile(const char* label, const std::vector<std::filesystem::path>& files,
+                  std::filesystem::path& chosen) const;
   void DrawWheel();
   void TakeWheel(const std::filesystem::path& file);
   void DrawWatch();

@@ -11,7 +11,7 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr float kMostStep_s = 0.1F;  // a window that was held up has seen nothing meanwhile
+constexpr float kMostStep_s = 0.1F;                         // a window that was held up has seen nothing meanwhile
 constexpr int kLeastRange_deg = 20, kMostRange_deg = 3600;  // as wheel files: twice what a side may have
 
 // From the axis' one end to its other, as the device counts.
@@ -22,8 +22,10 @@ float ShareOf(double raw) { return static_cast<float>(std::clamp((raw + 32768.0)
 void WheelPanel::Open() {
   said_.clear();
   auto begun = WheelWizard::Begin();
-  if (begun) wizard_ = std::move(begun).value();
-  else said_ = begun.error().Text();
+  if (begun)
+    wizard_ = std::move(begun).value();
+  else
+    said_ = begun.error().Text();
 }
 
 std::optional<std::filesystem::path> WheelPanel::TakeWritten() { return std::exchange(written_, std::nullopt); }
@@ -42,7 +44,8 @@ void WheelPanel::Finish() {
 
 void WheelPanel::Draw() {
   if (wizard_ == nullptr) return;
-  if (const auto went = wizard_->Step(std::clamp(ImGui::GetIO().DeltaTime, 1e-4F, kMostStep_s)); !went) return Close(went.error().Text());
+  if (const auto went = wizard_->Step(std::clamp(ImGui::GetIO().DeltaTime, 1e-4F, kMostStep_s)); !went)
+    return Close(went.error().Text());
   if (wizard_->done()) return Finish();
   ImGui::Text("setting up a steering wheel: movement %d of at most %d", wizard_->number(), WheelWizard::kMovements);
   ImGui::Spacing();
@@ -63,7 +66,8 @@ void WheelPanel::DrawDevices() const {
     if (!reading.connected) ImGui::TextUnformatted("  was unplugged");
     if (!reading.connected) continue;
     for (std::size_t axis = 0; axis < reading.axes.size(); ++axis) {
-      ImGui::ProgressBar(ShareOf(reading.axes[axis]), {420.0F, 0.0F}, fmt::format("{:.0f}", reading.axes[axis]).c_str());
+      ImGui::ProgressBar(ShareOf(reading.axes[axis]), {420.0F, 0.0F},
+                         fmt::format("{:.0f}", reading.axes[axis]).c_str());
       ImGui::SameLine();
       ImGui::Text("axis %d", static_cast<int>(axis));
     }

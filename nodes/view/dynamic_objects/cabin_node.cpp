@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/view/scene/vehicles/cabin.hpp"
 #include "common/view/scene/camera/camera.hpp"
+#include "common/view/scene/vehicles/cabin.hpp"
 #include "nodes/view/materials/face_texture.hpp"
 
 namespace rodeira::nodes {
@@ -60,8 +60,8 @@ scene::Mesh Needle(double radius_m) {
 
 CabinNode::CabinNode(Look& look) : look_(look), group_(new osg::MatrixTransform) {
   group_->setNodeMask(0U);
-  // Nothing but the cabin is nearer to the eye: it has the nearest hundredth of the depths for itself, and the car's body, which is closed
-  // where people sit, stays behind it.
+  // Nothing but the cabin is nearer to the eye: it has the nearest hundredth of the depths for itself, and the car's
+  // body, which is closed where people sit, stays behind it.
   group_->getOrCreateStateSet()->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 0.01));
   group_->getOrCreateStateSet()->setDefine("SUN_SHADOW", osg::StateAttribute::OFF);  // the roof would darken it all
 }
@@ -104,12 +104,15 @@ void CabinNode::Show(const scene::CarPose* car) {
   const Eigen::Vector3d at = car->p_WB_W + car->q_WB * eye_B;
   const Eigen::Quaterniond& q = car->q_WB;
   group_->setMatrix(osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(ToOsg(at)));
-  const std::array<double, 3> values = {3.6 * std::fabs(car->speed_mps), car->engine_rpm, std::max(0.0, scene::kTank_l - car->fuel_used_l)};
+  const std::array<double, 3> values = {3.6 * std::fabs(car->speed_mps), car->engine_rpm,
+                                        std::max(0.0, scene::kTank_l - car->fuel_used_l)};
   for (std::size_t i = 0; i < needles_.size(); ++i) {
-    needles_[i]->setMatrix(osg::Matrixd::rotate(scene::NeedleAngle_rad(scene::CabinDials()[i].dial, values[i]), osg::Vec3d(0.0, 0.0, 1.0)));
+    needles_[i]->setMatrix(osg::Matrixd::rotate(scene::NeedleAngle_rad(scene::CabinDials()[i].dial, values[i]),
+                                                osg::Vec3d(0.0, 0.0, 1.0)));
   }
   const std::int32_t shown = std::clamp(car->gear, kLowestGear, kHighestGear);
-  for (std::size_t i = 0; i < gears_.size(); ++i) gears_[i]->setNodeMask(static_cast<std::int32_t>(i) + kLowestGear == shown ? ~0U : 0U);
+  for (std::size_t i = 0; i < gears_.size(); ++i)
+    gears_[i]->setNodeMask(static_cast<std::int32_t>(i) + kLowestGear == shown ? ~0U : 0U);
   wheel_->setMatrix(osg::Matrixd::rotate(car->steering_wheel_rad, osg::Vec3d(0.0, 0.0, 1.0)));
 }
 

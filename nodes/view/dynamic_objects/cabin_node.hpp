@@ -13,7 +13,8 @@
 
 namespace rodeira::nodes {
 
-// The inside of a car: doors, posts, roof and seats, and the dashboard with needles of speed, engine and fuel, the gear, the steering wheel that turns.
+// The inside of a car: doors, posts, roof and seats, and the dashboard with needles of speed, engine and fuel, the
+// gear, the steering wheel that turns.
 class CabinNode {
  public:
   explicit CabinNode(Look& look);

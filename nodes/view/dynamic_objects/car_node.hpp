@@ -27,11 +27,14 @@ class CarNode {
   void Shine(const std::array<float, scene::kLamps>& glows);
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
-  // Shows this model instead of the procedural car, in its frame B (x forward, z up, metres, the ground at z = 0). Its nodes that are called
-  // wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its hub, turn, steer and move as wheels do; those that are called
-  // lamp_brake, lamp_indicator_left, lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's lamps.
+  // Shows this model instead of the procedural car, in its frame B (x forward, z up, metres, the ground at z = 0). Its
+  // nodes that are called wheel_front_left, wheel_front_right, wheel_rear_left and wheel_rear_right, each about its
+  // hub, turn, steer and move as wheels do; those that are called lamp_brake, lamp_indicator_left,
+  // lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's
+  // lamps.
   void Wear(Look& look, osg::Node& model);
-  // Leaves away what stands in the eyes of somebody who sits in it: of a car what is above its waist, of a van, a lorry and a bus all but the shadow.
+  // Leaves away what stands in the eyes of somebody who sits in it: of a car what is above its waist, of a van, a lorry
+  // and a bus all but the shadow.
   void SeenFromInside(bool inside);
 
  private:
@@ -65,16 +68,18 @@ class PersonNode {
   osg::ref_ptr<osg::Uniform> pulse_;
 };
 
-// All vehicles and people of a moment: makes those that are new, moves those that are there, removes those that are gone.
+// All vehicles and people of a moment: makes those that are new, moves those that are there, removes those that are
+// gone.
 class Fleet {
  public:
   explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.
   void WearModel(const std::string& file);
-  // `inside`: the number, in the moment, of whom the camera is in, or none; `chosen`: who pulses; both counted behind the cars for the traffic.
-  // `dark`: headlights are on.
-  void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen, bool dark);
+  // `inside`: the number, in the moment, of whom the camera is in, or none; `chosen`: who pulses; both counted behind
+  // the cars for the traffic. `dark`: headlights are on.
+  void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
+            bool dark);
 
  private:
   template <class Pose, class Node, class Make, class Update>

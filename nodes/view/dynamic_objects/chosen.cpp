@@ -15,11 +15,14 @@ std::string GearName(std::int32_t gear) { return gear < 0 ? "R" : gear == 0 ? "N
 
 // Consumption at the moment.
 std::string Now(double fuel_lph, double speed_mps) {
-  return std::fabs(speed_mps) > kMoving_mps ? fmt::format("{:.1f} l/100 km", fuel_lph / (3.6 * std::fabs(speed_mps)) * 100.0) : fmt::format("{:.1f} l/h", fuel_lph);
+  return std::fabs(speed_mps) > kMoving_mps
+             ? fmt::format("{:.1f} l/100 km", fuel_lph / (3.6 * std::fabs(speed_mps)) * 100.0)
+             : fmt::format("{:.1f} l/h", fuel_lph);
 }
 
 std::string Mean(double fuel_l, double driven_m) {
-  return driven_m > kDriven_m ? fmt::format("{:.1f} l/100 km over {:.2f} km", fuel_l / driven_m * 1e5, driven_m * 1e-3) : "-";
+  return driven_m > kDriven_m ? fmt::format("{:.1f} l/100 km over {:.2f} km", fuel_l / driven_m * 1e5, driven_m * 1e-3)
+                              : "-";
 }
 
 template <class Pose>
@@ -64,24 +67,34 @@ std::string Chosen::Panel(const scene::Moment& moment) {
   const scene::CarPose& car = moment.cars[*at];
   if (moment.time_ns < since_ns_ || car.odometer_m < since_m_) Choose(moment, at);  // somebody went back in a recording
   const double driven_m = car.odometer_m - since_m_;
-  return fmt::format("{:.1f} km/h   gear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nsteering wheel {:.0f} deg\nnow {}\nmean {}", 3.6 * std::fabs(car.speed_mps), GearName(car.gear),
-                     car.engine_rpm, 100.0 * car.throttle, 100.0 * car.brake, car.steering_wheel_rad * 180.0 / std::numbers::pi,
-                     Now(car.fuel_lph, car.speed_mps), Mean(car.fuel_used_l - since_l_, driven_m));
+  return fmt::format(
+      "{:.1f} km/h   gear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nsteering wheel {:.0f} deg\nnow "
+      "{}\nmean {}",
+      3.6 * std::fabs(car.speed_mps), GearName(car.gear), car.engine_rpm, 100.0 * car.throttle, 100.0 * car.brake,
+      car.steering_wheel_rad * 180.0 / std::numbers::pi, Now(car.fuel_lph, car.speed_mps),
+      Mean(car.fuel_used_l - since_l_, driven_m));
 }
 
 std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent) {
-  if (moment.time_ns < seen_ns_ || (agent.detail && agent.detail->fuel_used_l < since_l_)) Choose(moment, In(moment));  // somebody went back in a recording
+  if (moment.time_ns < seen_ns_ || (agent.detail && agent.detail->fuel_used_l < since_l_))
+    Choose(moment, In(moment));  // somebody went back in a recording
   seen_m_ += (agent.p_WB_W - seen_W_).norm();
   seen_W_ = agent.p_WB_W;
   seen_ns_ = moment.time_ns;
   const std::string name = fmt::format("traffic {}", agent.id >> 24 & 0xffffffU);
-  if (agent.kind == scene::AgentKind::kPedestrian) return fmt::format("{}\non foot, {:.1f} km/h", name, 3.6 * agent.speed_mps);
+  if (agent.kind == scene::AgentKind::kPedestrian)
+    return fmt::format("{}\non foot, {:.1f} km/h", name, 3.6 * agent.speed_mps);
   const double wheels_deg = agent.steer_rad * 180.0 / std::numbers::pi;
-  if (!agent.detail) return fmt::format("{}\n{:.1f} km/h{}\nwheels {:.1f} deg", name, 3.6 * agent.speed_mps, agent.lights.brake ? "   brakes" : "", wheels_deg);
+  if (!agent.detail)
+    return fmt::format("{}\n{:.1f} km/h{}\nwheels {:.1f} deg", name, 3.6 * agent.speed_mps,
+                       agent.lights.brake ? "   brakes" : "", wheels_deg);
   const scene::AgentDetail& detail = *agent.detail;
-  return fmt::format("{}   {:.1f} km/h of {:.0f}\ngear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nclutch {:.0f} %   wheels {:.1f} deg\nnow {}\nmean {}", name,
-                     3.6 * agent.speed_mps, 3.6 * detail.target_speed_mps, GearName(detail.gear), detail.engine_rpm, 100.0 * detail.throttle, 100.0 * detail.brake,
-                     100.0 * detail.clutch, wheels_deg, Now(detail.fuel_lph, agent.speed_mps), Mean(detail.fuel_used_l - since_l_, seen_m_));
+  return fmt::format(
+      "{}   {:.1f} km/h of {:.0f}\ngear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nclutch {:.0f} %   "
+      "wheels {:.1f} deg\nnow {}\nmean {}",
+      name, 3.6 * agent.speed_mps, 3.6 * detail.target_speed_mps, GearName(detail.gear), detail.engine_rpm,
+      100.0 * detail.throttle, 100.0 * detail.brake, 100.0 * detail.clutch, wheels_deg,
+      Now(detail.fuel_lph, agent.speed_mps), Mean(detail.fuel_used_l - since_l_, seen_m_));
 }
 
 }  // namespace rodeira::nodes

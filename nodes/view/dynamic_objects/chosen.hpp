@@ -15,8 +15,8 @@ class Chosen {
   void Choose(const scene::Moment& moment, std::optional<std::size_t> number);
   // Where it is among the moment's now; nobody where it has left.
   std::optional<std::size_t> In(const scene::Moment& moment) const;
-  // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was chosen); of the traffic the
-  // same where it says so, and what its driver plans. Empty where it is not there.
+  // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was
+  // chosen); of the traffic the same where it says so, and what its driver plans. Empty where it is not there.
   std::string Panel(const scene::Moment& moment);
 
  private:

@@ -30,7 +30,8 @@ std::optional<CarAutopilot> AutopilotOf(const launch::Launch& launch, lockstep::
       if (input.config->Peek({"config", "source"}) != "autopilot" || !file) continue;
       CarAutopilot autopilot{(launch.path().parent_path() / *file).lexically_normal(), std::nullopt};
       int number = 0;
-      if (lane && std::from_chars(lane->data(), lane->data() + lane->size(), number).ec == std::errc{}) autopilot.lane = number;
+      if (lane && std::from_chars(lane->data(), lane->data() + lane->size(), number).ec == std::errc{})
+        autopilot.lane = number;
       return autopilot;
     }
   }
@@ -47,8 +48,8 @@ std::optional<DriverAim> DriverAims::Of(const scene::CarPose& car) {
   const double heading_rad = std::atan2(ahead_W.y(), ahead_W.x());
   const auto aim = made->second->AimOf({car.p_WB_W, heading_rad, car.speed_mps, car.wheelbase_m, car.front_m});
   if (!aim) return std::nullopt;
-  return DriverAim{aim->speed_mps, Eigen::Rotation2Dd(-heading_rad) * (aim->target_W - car.p_WB_W.head<2>()), std::remainder(aim->way_heading_rad - heading_rad, 2.0 * std::numbers::pi),
-                   aim->look_ahead_W};
+  return DriverAim{aim->speed_mps, Eigen::Rotation2Dd(-heading_rad) * (aim->target_W - car.p_WB_W.head<2>()),
+                   std::remainder(aim->way_heading_rad - heading_rad, 2.0 * std::numbers::pi), aim->look_ahead_W};
 }
 
 }  // namespace rodeira::nodes

@@ -9,8 +9,8 @@
 
 #include "common/driving/driver/autopilot.hpp"
 #include "common/runtime/launch/launch.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
+#include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
 
 namespace rodeira::nodes {
@@ -26,12 +26,14 @@ using CarAutopilots = std::map<std::uint64_t, CarAutopilot>;
 // Of a vehicle's node; nothing where no autopilot's controls lead to it. What is wrong there the input itself says.
 std::optional<CarAutopilot> AutopilotOf(const launch::Launch& launch, lockstep::NodeIndex vehicle);
 
-// What the autopilots of driven cars go by. It is not published: it follows from the car's state, its driver's file and the world, by the driver's own code.
+// What the autopilots of driven cars go by. It is not published: it follows from the car's state, its driver's file and
+// the world, by the driver's own code.
 class DriverAims {
  public:
   // The world must outlive it.
   DriverAims(CarAutopilots autopilots, const road::World& world) : autopilots_(std::move(autopilots)), world_(world) {}
-  // Nothing where no autopilot drives the car, or where it is beside its way's ends. The first time a way is made (some 0.1 s for 20 km).
+  // Nothing where no autopilot drives the car, or where it is beside its way's ends. The first time a way is made (some
+  // 0.1 s for 20 km).
   std::optional<DriverAim> Of(const scene::CarPose& car);
 
  private:

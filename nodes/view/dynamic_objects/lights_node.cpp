@@ -39,8 +39,9 @@ LightsNode::LightsNode(Look& look, const road::World& world) : group_(new osg::G
 
 void LightsNode::Show(const std::vector<scene::LightShown>& lights) {
   for (Head& head : heads_) {
-    const auto shown = std::lower_bound(lights.begin(), lights.end(), head.controller,
-                                        [](const scene::LightShown& light, std::uint32_t controller) { return light.controller < controller; });
+    const auto shown = std::lower_bound(
+        lights.begin(), lights.end(), head.controller,
+        [](const scene::LightShown& light, std::uint32_t controller) { return light.controller < controller; });
     const bool dark = shown == lights.end() || shown->controller != head.controller;
     const std::array<bool, 3> lit = dark ? std::array<bool, 3>{} : LitAt(shown->colour);
     for (std::size_t which = 0; which < lit.size(); ++which) head.lit[which]->setNodeMask(lit[which] ? ~0U : 0U);

@@ -6,8 +6,8 @@
 #include <array>
 #include <vector>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
+#include "common/world/road/world.hpp"
 #include "nodes/view/materials/look.hpp"
 
 namespace rodeira::nodes {

@@ -27,15 +27,18 @@ constexpr std::array kNamed = std::to_array<std::pair<std::string_view, std::uin
 }  // namespace
 
 base::Result<scene::Colour> PaintOf(std::string_view text) {
-  const auto named = std::find_if(kNamed.begin(), kNamed.end(), [text](const auto& entry) { return entry.first == text; });
+  const auto named =
+      std::find_if(kNamed.begin(), kNamed.end(), [text](const auto& entry) { return entry.first == text; });
   if (named != kNamed.end()) return scene::Colour::Of(named->second);
   const std::string_view digits = text.starts_with('#') ? text.substr(1) : text;
   std::uint32_t rgb = 0;
   const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
-  if (digits.size() == 6 && problem == std::errc{} && end == digits.data() + digits.size()) return scene::Colour::Of(rgb);
+  if (digits.size() == 6 && problem == std::errc{} && end == digits.data() + digits.size())
+    return scene::Colour::Of(rgb);
   std::vector<std::string> names;
   for (const auto& [name, colour] : kNamed) names.emplace_back(name);
-  return base::WrongInput(fmt::format("'{}' is no colour; a name or six hexadecimal digits were expected{}", text, base::DidYouMean(std::string(text), names)));
+  return base::WrongInput(fmt::format("'{}' is no colour; a name or six hexadecimal digits were expected{}", text,
+                                      base::DidYouMean(std::string(text), names)));
 }
 
 void PaintCars(scene::Moment& moment, const CarPaints& paints) {

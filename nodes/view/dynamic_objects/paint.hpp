@@ -11,8 +11,8 @@
 
 namespace rodeira::nodes {
 
-// A colour by its name (red, blue, yellow, green, white, silver, grey, black), or by six hexadecimal digits, red, green and blue, with or without
-// a # before them. Wrong input with the nearest name otherwise.
+// A colour by its name (red, blue, yellow, green, white, silver, grey, black), or by six hexadecimal digits, red, green
+// and blue, with or without a # before them. Wrong input with the nearest name otherwise.
 base::Result<scene::Colour> PaintOf(std::string_view text);
 
 // The paints that somebody chose, by the cars' ids. The others keep theirs.

@@ -4,16 +4,16 @@
 #include <osg/MatrixTransform>
 #include <osg/ref_ptr>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/camera/camera.hpp"
-#include "nodes/view/materials/look.hpp"
+#include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
+#include "nodes/view/materials/look.hpp"
 
 namespace rodeira::nodes {
 
-// What the driver of a chosen car goes by: where his car points (green, from above its roof, as long as it would drive in a second at the
-// speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it, where his path leads (yellow, from the car's front),
-// and the point up to which he looks (a cyan post).
+// What the driver of a chosen car goes by: where his car points (green, from above its roof, as long as it would drive
+// in a second at the speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it,
+// where his path leads (yellow, from the car's front), and the point up to which he looks (a cyan post).
 class VectorsNode {
  public:
   // The world must outlive it.

@@ -35,7 +35,8 @@ void EyeBuffer::HandOverInto(unsigned texture) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, target_.framebuffer);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
-  glBlitFramebuffer(0, 0, target_.width_px, target_.height_px, 0, 0, target_.width_px, target_.height_px, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitFramebuffer(0, 0, target_.width_px, target_.height_px, 0, 0, target_.width_px, target_.height_px,
+                    GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, 0, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }

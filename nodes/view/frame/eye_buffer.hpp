@@ -4,8 +4,8 @@
 
 namespace rodeira::nodes {
 
-// Pixels of one size, with as many samples as the quality wants, that are then handed over into somebody's texture. Made, used and
-// destroyed while the same OpenGL context is current.
+// Pixels of one size, with as many samples as the quality wants, that are then handed over into somebody's texture.
+// Made, used and destroyed while the same OpenGL context is current.
 class EyeBuffer {
  public:
   // `format`: of the textures that it will be handed over into (GL_RGBA8, GL_SRGB8_ALPHA8). `samples`: a pixel; 0: one.

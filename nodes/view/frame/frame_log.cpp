@@ -15,7 +15,8 @@ void FrameLog::Add(double wall_s, const scene::Moment& moment, std::size_t follo
   const auto body = scene::BodyAt(moment, followed);
   if (!body) return;
   const Eigen::Vector3d &p = body->p_WB_W, &eye = camera.eye_W;
-  file_ << fmt::format("{:.6f},{:.9f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", wall_s, static_cast<double>(moment.time_ns) * 1e-9, p.x(), p.y(), p.z(), eye.x(), eye.y(), eye.z());
+  file_ << fmt::format("{:.6f},{:.9f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", wall_s,
+                       static_cast<double>(moment.time_ns) * 1e-9, p.x(), p.y(), p.z(), eye.x(), eye.y(), eye.z());
 }
 
 }  // namespace rodeira::nodes

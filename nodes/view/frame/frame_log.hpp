@@ -10,8 +10,9 @@
 
 namespace rodeira::nodes {
 
-// What a window showed and when, a line (CSV) a picture: the time on the wall at which it was handed to the display, the simulated time that it shows, where the
-// followed vehicle is in it, and the eye. For the proof that motion is even.
+// What a window showed and when, a line (CSV) a picture: the time on the wall at which it was handed to the display,
+// the simulated time that it shows, where the followed vehicle is in it, and the eye. For the proof that motion is
+// even.
 class FrameLog {
  public:
   // Wrong input where the file cannot be written.

@@ -35,7 +35,8 @@ std::string RendererName() {
 }
 
 bool IsSoftware(const std::string& renderer) {
-  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos || renderer.find("swrast") != std::string::npos;
+  return renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos ||
+         renderer.find("swrast") != std::string::npos;
 }
 
 }  // namespace
@@ -48,20 +49,26 @@ bool HasDisplay() {
   return display;
 }
 
-base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable, int display,
-                                                       std::optional<Quality> quality) {
+base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width_px, int height_px,
+                                                     const std::string& title, bool resizable, int display,
+                                                     std::optional<Quality> quality) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
   if (kind == SurfaceKind::kWindow && !window::NamesDisplay()) return base::WrongInput(kNoDisplay);
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
-    return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers (" : "OpenGL without a display does not start (") +
-                            SDL_GetError() + (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'" : "); the packages libegl1 and libegl-mesa0 were expected"));
+    return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
+                                                                     : "OpenGL without a display does not start (") +
+                            SDL_GetError() +
+                            (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'"
+                                                          : "); the packages libegl1 and libegl-mesa0 were expected"));
   }
   surface->video_ = true;
   if (kind == SurfaceKind::kWindow && !window::IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + window::NamedDisplay() + "); another DISPLAY was expected, or 'window: never'");
+    return base::WrongInput("a window is wanted, but no display answers (" + window::NamedDisplay() +
+                            "); another DISPLAY was expected, or 'window: never'");
   }
-  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status) return status.error();
+  if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status)
+    return status.error();
   return surface;
 }
 
@@ -84,20 +91,25 @@ void Surface::DropContext() {
   window_ = nullptr;
 }
 
-base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display, std::optional<Quality> wish) {
+base::Status Surface::MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display,
+                                 std::optional<Quality> wish) {
   resizable_ = resizable;
   const auto make = [&](int samples) {  // smooth edges where they are to be had
-    return (samples > 0 && MakeContext(width_px, height_px, title, display, samples)) || MakeContext(width_px, height_px, title, display, 0);
+    return (samples > 0 && MakeContext(width_px, height_px, title, display, samples)) ||
+           MakeContext(width_px, height_px, title, display, 0);
   };
   const Quality guess = wish.value_or(kind_ == SurfaceKind::kWindow ? Quality::kHigh : Quality::kMedium);
   bool made = make(TraitsOf(guess).samples);
   quality_ = guess;
-  if (made && !wish && kind_ == SurfaceKind::kWindow && IsSoftware(RendererName())) {  // it needs its time for more pictures a second
+  if (made && !wish && kind_ == SurfaceKind::kWindow &&
+      IsSoftware(RendererName())) {  // it needs its time for more pictures a second
     DropContext();
     quality_ = Quality::kLow;
     made = make(TraitsOf(quality_).samples);
   }
-  if (!made) return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() + "); the package libgl1-mesa-dri was expected");
+  if (!made)
+    return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() +
+                            "); the package libgl1-mesa-dri was expected");
   if (kind_ == SurfaceKind::kWindow) holds_ = SDL_GL_SetSwapInterval(1) == 0;
   if (!holds_) SDL_ClearError();
   renderer_ = RendererName();

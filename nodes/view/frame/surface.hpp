@@ -18,10 +18,12 @@ enum class SurfaceKind { kWindow, kOffscreen };
 // its OpenGL context is current there all the while. At most one a process.
 class Surface {
  public:
-  // A window appears on the display of that number, on the first one where the PC has fewer. One that is not resizable keeps its size, full screen included: frames are read from it.
-  // `quality`: none for the renderer's own: of a window low where the processor draws and high where a graphics card does; medium for what is no window.
-  // Wrong input where there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
-  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px, const std::string& title, bool resizable = false, int display = 0,
+  // A window appears on the display of that number, on the first one where the PC has fewer. One that is not resizable
+  // keeps its size, full screen included: frames are read from it. `quality`: none for the renderer's own: of a window
+  // low where the processor draws and high where a graphics card does; medium for what is no window. Wrong input where
+  // there is no display (kWindow) or no OpenGL: a sentence that says what is missing.
+  static base::Result<std::unique_ptr<Surface>> Open(SurfaceKind kind, int width_px, int height_px,
+                                                     const std::string& title, bool resizable = false, int display = 0,
                                                      std::optional<Quality> quality = std::nullopt);
   ~Surface();
   Surface(const Surface&) = delete;
@@ -46,7 +48,8 @@ class Surface {
 
  private:
   Surface() = default;
-  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display, std::optional<Quality> wish);
+  base::Status MakeWindow(int width_px, int height_px, const std::string& title, bool resizable, int display,
+                          std::optional<Quality> wish);
   bool MakeContext(int width_px, int height_px, const std::string& title, int display, int samples);
   void DropContext();
 

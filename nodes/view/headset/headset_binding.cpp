@@ -15,7 +15,8 @@
 namespace rodeira::nodes {
 namespace {
 
-// Of a context that was made of a visual, which knows no configuration: one with its window's visual. Null: there is none.
+// Of a context that was made of a visual, which knows no configuration: one with its window's visual. Null: there is
+// none.
 GLXFBConfig ConfigOfWindow(Display* display, GLXDrawable window) {
   XWindowAttributes window_is;
   if (XGetWindowAttributes(display, window, &window_is) == 0) return nullptr;
@@ -24,7 +25,9 @@ GLXFBConfig ConfigOfWindow(Display* display, GLXDrawable window) {
   GLXFBConfig found = nullptr;
   for (int i = 0; i < count && found == nullptr; ++i) {
     int visual = 0;
-    if (glXGetFBConfigAttrib(display, configs[i], GLX_VISUAL_ID, &visual) == Success && static_cast<VisualID>(visual) == XVisualIDFromVisual(window_is.visual)) found = configs[i];
+    if (glXGetFBConfigAttrib(display, configs[i], GLX_VISUAL_ID, &visual) == Success &&
+        static_cast<VisualID>(visual) == XVisualIDFromVisual(window_is.visual))
+      found = configs[i];
   }
   if (configs != nullptr) XFree(configs);
   return found;
@@ -32,7 +35,8 @@ GLXFBConfig ConfigOfWindow(Display* display, GLXDrawable window) {
 
 GLXFBConfig ConfigOf(Display* display, GLXContext context) {
   int id = -1, count = 0;
-  if (glXQueryContext(display, context, GLX_FBCONFIG_ID, &id) != Success || id <= 0) return ConfigOfWindow(display, glXGetCurrentDrawable());
+  if (glXQueryContext(display, context, GLX_FBCONFIG_ID, &id) != Success || id <= 0)
+    return ConfigOfWindow(display, glXGetCurrentDrawable());
   const int wanted[] = {GLX_FBCONFIG_ID, id, 0};
   GLXFBConfig* configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &count);
   GLXFBConfig found = configs != nullptr && count > 0 ? configs[0] : nullptr;
@@ -60,7 +64,8 @@ std::optional<HeadsetBinding> BindingByEgl(EGLContext context) {
   EGLConfig config = nullptr;
   if (eglQueryContext(display, context, EGL_CONFIG_ID, &id) != EGL_TRUE) return std::nullopt;
   const EGLint wanted[] = {EGL_CONFIG_ID, id, EGL_NONE};
-  if (eglChooseConfig(display, wanted, &config, 1, &count) != EGL_TRUE || count != 1) config = nullptr;  // contexts without one exist
+  if (eglChooseConfig(display, wanted, &config, 1, &count) != EGL_TRUE || count != 1)
+    config = nullptr;  // contexts without one exist
   auto binding = std::make_shared<XrGraphicsBindingEGLMNDX>();
   *binding = {XR_TYPE_GRAPHICS_BINDING_EGL_MNDX, nullptr, eglGetProcAddress, display, config, context};
   return HeadsetBinding{{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME, XR_MNDX_EGL_ENABLE_EXTENSION_NAME}, binding};

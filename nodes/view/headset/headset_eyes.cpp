@@ -36,7 +36,8 @@ scene::HeadsetEye EyeOf(const XrPosef& pose, const XrFovf& view) {
   Eigen::Matrix3d seat;  // OpenXR's axes in the seat's
   seat << 0.0, 0.0, -1.0, -1.0, 0.0, 0.0, 0.0, 1.0, 0.0;
   const auto& [x, y, z, w] = pose.orientation;
-  const Eigen::Quaterniond turned(static_cast<double>(w), static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
+  const Eigen::Quaterniond turned(static_cast<double>(w), static_cast<double>(x), static_cast<double>(y),
+                                  static_cast<double>(z));
   scene::HeadsetEye eye;
   eye.p_SE = seat * Eigen::Vector3f(pose.position.x, pose.position.y, pose.position.z).cast<double>();
   eye.q_SE = Eigen::Quaterniond(Eigen::Matrix3d(seat * turned.normalized().toRotationMatrix() * seat.transpose()));
@@ -45,18 +46,21 @@ scene::HeadsetEye EyeOf(const XrPosef& pose, const XrFovf& view) {
   return eye;
 }
 
-base::Result<std::unique_ptr<HeadsetEyes>> HeadsetEyes::Make(XrInstance instance, XrSystemId system, XrSession session, XrSpace space, Quality quality) {
+base::Result<std::unique_ptr<HeadsetEyes>> HeadsetEyes::Make(XrInstance instance, XrSystemId system, XrSession session,
+                                                             XrSpace space, Quality quality) {
   std::unique_ptr<HeadsetEyes> eyes(new HeadsetEyes(session, space));
   std::array<XrViewConfigurationView, 2> shapes{};
   for (auto& shape : shapes) shape.type = XR_TYPE_VIEW_CONFIGURATION_VIEW;
   std::uint32_t count = 0;
-  if (XR_FAILED(xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, 2, &count, shapes.data())) || count != 2) {
+  if (XR_FAILED(xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, 2, &count, shapes.data())) ||
+      count != 2) {
     return base::WrongInput("the headset has not two eyes; other ones are not drawn for");
   }
   const std::int64_t format = FormatOf(session);
   if (format == 0) return base::WrongInput("the headset's runtime takes no pictures of eight bits a colour");
   for (std::size_t i = 0; i < 2; ++i) {
-    if (auto status = eyes->MakeEye(shapes[i], format, TraitsOf(quality).samples, eyes->eyes_[i]); !status) return status.error();
+    if (auto status = eyes->MakeEye(shapes[i], format, TraitsOf(quality).samples, eyes->eyes_[i]); !status)
+      return status.error();
   }
   return eyes;
 }
@@ -71,13 +75,17 @@ base::Status HeadsetEyes::MakeEye(const XrViewConfigurationView& shape, std::int
   info.faceCount = info.arraySize = info.mipCount = 1;
   std::uint32_t count = 0;
   std::vector<SwapchainImage> images;
-  if (XR_SUCCEEDED(xrCreateSwapchain(session_, &info, &eye.chain)) && XR_SUCCEEDED(xrEnumerateSwapchainImages(eye.chain, 0, &count, nullptr))) {
+  if (XR_SUCCEEDED(xrCreateSwapchain(session_, &info, &eye.chain)) &&
+      XR_SUCCEEDED(xrEnumerateSwapchainImages(eye.chain, 0, &count, nullptr))) {
     images.resize(count);
-    (void)xrEnumerateSwapchainImages(eye.chain, count, &count, reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data()));
+    (void)xrEnumerateSwapchainImages(eye.chain, count, &count,
+                                     reinterpret_cast<XrSwapchainImageBaseHeader*>(images.data()));
   }
   for (const SwapchainImage& image : images) eye.textures.push_back(image.image);
-  eye.buffer = std::make_unique<EyeBuffer>(static_cast<int>(info.width), static_cast<int>(info.height), samples, static_cast<unsigned>(format));
-  if (eye.textures.empty() || !eye.buffer->whole()) return base::WrongInput("the headset's pictures cannot be made in this OpenGL");
+  eye.buffer = std::make_unique<EyeBuffer>(static_cast<int>(info.width), static_cast<int>(info.height), samples,
+                                           static_cast<unsigned>(format));
+  if (eye.textures.empty() || !eye.buffer->whole())
+    return base::WrongInput("the headset's pictures cannot be made in this OpenGL");
   return {};
 }
 
@@ -90,7 +98,9 @@ HeadsetEyes::~HeadsetEyes() {
 bool HeadsetEyes::DrawOne(Eye& eye, const scene::HeadsetEye& from, const Headset::DrawEye& draw) {
   std::uint32_t which = 0;
   const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, kPatience_ns};
-  if (XR_FAILED(xrAcquireSwapchainImage(eye.chain, nullptr, &which)) || xrWaitSwapchainImage(eye.chain, &wait) != XR_SUCCESS) return false;
+  if (XR_FAILED(xrAcquireSwapchainImage(eye.chain, nullptr, &which)) ||
+      xrWaitSwapchainImage(eye.chain, &wait) != XR_SUCCESS)
+    return false;
   draw(from, eye.buffer->target());
   eye.buffer->HandOverInto(eye.textures.at(which));
   return XR_SUCCEEDED(xrReleaseSwapchainImage(eye.chain, nullptr));
@@ -102,15 +112,21 @@ base::Result<std::optional<HeadsetEyes::Views>> HeadsetEyes::Draw(XrTime time, c
   std::array<XrView, 2> found{};
   for (auto& view : found) view.type = XR_TYPE_VIEW;
   std::uint32_t count = 0;
-  if (XR_FAILED(xrLocateViews(session_, &when, &known, 2, &count, found.data()))) return base::Failed("the headset does not say where its eyes are");
+  if (XR_FAILED(xrLocateViews(session_, &when, &known, 2, &count, found.data())))
+    return base::Failed("the headset does not say where its eyes are");
   constexpr XrViewStateFlags kWhole = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
   if (count != 2 || (known.viewStateFlags & kWhole) != kWhole) return std::optional<Views>();
   Views views{};
   for (std::size_t i = 0; i < 2; ++i) {
     Eye& eye = eyes_[i];
-    if (!DrawOne(eye, EyeOf(found[i].pose, found[i].fov), draw)) return base::Failed("the headset gives its pictures back no more");
+    if (!DrawOne(eye, EyeOf(found[i].pose, found[i].fov), draw))
+      return base::Failed("the headset gives its pictures back no more");
     const PictureTarget& size = eye.buffer->target();
-    views[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, found[i].pose, found[i].fov, {eye.chain, {{0, 0}, {size.width_px, size.height_px}}, 0}};
+    views[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
+                nullptr,
+                found[i].pose,
+                found[i].fov,
+                {eye.chain, {{0, 0}, {size.width_px, size.height_px}}, 0}};
   }
   return std::optional<Views>(views);
 }

@@ -27,12 +27,13 @@ scene::HeadsetEye EyeOf(const XrPosef& pose, const XrFovf& view);
 class HeadsetEyes {
  public:
   // Wrong input where the runtime has no two eyes, or no pictures that OpenGL can draw.
-  static base::Result<std::unique_ptr<HeadsetEyes>> Make(XrInstance instance, XrSystemId system, XrSession session, XrSpace space, Quality quality);
+  static base::Result<std::unique_ptr<HeadsetEyes>> Make(XrInstance instance, XrSystemId system, XrSession session,
+                                                         XrSpace space, Quality quality);
   ~HeadsetEyes();
 
   using Views = std::array<XrCompositionLayerProjectionView, 2>;
-  // Where the eyes will be at a time, and what they see there. None where the runtime does not know where the head is. Failed where it
-  // has lost the pictures.
+  // Where the eyes will be at a time, and what they see there. None where the runtime does not know where the head is.
+  // Failed where it has lost the pictures.
   base::Result<std::optional<Views>> Draw(XrTime time, const Headset::DrawEye& draw);
 
  private:

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "common/view/scene/raster/canvas.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/raster/canvas.hpp"
 
 namespace rodeira::nodes {
 

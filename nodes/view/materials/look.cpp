@@ -33,11 +33,14 @@ constexpr int kMarkBin = 1, kSkyBin = 2, kShadowBin = 3, kRainBin = 4;
 // Noise in [0, 1] that repeats after kNoiseSize pixels.
 double RepeatingNoise(int x, int y, int cell, std::uint64_t seed) {
   const int cells = kNoiseSize / cell;
-  const auto corner = [&](int c, int r) { return base::RandomUniform({seed, static_cast<std::uint64_t>(c % cells), static_cast<std::uint64_t>(r % cells)}); };
+  const auto corner = [&](int c, int r) {
+    return base::RandomUniform({seed, static_cast<std::uint64_t>(c % cells), static_cast<std::uint64_t>(r % cells)});
+  };
   const double u = static_cast<double>(x % cell) / cell, v = static_cast<double>(y % cell) / cell;
   const double a = u * u * (3.0 - 2.0 * u), b = v * v * (3.0 - 2.0 * v);
   const int c = x / cell, r = y / cell;
-  return (corner(c, r) * (1.0 - a) + corner(c + 1, r) * a) * (1.0 - b) + (corner(c, r + 1) * (1.0 - a) + corner(c + 1, r + 1) * a) * b;
+  return (corner(c, r) * (1.0 - a) + corner(c + 1, r) * a) * (1.0 - b) +
+         (corner(c, r + 1) * (1.0 - a) + corner(c + 1, r + 1) * a) * b;
 }
 
 // `between`: also between two of its sizes.
@@ -46,8 +49,10 @@ osg::ref_ptr<osg::Texture2D> MakeNoise(bool between) {
   image->allocateImage(kNoiseSize, kNoiseSize, 1, GL_RGB, GL_UNSIGNED_BYTE);
   for (int y = 0; y < kNoiseSize; ++y) {
     for (int x = 0; x < kNoiseSize; ++x) {
-      const double fine = 0.5 * RepeatingNoise(x, y, 2, 11) + 0.3 * RepeatingNoise(x, y, 8, 12) + 0.2 * RepeatingNoise(x, y, 32, 13);
-      const double coarse = 0.5 * RepeatingNoise(x, y, 64, 14) + 0.3 * RepeatingNoise(x, y, 32, 15) + 0.2 * RepeatingNoise(x, y, 8, 16);
+      const double fine =
+          0.5 * RepeatingNoise(x, y, 2, 11) + 0.3 * RepeatingNoise(x, y, 8, 12) + 0.2 * RepeatingNoise(x, y, 32, 13);
+      const double coarse =
+          0.5 * RepeatingNoise(x, y, 64, 14) + 0.3 * RepeatingNoise(x, y, 32, 15) + 0.2 * RepeatingNoise(x, y, 8, 16);
       unsigned char* pixel = image->data(static_cast<unsigned>(x), static_cast<unsigned>(y));
       pixel[0] = static_cast<unsigned char>(std::lround(255.0 * fine));
       pixel[1] = static_cast<unsigned char>(std::lround(255.0 * coarse));
@@ -57,7 +62,8 @@ osg::ref_ptr<osg::Texture2D> MakeNoise(bool between) {
   osg::ref_ptr<osg::Texture2D> made = new osg::Texture2D(image);
   made->setWrap(osg::Texture::WRAP_S, osg::Texture::REPEAT);
   made->setWrap(osg::Texture::WRAP_T, osg::Texture::REPEAT);
-  made->setFilter(osg::Texture::MIN_FILTER, between ? osg::Texture::LINEAR_MIPMAP_LINEAR : osg::Texture::LINEAR_MIPMAP_NEAREST);
+  made->setFilter(osg::Texture::MIN_FILTER,
+                  between ? osg::Texture::LINEAR_MIPMAP_LINEAR : osg::Texture::LINEAR_MIPMAP_NEAREST);
   made->setFilter(osg::Texture::MAG_FILTER, osg::Texture::LINEAR);
   return made;
 }
@@ -78,7 +84,11 @@ osg::ref_ptr<osg::Program> ProgramOf(const std::string& vertex, const std::strin
   return program;
 }
 
-Look::Look(const QualityTraits& quality, bool repeats) : quality_(quality), repeats_(repeats), noise_(MakeNoise(quality.fine)), shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
+Look::Look(const QualityTraits& quality, bool repeats)
+    : quality_(quality),
+      repeats_(repeats),
+      noise_(MakeNoise(quality.fine)),
+      shadow_(ProgramOf(ShadowVertexShader(), ShadowFragmentShader())) {}
 
 osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
@@ -86,8 +96,10 @@ osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
   state->setTextureAttribute(0, noise_);
   state->addUniform(new osg::Uniform("noise", 0));
   state->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
-  if (material == scene::Material::kCarPaint || material == scene::Material::kMatt) state->addUniform(new osg::Uniform("pulse", 0.0F));
-  if (material == scene::Material::kCarLamp) state->addUniform(new osg::Uniform(osg::Uniform::FLOAT, "glows", static_cast<int>(scene::kLamps)));
+  if (material == scene::Material::kCarPaint || material == scene::Material::kMatt)
+    state->addUniform(new osg::Uniform("pulse", 0.0F));
+  if (material == scene::Material::kCarLamp)
+    state->addUniform(new osg::Uniform(osg::Uniform::FLOAT, "glows", static_cast<int>(scene::kLamps)));
   if (material == scene::Material::kLamp) state->addUniform(new osg::Uniform("glow", 1.0F));
   if (material == scene::Material::kMark) {
     state->setAttributeAndModes(new osg::PolygonOffset(-1.0F, -4.0F));
@@ -98,7 +110,8 @@ osg::ref_ptr<osg::StateSet> Look::MakeState(scene::Material material) {
 }
 
 void Look::MakeStates() {
-  for (int number = 0; number < scene::kMaterials; ++number) (void)StateOfRepeated(static_cast<scene::Material>(number));
+  for (int number = 0; number < scene::kMaterials; ++number)
+    (void)StateOfRepeated(static_cast<scene::Material>(number));
 }
 
 osg::StateSet* Look::StateOf(scene::Material material) {
@@ -157,9 +170,12 @@ osg::ref_ptr<osg::Geometry> Look::BareGeometryOf(const scene::Mesh& mesh) {
 
 osg::ref_ptr<osg::Geometry> Look::GeometryOf(const scene::Mesh& mesh) {
   osg::ref_ptr<osg::Geometry> geometry = BareGeometryOf(mesh);
-  if (mesh.material == scene::Material::kPicture) geometry->setStateSet(StateOfPicture(mesh.face, mesh.repeats));
-  else if (mesh.material == scene::Material::kSign) geometry->setStateSet(KnownFace(mesh.face));
-  else geometry->setStateSet(StateOf(mesh.material));
+  if (mesh.material == scene::Material::kPicture)
+    geometry->setStateSet(StateOfPicture(mesh.face, mesh.repeats));
+  else if (mesh.material == scene::Material::kSign)
+    geometry->setStateSet(KnownFace(mesh.face));
+  else
+    geometry->setStateSet(StateOf(mesh.material));
   return geometry;
 }
 
@@ -205,19 +221,22 @@ osg::ref_ptr<osg::MatrixTransform> Look::Placed(std::span<const scene::Repeated>
 osg::ref_ptr<osg::Node> Look::MakeSky() {
   osg::ref_ptr<osg::Vec3Array> directions = new osg::Vec3Array;
   osg::ref_ptr<osg::DrawElementsUShort> triangles = new osg::DrawElementsUShort(GL_TRIANGLES);
-  const int around = quality_.fine ? 32 : 96, up = quality_.fine ? 16 : 64;  // where colours belong to vertices those lie closer
+  const int around = quality_.fine ? 32 : 96,
+            up = quality_.fine ? 16 : 64;  // where colours belong to vertices those lie closer
   for (int ring = 0; ring <= up; ++ring) {
     const double height = -0.6 + 2.1707963 * ring / up;  // from below the horizon to the zenith
     for (int k = 0; k < around; ++k) {
       const double angle = 6.283185307179586 * k / around;
-      directions->push_back(osg::Vec3(static_cast<float>(std::cos(height) * std::cos(angle)), static_cast<float>(std::cos(height) * std::sin(angle)),
+      directions->push_back(osg::Vec3(static_cast<float>(std::cos(height) * std::cos(angle)),
+                                      static_cast<float>(std::cos(height) * std::sin(angle)),
                                       static_cast<float>(std::sin(height))));
     }
   }
   for (int ring = 0; ring < up; ++ring) {
     for (int k = 0; k < around; ++k) {
       const int a = ring * around + k, b = ring * around + (k + 1) % around;
-      for (const int index : {a, b, b + around, a, b + around, a + around}) triangles->push_back(static_cast<GLushort>(index));
+      for (const int index : {a, b, b + around, a, b + around, a + around})
+        triangles->push_back(static_cast<GLushort>(index));
     }
   }
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
@@ -239,7 +258,9 @@ osg::ref_ptr<osg::Node> Look::MakeSky() {
 
 osg::ref_ptr<osg::Node> Look::MakeRain() {
   osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
-  for (const auto& [x, y] : {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)}) corners->push_back({x, y, 0.0F});
+  for (const auto& [x, y] :
+       {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)})
+    corners->push_back({x, y, 0.0F});
   osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
   geometry->setUseDisplayList(false);
   geometry->setUseVertexBufferObjects(true);
@@ -258,10 +279,12 @@ osg::ref_ptr<osg::Node> Look::MakeRain() {
 
 osg::ref_ptr<osg::Node> Look::MakeShadow(float rear_m, float front_m, float half_width_m) {
   const float grown = 1.28F;
-  const float middle = 0.5F * (rear_m + front_m), along = 0.5F * (front_m - rear_m) * 1.12F, aside = half_width_m * grown, z = 0.03F;
+  const float middle = 0.5F * (rear_m + front_m), along = 0.5F * (front_m - rear_m) * 1.12F,
+              aside = half_width_m * grown, z = 0.03F;
   osg::ref_ptr<osg::Vec3Array> positions = new osg::Vec3Array;
   osg::ref_ptr<osg::Vec2Array> parts = new osg::Vec2Array;
-  for (const auto& [u, v] : {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)}) {
+  for (const auto& [u, v] :
+       {std::pair(-1.0F, -1.0F), std::pair(1.0F, -1.0F), std::pair(1.0F, 1.0F), std::pair(-1.0F, 1.0F)}) {
     positions->push_back({middle + u * along, v * aside, z});
     parts->push_back({u, v});
   }

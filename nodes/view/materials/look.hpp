@@ -20,8 +20,8 @@
 
 namespace rodeira::nodes {
 
-// The bits of node masks by which geometries are in the sun's shadow maps: what stands and moves, in the near one alone, and the ground, in both. The sky
-// and what lies flat on the ground have neither.
+// The bits of node masks by which geometries are in the sun's shadow maps: what stands and moves, in the near one
+// alone, and the ground, in both. The sky and what lies flat on the ground have neither.
 inline constexpr unsigned kThrowsShadow = 0x2U, kGroundThrowsShadow = 0x4U;
 inline constexpr unsigned kThrowsNone = ~(kThrowsShadow | kGroundThrowsShadow), kOnlyNear = ~kGroundThrowsShadow;
 unsigned ShadowMaskOf(scene::Material material);
@@ -36,7 +36,8 @@ class Look {
   Look(const QualityTraits& quality, bool repeats);
 
   bool repeats() const { return repeats_; }
-  // Makes what is otherwise made as it is needed. From then on several threads may ask for states, geometries and what is placed.
+  // Makes what is otherwise made as it is needed. From then on several threads may ask for states, geometries and what
+  // is placed.
   void MakeStates();
   // How a material is drawn; one shared state for each.
   osg::StateSet* StateOf(scene::Material material);
@@ -44,8 +45,8 @@ class Look {
   osg::StateSet* StateOfRepeated(scene::Material material);
   // The same for a sign whose picture this is; a new one.
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
-  // The same for ground on which a file's picture lies. Where it cannot be read a sentence is printed, once, and the state is that
-  // of the ground without it. Several threads may ask.
+  // The same for ground on which a file's picture lies. Where it cannot be read a sentence is printed, once, and the
+  // state is that of the ground without it. Several threads may ask.
   osg::ref_ptr<osg::StateSet> StateOfPicture(const std::string& file, bool repeats);
   // The mesh without its origin.
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh);
@@ -53,7 +54,8 @@ class Look {
   osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, osg::ref_ptr<osg::Texture2D> picture);
   // The meshes at their places in the world. They must have the same origin, and at least one there must be.
   osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Mesh* const> meshes);
-  // Models at their many places in the world, or merged, as this look does it. They must have the same origin, and at least one there must be.
+  // Models at their many places in the world, or merged, as this look does it. They must have the same origin, and at
+  // least one there must be.
   osg::ref_ptr<osg::MatrixTransform> Placed(std::span<const scene::Repeated> all);
   osg::ref_ptr<osg::Node> MakeSky();
   // Falling rain before everything, over the whole picture. Its state wants the uniforms time_s and aspect.
@@ -72,7 +74,7 @@ class Look {
   osg::ref_ptr<osg::Texture2D> noise_;  // repeats: fine in its red part, coarse in its green one
   osg::ref_ptr<osg::Program> shadow_;
   std::array<osg::ref_ptr<osg::StateSet>, scene::kMaterials> states_, repeated_states_;
-  std::mutex mutex_;  // of the next two
+  std::mutex mutex_;                                          // of the next two
   std::map<std::string, osg::ref_ptr<osg::StateSet>> faces_;  // of signs
   std::map<std::pair<std::string, bool>, osg::ref_ptr<osg::StateSet>> pictures_;
 };

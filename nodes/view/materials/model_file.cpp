@@ -38,8 +38,8 @@ osg::ref_ptr<osg::Group> PlaceModels(const std::vector<scene::PlacedModel>& mode
     if (!copy) continue;
     const auto& [foot, x] = model.stand;
     // Row vectors, as OpenSceneGraph has them: the model's axes in the world, then its place.
-    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
-        osg::Matrixd(x.x(), x.y(), 0.0, 0.0, -x.y(), x.x(), 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, foot.x(), foot.y(), foot.z(), 1.0));
+    osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(osg::Matrixd(
+        x.x(), x.y(), 0.0, 0.0, -x.y(), x.x(), 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, foot.x(), foot.y(), foot.z(), 1.0));
     place->addChild(copy);
     group->addChild(place);
   }

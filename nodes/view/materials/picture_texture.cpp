@@ -14,7 +14,8 @@ base::Result<osg::ref_ptr<osg::Texture2D>> MakePictureTexture(const std::string&
   image->allocateImage(width, height, 1, GL_RGB, GL_UNSIGNED_BYTE);
   const std::size_t row = 3 * static_cast<std::size_t>(width);
   for (int y = 0; y < height; ++y) {  // from below, as OpenGL has them
-    std::copy_n(rgb.data() + static_cast<std::size_t>(height - 1 - y) * row, row, image->data(0, static_cast<unsigned>(y)));
+    std::copy_n(rgb.data() + static_cast<std::size_t>(height - 1 - y) * row, row,
+                image->data(0, static_cast<unsigned>(y)));
   }
   osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
   texture->setResizeNonPowerOfTwoHint(false);

@@ -30,7 +30,8 @@ osg::BoundingBox BoxOf(const osg::Vec3Array& model, const osg::Vec4Array& places
     for (unsigned corner = 0; corner < 8; ++corner) {
       const osg::Vec3 p = one.corner(corner);
       const float x = p.x() * shape.z(), y = p.y() * shape.z();
-      all.expandBy(at.x() + shape.x() * x - shape.y() * y, at.y() + shape.y() * x + shape.x() * y, at.z() + p.z() * shape.w());
+      all.expandBy(at.x() + shape.x() * x - shape.y() * y, at.y() + shape.y() * x + shape.x() * y,
+                   at.z() + p.z() * shape.w());
     }
   }
   return all;
@@ -66,8 +67,10 @@ osg::ref_ptr<osg::Geometry> PlainGeometry(const scene::Mesh& mesh) {
 osg::ref_ptr<osg::Geometry> RepeatedGeometry(const scene::Repeated& repeated) {
   osg::ref_ptr<osg::Geometry> geometry = PlainGeometry(repeated.model);
   auto& colours = static_cast<osg::Vec4ubArray&>(*geometry->getColorArray());
-  for (std::size_t i = 0; i < repeated.light.size(); ++i) {  // a leaf says how light it is, in quarters, and that it has no colour of its own
-    if (repeated.light[i] >= 0.0F) colours[i] = {static_cast<unsigned char>(std::lround(4.0F * repeated.light[i])), 0, 0, 0};
+  for (std::size_t i = 0; i < repeated.light.size();
+       ++i) {  // a leaf says how light it is, in quarters, and that it has no colour of its own
+    if (repeated.light[i] >= 0.0F)
+      colours[i] = {static_cast<unsigned char>(std::lround(4.0F * repeated.light[i])), 0, 0, 0};
   }
   osg::ref_ptr<osg::Vec4Array> places = new osg::Vec4Array, shapes = new osg::Vec4Array;
   for (const scene::StandingPlace& place : repeated.places) {
@@ -87,11 +90,15 @@ void Spread(osg::Geometry& repeated) {
   const auto* places = dynamic_cast<const osg::Vec4Array*>(repeated.getVertexAttribArray(kPlaceSlot));
   const auto* shapes = dynamic_cast<const osg::Vec4Array*>(repeated.getVertexAttribArray(kShapeSlot));
   RODEIRA_ASSERT(model != nullptr && places != nullptr && shapes != nullptr && places->size() == shapes->size());
-  for (unsigned i = 0; i < repeated.getNumPrimitiveSets(); ++i) repeated.getPrimitiveSet(i)->setNumInstances(static_cast<int>(places->size()));
+  for (unsigned i = 0; i < repeated.getNumPrimitiveSets(); ++i)
+    repeated.getPrimitiveSet(i)->setNumInstances(static_cast<int>(places->size()));
   repeated.setComputeBoundingBoxCallback(new KnownBox(BoxOf(*model, *places, *shapes)));
   repeated.dirtyBound();
 }
 
-bool CanRepeat() { return SDL_GL_ExtensionSupported("GL_ARB_draw_instanced") == SDL_TRUE && SDL_GL_ExtensionSupported("GL_ARB_instanced_arrays") == SDL_TRUE; }
+bool CanRepeat() {
+  return SDL_GL_ExtensionSupported("GL_ARB_draw_instanced") == SDL_TRUE &&
+         SDL_GL_ExtensionSupported("GL_ARB_instanced_arrays") == SDL_TRUE;
+}
 
 }  // namespace rodeira::nodes

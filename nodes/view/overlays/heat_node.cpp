@@ -15,7 +15,8 @@ constexpr float kLeft = 18.0F, kWidth = 380.0F, kBarHeight = 14.0F, kText = 17.0
 constexpr float kFromTop = 120.0F;  // below the lines of help and notes
 
 osg::Vec4 Of(scene::Colour colour, float share) {
-  return {static_cast<float>(colour.red) / 255.0F, static_cast<float>(colour.green) / 255.0F, static_cast<float>(colour.blue) / 255.0F, share};
+  return {static_cast<float>(colour.red) / 255.0F, static_cast<float>(colour.green) / 255.0F,
+          static_cast<float>(colour.blue) / 255.0F, share};
 }
 
 osg::ref_ptr<osg::Texture2D> MakeSquares() {
@@ -23,7 +24,9 @@ osg::ref_ptr<osg::Texture2D> MakeSquares() {
   squares->setDataVariance(osg::Object::DYNAMIC);
   squares->setResizeNonPowerOfTwoHint(false);
   squares->setInternalFormat(GL_RGBA16);
-  squares->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);  // a square may be of another surface than its neighbours: the shader decides
+  squares->setFilter(
+      osg::Texture::MIN_FILTER,
+      osg::Texture::NEAREST);  // a square may be of another surface than its neighbours: the shader decides
   squares->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
   squares->setWrap(osg::Texture::WRAP_S, osg::Texture::CLAMP_TO_BORDER);
   squares->setWrap(osg::Texture::WRAP_T, osg::Texture::CLAMP_TO_BORDER);
@@ -35,11 +38,12 @@ osg::ref_ptr<osg::Texture2D> MakeSquares() {
 
 HeatLegend LegendOf(const HeatPicture& heat) {
   const scene::HeatScale& scale = scene::ScaleOf(heat.kind);
-  return {fmt::format("{}, {}, of {:.0f} s", scale.name, scale.unit, heat.watched_s), fmt::format("{:g}", scale.red), fmt::format("{:g}", 0.5 * (scale.red + scale.green)),
-          fmt::format("{:g}", scale.green)};
+  return {fmt::format("{}, {}, of {:.0f} s", scale.name, scale.unit, heat.watched_s), fmt::format("{:g}", scale.red),
+          fmt::format("{:g}", 0.5 * (scale.red + scale.green)), fmt::format("{:g}", scale.green)};
 }
 
-HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state) : squares_(MakeSquares()), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
+HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state)
+    : squares_(MakeSquares()), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
   state.addUniform(new osg::Uniform("heat_map", static_cast<int>(kUnit)));
   for (std::size_t i = 0; i < kSteps; ++i) {
     bar_[i] = std::make_unique<Boxes>(overlay, Of(scene::HeatColour((static_cast<double>(i) + 0.5) / kSteps), 1.0F), 1);
@@ -74,16 +78,20 @@ void HeatNode::Lay(osg::StateSet& state, const scene::HeatRaster& raster) {
   squares_->setTextureSize(columns, rows);
   squares_->dirtyTextureObject();
   const double square_m = scene::HeatMap::kSquare_m;
-  world_to_squares_ = osg::Matrixd::translate(-raster.west_m, -raster.south_m, -raster.lowest_m) * osg::Matrixd::scale(1.0 / square_m, 1.0 / square_m, 1.0);
-  state.getOrCreateUniform("heat_size", osg::Uniform::FLOAT_VEC3)->set(osg::Vec3f(static_cast<float>(columns), static_cast<float>(rows), static_cast<float>(raster.range_m)));
+  world_to_squares_ = osg::Matrixd::translate(-raster.west_m, -raster.south_m, -raster.lowest_m) *
+                      osg::Matrixd::scale(1.0 / square_m, 1.0 / square_m, 1.0);
+  state.getOrCreateUniform("heat_size", osg::Uniform::FLOAT_VEC3)
+      ->set(osg::Vec3f(static_cast<float>(columns), static_cast<float>(rows), static_cast<float>(raster.range_m)));
 }
 
 void HeatNode::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
-  state.getOrCreateUniform("eye_to_heat", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_squares_);
+  state.getOrCreateUniform("eye_to_heat", osg::Uniform::FLOAT_MAT4)
+      ->set(osg::Matrixd::inverse(view) * world_to_squares_);
 }
 
 void HeatNode::ShowLegend(const HeatPicture* heat, float high) {
-  for (osgText::Text* text : {title_.get(), low_.get(), middle_.get(), high_.get()}) text->setNodeMask(heat != nullptr ? ~0U : 0U);
+  for (osgText::Text* text : {title_.get(), low_.get(), middle_.get(), high_.get()})
+    text->setNodeMask(heat != nullptr ? ~0U : 0U);
   if (heat == nullptr) {
     ground_.Set({});
     for (auto& step : bar_) step->Set({});
@@ -94,7 +102,8 @@ void HeatNode::ShowLegend(const HeatPicture* heat, float high) {
   ground_.Set({{kLeft, low, kLeft + kWidth, high}});
   for (std::size_t i = 0; i < kSteps; ++i) {
     const float part = width / static_cast<float>(kSteps);
-    bar_[i]->Set({{left + part * static_cast<float>(i), bar, left + part * static_cast<float>(i + 1), bar + kBarHeight}});
+    bar_[i]->Set(
+        {{left + part * static_cast<float>(i), bar, left + part * static_cast<float>(i + 1), bar + kBarHeight}});
   }
   title_->setText(legend.title);
   title_->setPosition({left, bar + kBarHeight + 9.0F, 0.0F});

@@ -9,19 +9,20 @@
 #include <memory>
 #include <string>
 
-#include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
+#include "nodes/view/overlays/overlay.hpp"
 
 namespace rodeira::nodes {
 
-// What a legend says: "speed, % of the limit, of 12 s" over the bar, numbers at its red end, middle and green end below it.
+// What a legend says: "speed, % of the limit, of 12 s" over the bar, numbers at its red end, middle and green end below
+// it.
 struct HeatLegend {
   std::string title, low, middle, high;
 };
 HeatLegend LegendOf(const HeatPicture& heat);
 
-// The colours of a statistic over the ground, 70 of them in 100 and 30 of the ground: a texture of numbers, which the shaders of whatever is ground lay
-// over it from above. And the legend that says what they mean.
+// The colours of a statistic over the ground, 70 of them in 100 and 30 of the ground: a texture of numbers, which the
+// shaders of whatever is ground lay over it from above. And the legend that says what they mean.
 class HeatNode {
  public:
   // `state`: which all shaders read.

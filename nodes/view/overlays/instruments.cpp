@@ -18,7 +18,8 @@ std::string GearName(std::int32_t gear) { return gear < 0 ? "R" : gear == 0 ? "N
 
 }  // namespace
 
-Instruments::Instruments(osg::Group& overlay) : panel_(overlay, kBehind), about_box_(overlay, kBehind), lines_box_(overlay, kBehind) {
+Instruments::Instruments(osg::Group& overlay)
+    : panel_(overlay, kBehind), about_box_(overlay, kBehind), lines_box_(overlay, kBehind) {
   about_ = AddText(overlay, kAbout, osgText::TextBase::LEFT_TOP);
   speed_ = AddText(overlay, 54.0F, osgText::TextBase::RIGHT_BASE_LINE);
   unit_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_BASE_LINE);
@@ -42,8 +43,10 @@ void Instruments::ShowAbout(const std::string& about, float low) {
   const auto rows = static_cast<float>(1 + std::count(about.begin(), about.end(), '\n'));
   const float high = low + 2.0F * kMargin + kRow * kAbout * rows;
   about_->setPosition({2.0F * kMargin, high - 0.6F * kMargin, 0.0F});
-  if (about.empty()) about_box_.Set({});
-  else about_box_.Set({{kMargin, low + kMargin, kMargin + kAboutWidth, high}});
+  if (about.empty())
+    about_box_.Set({});
+  else
+    about_box_.Set({{kMargin, low + kMargin, kMargin + kAboutWidth, high}});
 }
 
 void Instruments::Show(const Picture& picture, const PanelSize& size, float low) {
@@ -60,11 +63,14 @@ void Instruments::Show(const Picture& picture, const PanelSize& size, float low)
   low += kMargin;
   panel_.Set({{left, low, right, low + kPanelHeight}});
   const scene::AgentPose* agent = is_car ? nullptr : &moment.agents[picture.followed - cars];
-  speed_->setText(fmt::format("{:.0f}", std::fabs(is_car ? moment.cars[picture.followed].speed_mps : agent->speed_mps) * 3.6));
+  speed_->setText(
+      fmt::format("{:.0f}", std::fabs(is_car ? moment.cars[picture.followed].speed_mps : agent->speed_mps) * 3.6));
   speed_->setPosition({left + 112.0F, low + 40.0F, 0.0F});
   unit_->setText("km/h");
   unit_->setPosition({left + 120.0F, low + 40.0F, 0.0F});
-  gear_->setText(is_car ? GearName(moment.cars[picture.followed].gear) : agent->detail ? GearName(agent->detail->gear) : "");  // of who goes on foot nothing is said
+  gear_->setText(is_car          ? GearName(moment.cars[picture.followed].gear)
+                 : agent->detail ? GearName(agent->detail->gear)
+                                 : "");  // of who goes on foot nothing is said
   gear_->setPosition({right - 14.0F, low + 44.0F, 0.0F});
   time_->setText(fmt::format("{:.2f} s", static_cast<double>(moment.time_ns) * 1e-9));
   time_->setPosition({right - 14.0F, low + 12.0F, 0.0F});

@@ -3,12 +3,13 @@
 #include <osg/Group>
 #include <osgText/Text>
 
-#include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
+#include "nodes/view/overlays/overlay.hpp"
 
 namespace rodeira::nodes {
 
-// Speed, gear and time in the lower right corner of an overlay, lines of text in its upper left one, and those about a chosen vehicle in the lower left one.
+// Speed, gear and time in the lower right corner of an overlay, lines of text in its upper left one, and those about a
+// chosen vehicle in the lower left one.
 class Instruments {
  public:
   explicit Instruments(osg::Group& overlay);

@@ -12,8 +12,8 @@
 #include <deque>
 #include <string>
 
-#include "common/world/weather/named_weather.hpp"
 #include "common/view/window/font.hpp"
+#include "common/world/weather/named_weather.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -22,7 +22,8 @@ constexpr float kWidth_px = 236.0F, kMargin_px = 8.0F;
 constexpr int kCorner_px = 130, kCornerHeight_px = 70;  // the button comes where the mouse is there
 constexpr float kButtonWidth_px = 70.0F, kButtonHeight_px = 26.0F;
 constexpr float kFrame_s = 1.0F / 60.0F;
-constexpr int kSettles = 3;  // pictures: a panel finds its size by being drawn, and what was clicked is seen in the next one
+constexpr int kSettles =
+    3;  // pictures: a panel finds its size by being drawn, and what was clicked is seen in the next one
 constexpr int kOldestMajor = 3;  // of OpenGL
 
 bool CanDraw() {
@@ -110,10 +111,13 @@ bool Menu::Sort(const SDL_Event& event) {
     case SDL_MOUSEWHEEL:
       if (!open_ || panels_ == nullptr) return false;
       ImGui::SetCurrentContext(panels_->context);
-      if (const ImVec2 mouse = ImGui::GetIO().MousePos; !place_.Holds(static_cast<int>(mouse.x), static_cast<int>(mouse.y))) return false;
+      if (const ImVec2 mouse = ImGui::GetIO().MousePos;
+          !place_.Holds(static_cast<int>(mouse.x), static_cast<int>(mouse.y)))
+        return false;
       ImGui::GetIO().MouseWheel += static_cast<float>(event.wheel.y);
       return true;
-    default: return false;
+    default:
+      return false;
   }
 }
 
@@ -135,7 +139,9 @@ MenuWish Menu::Draw(const MenuSight& sight, int width_px, int height_px) {
   }
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
-  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
+  constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                      ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                      ImGuiWindowFlags_AlwaysAutoResize;
   ImGui::SetNextWindowPos({io.DisplaySize.x - kMargin_px, kMargin_px}, ImGuiCond_Always, {1.0F, 0.0F});
   if (open_) {
     ImGui::SetNextWindowSizeConstraints({kWidth_px, 0.0F}, {kWidth_px, io.DisplaySize.y - 2.0F * kMargin_px});

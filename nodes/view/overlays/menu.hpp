@@ -26,8 +26,8 @@ struct MenuWish {
   std::optional<double> volume;
 };
 
-// The window's menu, by Dear ImGui: what its keys do, to be clicked. Closed it draws nothing, but for its button while the mouse is in the upper right
-// corner. For the thread of the window, whose OpenGL context must live longer.
+// The window's menu, by Dear ImGui: what its keys do, to be clicked. Closed it draws nothing, but for its button while
+// the mouse is in the upper right corner. For the thread of the window, whose OpenGL context must live longer.
 class Menu {
  public:
   Menu();
@@ -39,7 +39,8 @@ class Menu {
   bool open() const { return open_; }
   // True where the event is the menu's: on it, or on its button.
   bool Take(const SDL_Event& event);
-  // Draws it over what the current context shows, and leaves the context's state as it was. Nothing is drawn where OpenGL is older than 3.0.
+  // Draws it over what the current context shows, and leaves the context's state as it was. Nothing is drawn where
+  // OpenGL is older than 3.0.
   MenuWish Draw(const MenuSight& sight, int width_px, int height_px);
   // Whether the next picture of it may be another one although nothing else happens.
   bool is_restless() const { return unrest_ > 0; }

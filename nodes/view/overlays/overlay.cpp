@@ -26,8 +26,8 @@ osg::ref_ptr<osgText::Font> Typeface() {
   return font;
 }
 
-// Letters get their places in the font's picture as they are needed; where a letter lies there shows in the last bit of its
-// pixels. So all get theirs beforehand, in one order, whatever is written first.
+// Letters get their places in the font's picture as they are needed; where a letter lies there shows in the last bit of
+// its pixels. So all get theirs beforehand, in one order, whatever is written first.
 void GiveLettersTheirPlaces(osgText::Text& text) {
   std::string all;
   for (char c = ' '; c <= '~'; ++c) all.push_back(c);

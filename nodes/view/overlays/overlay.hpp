@@ -9,14 +9,16 @@
 
 namespace rodeira::nodes {
 
-// What lies flat over a picture, in pixels from its lower left corner. The typeface is DejaVu Sans where it is installed, otherwise OpenSceneGraph's own.
+// What lies flat over a picture, in pixels from its lower left corner. The typeface is DejaVu Sans where it is
+// installed, otherwise OpenSceneGraph's own.
 
 osg::ref_ptr<osg::Camera> MakeOverlay();
 void FitOverlay(osg::Camera& overlay, int width_px, int height_px);
-// Panels keep their share of a picture: they are laid out in units of which a picture has 720 from below to above, more where it is narrower than it is high by 4 : 3,
-// and at most twice as many as it has pixels, so that letters can be read.
+// Panels keep their share of a picture: they are laid out in units of which a picture has 720 from below to above, more
+// where it is narrower than it is high by 4 : 3, and at most twice as many as it has pixels, so that letters can be
+// read.
 struct PanelSize {
-  float scale = 1.0F;  // pixels a unit
+  float scale = 1.0F;                 // pixels a unit
   float width = 0.0F, height = 0.0F;  // of the picture, in units
 };
 PanelSize PanelsOf(int width_px, int height_px);

@@ -16,7 +16,9 @@ constexpr float kKeysFrom = 860.0F;     // narrower pictures have no room for th
 
 double TimelinePlace::ShareAt(double x_px) const {
   const double margin = static_cast<double>(kMargin);
-  return std::clamp((x_px / static_cast<double>(scale) - margin) / std::max(1.0, static_cast<double>(width) - 2.0 * margin), 0.0, 1.0);
+  return std::clamp(
+      (x_px / static_cast<double>(scale) - margin) / std::max(1.0, static_cast<double>(width) - 2.0 * margin), 0.0,
+      1.0);
 }
 
 TimelineBar::TimelineBar(osg::Group& overlay)
@@ -45,7 +47,8 @@ void TimelineBar::Show(const std::optional<Timeline>& timeline, const PanelSize&
   done_.Set({{place.XOf(0.0), low, now, high}});
   const auto posts = [&](const std::vector<double>& shares, float beyond) {
     std::vector<Boxes::Box> boxes;
-    for (const double share : shares) boxes.push_back({place.XOf(share) - 1.5F, low - beyond, place.XOf(share) + 1.5F, high + beyond});
+    for (const double share : shares)
+      boxes.push_back({place.XOf(share) - 1.5F, low - beyond, place.XOf(share) + 1.5F, high + beyond});
     return boxes;
   };
   events_.Set(posts(timeline->events, 1.0F));

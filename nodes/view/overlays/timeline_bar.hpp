@@ -3,8 +3,8 @@
 #include <osg/Group>
 #include <osgText/Text>
 
-#include "nodes/view/overlays/overlay.hpp"
 #include "nodes/view/frame/picture.hpp"
+#include "nodes/view/overlays/overlay.hpp"
 
 namespace rodeira::nodes {
 

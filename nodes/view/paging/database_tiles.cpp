@@ -11,12 +11,15 @@
 namespace rodeira::nodes {
 namespace {
 
-std::string TileName(std::int64_t column, std::int64_t row, int level) { return fmt::format("tiles/{}_{}_{}.osgb", column, row, level); }
+std::string TileName(std::int64_t column, std::int64_t row, int level) {
+  return fmt::format("tiles/{}_{}_{}.osgb", column, row, level);
+}
 
 // Of a network: squares of 256 m.
 class NetworkTiles final : public DatabaseTiles {
  public:
-  NetworkTiles(const road::World& world, unsigned threads, scene::ModelIsThere is_there) : plan_(world, threads, std::move(is_there)) {}
+  NetworkTiles(const road::World& world, unsigned threads, scene::ModelIsThere is_there)
+      : plan_(world, threads, std::move(is_there)) {}
 
   std::size_t count() const override { return plan_.tiles().size(); }
   TileFiles FilesOf(std::size_t tile) const override {
@@ -24,9 +27,11 @@ class NetworkTiles final : public DatabaseTiles {
     TileFiles files{plan_.BallOf(key), {}};
     const std::vector<int> levels = LevelsOf(key);
     for (std::size_t i = 0; i < levels.size(); ++i) {
-      const int coarsest = i + 1 < levels.size() ? levels[i + 1] - 1 : scene::kGroundLevels - 1;  // that is drawn as this one
+      const int coarsest =
+          i + 1 < levels.size() ? levels[i + 1] - 1 : scene::kGroundLevels - 1;  // that is drawn as this one
       const float from_m = levels[i] == 0 ? 0.0F : scene::kGroundSeen_m[static_cast<std::size_t>(levels[i] - 1)];
-      files.levels.push_back({TileName(key.column, key.row, levels[i]), from_m, scene::kGroundSeen_m[static_cast<std::size_t>(coarsest)]});
+      files.levels.push_back(
+          {TileName(key.column, key.row, levels[i]), from_m, scene::kGroundSeen_m[static_cast<std::size_t>(coarsest)]});
     }
     return files;
   }
@@ -57,11 +62,14 @@ class NetworkTiles final : public DatabaseTiles {
   scene::GroundPlan plan_;
 };
 
-// Of a world without any road: what is drawn of it from memory. They are made at once, as each needs little more than its posts.
+// Of a world without any road: what is drawn of it from memory. They are made at once, as each needs little more than
+// its posts.
 class TerrainTiles final : public DatabaseTiles {
  public:
   explicit TerrainTiles(const road::World& world)
-      : tiles_(scene::BareLand(world)), source_(base::Combine(base::Combine(base::Hash(scene::kGroundVersion), world.content_hash()), scene::LandDigest(world))) {}
+      : tiles_(scene::BareLand(world)),
+        source_(base::Combine(base::Combine(base::Hash(scene::kGroundVersion), world.content_hash()),
+                              scene::LandDigest(world))) {}
 
   std::size_t count() const override { return tiles_.size(); }
   TileFiles FilesOf(std::size_t tile) const override {
@@ -75,7 +83,9 @@ class TerrainTiles final : public DatabaseTiles {
     }
     return files;
   }
-  base::Digest SourceOf(std::size_t tile) const override { return base::Combine(source_, base::Hash(TileName(tiles_[tile].column, tiles_[tile].row, 0))); }
+  base::Digest SourceOf(std::size_t tile) const override {
+    return base::Combine(source_, base::Hash(TileName(tiles_[tile].column, tiles_[tile].row, 0)));
+  }
   std::vector<scene::GroundLevel> Make(std::size_t tile) const override {
     std::vector<scene::GroundLevel> levels;
     for (std::size_t file = 0; file < tiles_[tile].levels.size(); ++file) levels.push_back(MakeLevel(tile, file));

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/visual_world/ground_tile.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::nodes {
 
@@ -40,8 +40,9 @@ class DatabaseTiles {
   virtual scene::GroundLevel MakeLevel(std::size_t tile, std::size_t file) const = 0;
 };
 
-// Those of a network, or of a terrain or a plane without any road; the world must outlive them. threads: 0 for as many as the machine has.
-// Not for roads of version 1, which are drawn in another way. `is_there`: which models from files stand there; without it all.
+// Those of a network, or of a terrain or a plane without any road; the world must outlive them. threads: 0 for as many
+// as the machine has. Not for roads of version 1, which are drawn in another way. `is_there`: which models from files
+// stand there; without it all.
 std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there = {});
 
 }  // namespace rodeira::nodes

@@ -5,16 +5,17 @@
 
 #include <vector>
 
-#include "common/view/scene/visual_world/ground_tile.hpp"
 #include "common/view/scene/mesh/repeated.hpp"
 #include "common/view/scene/terrain/ribbon.hpp"
 #include "common/view/scene/terrain/terrain_mesh.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/paging/tile_tree.hpp"
 
 namespace rodeira::nodes {
 
-// What stands still, as the look draws it. Several threads may ask for levels once it has made its states (Look::MakeStates).
+// What stands still, as the look draws it. Several threads may ask for levels once it has made its states
+// (Look::MakeStates).
 
 // A network's tile at one of its levels.
 osg::ref_ptr<osg::Group> LevelNode(Look& look, const scene::GroundLevel& level);

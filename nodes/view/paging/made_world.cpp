@@ -19,9 +19,11 @@ namespace {
 // Answers the pager, which asks for files by their names, with tiles. Its threads call it at once.
 class MakeWhatIsAsked : public osgDB::ReadFileCallback {
  public:
-  MakeWhatIsAsked(std::unique_ptr<const DatabaseTiles> tiles, const std::vector<TileFiles>& files, Look& look) : tiles_(std::move(tiles)), look_(look) {
+  MakeWhatIsAsked(std::unique_ptr<const DatabaseTiles> tiles, const std::vector<TileFiles>& files, Look& look)
+      : tiles_(std::move(tiles)), look_(look) {
     for (std::size_t tile = 0; tile < files.size(); ++tile) {
-      for (std::size_t level = 0; level < files[tile].levels.size(); ++level) places_[files[tile].levels[level].file] = {tile, level};
+      for (std::size_t level = 0; level < files[tile].levels.size(); ++level)
+        places_[files[tile].levels[level].file] = {tile, level};
     }
   }
 

@@ -37,9 +37,12 @@ void GiveBack(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, do
     const double distance_m = (tile.getCenter() - eye_W).length();
     while (tile.getNumChildren() > 0) {  // the finest is the last one, and has the shortest range
       const unsigned last = tile.getNumChildren() - 1;
-      const double needed_m = last == 0 ? far_m + static_cast<double>(tile.getRadius()) : static_cast<double>(tile.getMaxRange(last)) / detail_scale;
+      const double needed_m = last == 0 ? far_m + static_cast<double>(tile.getRadius())
+                                        : static_cast<double>(tile.getMaxRange(last)) / detail_scale;
       osg::NodeList given;
-      if (distance_m <= (last == 0 ? kBeyondFar : kBeyond) * needed_m || !tile.removeExpiredChildren(std::numeric_limits<double>::max(), std::numeric_limits<unsigned>::max(), given)) break;
+      if (distance_m <= (last == 0 ? kBeyondFar : kBeyond) * needed_m ||
+          !tile.removeExpiredChildren(std::numeric_limits<double>::max(), std::numeric_limits<unsigned>::max(), given))
+        break;
     }
   }
 }
@@ -50,19 +53,22 @@ std::size_t HeldLevels(const PagedWorld& paged) {
   return held;
 }
 
-void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last, const osg::Vec3d& eye_W, double far_m) {
+void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
+              const osg::Vec3d& eye_W, double far_m) {
   constexpr std::size_t kAtOnce = 8;
   std::vector<std::pair<double, osg::PagedLOD*>> missing;
   for (osg::PagedLOD* tile : paged.tiles) {
     const double distance_m = (tile->getCenter() - eye_W).length();
-    if (tile->getNumChildren() == 0 && distance_m <= far_m + static_cast<double>(tile->getRadius())) missing.emplace_back(distance_m, tile);
+    if (tile->getNumChildren() == 0 && distance_m <= far_m + static_cast<double>(tile->getRadius()))
+      missing.emplace_back(distance_m, tile);
   }
   const std::size_t count = std::min(kAtOnce, missing.size());
   std::partial_sort(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(count), missing.end());
   for (std::size_t i = 0; i < count; ++i) {
     osg::PagedLOD& tile = *missing[i].second;
     osg::NodePath path{&tile};
-    pager.requestNodeFile(tile.getDatabasePath() + tile.getFileName(0), path, 0.0F, &last, tile.getDatabaseRequest(0), tile.getDatabaseOptions());
+    pager.requestNodeFile(tile.getDatabasePath() + tile.getFileName(0), path, 0.0F, &last, tile.getDatabaseRequest(0),
+                          tile.getDatabaseOptions());
   }
 }
 

@@ -45,20 +45,41 @@ bool TakeReplayKey(scene::Player& player, const std::vector<std::int64_t>& marks
     return true;
   }
   switch (symbol) {
-    case SDLK_SPACE: player.PlayOrPause(); return true;
-    case SDLK_RIGHT: Move(player, 1, modifiers); return true;
-    case SDLK_LEFT: Move(player, -1, modifiers); return true;
-    case SDLK_HOME: player.Seek(0); return true;
-    case SDLK_END: player.Seek(player.end_ns()); return true;
-    case SDLK_PAGEDOWN: GoToMark(player, marks_ns, 1); return true;
-    case SDLK_PAGEUP: GoToMark(player, marks_ns, -1); return true;
+    case SDLK_SPACE:
+      player.PlayOrPause();
+      return true;
+    case SDLK_RIGHT:
+      Move(player, 1, modifiers);
+      return true;
+    case SDLK_LEFT:
+      Move(player, -1, modifiers);
+      return true;
+    case SDLK_HOME:
+      player.Seek(0);
+      return true;
+    case SDLK_END:
+      player.Seek(player.end_ns());
+      return true;
+    case SDLK_PAGEDOWN:
+      GoToMark(player, marks_ns, 1);
+      return true;
+    case SDLK_PAGEUP:
+      GoToMark(player, marks_ns, -1);
+      return true;
     case SDLK_PLUS:
     case SDLK_EQUALS:
-    case SDLK_KP_PLUS: player.Faster(); return true;
+    case SDLK_KP_PLUS:
+      player.Faster();
+      return true;
     case SDLK_MINUS:
-    case SDLK_KP_MINUS: player.Slower(); return true;
-    case SDLK_r: player.Reverse(); return true;
-    default: return false;
+    case SDLK_KP_MINUS:
+      player.Slower();
+      return true;
+    case SDLK_r:
+      player.Reverse();
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -73,7 +94,8 @@ std::string ReplayHelp() {
       "r  the other way\n"
       "mouse on the bar  there\n";
   const auto is_a_recordings = [](const input_devices::WindowKey& key) {
-    const bool own = key.name == "space" || key.name == "return" || key.name == "escape", asks = key.name == "f2" || key.name == "f6" || key.name == "f7";  // of a run that goes on
+    const bool own = key.name == "space" || key.name == "return" || key.name == "escape",
+               asks = key.name == "f2" || key.name == "f6" || key.name == "f7";  // of a run that goes on
     return !own && !asks;
   };
   text += "\n" + input_devices::WindowKeysText(is_a_recordings);

@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "common/runtime/launch/live_keys.hpp"
-#include "nodes/view/playback/replay_keys.hpp"
 #include "nodes/view/overlays/timeline_bar.hpp"
+#include "nodes/view/playback/replay_keys.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -31,7 +31,9 @@ std::string TimeText(std::int64_t time_ns) {
 
 Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& marks) {
   const auto share = [&](std::int64_t time_ns) {
-    return player.end_ns() > 0 ? std::clamp(static_cast<double>(time_ns) / static_cast<double>(player.end_ns()), 0.0, 1.0) : 0.0;
+    return player.end_ns() > 0
+               ? std::clamp(static_cast<double>(time_ns) / static_cast<double>(player.end_ns()), 0.0, 1.0)
+               : 0.0;
   };
   Timeline timeline;
   timeline.share = share(player.now_ns());
@@ -49,7 +51,8 @@ Timeline TimelineOf(const scene::Player& player, const std::vector<ReplayMark>& 
   return timeline;
 }
 
-base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const WorldReader& reader, SurfaceKind kind) {
+base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSettings& settings, const WorldReader& reader,
+                                                               SurfaceKind kind) {
   auto surface = OpenSurface(kind, settings, true);
   if (!surface) return surface.error();
   auto read = ReadBefore(surface.value().get(), reader);
@@ -63,7 +66,8 @@ base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSetting
   return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(world), std::move(screen).value()));
 }
 
-base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop) {
+base::Status ReplayWindow::Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at,
+                                 const std::function<bool()>& stop) {
   std::vector<ReplayMark> marks;
   std::vector<std::int64_t> marks_ns;
   base::Status problem;
@@ -117,7 +121,9 @@ bool ReplayWindow::ReadEvents(scene::Player& player, const std::vector<std::int6
 
 void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns) {
   switch (event.type) {
-    case SDL_QUIT: open_ = false; break;
+    case SDL_QUIT:
+      open_ = false;
+      break;
     case SDL_KEYDOWN:
       if (event.key.keysym.sym == SDLK_ESCAPE) {
         open_ = false;
@@ -130,14 +136,20 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
     case SDL_MOUSEBUTTONDOWN:
       drags_ = event.button.button == SDL_BUTTON_LEFT;
       drags_ = drags_ && Bar().Holds(screen_->surface().height_px() - 1 - event.button.y);
-      if (drags_) Drag(event.button.x, player);
-      else (void)screen_->TakeMouse(event);
+      if (drags_)
+        Drag(event.button.x, player);
+      else
+        (void)screen_->TakeMouse(event);
       break;
     case SDL_MOUSEMOTION:
-      if (drags_) Drag(event.motion.x, player);
-      else (void)screen_->TakeMouse(event);
+      if (drags_)
+        Drag(event.motion.x, player);
+      else
+        (void)screen_->TakeMouse(event);
       break;
-    case SDL_MOUSEWHEEL: (void)screen_->TakeMouse(event); break;
+    case SDL_MOUSEWHEEL:
+      (void)screen_->TakeMouse(event);
+      break;
     case SDL_MOUSEBUTTONUP:
       if (!drags_) (void)screen_->TakeMouse(event);
       drags_ = false;
@@ -145,11 +157,14 @@ void ReplayWindow::Take(const SDL_Event& event, scene::Player& player, const std
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) drags_ = false;
       break;
-    default: break;
+    default:
+      break;
   }
 }
 
-TimelinePlace ReplayWindow::Bar() const { return TimelinePlace(PanelsOf(screen_->surface().width_px(), screen_->surface().height_px())); }
+TimelinePlace ReplayWindow::Bar() const {
+  return TimelinePlace(PanelsOf(screen_->surface().width_px(), screen_->surface().height_px()));
+}
 
 void ReplayWindow::Drag(int x_px, scene::Player& player) {
   const double share = Bar().ShareAt(x_px);

@@ -32,17 +32,21 @@ class ReplayWindow {
   using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
   using TakeMarks = std::function<std::optional<base::Result<std::vector<ReplayMark>>>()>;
 
-  // It is there before its world is read; what is wrong there is the answer. Wrong input where a display or OpenGL is missing. `kind`: off-screen for tests.
-  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const WorldReader& reader, SurfaceKind kind = SurfaceKind::kWindow);
+  // It is there before its world is read; what is wrong there is the answer. Wrong input where a display or OpenGL is
+  // missing. `kind`: off-screen for tests.
+  static base::Result<std::unique_ptr<ReplayWindow>> Open(const ViewSettings& settings, const WorldReader& reader,
+                                                          SurfaceKind kind = SurfaceKind::kWindow);
 
-  // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error the
-  // player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the answer.
-  // `take_marks` is asked between two pictures; what it gives, ascending, is on the bar from then on, in the place of what it gave before. Marks
-  // that cannot be read are the answer as well, and are not on the bar.
-  base::Status Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at, const std::function<bool()>& stop);
+  // Until the person closes the window, or `stop` (asked between two pictures) says so. Where `moment_at` has an error
+  // the player stands still, the picture stays and the bar says why; one can go elsewhere. The first such error is the
+  // answer. `take_marks` is asked between two pictures; what it gives, ascending, is on the bar from then on, in the
+  // place of what it gave before. Marks that cannot be read are the answer as well, and are not on the bar.
+  base::Status Watch(scene::Player& player, const TakeMarks& take_marks, const MomentAt& moment_at,
+                     const std::function<bool()>& stop);
 
  private:
-  ReplayWindow(std::shared_ptr<const road::World> world, std::unique_ptr<Screen> screen) : world_(std::move(world)), screen_(std::move(screen)) {}
+  ReplayWindow(std::shared_ptr<const road::World> world, std::unique_ptr<Screen> screen)
+      : world_(std::move(world)), screen_(std::move(screen)) {}
   bool ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   void Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   TimelinePlace Bar() const;

@@ -15,22 +15,25 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr double kFar_m = 1'500.0;
-constexpr float kCoarser = 2.5F;  // levels of detail in a small picture
+constexpr float kCoarser = 2.5F;                // levels of detail in a small picture
 constexpr std::int64_t kNext_ns = 200'000'000;  // from a picture to the next one, at most
 constexpr double kNext_m = 10.0;
 constexpr float kFrame_px = 3.0F;
 constexpr int kFrameLayer = 1, kGlassLayer = 2;
 
-Boxes::Box PixelsOf(scene::Mirror mirror, const std::optional<scene::ScreenPlane>& screen, const scene::Body& body, int width_px, int height_px) {
+Boxes::Box PixelsOf(scene::Mirror mirror, const std::optional<scene::ScreenPlane>& screen, const scene::Body& body,
+                    int width_px, int height_px) {
   const double aspect = static_cast<double>(width_px) / height_px;
-  const scene::MirrorPlace place = screen ? scene::PlaceOn(*screen, body, mirror, aspect) : scene::PlaceOf(mirror, aspect);
+  const scene::MirrorPlace place =
+      screen ? scene::PlaceOn(*screen, body, mirror, aspect) : scene::PlaceOf(mirror, aspect);
   const auto px = [](double share, int size_px) { return static_cast<float>(std::round(share * size_px)); };
   return {px(place.left, width_px), px(place.low, height_px), px(place.right, width_px), px(place.high, height_px)};
 }
 
 }  // namespace
 
-Mirrors::Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay) : frames_(overlay, {0.02F, 0.02F, 0.025F, 1.0F}, kFrameLayer) {
+Mirrors::Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay)
+    : frames_(overlay, {0.02F, 0.02F, 0.025F, 1.0F}, kFrameLayer) {
   for (Glass& glass : glasses_) glass = MakeGlass(root, scene, overlay);
 }
 
@@ -58,7 +61,9 @@ Mirrors::Glass Mirrors::MakeGlass(osg::Group& root, osg::Group& scene, osg::Grou
   glass.pane->setDataVariance(osg::Object::DYNAMIC);
   glass.pane->setVertexArray(new osg::Vec3Array(4));
   osg::ref_ptr<osg::Vec2Array> reversed = new osg::Vec2Array;
-  for (const auto& [u, v] : {std::pair(1.0F, 0.0F), std::pair(0.0F, 0.0F), std::pair(0.0F, 1.0F), std::pair(1.0F, 1.0F)}) reversed->push_back({u, v});
+  for (const auto& [u, v] :
+       {std::pair(1.0F, 0.0F), std::pair(0.0F, 0.0F), std::pair(0.0F, 1.0F), std::pair(1.0F, 1.0F)})
+    reversed->push_back({u, v});
   glass.pane->setTexCoordArray(0, reversed);
   osg::ref_ptr<osg::Vec4Array> white = new osg::Vec4Array;
   white->push_back({1.0F, 1.0F, 1.0F, 1.0F});
@@ -100,9 +105,12 @@ bool Mirrors::GoesOn(const Picture& picture, const Eigen::Vector3d& eye_W) {
   return passed_ns > 0 && passed_ns <= kNext_ns && (now.eye_W - before->eye_W).norm() < kNext_m;
 }
 
-void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn) {
-  const bool wanted = body && picture.camera == scene::CameraKind::kDriver && std::ranges::any_of(picture.mirrors, std::identity());
-  if (!wanted) {  // what they showed stays theirs: between two pictures of a window a headset's eyes have some without mirrors, of another size
+void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air,
+                   const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn) {
+  const bool wanted =
+      body && picture.camera == scene::CameraKind::kDriver && std::ranges::any_of(picture.mirrors, std::identity());
+  if (!wanted) {  // what they showed stays theirs: between two pictures of a window a headset's eyes have some without
+                  // mirrors, of another size
     for (Glass& glass : glasses_) glass.camera->setNodeMask(0U), glass.pane->setNodeMask(0U);
     return frames_.Set({});
   }
@@ -118,7 +126,8 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
     do turn_ = (turn_ + 1) % scene::kMirrors;
     while (!picture.mirrors[turn_]);
   }
-  const scene::CarPose* lit = picture.followed < picture.moment.cars.size() ? &picture.moment.cars[picture.followed] : nullptr;
+  const scene::CarPose* lit =
+      picture.followed < picture.moment.cars.size() ? &picture.moment.cars[picture.followed] : nullptr;
   std::vector<Boxes::Box> frames;
   for (const scene::Mirror mirror : scene::kAllMirrors) {
     const auto at = static_cast<std::size_t>(mirror);

@@ -8,24 +8,26 @@
 
 #include <array>
 
-#include "common/view/scene/lighting/air.hpp"
 #include "common/view/scene/camera/mirror.hpp"
+#include "common/view/scene/lighting/air.hpp"
+#include "nodes/view/frame/picture.hpp"
 #include "nodes/view/overlays/heat_node.hpp"
 #include "nodes/view/overlays/overlay.hpp"
-#include "nodes/view/frame/picture.hpp"
 #include "nodes/view/renderer/sun_shadow.hpp"
 
 namespace rodeira::nodes {
 
-// The driver's mirrors: each draws the scene backward into a picture of its own, which is shown reversed over the large one.
+// The driver's mirrors: each draws the scene backward into a picture of its own, which is shown reversed over the large
+// one.
 class Mirrors {
  public:
   // `scene`: what they show; cameras go below `root`, frames and pictures below `overlay`.
   Mirrors(osg::Group& root, osg::Group& scene, osg::Group& overlay);
 
-  // Of the body that the picture goes with; none: no mirrors. `in_turn`: where the picture goes on from the one before, one of them is drawn anew and the
-  // others show what they showed, otherwise all are.
-  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air, const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn);
+  // Of the body that the picture goes with; none: no mirrors. `in_turn`: where the picture goes on from the one before,
+  // one of them is drawn anew and the others show what they showed, otherwise all are.
+  void Show(const Picture& picture, const std::optional<scene::Body>& body, const scene::Air& air,
+            const SunShadow& shadow, const HeatNode& heat, int width_px, int height_px, bool in_turn);
 
  private:
   struct Glass {

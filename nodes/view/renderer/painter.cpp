@@ -19,26 +19,26 @@
 #include <thread>
 
 #include "common/view/scene/terrain/far_plane.hpp"
-#include "nodes/view/renderer/aim_camera.hpp"
-#include "nodes/view/shaders/air_uniforms.hpp"
-#include "nodes/view/visual_database/built_world.hpp"
 #include "nodes/view/dynamic_objects/cabin_node.hpp"
 #include "nodes/view/dynamic_objects/car_node.hpp"
-#include "nodes/view/paging/ground_nodes.hpp"
+#include "nodes/view/dynamic_objects/lights_node.hpp"
+#include "nodes/view/dynamic_objects/vectors_node.hpp"
+#include "nodes/view/materials/look.hpp"
+#include "nodes/view/materials/model_file.hpp"
+#include "nodes/view/materials/plain_geometry.hpp"
 #include "nodes/view/overlays/heat_node.hpp"
 #include "nodes/view/overlays/instruments.hpp"
-#include "nodes/view/dynamic_objects/lights_node.hpp"
-#include "nodes/view/materials/look.hpp"
-#include "nodes/view/paging/made_world.hpp"
-#include "nodes/view/renderer/mirrors.hpp"
-#include "nodes/view/materials/model_file.hpp"
 #include "nodes/view/overlays/overlay.hpp"
-#include "nodes/view/paging/paged_world.hpp"
-#include "nodes/view/materials/plain_geometry.hpp"
-#include "nodes/view/renderer/sun_shadow.hpp"
-#include "nodes/view/paging/tile_tree.hpp"
 #include "nodes/view/overlays/timeline_bar.hpp"
-#include "nodes/view/dynamic_objects/vectors_node.hpp"
+#include "nodes/view/paging/ground_nodes.hpp"
+#include "nodes/view/paging/made_world.hpp"
+#include "nodes/view/paging/paged_world.hpp"
+#include "nodes/view/paging/tile_tree.hpp"
+#include "nodes/view/renderer/aim_camera.hpp"
+#include "nodes/view/renderer/mirrors.hpp"
+#include "nodes/view/renderer/sun_shadow.hpp"
+#include "nodes/view/shaders/air_uniforms.hpp"
+#include "nodes/view/visual_database/built_world.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -49,9 +49,11 @@ constexpr double kShadowsAhead_m = 35.0;
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // About which place shadows are seen best: before the eye where it looks along the road, else about the car.
-Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body, const scene::Camera& camera) {
+Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body,
+                             const scene::Camera& camera) {
   if (!body) return camera.eye_W;
-  const bool ahead = picture.camera == scene::CameraKind::kDriver || picture.camera == scene::CameraKind::kBonnet || picture.camera == scene::CameraKind::kChase;
+  const bool ahead = picture.camera == scene::CameraKind::kDriver || picture.camera == scene::CameraKind::kBonnet ||
+                     picture.camera == scene::CameraKind::kChase;
   return body->p_WB_W + (ahead ? kShadowsAhead_m : 0.0) * (body->q_WB * Eigen::Vector3d::UnitX());
 }
 
@@ -60,7 +62,8 @@ std::vector<scene::TileKey> KeysOf(const PagedWorld& paged) {
   std::vector<scene::TileKey> tiles;
   for (const osg::PagedLOD* tile : paged.tiles) {
     const osg::Vec3d& middle = tile->getCenter();
-    tiles.push_back({static_cast<std::int64_t>(std::floor(middle.x() / scene::kTile_m)), static_cast<std::int64_t>(std::floor(middle.y() / scene::kTile_m))});
+    tiles.push_back({static_cast<std::int64_t>(std::floor(middle.x() / scene::kTile_m)),
+                     static_cast<std::int64_t>(std::floor(middle.y() / scene::kTile_m))});
   }
   return tiles;
 }
@@ -84,7 +87,8 @@ QualityTraits TraitsOn(const Surface& surface) {
 }  // namespace
 
 struct Painter::Parts {
-  Parts(const road::World& world, const QualityTraits& quality, bool repeats) : look(quality, repeats), lights(look, world), vectors(look, world), shadow(*root, *scene, quality) {}
+  Parts(const road::World& world, const QualityTraits& quality, bool repeats)
+      : look(quality, repeats), lights(look, world), vectors(look, world), shadow(*root, *scene, quality) {}
 
   Look look;
   Fleet fleet{look};
@@ -106,9 +110,13 @@ struct Painter::Parts {
 };
 
 Painter::Painter(Surface& surface, const road::World& world, bool repeats)
-    : surface_(surface), world_(world), parts_(std::make_unique<Parts>(world, TraitsOn(surface), repeats && TraitsOf(surface.quality()).instances && CanRepeat())) {}
+    : surface_(surface),
+      world_(world),
+      parts_(std::make_unique<Parts>(world, TraitsOn(surface),
+                                     repeats && TraitsOf(surface.quality()).instances && CanRepeat())) {}
 
-Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats) : Painter(surface, world, repeats) {
+Painter::Painter(Surface& surface, const road::World& world, const scene::WorldScene& standing, bool repeats)
+    : Painter(surface, world, repeats) {
   Look& look = parts_->look;
   osg::Group& group = *parts_->scene;
   std::vector<PlacedNode> land, trees;
@@ -126,7 +134,8 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
   SetUp();
 }
 
-base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats) {
+base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const road::World& world,
+                                                     const std::filesystem::path& built, bool repeats) {
   std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
   auto ground = ReadBuilt(built, painter->parts_->look);
   if (!ground) return ground.error();
@@ -134,7 +143,8 @@ base::Result<std::unique_ptr<Painter>> Painter::Make(Surface& surface, const roa
   return painter;
 }
 
-std::unique_ptr<Painter> Painter::Make(Surface& surface, const road::World& world, scene::ModelIsThere is_there, bool repeats) {
+std::unique_ptr<Painter> Painter::Make(Surface& surface, const road::World& world, scene::ModelIsThere is_there,
+                                       bool repeats) {
   std::unique_ptr<Painter> painter(new Painter(surface, world, repeats));
   painter->Lay(MakeAsSeen(world, painter->parts_->look, std::move(is_there)));
   painter->parts_->viewer.getDatabasePager()->setUpThreads(std::max(1u, std::thread::hardware_concurrency()), 0);
@@ -180,23 +190,24 @@ void Painter::SetUp() {
   osg::Camera& camera = *viewer.getCamera();
   camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
   camera.setClearColor({0.8F, 0.86F, 0.91F, 1.0F});
-  camera.setCullingMode(camera.getCullingMode() | osg::CullSettings::FAR_PLANE_CULLING);  // what cannot be seen is not read either
+  camera.setCullingMode(camera.getCullingMode() |
+                        osg::CullSettings::FAR_PLANE_CULLING);  // what cannot be seen is not read either
   camera.setLODScale(TraitsOf(surface.quality()).detail_scale);
   viewer.setSceneData(&root);
   // What was read stays until the eye has left it (GiveBack), also behind its back: turning round shows no gaps.
-  if (parts_->paged.root) viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->paged.tiles.size()));
+  if (parts_->paged.root)
+    viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->paged.tiles.size()));
   viewer.realize();
 }
 
-Painter::~Painter() {
-  parts_->root->releaseGLObjects(parts_->viewer.getCamera()->getGraphicsContext()->getState());
-}
+Painter::~Painter() { parts_->root->releaseGLObjects(parts_->viewer.getCamera()->getGraphicsContext()->getState()); }
 
 scene::Camera Painter::CameraOf(const Picture& picture) const {
   const auto body = scene::BodyAt(picture.moment, picture.followed);
   if (!body) return {};
   if (picture.eye && picture.camera == scene::CameraKind::kDriver) return scene::EyeCamera(*body, *picture.eye);
-  if (picture.screen && picture.camera == scene::CameraKind::kDriver) return scene::ScreenCamera(*body, *picture.screen);
+  if (picture.screen && picture.camera == scene::CameraKind::kDriver)
+    return scene::ScreenCamera(*body, *picture.screen);
   return *scene::MakeCamera(picture.camera, picture.moment, picture.followed, picture.aim, world_);
 }
 
@@ -208,7 +219,9 @@ base::Status Painter::WearCarModel(const std::filesystem::path& file) {
 
 void Painter::Draw(const Picture& picture) {
   osgViewer::Viewer& viewer = parts_->viewer;
-  if (parts_->paged.root) AskAhead(parts_->paged, *viewer.getDatabasePager(), *viewer.getFrameStamp(), ToOsg(CameraOf(picture).eye_W), kFar_m);
+  if (parts_->paged.root)
+    AskAhead(parts_->paged, *viewer.getDatabasePager(), *viewer.getFrameStamp(), ToOsg(CameraOf(picture).eye_W),
+             kFar_m);
   DrawOnce(picture, {0, surface_.width_px(), surface_.height_px()}, false);
 }
 
@@ -220,7 +233,8 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   const bool is_car = picture.followed < picture.moment.cars.size();
   const auto body = scene::BodyAt(picture.moment, picture.followed);
   osg::Camera& eye = *parts_->viewer.getCamera();
-  if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width || static_cast<int>(eye.getViewport()->height()) != height) {
+  if (eye.getViewport() == nullptr || static_cast<int>(eye.getViewport()->width()) != width ||
+      static_cast<int>(eye.getViewport()->height()) != height) {
     eye.getGraphicsContext()->resized(0, 0, width, height);
     eye.setViewport(0, 0, width, height);
   }
@@ -235,21 +249,28 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
   parts_->shadow.Show(state, air, ShadowsAbout(picture, body, camera));
   parts_->shadow.SetEye(state, eye.getViewMatrix());
   const PanelSize panels = PanelsOf(width, height);
-  parts_->panels->setMatrix(osg::Matrixd::scale(static_cast<double>(panels.scale), static_cast<double>(panels.scale), 1.0));
+  parts_->panels->setMatrix(
+      osg::Matrixd::scale(static_cast<double>(panels.scale), static_cast<double>(panels.scale), 1.0));
   parts_->heat.Show(state, picture.heat, panels);
   parts_->heat.SetEye(state, eye.getViewMatrix());
   SetRain(state, picture.moment.time_ns, aspect);
   parts_->rain->setNodeMask(air.rain > 0.0F ? ~0U : 0U);
-  parts_->fleet.Show(picture.moment, picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt, picture.chosen, air.headlights > 0.0F);
-  parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver ? &picture.moment.cars[picture.followed] : nullptr);
+  parts_->fleet.Show(picture.moment,
+                     picture.camera == scene::CameraKind::kDriver ? std::optional(picture.followed) : std::nullopt,
+                     picture.chosen, air.headlights > 0.0F);
+  parts_->cabin.Show(is_car && picture.cabin && picture.camera == scene::CameraKind::kDriver
+                         ? &picture.moment.cars[picture.followed]
+                         : nullptr);
   parts_->lights.Show(picture.moment.lights);
   parts_->vectors.Show(picture);
   FitOverlay(*parts_->overlay, width, height);
-  parts_->mirrors.Show(picture, body, air, parts_->shadow, parts_->heat, width, height, !whole && TraitsOf(surface_.quality()).mirrors_in_turn);
+  parts_->mirrors.Show(picture, body, air, parts_->shadow, parts_->heat, width, height,
+                       !whole && TraitsOf(surface_.quality()).mirrors_in_turn);
   parts_->instruments.Show(picture, panels, picture.timeline ? TimelinePlace::kHeight : 0.0F);
   parts_->timeline.Show(picture.timeline, panels);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
-  if (parts_->paged.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress()) GiveBack(parts_->paged, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
+  if (parts_->paged.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress())
+    GiveBack(parts_->paged, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
 void Painter::DrawWhole(const Picture& picture, const scene::Progress& progress) {
@@ -296,20 +317,25 @@ Image Painter::Read() const {
   return image;
 }
 
-base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world, const std::filesystem::path& built, bool repeats, const scene::Progress& progress) {
+base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::World& world,
+                                                 const std::filesystem::path& built, bool repeats,
+                                                 const scene::Progress& progress) {
   if (!built.empty()) return Painter::Make(surface, world, built, repeats);
   std::set<std::string> told;
   const auto is_there = [&](const std::string& file) {
     const base::Status read = ReadModel(file);
-    if (!read && told.insert(file).second) fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
+    if (!read && told.insert(file).second)
+      fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
     return read.ok();
   };
   if (world.network() != nullptr && world.roads().empty()) return Painter::Make(surface, world, is_there, repeats);
-  const scene::WorldScene standing = scene::BuildWorldScene(world, {}, is_there, progress);  // the painter has its own copy
+  const scene::WorldScene standing =
+      scene::BuildWorldScene(world, {}, is_there, progress);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing, repeats);
 }
 
-base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px, const std::filesystem::path& built, Quality quality) {
+base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px,
+                                const std::filesystem::path& built, Quality quality) {
   auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px, height_px, "Rodeira", false, 0, quality);
   if (!surface) return surface.error();
   auto painter = PainterOf(*surface.value(), world, built);

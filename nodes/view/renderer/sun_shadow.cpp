@@ -10,9 +10,11 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr unsigned kNearUnit = 2, kWideUnit = 3;  // of textures; noise and faces have those before them
-constexpr float kNearOffset = 1.5F, kWideOffset = 2.0F;  // in the maps' depths, by how steeply the sun falls on what throws
-constexpr double kWideBefore_m = 0.5;  // towards the sun, of what asks the wide map: the ground there is not seen so exactly
-constexpr float kLeastLight = 0.03F;  // of the sun, below which nobody sees its shadows
+constexpr float kNearOffset = 1.5F,
+                kWideOffset = 2.0F;  // in the maps' depths, by how steeply the sun falls on what throws
+constexpr double kWideBefore_m =
+    0.5;  // towards the sun, of what asks the wide map: the ground there is not seen so exactly
+constexpr float kLeastLight = 0.03F;   // of the sun, below which nobody sees its shadows
 constexpr float kLeastHeight = 0.04F;  // of the sun's direction: 2 degrees
 
 osg::ref_ptr<osg::Texture2D> MakeMap(int side_px) {
@@ -96,11 +98,13 @@ void SunShadow::Show(osg::StateSet& state, const scene::Air& air, const Eigen::V
   const Eigen::Vector3d middle = wide.ToMap(sharp.middle_W);
   const double scale = sharp.side_m / wide.side_m, before = 0.5 * kWideBefore_m / wide.depth_m;
   state.getOrCreateUniform("to_wide", osg::Uniform::FLOAT_VEC4)
-      ->set(osg::Vec4f(static_cast<float>(middle.x() - 0.5 * scale), static_cast<float>(middle.y() - 0.5 * scale), static_cast<float>(middle.z() - 0.5 - before), static_cast<float>(scale)));
+      ->set(osg::Vec4f(static_cast<float>(middle.x() - 0.5 * scale), static_cast<float>(middle.y() - 0.5 * scale),
+                       static_cast<float>(middle.z() - 0.5 - before), static_cast<float>(scale)));
 }
 
 void SunShadow::SetEye(osg::StateSet& state, const osg::Matrixd& view) const {
-  if (near_) state.getOrCreateUniform("eye_to_sun", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_map_);
+  if (near_)
+    state.getOrCreateUniform("eye_to_sun", osg::Uniform::FLOAT_MAT4)->set(osg::Matrixd::inverse(view) * world_to_map_);
 }
 
 }  // namespace rodeira::nodes

@@ -12,11 +12,13 @@
 
 namespace rodeira::nodes {
 
-// What the sun sees, as depths: what it does not see lies in shadow. Two maps: a sharp one of all that stands, moves or is ground, about the place that is looked
-// at, and a wide one of the ground alone, for what hills and bridges shade beyond it.
+// What the sun sees, as depths: what it does not see lies in shadow. Two maps: a sharp one of all that stands, moves or
+// is ground, about the place that is looked at, and a wide one of the ground alone, for what hills and bridges shade
+// beyond it.
 class SunShadow {
  public:
-  // `scene`: what throws shadows (kThrowsShadow, kGroundThrowsShadow); the cameras go below `root`, whose state all shaders read. Nothing where the traits have no map.
+  // `scene`: what throws shadows (kThrowsShadow, kGroundThrowsShadow); the cameras go below `root`, whose state all
+  // shaders read. Nothing where the traits have no map.
   SunShadow(osg::Group& root, osg::Group& scene, const QualityTraits& traits);
 
   // For the next picture, about this place. Without sun there are no shadows.

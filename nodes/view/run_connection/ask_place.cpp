@@ -37,7 +37,8 @@ base::Result<const scene::CarPose*> CarOf(const scene::Moment& moment, std::size
 
 }  // namespace
 
-base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed, const scene::Ray& ray, const CarNames& names) {
+base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed,
+                                         const scene::Ray& ray, const CarNames& names) {
   const auto found = CarOf(moment, followed, names);
   if (!found) return found.error();
   const scene::CarPose& car = *found.value();
@@ -46,7 +47,8 @@ base::Result<scenario::Request> AskPlace(const road::World& world, const scene::
   if (!met) return base::WrongInput(kOutside);
   const scene::CarPlace place = scene::PlaceAt(world, *met, HeadingOf(car));
   if (!HasGround(*ground, place, car)) return base::WrongInput(kOutside);
-  return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m}, place.heading_rad * 180.0 / geometry::kPi);
+  return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m},
+                                place.heading_rad * 180.0 / geometry::kPi);
 }
 
 StartPlace PlaceOfStart(const road::World& world, const CarStart& own) {
@@ -56,7 +58,8 @@ StartPlace PlaceOfStart(const road::World& world, const CarStart& own) {
   return {own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, heading_deg};
 }
 
-base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed, const CarNames& names, const CarStarts& starts) {
+base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed,
+                                         const CarNames& names, const CarStarts& starts) {
   const auto found = CarOf(moment, followed, names);
   if (!found) return found.error();
   const auto said = starts.find(found.value()->id);

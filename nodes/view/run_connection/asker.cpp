@@ -8,7 +8,8 @@ namespace rodeira::nodes {
 bool Asker::Ask(const scenario::Request& request) {
   const auto becomes = scenario::EventOf(request);
   if (!becomes || waiting_.size() >= launch::LiveRequestsSender::kMost) return false;
-  waiting_.push_back({{++newest_, request.name, request.argument, request.x_m, request.y_m, request.value}, becomes.value()});
+  waiting_.push_back(
+      {{++newest_, request.name, request.argument, request.x_m, request.y_m, request.value}, becomes.value()});
   changed_ = true;
   return true;
 }
@@ -16,7 +17,8 @@ bool Asker::Ask(const scenario::Request& request) {
 void Asker::See(const std::vector<scenario::Event>& events) {
   for (const scenario::Event& event : events) {
     const auto same = [&](const Waiting& waiting) {
-      return waiting.becomes.name == event.name && waiting.becomes.argument == event.argument && waiting.becomes.value == event.value;
+      return waiting.becomes.name == event.name && waiting.becomes.argument == event.argument &&
+             waiting.becomes.value == event.value;
     };
     const auto happened = std::find_if(waiting_.begin(), waiting_.end(), same);
     if (happened != waiting_.end()) waiting_.erase(happened);

@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "common/runtime/launch/live_requests.hpp"
 #include "common/driving/scenario/request.hpp"
+#include "common/runtime/launch/live_requests.hpp"
 
 namespace rodeira::nodes {
 
-// Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message may be lost, and
-// a run that stands takes nothing. Used on the thread of the window.
+// Asks the run for something, and again every kRepeat_s until the run's own events say that it has happened: a message
+// may be lost, and a run that stands takes nothing. Used on the thread of the window.
 class Asker {
  public:
   static constexpr double kRepeat_s = 0.05;

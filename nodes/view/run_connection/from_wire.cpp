@@ -13,10 +13,11 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0), scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
+constexpr std::array<scene::Colour, 4> kPaints = {scene::Colour::Of(0xb01e26), scene::Colour::Of(0x1e4fa0),
+                                                  scene::Colour::Of(0xd9b11e), scene::Colour::Of(0x2b7a3d)};
 
 constexpr std::uint64_t kIdBits = 0xffffffU;  // of an agent's own number within the scene's
-constexpr double kPetrol_kgpl = 0.745;  // as gauges count it
+constexpr double kPetrol_kgpl = 0.745;        // as gauges count it
 
 double Double(float value) { return static_cast<double>(value); }
 Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
@@ -25,8 +26,9 @@ Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double
 // What lies outside of what can be (a recording from elsewhere) is cut to it.
 weather::Weather FromWire(const msg::WeatherState& message) {
   const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
-  return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0), cut(message.visibility_m(), 10.0, weather::kClear_m),
-          cut(message.clouds(), 0.0, 1.0), cut(message.hour(), 0.0, 24.0)};
+  return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0),
+          cut(message.visibility_m(), 10.0, weather::kClear_m), cut(message.clouds(), 0.0, 1.0),
+          cut(message.hour(), 0.0, 24.0)};
 }
 
 // Of an agent that stood there, heading so, when it was said.
@@ -47,8 +49,10 @@ scene::AgentDetail FromWire(const msg::TrafficDetail& message, const Eigen::Vect
   return detail;
 }
 
-// The traffic of a node and what it says of it are two of its streams; the second one was said so long ago, and the car has gone straight on since.
-void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const msg::TrafficDetails& message, double age_s, std::vector<scene::AgentPose>& agents) {
+// The traffic of a node and what it says of it are two of its streams; the second one was said so long ago, and the car
+// has gone straight on since.
+void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const msg::TrafficDetails& message,
+                double age_s, std::vector<scene::AgentPose>& agents) {
   std::map<std::uint64_t, const msg::TrafficDetail*> by_id;
   for (const msg::TrafficDetail& detail : message.agents()) by_id[detail.id() & kIdBits] = &detail;
   for (scene::AgentPose& agent : agents) {
@@ -72,7 +76,8 @@ double Sliding(const msg::VehicleState& message) {
   double most = 0.0;
   for (const msg::WheelState& wheel : message.wheels()) {
     if (wheel.in_contact() == 0) continue;
-    const double slip = std::hypot(Double(wheel.slip()), Double(wheel.slip_angle_tan())), moving = std::fabs(Double(wheel.spin_radps())) * 0.3 + ToVector(message.velocity_w_mps()).norm();
+    const double slip = std::hypot(Double(wheel.slip()), Double(wheel.slip_angle_tan())),
+                 moving = std::fabs(Double(wheel.spin_radps())) * 0.3 + ToVector(message.velocity_w_mps()).norm();
     most = std::max(most, std::clamp((slip - 0.12) / 0.3, 0.0, 1.0) * std::clamp(moving / 5.0 - 0.2, 0.0, 1.0));
   }
   return most;
@@ -95,7 +100,8 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.q_WB = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
   for (std::size_t i = 0; i < car.wheels.size(); ++i) {
     const msg::WheelState& wheel = message.wheels()[i];
-    car.wheels[i] = {ToVector(wheel.hub_b_m()), Double(wheel.steer_rad()), Double(wheel.spin_rad()), Double(wheel.spin_radps())};
+    car.wheels[i] = {ToVector(wheel.hub_b_m()), Double(wheel.steer_rad()), Double(wheel.spin_rad()),
+                     Double(wheel.spin_radps())};
   }
   car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
   car.brake = Double(message.brake());
@@ -135,7 +141,8 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     agent.speed_mps = from.speed_mps();
     agent.steer_rad = Double(from.steer_rad());
     agent.wheel_spin_rad = Double(from.wheel_spin_rad());
-    agent.kind = static_cast<scene::AgentKind>(std::min(from.kind(), static_cast<std::uint32_t>(scene::AgentKind::kPedestrian)));
+    agent.kind =
+        static_cast<scene::AgentKind>(std::min(from.kind(), static_cast<std::uint32_t>(scene::AgentKind::kPedestrian)));
     agent.lights = LightsOf(from.lights());
     if (from.length_m() > 0.0F) agent.length_m = Double(from.length_m());
     if (from.width_m() > 0.0F) agent.width_m = Double(from.width_m());
@@ -144,13 +151,19 @@ void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::v
     if (from.wheel_radius_m() > 0.0F) agent.wheel_radius_m = Double(from.wheel_radius_m());
     agents.push_back(agent);
   }
-  std::sort(agents.begin() + first, agents.end(), [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });
+  std::sort(agents.begin() + first, agents.end(),
+            [](const scene::AgentPose& a, const scene::AgentPose& b) { return a.id < b.id; });
 }
 
 void AddLights(const msg::SignalsState& message, std::vector<scene::LightShown>& lights) {
-  const auto colour_of = [](std::uint32_t colour) { return static_cast<network::LightColour>(std::min(colour, static_cast<std::uint32_t>(network::LightColour::kAmber))); };
-  for (const msg::SignalGroup& group : message.groups()) lights.push_back({group.controller(), colour_of(group.colour())});
-  std::stable_sort(lights.begin(), lights.end(), [](const scene::LightShown& a, const scene::LightShown& b) { return a.controller < b.controller; });
+  const auto colour_of = [](std::uint32_t colour) {
+    return static_cast<network::LightColour>(
+        std::min(colour, static_cast<std::uint32_t>(network::LightColour::kAmber)));
+  };
+  for (const msg::SignalGroup& group : message.groups())
+    lights.push_back({group.controller(), colour_of(group.colour())});
+  std::stable_sort(lights.begin(), lights.end(),
+                   [](const scene::LightShown& a, const scene::LightShown& b) { return a.controller < b.controller; });
 }
 
 bool SaysSomething(std::string_view topic, const base::Bytes& payload) {
@@ -159,7 +172,8 @@ bool SaysSomething(std::string_view topic, const base::Bytes& payload) {
   return !message || !message.value().agents().empty();  // what cannot be read is said where it is used
 }
 
-base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step, const NewestSamples& newest) {
+base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step,
+                                       const NewestSamples& newest) {
   scene::Moment moment;
   moment.time_ns = step * roster.base_step_ns();
   std::vector<std::pair<lockstep::NodeIndex, msg::TrafficDetails>> details;
@@ -186,7 +200,8 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
       AppendAgents(message.value(), source, moment.agents);
     }
   }
-  for (const auto& [node, said] : details) AddDetails(roster, node, said, static_cast<double>(moment.time_ns - said.header().time_ns()) * 1e-9, moment.agents);
+  for (const auto& [node, said] : details)
+    AddDetails(roster, node, said, static_cast<double>(moment.time_ns - said.header().time_ns()) * 1e-9, moment.agents);
   return moment;
 }
 

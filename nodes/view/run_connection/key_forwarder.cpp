@@ -17,7 +17,8 @@ void KeyForwarder::Take(const SDL_Event& event) {
   switch (event.type) {
     case SDL_KEYDOWN:
     case SDL_KEYUP:
-      if (event.key.repeat == 0) Set(static_cast<input_devices::Key>(event.key.keysym.scancode), event.type == SDL_KEYDOWN);
+      if (event.key.repeat == 0)
+        Set(static_cast<input_devices::Key>(event.key.keysym.scancode), event.type == SDL_KEYDOWN);
       break;
     case SDL_MOUSEBUTTONDOWN:
     case SDL_MOUSEBUTTONUP:

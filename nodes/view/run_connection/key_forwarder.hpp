@@ -3,22 +3,23 @@
 #include <map>
 #include <memory>
 
-#include "common/vehicle/input_devices/key_names.hpp"
 #include "common/runtime/launch/live_keys.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
 
 union SDL_Event;
 
 namespace rodeira::nodes {
 
-// Gathers what is held in the window and says it to whoever drives: at every change, and again every kRepeat_s, because a
-// message may be lost. Without the keyboard's focus nothing is held. Used on the thread of the window.
+// Gathers what is held in the window and says it to whoever drives: at every change, and again every kRepeat_s, because
+// a message may be lost. Without the keyboard's focus nothing is held. Used on the thread of the window.
 class KeyForwarder {
  public:
   static constexpr double kRepeat_s = 0.05;
 
   explicit KeyForwarder(std::unique_ptr<launch::LiveKeysSender> sender) : sender_(std::move(sender)) {}
 
-  // Keys, mouse buttons, and the loss of focus; everything else is passed over. Not for keys that the window keeps itself.
+  // Keys, mouse buttons, and the loss of focus; everything else is passed over. Not for keys that the window keeps
+  // itself.
   void Take(const SDL_Event& event);
   void ReleaseAll();
   // Says what is due.

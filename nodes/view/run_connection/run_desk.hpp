@@ -6,7 +6,8 @@
 
 namespace rodeira::nodes {
 
-// The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It has no thread.
+// The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It
+// has no thread.
 class RunDesk {
  public:
   // `rodeira run` names the socket to its processes by this variable of their environment.

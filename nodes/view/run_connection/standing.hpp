@@ -7,8 +7,8 @@
 
 namespace rodeira::nodes {
 
-// Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control socket where that comes to
-// rest.
+// Whether the run's time stands, and why, for a window of a live run: told what it shows, it asks the run's control
+// socket where that comes to rest.
 class Standing {
  public:
   static constexpr double kStill_s = 0.5;  // without a new moment: time stands

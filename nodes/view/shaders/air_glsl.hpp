@@ -2,7 +2,8 @@
 
 namespace rodeira::nodes {
 
-// The sky over a direction given by its height (1: zenith), without sun and clouds; haze and fog have its horizon's colour.
+// The sky over a direction given by its height (1: zenith), without sun and clouds; haze and fog have its horizon's
+// colour.
 inline constexpr const char* kAirGlsl = R"(
 uniform vec3 horizon_colour;
 uniform vec3 zenith_colour;

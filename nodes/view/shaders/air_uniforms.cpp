@@ -6,18 +6,27 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr double kLampHeight_m = 0.65;
-constexpr std::int64_t kRainAgain_ns = 10'000'000'000;  // the streaks' way fits into it: fractions of the texture a second are tenths
+constexpr std::int64_t kRainAgain_ns =
+    10'000'000'000;  // the streaks' way fits into it: fractions of the texture a second are tenths
 
 osg::Vec3f ToOsg(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
 osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-osg::Vec3f Turned(const osg::Vec3d& direction, const osg::Matrixd& view) { return osg::Matrixd::transform3x3(direction, view); }
+osg::Vec3f Turned(const osg::Vec3d& direction, const osg::Matrixd& view) {
+  return osg::Matrixd::transform3x3(direction, view);
+}
 
-void Set(osg::StateSet& state, const char* name, float value) { state.getOrCreateUniform(name, osg::Uniform::FLOAT)->set(value); }
-void Set(osg::StateSet& state, const char* name, const osg::Vec3f& value) { state.getOrCreateUniform(name, osg::Uniform::FLOAT_VEC3)->set(value); }
+void Set(osg::StateSet& state, const char* name, float value) {
+  state.getOrCreateUniform(name, osg::Uniform::FLOAT)->set(value);
+}
+void Set(osg::StateSet& state, const char* name, const osg::Vec3f& value) {
+  state.getOrCreateUniform(name, osg::Uniform::FLOAT_VEC3)->set(value);
+}
 
 void Define(osg::StateSet& state, const char* word, bool on) {
-  if (on) state.setDefine(word);
-  else state.removeDefine(word);
+  if (on)
+    state.setDefine(word);
+  else
+    state.removeDefine(word);
 }
 
 }  // namespace

@@ -2,7 +2,8 @@
 
 namespace rodeira::nodes {
 
-// Of a vertex shader: where a vertex is, its normal and its colour. INSTANCED: those of a model at one of its places (RepeatedGeometry).
+// Of a vertex shader: where a vertex is, its normal and its colour. INSTANCED: those of a model at one of its places
+// (RepeatedGeometry).
 inline constexpr const char* kPlacedGlsl = R"(
 #ifdef INSTANCED
 attribute vec4 instance_place;

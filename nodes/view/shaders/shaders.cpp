@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "common/view/scene/vehicles/car_lights.hpp"
 #include "common/view/scene/heat_map/heat_raster.hpp"
+#include "common/view/scene/vehicles/car_lights.hpp"
 #include "nodes/view/shaders/air_glsl.hpp"
 #include "nodes/view/shaders/placed_glsl.hpp"
 
@@ -34,9 +34,9 @@ varying vec3 in_heat;
 #endif
 )";
 
-// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60 m, or the main beam,
-// which has no upper edge and reaches two and a half times as far. `sunny`: how much
-// of the sun gets there past what throws shadows; beyond the maps everything does.
+// What falls on a surface by day and from the headlights of the car that is watched: a dipped beam, bright to some 60
+// m, or the main beam, which has no upper edge and reaches two and a half times as far. `sunny`: how much of the sun
+// gets there past what throws shadows; beyond the maps everything does.
 constexpr const char* kLight = R"(
 vec3 light;
 float sunny = 1.0;
@@ -99,8 +99,8 @@ vec3 Wet(vec3 dry) {
 #endif
 )";
 
-// A statistic over the ground (scene::HeatRaster), smooth from the middle of a square to that of the next on the same surface; red through yellow to
-// green, of which so much in one covers what is seen of the ground.
+// A statistic over the ground (scene::HeatRaster), smooth from the middle of a square to that of the next on the same
+// surface; red through yellow to green, of which so much in one covers what is seen of the ground.
 constexpr const char* kHeat = R"(
 #ifndef HEAT
 vec3 Heated(vec3 seen) { return seen; }
@@ -130,7 +130,8 @@ vec3 Heated(vec3 seen) {
 
 const char* FragmentBody(scene::Material material) {
   switch (material) {
-    case scene::Material::kGround: return R"(
+    case scene::Material::kGround:
+      return R"(
 uniform sampler2D noise;
 vec3 Look() {
 #ifdef FINE
@@ -140,7 +141,8 @@ vec3 Look() {
 #endif
   return gl_Color.rgb * light * (0.62 + 0.38 * near);
 })";
-    case scene::Material::kCheckers: return R"(
+    case scene::Material::kCheckers:
+      return R"(
 uniform sampler2D noise;
 vec3 Look() {
   vec2 square = ground / 16.0;
@@ -151,7 +153,8 @@ vec3 Look() {
   float grain = texture2D(noise, ground / 4.0).r;
   return gl_Color.rgb * light * (0.9 + 0.10 * checker + 0.2 * (grain - 0.5));
 })";
-    case scene::Material::kRoad: return R"(
+    case scene::Material::kRoad:
+      return R"(
 vec3 Look() {
 #ifdef FINE
   float grain = texture2D(noise, ground / 2.0).r;
@@ -162,14 +165,16 @@ vec3 Look() {
   return Wet(gl_Color.rgb * light * (0.80 + 0.24 * grain + 0.16 * wear));
 })";
     // Slabs are even and pale, with pores and large soft stains.
-    case scene::Material::kConcrete: return R"(
+    case scene::Material::kConcrete:
+      return R"(
 vec3 Look() {
   float pores = smoothstep(0.30, 0.42, texture2D(noise, ground / 1.5).r);
   float stains = texture2D(noise, ground / 24.0).g;
   return Wet(gl_Color.rgb * light * (0.78 + 0.10 * pores + 0.26 * stains));
 })";
     // Stones of some centimetres, each of its own grey, dark between them.
-    case scene::Material::kGravel: return R"(
+    case scene::Material::kGravel:
+      return R"(
 uniform float wetness;
 uniform sampler2D noise;
 vec3 Look() {
@@ -177,7 +182,8 @@ vec3 Look() {
   float wear = texture2D(noise, ground / 16.0).g;
   return gl_Color.rgb * light * (0.50 + 0.85 * smoothstep(0.45, 1.15, stones) + 0.14 * wear) * (1.0 - 0.42 * wetness);
 })";
-    case scene::Material::kPicture: return R"(
+    case scene::Material::kPicture:
+      return R"(
 uniform sampler2D noise;
 uniform sampler2D face;
 uniform float repeats;
@@ -189,14 +195,16 @@ vec3 Look() {
   vec3 bare = gl_Color.rgb * (0.62 + 0.38 * near);
   return mix(bare, texture2D(face, on_face).rgb, there) * light;
 })";
-    case scene::Material::kMark: return R"(
+    case scene::Material::kMark:
+      return R"(
 uniform sampler2D noise;
 vec3 Look() {
   // Far away a line is thinner than a pixel: it fades into the asphalt instead of flickering.
   vec3 paint = mix(gl_Color.rgb, vec3(0.38), 0.9 * smoothstep(90.0, 480.0, length(at_eye)));
   return paint * light * (0.88 + 0.12 * texture2D(noise, ground / 2.0).r);
 })";
-    case scene::Material::kCarPaint: return R"(
+    case scene::Material::kCarPaint:
+      return R"(
 uniform float pulse;
 vec3 Look() {
   vec3 n = normalize(normal_eye);
@@ -208,7 +216,8 @@ vec3 Look() {
   float shine = sunny * pow(max(dot(mirrored, sun_eye), 0.0), 60.0);
   return mix(gl_Color.rgb * light + fresnel * around + 0.7 * shine, vec3(1.0, 0.95, 0.55), 0.65 * pulse);
 })";
-    case scene::Material::kGlass: return R"(
+    case scene::Material::kGlass:
+      return R"(
 vec3 Look() {
   vec3 n = normalize(normal_eye);
   vec3 view = normalize(at_eye);
@@ -218,21 +227,26 @@ vec3 Look() {
   vec3 around = mix(vec3(0.20, 0.23, 0.17), SkyColour(up), smoothstep(-0.05, 0.05, up));
   return gl_Color.rgb * 0.6 * light + fresnel * around + 0.8 * sunny * pow(max(dot(mirrored, sun_eye), 0.0), 120.0);
 })";
-    case scene::Material::kLamp: return R"(
+    case scene::Material::kLamp:
+      return R"(
 uniform float glow;
 vec3 Look() { return gl_Color.rgb * glow; })";
-    case scene::Material::kCarLamp: return R"(
+    case scene::Material::kCarLamp:
+      return R"(
 varying float glowing;
 vec3 Look() { return gl_Color.rgb * max(light * 0.85, vec3(glowing)); })";
-    case scene::Material::kSign: return R"(
+    case scene::Material::kSign:
+      return R"(
 uniform sampler2D face;
 varying vec2 on_face;
 // Signs throw light back: they are never as dark as what stands in the shade.
 vec3 Look() { return texture2D(face, on_face).rgb * max(light, vec3(0.72)); })";
-    case scene::Material::kMatt: return R"(
+    case scene::Material::kMatt:
+      return R"(
 uniform float pulse;
 vec3 Look() { return mix(gl_Color.rgb * light, vec3(1.0, 0.95, 0.55), 0.65 * pulse); })";
-    case scene::Material::kFoliage: break;
+    case scene::Material::kFoliage:
+      break;
   }
   return R"(
 vec3 Look() { return gl_Color.rgb * light; })";
@@ -241,7 +255,9 @@ vec3 Look() { return gl_Color.rgb * light; })";
 }  // namespace
 
 std::string VertexShader(scene::Material material) {
-  return std::string(kHead) + kAirGlsl + (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) + kPlacedGlsl + R"(
+  return std::string(kHead) + kAirGlsl +
+         (material == scene::Material::kCarLamp ? fmt::format("#define LAMPS {}\n", scene::kLamps) : std::string()) +
+         kPlacedGlsl + R"(
 varying vec2 on_face;
 #ifdef LAMPS
 uniform float glows[LAMPS];
@@ -290,7 +306,9 @@ void main() {
 std::string FragmentShader(scene::Material material) {
   const bool stone = material == scene::Material::kRoad || material == scene::Material::kConcrete;
   const bool lies = scene::IsGround(material);
-  const std::string heat = lies ? fmt::format("\n#define HEAT_SURFACE {:.3f}\n#define HEAT_SHARE {:.3f}\n{}", scene::kHeatSurface_m, scene::kHeatShare, kHeat) : "\nvec3 Heated(vec3 seen) { return seen; }";
+  const std::string heat = lies ? fmt::format("\n#define HEAT_SURFACE {:.3f}\n#define HEAT_SHARE {:.3f}\n{}",
+                                              scene::kHeatSurface_m, scene::kHeatShare, kHeat)
+                                : "\nvec3 Heated(vec3 seen) { return seen; }";
   return std::string(kHead) + kAirGlsl + kLight + (stone ? kWater : "") + FragmentBody(material) + heat + R"(
 void main() {
   light = daylight;

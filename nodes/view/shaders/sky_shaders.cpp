@@ -18,7 +18,8 @@ uniform sampler2D noise;
 #ifndef FINE
 varying vec3 sky;
 #endif
-)") + kAirGlsl + R"(
+)") + kAirGlsl +
+         R"(
 vec3 CloudySky(vec3 d) {
   vec3 colour = SkyColour(d.z);
   vec2 cloud_at = d.xy / (max(d.z, 0.0) + 0.12);

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/view/scene/lighting/air.hpp"
 #include "common/view/scene/camera/camera.hpp"
+#include "common/view/scene/lighting/air.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -15,9 +15,14 @@ constexpr std::size_t kNearest = 4;
 constexpr double kFarthest_m = 80.0, kHalf_m = 6.0;  // where another car is half as loud as beside it
 constexpr double kOutside = 0.5;                     // of another car's loudness, through one's own body
 
-sound::Voice VoiceOf(const scene::AgentPose& agent) { return {900.0 + 75.0 * std::fabs(agent.speed_mps), agent.lights.brake ? 0.0 : 0.35, agent.speed_mps, 0.0, 1.0, 0.0, 0.0}; }
+sound::Voice VoiceOf(const scene::AgentPose& agent) {
+  return {
+      900.0 + 75.0 * std::fabs(agent.speed_mps), agent.lights.brake ? 0.0 : 0.35, agent.speed_mps, 0.0, 1.0, 0.0, 0.0};
+}
 
-sound::Voice VoiceOf(const scene::CarPose& car) { return {car.engine_rpm, car.throttle, car.speed_mps, car.sliding, 1.0, 0.0, car.horn ? 1.0 : 0.0}; }
+sound::Voice VoiceOf(const scene::CarPose& car) {
+  return {car.engine_rpm, car.throttle, car.speed_mps, car.sliding, 1.0, 0.0, car.horn ? 1.0 : 0.0};
+}
 
 }  // namespace
 
@@ -28,9 +33,13 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
   heard.volume = volume;
   heard.rain = static_cast<double>(scene::MakeAir(moment.weather).rain);
   const bool is_car = followed < moment.cars.size();
-  const auto on_foot = [](const scene::AgentPose& agent) { return agent.kind == scene::AgentKind::kPedestrian; };  // and so not heard
-  if (is_car) heard.own = VoiceOf(moment.cars[followed]);
-  else if (const scene::AgentPose& agent = moment.agents[followed - moment.cars.size()]; !on_foot(agent)) heard.own = VoiceOf(agent);
+  const auto on_foot = [](const scene::AgentPose& agent) {
+    return agent.kind == scene::AgentKind::kPedestrian;
+  };  // and so not heard
+  if (is_car)
+    heard.own = VoiceOf(moment.cars[followed]);
+  else if (const scene::AgentPose& agent = moment.agents[followed - moment.cars.size()]; !on_foot(agent))
+    heard.own = VoiceOf(agent);
   if (is_car) heard.crash = moment.cars[followed].blow;
 
   struct Near {
@@ -43,7 +52,8 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
     const Eigen::Vector3d to_B = body->q_WB.conjugate() * (p_W - body->p_WB_W);
     const double distance_m = to_B.norm();
     if (distance_m > kFarthest_m) return;
-    voice.gain = kOutside * (1.0 / (1.0 + (distance_m / kHalf_m) * (distance_m / kHalf_m))) * (1.0 - distance_m / kFarthest_m);
+    voice.gain =
+        kOutside * (1.0 / (1.0 + (distance_m / kHalf_m) * (distance_m / kHalf_m))) * (1.0 - distance_m / kFarthest_m);
     voice.pan = distance_m > 1e-3 ? -to_B.y() / distance_m : 0.0;
     near.push_back({distance_m, id, voice});
   };
@@ -52,9 +62,11 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
     if (i != followed) add(kCar | moment.cars[i].id, moment.cars[i].p_WB_W, VoiceOf(moment.cars[i]));
   }
   for (std::size_t i = 0; i < moment.agents.size(); ++i) {
-    if (i + moment.cars.size() != followed && !on_foot(moment.agents[i])) add(moment.agents[i].id, moment.agents[i].p_WB_W, VoiceOf(moment.agents[i]));
+    if (i + moment.cars.size() != followed && !on_foot(moment.agents[i]))
+      add(moment.agents[i].id, moment.agents[i].p_WB_W, VoiceOf(moment.agents[i]));
   }
-  std::sort(near.begin(), near.end(), [](const Near& a, const Near& b) { return std::pair(a.distance_m, a.id) < std::pair(b.distance_m, b.id); });
+  std::sort(near.begin(), near.end(),
+            [](const Near& a, const Near& b) { return std::pair(a.distance_m, a.id) < std::pair(b.distance_m, b.id); });
   for (std::size_t i = 0; i < std::min(kNearest, near.size()); ++i) heard.others[near[i].id] = near[i].voice;
   return heard;
 }

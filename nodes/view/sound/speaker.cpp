@@ -14,7 +14,8 @@ namespace {
 constexpr double kLeast_s = 0.05, kMost_s = 0.30;  // kept in the queue
 constexpr double kPictures = 2.5;                  // of them
 
-// ALSA's library complains at length on standard error where there is no card: it is asked only where something may answer.
+// ALSA's library complains at length on standard error where there is no card: it is asked only where something may
+// answer.
 bool MayBeHeard() {
   if (std::getenv("SDL_AUDIODRIVER") != nullptr || std::getenv("PULSE_SERVER") != nullptr) return true;
   std::error_code problem;
@@ -50,7 +51,9 @@ Speaker::~Speaker() {
   SDL_QuitSubSystem(SDL_INIT_AUDIO);
 }
 
-double Speaker::queued_s() const { return static_cast<double>(SDL_GetQueuedAudioSize(device_)) / (2.0 * sizeof(float) * sound::kRate_Hz); }
+double Speaker::queued_s() const {
+  return static_cast<double>(SDL_GetQueuedAudioSize(device_)) / (2.0 * sizeof(float) * sound::kRate_Hz);
+}
 
 void Speaker::Play(const sound::Heard& heard, double interval_s) {
   const double missing_s = std::clamp(kPictures * interval_s, kLeast_s, kMost_s) - queued_s();

@@ -19,7 +19,8 @@ class Speaker {
   Speaker(const Speaker&) = delete;
   Speaker& operator=(const Speaker&) = delete;
 
-  // Goes on with this until it is called again; pictures come every `interval_s`. Never waits. Where it is not called in time there is silence.
+  // Goes on with this until it is called again; pictures come every `interval_s`. Never waits. Where it is not called
+  // in time there is silence.
   void Play(const sound::Heard& heard, double interval_s);
   // How much is still to be heard.
   double queued_s() const;

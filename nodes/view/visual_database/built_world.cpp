@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "nodes/view/visual_database/database.hpp"
 #include "nodes/view/materials/picture_texture.hpp"
 #include "nodes/view/materials/plain_geometry.hpp"
+#include "nodes/view/visual_database/database.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -20,7 +20,8 @@ namespace {
 // Gives geometries of the database the look of those that are built in memory.
 class Dress : public osg::NodeVisitor {
  public:
-  Dress(Look& look, std::filesystem::path folder) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {
+  Dress(Look& look, std::filesystem::path folder)
+      : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {
     setNodeMaskOverride(~0U);  // what is hidden from other programs too
   }
 
@@ -33,13 +34,16 @@ class Dress : public osg::NodeVisitor {
     const auto material = static_cast<scene::Material>(number);
     const bool repeated = name.ends_with(kRepeatedName);
     if (repeated || name.ends_with(kMergedName)) {
-      if (repeated != look_.repeats()) return unwanted_.push_back(geometry.getParent(0));  // it has its place for itself
+      if (repeated != look_.repeats())
+        return unwanted_.push_back(geometry.getParent(0));  // it has its place for itself
     }
     geometry.setNodeMask(ShadowMaskOf(material));
     if (material == scene::Material::kPicture) return LayPicture(geometry);
     if (material == scene::Material::kSign) {
       osg::StateSet* own = geometry.getStateSet();
-      auto* face = own == nullptr ? nullptr : dynamic_cast<osg::Texture2D*>(own->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+      auto* face = own == nullptr
+                       ? nullptr
+                       : dynamic_cast<osg::Texture2D*>(own->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
       if (face == nullptr) return;
       geometry.setTexCoordArray(1, geometry.getTexCoordArray(0));
       geometry.setTexCoordArray(0, nullptr);
@@ -67,7 +71,8 @@ class Dress : public osg::NodeVisitor {
     if (at == std::string::npos) return;
     geometry.setTexCoordArray(1, geometry.getTexCoordArray(0));
     geometry.setTexCoordArray(0, nullptr);
-    geometry.setStateSet(look_.StateOfPicture((folder_ / name.substr(at)).string(), name.find(kRepeats) != std::string::npos));
+    geometry.setStateSet(
+        look_.StateOfPicture((folder_ / name.substr(at)).string(), name.find(kRepeats) != std::string::npos));
   }
 
   Look& look_;
@@ -107,8 +112,10 @@ class FindTiles : public osg::NodeVisitor {
 
   void apply(osg::PagedLOD& tile) override { tiles_.push_back(&tile); }
   void apply(osg::Group& group) override {
-    if (typeid(group) != typeid(osg::Group)) strange_ = true;
-    else traverse(group);
+    if (typeid(group) != typeid(osg::Group))
+      strange_ = true;
+    else
+      traverse(group);
   }
   void apply(osg::Node&) override { strange_ = true; }
   bool strange() const { return strange_; }

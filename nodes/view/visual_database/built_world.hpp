@@ -8,8 +8,8 @@
 
 namespace rodeira::nodes {
 
-// Reads `world.osgb` of a folder that FindBuilt found: its tiles are read where the eye comes near. Every tile gets this look as it is read, which must outlive
-// the root. A failure where OpenSceneGraph cannot read the file.
+// Reads `world.osgb` of a folder that FindBuilt found: its tiles are read where the eye comes near. Every tile gets
+// this look as it is read, which must outlive the root. A failure where OpenSceneGraph cannot read the file.
 base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Look& look);
 
 }  // namespace rodeira::nodes

@@ -21,12 +21,12 @@
 #include "common/core/base/files.hpp"
 #include "common/view/scene/ground_materials/lay_picture.hpp"
 #include "common/view/scene/visual_world/seen_digest.hpp"
-#include "nodes/view/paging/database_tiles.hpp"
 #include "nodes/view/materials/face_texture.hpp"
 #include "nodes/view/materials/model_file.hpp"
-#include "nodes/view/paging/paged_world.hpp"
 #include "nodes/view/materials/picture_texture.hpp"
 #include "nodes/view/materials/plain_geometry.hpp"
+#include "nodes/view/paging/database_tiles.hpp"
+#include "nodes/view/paging/paged_world.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -53,7 +53,8 @@ void LayPicture(const scene::Mesh& mesh, const std::string& name, osg::Geometry&
   geometry.setName(geometry.getName() + (mesh.repeats ? kRepeats : "") + " " + name);
   geometry.setTexCoordArray(0, PlacesOnFace(mesh));
   geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
-  geometry.getOrCreateStateSet()->setTextureAttributeAndModes(0, new osg::TexEnv(osg::TexEnv::DECAL));  // the picture's own colours
+  geometry.getOrCreateStateSet()->setTextureAttributeAndModes(
+      0, new osg::TexEnv(osg::TexEnv::DECAL));  // the picture's own colours
 }
 
 osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& pictures) {
@@ -76,7 +77,8 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& 
 osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level, const Pictures& pictures) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const auto place = [&](const Eigen::Vector3d& origin_W, osg::Geometry* geometry) {
-    osg::ref_ptr<osg::MatrixTransform> at = new osg::MatrixTransform(osg::Matrixd::translate(origin_W.x(), origin_W.y(), origin_W.z()));
+    osg::ref_ptr<osg::MatrixTransform> at =
+        new osg::MatrixTransform(osg::Matrixd::translate(origin_W.x(), origin_W.y(), origin_W.z()));
     at->addChild(geometry);
     group->addChild(at);
   };
@@ -105,7 +107,9 @@ base::Result<std::string> Serialise(const osg::Node& node) {
   static std::mutex mutex;
   const std::lock_guard lock(mutex);
   osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
-  if (writer == nullptr) return base::Failed("OpenSceneGraph's plugin for .osgb files is missing; the package libopenscenegraph161 was expected");
+  if (writer == nullptr)
+    return base::Failed(
+        "OpenSceneGraph's plugin for .osgb files is missing; the package libopenscenegraph161 was expected");
   std::ostringstream bytes;
   if (!writer->writeNode(node, bytes).success()) return base::Failed("OpenSceneGraph cannot write .osgb files");
   return bytes.str();
@@ -139,7 +143,8 @@ bool IsFresh(const fs::path& folder, const Manifest& before, const TileFiles& ti
 // A picture's kind in its name in the database, where it is a plain word.
 std::string ExtensionOf(const fs::path& file) {
   const std::string extension = file.extension().string();
-  const bool plain = extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+  const bool plain = extension.size() > 1 && std::all_of(extension.begin() + 1, extension.end(),
+                                                         [](unsigned char c) { return std::isalnum(c) != 0; });
   return plain ? extension : "";
 }
 
@@ -163,7 +168,8 @@ base::Result<Pictures> WritePictures(const road::World& world, const fs::path& f
 }
 
 // Makes a tile and writes its files.
-base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, const TileFiles& names, base::Digest source, const Pictures& pictures, const fs::path& folder) {
+base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, const TileFiles& names,
+                                 base::Digest source, const Pictures& pictures, const fs::path& folder) {
   const std::vector<scene::GroundLevel> levels = tiles.Make(tile);
   for (const scene::PlacedModel& model : levels.front().models) {
     if (auto read = ReadModel(model.file); !read) return read.error();
@@ -183,11 +189,15 @@ base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, c
 
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
   if (!world.roads().empty()) {
-    return base::WrongInput("only an OpenDRIVE world, the roads of a world file of version 2, or land without roads can be written as they are seen", world.name());
+    return base::WrongInput(
+        "only an OpenDRIVE world, the roads of a world file of version 2, or land without roads can be written as they "
+        "are seen",
+        world.name());
   }
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
-  if (!fs::is_directory(options.folder / "tiles", problem)) return base::WrongInput("this is no folder, and none can be made", options.folder.string());
+  if (!fs::is_directory(options.folder / "tiles", problem))
+    return base::WrongInput("this is no folder, and none can be made", options.folder.string());
   const Manifest before = ReadManifest(options.folder);
   const std::unique_ptr<DatabaseTiles> tiles = TilesOf(world, options.threads);
   const std::size_t count = tiles->count();
@@ -204,7 +214,8 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   // The longest pieces of work first, so that at the end no thread waits long for another one.
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return tiles->WorkOf(a) > tiles->WorkOf(b); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return tiles->WorkOf(a) > tiles->WorkOf(b); });
   scene::ForEachAtOnce(count, options.threads, [&](std::size_t k) {
     const std::size_t i = order[k];
     const base::Digest source = tiles->SourceOf(i);
@@ -227,9 +238,13 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   const auto root = Serialise(*PagedTree(placed).root);
   if (!root) return root.error();
   if (auto written = base::WriteWhole(options.folder / "world.osgb", root.value()); !written) return written.error();
-  std::string manifest = fmt::format("# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n# seen: {}\n{} {} world.osgb\n",
-                                     world.name(), base::Hex(world.content_hash()), base::Hex(scene::SeenDigest(world)), base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
-  for (const auto& [name, known] : after) manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
+  std::string manifest = fmt::format(
+      "# The world {} as it is seen: hash of each file, hash of what it was made from, file\n# content_hash: {}\n# "
+      "seen: {}\n{} {} world.osgb\n",
+      world.name(), base::Hex(world.content_hash()), base::Hex(scene::SeenDigest(world)),
+      base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
+  for (const auto& [name, known] : after)
+    manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
   if (auto written = base::WriteWhole(options.folder / kManifest, manifest); !written) return written.error();
   for (const auto& [name, known] : before) {
     if (name != "world.osgb" && !after.contains(name)) report.removed += fs::remove(options.folder / name, problem);

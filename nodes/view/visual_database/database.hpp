@@ -26,19 +26,21 @@ struct DatabaseReport {
 inline constexpr const char* kManifest = "visual.txt";
 // The names of geometries begin so; what follows is their scene::Material's number.
 inline constexpr const char* kGeometryName = "rodeira ";
-// What is repeated is there twice: merged, which every program draws, and as one model with its places (RepeatedGeometry), which is hidden from others. These
-// words follow the number.
+// What is repeated is there twice: merged, which every program draws, and as one model with its places
+// (RepeatedGeometry), which is hidden from others. These words follow the number.
 inline constexpr const char* kMergedName = " merged";
 inline constexpr const char* kRepeatedName = " repeated";
-// Of geometries on which a picture lies there follow, where it repeats, this word, and the file of the picture, which is copied
-// into this folder under the hash of its bytes.
+// Of geometries on which a picture lies there follow, where it repeats, this word, and the file of the picture, which
+// is copied into this folder under the hash of its bytes.
 inline constexpr const char* kRepeats = " repeats";
 inline constexpr const char* kPictureFolder = "pictures/";
 
-// Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, below groups of neighbouring ones (TileTree), `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which
-// names every file with its hash and what it was made from; pictures that lie on the ground are copied to `pictures/`. Tiles whose sources did not change, and whose files are as they
-// were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input where
-// the world's roads are of version 1 (they are drawn in another way), a model or picture cannot be read, or the folder cannot be written.
+// Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, below groups of neighbouring ones (TileTree),
+// `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which names every file with its hash and what it was made from;
+// pictures that lie on the ground are copied to `pictures/`. Tiles whose sources did not change, and whose files are as
+// they were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input
+// where the world's roads are of version 1 (they are drawn in another way), a model or picture cannot be read, or the
+// folder cannot be written.
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options);
 
 }  // namespace rodeira::nodes

@@ -36,11 +36,15 @@ FoundBuilt FindBuilt(const fs::path& world_file, const road::World& world) {
     if (seen.empty()) seen = base::Hex(scene::SeenDigest(world));
     const VisualContents contents = ReadVisualContents(manifest);
     std::string why;
-    if (contents.seen != seen) why = "it was built from another world, or by another version of the program";
-    else if (!contents.broken.empty()) why = fmt::format("its line '{}' names no file with its hash", contents.broken.front());
-    else if (const std::string changed = FirstChanged(folder, contents); !changed.empty()) why = fmt::format("its file '{}' is not as it was written", changed);
+    if (contents.seen != seen)
+      why = "it was built from another world, or by another version of the program";
+    else if (!contents.broken.empty())
+      why = fmt::format("its line '{}' names no file with its hash", contents.broken.front());
+    else if (const std::string changed = FirstChanged(folder, contents); !changed.empty())
+      why = fmt::format("its file '{}' is not as it was written", changed);
     if (why.empty()) return {folder, ""};
-    found.remark = fmt::format("{}: the built database is not shown: {}; `rodeira world build` renews it", manifest.string(), why);
+    found.remark =
+        fmt::format("{}: the built database is not shown: {}; `rodeira world build` renews it", manifest.string(), why);
   }
   return found;
 }

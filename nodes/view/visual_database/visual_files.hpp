@@ -15,16 +15,17 @@ struct VisualContents {
     base::Digest hash = 0;
     std::string name;  // from the folder
   };
-  std::string content_hash, seen;   // as they stand there: of the world, and of what is seen of it
+  std::string content_hash, seen;  // as they stand there: of the world, and of what is seen of it
   std::vector<Listed> files;
   std::vector<std::string> broken;  // lines that name no file with its hash
 };
 
 VisualContents ReadVisualContents(const std::filesystem::path& manifest);
 
-// Each file that is missing or not as it was written, and each line that names none, in the order of the lines. Empty: what is seen is there byte for byte,
-// or was not built into this folder: neither `visual.txt` nor `world.osgb` is there. content_hash: of the world that the folder holds, as
-// hexadecimal digits; what was written from another one is a problem too.
+// Each file that is missing or not as it was written, and each line that names none, in the order of the lines. Empty:
+// what is seen is there byte for byte, or was not built into this folder: neither `visual.txt` nor `world.osgb` is
+// there. content_hash: of the world that the folder holds, as hexadecimal digits; what was written from another one is
+// a problem too.
 std::vector<base::Error> VisualProblems(const std::filesystem::path& folder, const std::string& content_hash);
 
 }  // namespace rodeira::nodes

@@ -24,7 +24,8 @@ void Fill(int x_px, int y_px, int width_px, int height_px, float grey) {
 
 // The bar from one share of its length to another.
 void DrawBar(int width_px, int height_px, double from, double to) {
-  const int width = static_cast<int>(std::lround(kBarShare * width_px)), x = (width_px - width) / 2, y = (height_px - kBarHeight_px) / 2;
+  const int width = static_cast<int>(std::lround(kBarShare * width_px)), x = (width_px - width) / 2,
+            y = (height_px - kBarHeight_px) / 2;
   const auto px = [width](double share) { return static_cast<int>(std::lround(std::clamp(share, 0.0, 1.0) * width)); };
   glEnable(GL_SCISSOR_TEST);
   Fill(0, 0, width_px, height_px, 0.10F);
@@ -40,7 +41,9 @@ std::string LoadingTitle(const std::string& title, double share, const std::stri
   return fmt::format("{}, {:.0f} %: {}", title, 100.0 * std::clamp(share, 0.0, 1.0), what);
 }
 
-std::string WorkTitle(const std::string& title, double seconds, const std::string& what) { return fmt::format("{}, {:.0f} s: {}", title, std::floor(seconds), what); }
+std::string WorkTitle(const std::string& title, double seconds, const std::string& what) {
+  return fmt::format("{}, {:.0f} s: {}", title, std::floor(seconds), what);
+}
 
 void DrawLoadingBar(int width_px, int height_px, double share) { DrawBar(width_px, height_px, 0.0, share); }
 

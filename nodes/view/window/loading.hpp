@@ -12,9 +12,11 @@ class Loading {
   // Of a window; anything else shows nothing.
   Loading(Surface& surface, std::string title) : surface_(surface), title_(std::move(title)) {}
 
-  // `share` of the way, 0 to 1; `what` comes next. The system is told that the window lives; it is shown at once, but for the same words within kAgain_s.
+  // `share` of the way, 0 to 1; `what` comes next. The system is told that the window lives; it is shown at once, but
+  // for the same words within kAgain_s.
   void Show(double share, const std::string& what);
-  // Something that takes nobody knows how long has been at it so many seconds: a piece of the bar goes to and fro. Always shown at once.
+  // Something that takes nobody knows how long has been at it so many seconds: a piece of the bar goes to and fro.
+  // Always shown at once.
   void ShowWork(double seconds, const std::string& what);
   // The title alone again.
   static void End(const std::string& title);

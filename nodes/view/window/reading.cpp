@@ -15,7 +15,8 @@ constexpr std::chrono::milliseconds kAgain(40);
 }  // namespace
 
 base::Result<std::unique_ptr<Surface>> OpenSurface(SurfaceKind kind, const ViewSettings& settings, bool resizable) {
-  auto surface = Surface::Open(kind, settings.width_px, settings.height_px, kTitle, resizable, settings.display, settings.quality);
+  auto surface =
+      Surface::Open(kind, settings.width_px, settings.height_px, kTitle, resizable, settings.display, settings.quality);
   if (surface && settings.full_screen) surface.value()->ToggleFullScreen();
   return surface;
 }

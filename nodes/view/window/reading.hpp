@@ -19,11 +19,12 @@ struct ReadWorld {
 // Reads it: takes as long as the world is large.
 using WorldReader = std::function<base::Result<ReadWorld>()>;
 
-// The surface that the settings ask for; of a window before anything is known of its world. Wrong input as Surface::Open.
+// The surface that the settings ask for; of a window before anything is known of its world. Wrong input as
+// Surface::Open.
 base::Result<std::unique_ptr<Surface>> OpenSurface(SurfaceKind kind, const ViewSettings& settings, bool resizable);
 
-// Reads while the window of this thread's surface lives and shows that its world is read; the reader is called once, on another thread where there is a
-// window, and has ended when this returns. `surface`: null, or no window: only reads.
+// Reads while the window of this thread's surface lives and shows that its world is read; the reader is called once, on
+// another thread where there is a window, and has ended when this returns. `surface`: null, or no window: only reads.
 base::Result<ReadWorld> ReadBefore(Surface* surface, const WorldReader& reader);
 
 }  // namespace rodeira::nodes

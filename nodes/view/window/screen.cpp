@@ -11,34 +11,38 @@
 
 #include "common/core/base/user_folders.hpp"
 #include "common/core/geometry/angle.hpp"
-#include "common/vehicle/input_devices/key_names.hpp"
 #include "common/runtime/launch/live_keys.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
 #include "common/view/scene/camera/pick.hpp"
 #include "common/world/weather/named_weather.hpp"
+#include "nodes/view/frame/png.hpp"
 #include "nodes/view/sound/heard.hpp"
 #include "nodes/view/window/loading.hpp"
-#include "nodes/view/frame/png.hpp"
 #include "nodes/view/window/reading.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
-constexpr double kNote_s = 3.0;      // how long a note stands
+constexpr double kNote_s = 3.0;       // how long a note stands
 constexpr int kClick_px = 4;          // moved farther it is no click
-constexpr double kZoom = 1.15;       // a notch of the mouse's wheel
-constexpr double kTurn_rad = 0.006;  // a pixel that it is drawn
-constexpr double kWeather_s = 8.0;   // until another weather is there
+constexpr double kZoom = 1.15;        // a notch of the mouse's wheel
+constexpr double kTurn_rad = 0.006;   // a pixel that it is drawn
+constexpr double kWeather_s = 8.0;    // until another weather is there
 constexpr double kGroundShare = 0.8;  // of the time until the first picture is there
-constexpr double kVolumeStep = 0.1;  // a press
-constexpr const char* kNobodyTakes = "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
+constexpr double kVolumeStep = 0.1;   // a press
+constexpr const char* kNobodyTakes =
+    "nobody in this run takes requests: a node of kind scenario with 'requests: true' does";
 constexpr const char* kClockElsewhere = "the run is paused on the PC where its clock is";
 constexpr const char* kTooMany = "the run has not taken what was asked before";
 
-// The followed car where it begins, as the window shows it then: what the first picture is drawn with, so that everything is loaded before it counts.
+// The followed car where it begins, as the window shows it then: what the first picture is drawn with, so that
+// everything is loaded before it counts.
 Picture FirstPicture(const road::World& world, const ViewSettings& settings) {
   scene::CarPose car;
   const bool said = settings.followed < settings.starts.size();
-  const StartPlace start = PlaceOfStart(world, said ? std::next(settings.starts.begin(), static_cast<std::ptrdiff_t>(settings.followed))->second : CarStart{});
+  const StartPlace start = PlaceOfStart(
+      world,
+      said ? std::next(settings.starts.begin(), static_cast<std::ptrdiff_t>(settings.followed))->second : CarStart{});
   car.p_WB_W = {start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m};
   car.q_WB = scene::Attitude(start.heading_deg * geometry::kPi / 180.0, 0.0, 0.0);
   for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.2 : -1.2, i % 2 == 0 ? 0.7 : -0.7, 0.29};
@@ -49,7 +53,9 @@ Picture FirstPicture(const road::World& world, const ViewSettings& settings) {
   return picture;
 }
 
-std::string WindowTitle(const road::World& world) { return world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name()); }
+std::string WindowTitle(const road::World& world) {
+  return world.name().empty() ? "Rodeira" : fmt::format("Rodeira: {}", world.name());
+}
 
 }  // namespace
 
@@ -64,14 +70,15 @@ std::string WindowHelp(int mouse_button) {
   return input_devices::WindowKeysText([](const input_devices::WindowKey&) { return true; }) + MouseHelp(mouse_button);
 }
 
-base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
-                                                   bool resizable, std::string help) {
+base::Result<std::unique_ptr<Screen>> Screen::Open(SurfaceKind kind, const ViewSettings& settings,
+                                                   const road::World& world, bool resizable, std::string help) {
   auto surface = OpenSurface(kind, settings, resizable);
   if (!surface) return surface.error();
   return Open(std::move(surface).value(), settings, world, std::move(help));
 }
 
-base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surface, const ViewSettings& settings, const road::World& world, std::string help) {
+base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surface, const ViewSettings& settings,
+                                                   const road::World& world, std::string help) {
   std::unique_ptr<Screen> screen(new Screen(world, settings));
   screen->cars_ = settings.cars;
   screen->starts_ = settings.starts;
@@ -89,7 +96,8 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
   if (!painter) return painter.error();
   screen->painter_ = std::move(painter).value();
   if (!settings.car_model.empty()) {
-    if (auto status = screen->painter_->WearCarModel(settings.car_model); !status) fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
+    if (auto status = screen->painter_->WearCarModel(settings.car_model); !status)
+      fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
   }
   if (built >= 1.0) loading.Show(kGroundShare, "the first picture is drawn");
   screen->painter_->DrawWhole(FirstPicture(world, settings), ground);
@@ -104,8 +112,10 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
   if (settings.headset) screen->OpenHeadset(settings);
   if (is_window && settings.sound) {
     auto speaker = Speaker::Open();
-    if (speaker) screen->speaker_ = std::move(speaker).value();
-    else fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
+    if (speaker)
+      screen->speaker_ = std::move(speaker).value();
+    else
+      fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
   }
   screen->has_sound_ = settings.sound;
   screen->volume_ = settings.sound ? settings.volume : 0.0;
@@ -120,7 +130,9 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
 
 void Screen::OpenHeadset(const ViewSettings& settings) {
   auto headset = Headset::Open(surface_->quality());
-  if (!headset) return fmt::print(stderr, "rodeira: no headset: {}; {}\n", headset.error().Text(), settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone");
+  if (!headset)
+    return fmt::print(stderr, "rodeira: no headset: {}; {}\n", headset.error().Text(),
+                      settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone");
   headset_ = std::move(headset).value();
   surface_->NeverWait();  // the headset says when
 }
@@ -160,31 +172,62 @@ bool Screen::TakeKey(int symbol, bool driven, int modifiers) {
       before_above_.reset();
       live_.camera = scene::NextCamera(live_.camera);
       return true;
-    case SDLK_TAB: FollowNext((modifiers & KMOD_SHIFT) != 0 ? -1 : 1); return true;
-    case SDLK_h: help_ = !help_; return true;
-    case SDLK_F1: menu_.Toggle(); return true;
-    case SDLK_F4: live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors; return true;
-    case SDLK_F12: picture_wanted_ = true; return true;
-    case SDLK_F5: muted_ = !muted_; return true;
+    case SDLK_TAB:
+      FollowNext((modifiers & KMOD_SHIFT) != 0 ? -1 : 1);
+      return true;
+    case SDLK_h:
+      help_ = !help_;
+      return true;
+    case SDLK_F1:
+      menu_.Toggle();
+      return true;
+    case SDLK_F4:
+      live_.mirrors = live_.mirrors == kNoMirrors ? mirrors_ : kNoMirrors;
+      return true;
+    case SDLK_F12:
+      picture_wanted_ = true;
+      return true;
+    case SDLK_F5:
+      muted_ = !muted_;
+      return true;
     case SDLK_F6:
       placing_ = !placing_;
       Note(placing_ ? "click where the car is to stand" : "the car stays where it is");
       return true;
-    case SDLK_F2: AskForStart(); return true;
-    case SDLK_F7: AskForWeather((weather_ + 1) % weather::NamedWeathers().size()); return true;
-    case SDLK_F10: SetVolume(std::round(volume_ / kVolumeStep - 1.0) * kVolumeStep); return true;  // whole steps: there and back is the same
-    case SDLK_F11: SetVolume(std::round(volume_ / kVolumeStep + 1.0) * kVolumeStep); return true;
-    case SDLK_F8: NextHeat(); return true;
-    case SDLK_F9: FromAboveOrBack(); return true;
-    case SDLK_F3: statistics_ = !statistics_; return true;
+    case SDLK_F2:
+      AskForStart();
+      return true;
+    case SDLK_F7:
+      AskForWeather((weather_ + 1) % weather::NamedWeathers().size());
+      return true;
+    case SDLK_F10:
+      SetVolume(std::round(volume_ / kVolumeStep - 1.0) * kVolumeStep);
+      return true;  // whole steps: there and back is the same
+    case SDLK_F11:
+      SetVolume(std::round(volume_ / kVolumeStep + 1.0) * kVolumeStep);
+      return true;
+    case SDLK_F8:
+      NextHeat();
+      return true;
+    case SDLK_F9:
+      FromAboveOrBack();
+      return true;
+    case SDLK_F3:
+      statistics_ = !statistics_;
+      return true;
     case SDLK_s:
       if (driven) return false;
       statistics_ = !statistics_;
       return true;
-    case SDLK_f: surface_->ToggleFullScreen(); return true;
-    case SDLK_SPACE: return is_live() && Operate(standing_.Toggle());
-    case SDLK_RETURN: return is_live() && Operate(standing_.Step());
-    default: return false;
+    case SDLK_f:
+      surface_->ToggleFullScreen();
+      return true;
+    case SDLK_SPACE:
+      return is_live() && Operate(standing_.Toggle());
+    case SDLK_RETURN:
+      return is_live() && Operate(standing_.Step());
+    default:
+      return false;
   }
 }
 
@@ -206,11 +249,15 @@ bool Screen::TakeMouse(const SDL_Event& event) {
     return true;
   }
   if ((down || up) && event.button.button == mouse_button_) {
-    if (down) dragged_px_ = 0;
-    else if (dragged_px_ <= kClick_px) ChooseAt(event.button.x, event.button.y);
+    if (down)
+      dragged_px_ = 0;
+    else if (dragged_px_ <= kClick_px)
+      ChooseAt(event.button.x, event.button.y);
     return true;
   }
-  if (event.type != SDL_MOUSEMOTION || mouse_button_ == kNoButton || (event.motion.state & static_cast<Uint32>(SDL_BUTTON(mouse_button_))) == 0) return false;
+  if (event.type != SDL_MOUSEMOTION || mouse_button_ == kNoButton ||
+      (event.motion.state & static_cast<Uint32>(SDL_BUTTON(mouse_button_))) == 0)
+    return false;
   dragged_px_ += std::abs(event.motion.xrel) + std::abs(event.motion.yrel);
   live_.aim.Turn(kTurn_rad * event.motion.xrel, kTurn_rad * event.motion.yrel);
   return true;
@@ -229,7 +276,8 @@ void Screen::FollowNext(int step) {
 void Screen::ChooseAt(int x_px, int y_px) {
   // Nobody who is looked at from the driver's seat sits in its own way.
   const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
-  chosen_.Choose(live_.moment, scene::BodyOn(live_.moment, RayAt(x_px, y_px), inside ? std::optional(live_.followed) : std::nullopt));
+  chosen_.Choose(live_.moment,
+                 scene::BodyOn(live_.moment, RayAt(x_px, y_px), inside ? std::optional(live_.followed) : std::nullopt));
 }
 
 scene::Ray Screen::RayAt(int x_px, int y_px) const {
@@ -246,8 +294,12 @@ void Screen::AskForPlace(int x_px, int y_px) {
   if (!request) return Note(request.error().message);
   if (!ask_) return Note(kNobodyTakes);
   const scenario::Request& place = request.value();
-  if (ask_(place)) Note(fmt::format("{} to {:.1f}, {:.1f}", cars_.at(live_.moment.cars[live_.followed < live_.moment.cars.size() ? live_.followed : 0].id), place.x_m, place.y_m));
-  else Note(kTooMany);
+  if (ask_(place))
+    Note(fmt::format("{} to {:.1f}, {:.1f}",
+                     cars_.at(live_.moment.cars[live_.followed < live_.moment.cars.size() ? live_.followed : 0].id),
+                     place.x_m, place.y_m));
+  else
+    Note(kTooMany);
 }
 
 // The car that is followed where it began.
@@ -270,8 +322,10 @@ void Screen::AskForWeather(std::size_t which) {
   if (!ask_) return Note(kNobodyTakes);
   const auto all = weather::NamedWeathers();
   weather_ = which;
-  if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s))) Note(fmt::format("weather: {}", all[weather_].name));
-  else Note(kTooMany);
+  if (ask_(scenario::WeatherRequest(all[weather_].name, kWeather_s)))
+    Note(fmt::format("weather: {}", all[weather_].name));
+  else
+    Note(kTooMany);
 }
 
 // What an operator may ask, asked in the window.
@@ -288,7 +342,8 @@ void Screen::NextHeat() {
   if (!heat_shown_) Note("no statistics over the ground");
 }
 
-// What was seen since the window opened, whether it is shown or not; a new picture of it every half second of the simulation.
+// What was seen since the window opened, whether it is shown or not; a new picture of it every half second of the
+// simulation.
 void Screen::GatherHeat() {
   constexpr std::int64_t kAgain_ns = 500'000'000;
   heat_.Add(live_.moment);
@@ -296,7 +351,8 @@ void Screen::GatherHeat() {
   if (!heat_shown_ || (live_.heat != nullptr && std::abs(now_ns - heat_laid_ns_) < kAgain_ns)) return;
   const auto body = scene::BodyAt(live_.moment, live_.followed);
   const Eigen::Vector3d about_W = body ? body->p_WB_W : Eigen::Vector3d::Zero();
-  live_.heat = std::make_shared<const HeatPicture>(HeatPicture{*heat_shown_, heat_.watched_s(), scene::MakeHeatRaster(heat_, *heat_shown_, about_W)});
+  live_.heat = std::make_shared<const HeatPicture>(
+      HeatPicture{*heat_shown_, heat_.watched_s(), scene::MakeHeatRaster(heat_, *heat_shown_, about_W)});
   heat_laid_ns_ = now_ns;
 }
 
@@ -316,7 +372,8 @@ void Screen::Follow() {
   const std::size_t cars = live_.moment.cars.size();
   if (followed_agent_) {
     const auto& agents = live_.moment.agents;
-    const auto found = std::find_if(agents.begin(), agents.end(), [&](const scene::AgentPose& agent) { return agent.id == *followed_agent_; });
+    const auto found = std::find_if(agents.begin(), agents.end(),
+                                    [&](const scene::AgentPose& agent) { return agent.id == *followed_agent_; });
     if (found != agents.end()) {
       live_.followed = cars + static_cast<std::size_t>(found - agents.begin());
       return;
@@ -354,8 +411,10 @@ void Screen::DrawMenu() {
   sight.live = !live_.timeline;
   sight.volume = volume_;
   const MenuWish wish = menu_.Draw(sight, surface_->width_px(), surface_->height_px());
-  if (wish.key == SDLK_ESCAPE) asked_to_close_ = true;
-  else if (wish.key) (void)TakeKey(*wish.key, true);
+  if (wish.key == SDLK_ESCAPE)
+    asked_to_close_ = true;
+  else if (wish.key)
+    (void)TakeKey(*wish.key, true);
   if (wish.weather) AskForWeather(*wish.weather);
   if (wish.volume) SetVolume(*wish.volume);
   if (!wish.camera) return;
@@ -372,12 +431,14 @@ void Screen::Show(scene::Moment moment, double rate, std::optional<Timeline> tim
   GatherHeat();
   live_.chosen = chosen_.In(live_.moment);
   live_.panel = chosen_.Panel(live_.moment);
-  live_.driver_aim = live_.chosen && *live_.chosen < live_.moment.cars.size() ? aims_.Of(live_.moment.cars[*live_.chosen]) : std::nullopt;
+  live_.driver_aim = live_.chosen && *live_.chosen < live_.moment.cars.size()
+                         ? aims_.Of(live_.moment.cars[*live_.chosen])
+                         : std::nullopt;
   if (live_.driver_aim) live_.panel += fmt::format("\nplans {:.0f} km/h", 3.6 * live_.driver_aim->speed_mps);
   live_.text = help_ ? help_text_ : "";
   if (statistics_) {
-    live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "", 1.0 / interval_s_,
-                              frame_s_ * 1e3, rate, surface_->renderer());
+    live_.text += fmt::format("{}{:.0f} pictures/s, {:.1f} ms each\ntime x {:.2f}\n{}", help_ ? "\n\n" : "",
+                              1.0 / interval_s_, frame_s_ * 1e3, rate, surface_->renderer());
   }
   if (speaker_) speaker_->Play(HeardBy(live_.moment, live_.followed, Loudness(rate)), interval_s_);
   if (picture_wanted_) TakePicture();

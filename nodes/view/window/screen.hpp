@@ -9,16 +9,16 @@
 
 #include "common/core/base/result.hpp"
 #include "common/driving/scenario/request.hpp"
-#include "nodes/view/run_connection/ask_place.hpp"
 #include "nodes/view/dynamic_objects/chosen.hpp"
 #include "nodes/view/dynamic_objects/driver_aims.hpp"
 #include "nodes/view/frame/frame_log.hpp"
+#include "nodes/view/frame/surface.hpp"
 #include "nodes/view/headset/headset.hpp"
 #include "nodes/view/overlays/menu.hpp"
 #include "nodes/view/renderer/painter.hpp"
-#include "nodes/view/sound/speaker.hpp"
+#include "nodes/view/run_connection/ask_place.hpp"
 #include "nodes/view/run_connection/standing.hpp"
-#include "nodes/view/frame/surface.hpp"
+#include "nodes/view/sound/speaker.hpp"
 #include "nodes/view/view_settings.hpp"
 
 union SDL_Event;
@@ -30,38 +30,43 @@ class Screen {
  public:
   // Everything is loaded and drawn once. `resizable`: of a window; frames are never read from one that is.
   // `help`: what h shows. The world must outlive it. Wrong input as Surface::Open.
-  static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings, const road::World& world,
-                                                    bool resizable, std::string help);
+  static base::Result<std::unique_ptr<Screen>> Open(SurfaceKind kind, const ViewSettings& settings,
+                                                    const road::World& world, bool resizable, std::string help);
   // The same on a surface that is open.
-  static base::Result<std::unique_ptr<Screen>> Open(std::unique_ptr<Surface> surface, const ViewSettings& settings, const road::World& world, std::string help);
+  static base::Result<std::unique_ptr<Screen>> Open(std::unique_ptr<Surface> surface, const ViewSettings& settings,
+                                                    const road::World& world, std::string help);
 
   // To whom the person's requests go (false: it takes no more). Without one a key that asks says that nobody does.
   void set_ask(std::function<bool(const scenario::Request&)> ask) { ask_ = std::move(ask); }
   Surface& surface() { return *surface_; }
   Painter& painter() { return *painter_; }
-  // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's own.
-  // `driven`: somebody drives by this window, and s is the brake. `modifiers`: SDL's, of the moment of the press.
+  // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's
+  // own. `driven`: somebody drives by this window, and s is the brake. `modifiers`: SDL's, of the moment of the press.
   bool TakeKey(int symbol, bool driven, int modifiers = 0);
-  // The wheel brings free cameras nearer and farther; the window's own button (ViewSettings::mouse_button), held, turns the one about the car; a
-  // click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing key, or with ctrl held, a click of the left
-  // button places the car instead. False where the event is not the window's.
+  // The wheel brings free cameras nearer and farther; the window's own button (ViewSettings::mouse_button), held, turns
+  // the one about the car; a click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing
+  // key, or with ctrl held, a click of the left button places the car instead. False where the event is not the
+  // window's.
   bool TakeMouse(const SDL_Event& event);
   // Whether the person has chosen to close the window.
   bool asked_to_close() const { return asked_to_close_; }
   // Whether another picture is due although neither time nor a hand moves.
   bool is_restless() const { return menu_.is_restless(); }
-  // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none, or nobody wears it: the
-  // window is drawn as without one.
+  // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none,
+  // or nobody wears it: the window is drawn as without one.
   bool WaitForHeadset();
   bool has_headset() const { return headset_ != nullptr; }
-  // How loud what is shown is heard, from 0 to 1, where there is a device and time goes on so fast: fainter in slow motion, never louder, silent where
-  // time stands, where the person switched it off, and where the settings want no sound.
+  // How loud what is shown is heard, from 0 to 1, where there is a device and time goes on so fast: fainter in slow
+  // motion, never louder, silent where time stands, where the person switched it off, and where the settings want no
+  // sound.
   double Loudness(double rate) const;
-  // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the statistics.
+  // Draws the moment as the person wishes to see it, and shows it. `rate`: simulated seconds a second, for the
+  // statistics.
   void Show(scene::Moment moment, double rate, std::optional<Timeline> timeline = std::nullopt);
 
  private:
-  Screen(const road::World& world, const ViewSettings& settings) : world_(world), aims_(settings.autopilots, world), heat_(world) {}
+  Screen(const road::World& world, const ViewSettings& settings)
+      : world_(world), aims_(settings.autopilots, world), heat_(world) {}
   void OpenHeadset(const ViewSettings& settings);
   void ShowInHeadset();
   void Note(std::string note);
@@ -112,7 +117,7 @@ class Screen {
   void FollowNext(int step);
   void Follow();  // whom the person chose, wherever it stands among the others now
 
-  Picture live_;  // camera, followed car as the person chose
+  Picture live_;                                 // camera, followed car as the person chose
   std::optional<std::uint64_t> followed_agent_;  // of the traffic
   Chosen chosen_;
   std::size_t home_ = 0;  // whom the window followed first: there nobody is chosen by key

@@ -5,31 +5,34 @@
 #include <chrono>
 #include <utility>
 
+#include "nodes/view/frame/png.hpp"
 #include "nodes/view/run_connection/asker.hpp"
 #include "nodes/view/run_connection/key_forwarder.hpp"
-#include "nodes/view/frame/png.hpp"
 #include "nodes/view/window/screen.hpp"
 
 namespace rodeira::nodes {
 
 struct Stage::Hand {
   std::unique_ptr<Screen> screen;
-  std::unique_ptr<KeyForwarder> keys;  // null: nobody drives by this window
-  std::unique_ptr<Asker> asker;        // null: nobody takes requests
+  std::unique_ptr<KeyForwarder> keys;   // null: nobody drives by this window
+  std::unique_ptr<Asker> asker;         // null: nobody takes requests
   std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
   scene::PicturePace pace;
 };
 
-Stage::Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys, std::unique_ptr<launch::LiveRequestsSender> requests)
+Stage::Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
+             std::unique_ptr<launch::LiveRequestsSender> requests)
     : settings_(settings), reader_(std::move(reader)), keys_(std::move(keys)), requests_(std::move(requests)) {
   thread_ = std::thread([this] { Run(); });
 }
 
-base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, std::shared_ptr<const road::World> world) {
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings,
+                                                 std::shared_ptr<const road::World> world) {
   return Open(settings, [shown = ReadWorld{std::move(world), settings.built}] { return shown; });
 }
 
-base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
+base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, WorldReader reader,
+                                                 std::unique_ptr<launch::LiveKeysSender> keys,
                                                  std::unique_ptr<launch::LiveRequestsSender> requests) {
   std::unique_ptr<Stage> stage(new Stage(settings, std::move(reader), std::move(keys), std::move(requests)));
   {
@@ -59,7 +62,8 @@ void Stage::Show(scene::Moment moment) {
   const double wall_s = launch::WallSeconds();
   const std::lock_guard lock(mutex_);
   history_.Add(std::move(moment));
-  clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9, static_cast<double>(history_.interval_ns()) * 1e-9);
+  clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9,
+                 static_cast<double>(history_.interval_ns()) * 1e-9);
 }
 
 void Stage::Tell(const std::vector<scenario::Event>& events) {
@@ -106,7 +110,8 @@ base::Status Stage::OpenSurfaceFor(std::unique_ptr<Surface>& surface) const {
     return {};
   };
   if (settings_.window == WindowWish::kAlways) return open(SurfaceKind::kWindow);
-  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow)) return {};  // a display without OpenGL is as good as none
+  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow))
+    return {};  // a display without OpenGL is as good as none
   return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
 }
 
@@ -119,11 +124,13 @@ base::Status Stage::SetUp(Hand& hand) {
   world_ = std::move(shown.value().world);
   ViewSettings settings = settings_;
   settings.built = std::move(shown.value().built);
-  const std::string own = WindowHelp(settings_.mouse_button), help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
+  const std::string own = WindowHelp(settings_.mouse_button),
+                    help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
   auto screen = Screen::Open(std::move(surface), settings, *world_, help);
   if (!screen) return screen.error();
   hand.screen = std::move(screen).value();
-  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() && !hand.screen->has_headset()) {
+  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() &&
+      !hand.screen->has_headset()) {
     hand.screen.reset();
     return {};
   }
@@ -144,7 +151,8 @@ void Stage::Loop(Hand& hand) {
     } else if (window_ && !history_.empty()) {
       ShowWindow(hand, lock);
     } else {
-      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000), [&] { return quit_ || !orders_.empty(); });
+      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000),
+                        [&] { return quit_ || !orders_.empty(); });
       if (window_) window_ = ReadKeys(hand);
     }
     if (hand.asker != nullptr) {
@@ -180,7 +188,8 @@ void Stage::ShowWindow(Hand& hand, std::unique_lock<std::mutex>& lock) {
   if (!open) window_ = false;
   if (waited) return;
   const double rest_s = hand.pace.Next(begin_s, hand.screen->surface().beat()) - launch::WallSeconds();
-  if (rest_s > 0.0) changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
+  if (rest_s > 0.0)
+    changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
 }
 
 // False where the person closed the window.
@@ -191,7 +200,8 @@ bool Stage::ReadKeys(Hand& hand) {
     if (event.type == SDL_QUIT) open = false;
     if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
     const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
-                     (event.key.keysym.sym == SDLK_ESCAPE || hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
+                     (event.key.keysym.sym == SDLK_ESCAPE ||
+                      hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
     if (hand.screen->TakeMouse(event)) continue;
     if (!own && hand.keys != nullptr) hand.keys->Take(event);
   }

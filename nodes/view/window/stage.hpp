@@ -10,28 +10,31 @@
 #include "common/core/base/result.hpp"
 #include "common/runtime/launch/live_keys.hpp"
 #include "common/runtime/launch/live_requests.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/playback/display_clock.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
+#include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
-#include "nodes/view/window/reading.hpp"
 #include "nodes/view/view_settings.hpp"
+#include "nodes/view/window/reading.hpp"
 
 namespace rodeira::nodes {
 
-// The thread that draws. OpenGL and the window live there and nowhere else. The run's thread only hands over values: what
-// is drawn depends on them alone, not on when.
+// The thread that draws. OpenGL and the window live there and nowhere else. The run's thread only hands over values:
+// what is drawn depends on them alone, not on when.
 class Stage {
  public:
-  // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read. Null where the settings want no picture here:
-  // no frames, and no window or no display for one. Wrong input where a display or OpenGL is missing.
-  // `keys` is told what is held in the window; null where nobody drives by it. `requests`: what is asked for there; null where nobody
-  // takes any. `reader`: what is wrong there is the answer; called on a thread of its own, it has ended when this returns, and is not called where a window
-  // that must be cannot be.
-  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys = nullptr,
+  // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read.
+  // Null where the settings want no picture here: no frames, and no window or no display for one. Wrong input where a
+  // display or OpenGL is missing. `keys` is told what is held in the window; null where nobody drives by it.
+  // `requests`: what is asked for there; null where nobody takes any. `reader`: what is wrong there is the answer;
+  // called on a thread of its own, it has ended when this returns, and is not called where a window that must be cannot
+  // be.
+  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, WorldReader reader,
+                                                   std::unique_ptr<launch::LiveKeysSender> keys = nullptr,
                                                    std::unique_ptr<launch::LiveRequestsSender> requests = nullptr);
   // Of a world that is read already.
-  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, std::shared_ptr<const road::World> world);
+  static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings,
+                                                   std::shared_ptr<const road::World> world);
   ~Stage();
 
   // Whether there is a window, now.
@@ -40,8 +43,8 @@ class Stage {
   void Show(scene::Moment moment);
   // What the run's scenario has said. Never waits.
   void Tell(const std::vector<scenario::Event>& events);
-  // Orders exactly this picture as a PNG file. Never waits; who orders without end drains between. The first order that failed is
-  // every later one's answer.
+  // Orders exactly this picture as a PNG file. Never waits; who orders without end drains between. The first order that
+  // failed is every later one's answer.
   base::Status Order(Picture picture, std::filesystem::path file);
   // Waits until all orders are written.
   base::Status Drain();
@@ -52,7 +55,8 @@ class Stage {
     Picture picture;
     std::filesystem::path file;
   };
-  Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys, std::unique_ptr<launch::LiveRequestsSender> requests);
+  Stage(const ViewSettings& settings, WorldReader reader, std::unique_ptr<launch::LiveKeysSender> keys,
+        std::unique_ptr<launch::LiveRequestsSender> requests);
   void Run();
   base::Status SetUp(Hand& hand);
   base::Status OpenSurfaceFor(std::unique_ptr<Surface>& surface) const;

@@ -25,7 +25,8 @@ std::string GuidOf(int index) {
 std::unique_ptr<WheelButtons> WheelButtons::Open(const std::vector<WheelButtonUse>& uses) {
   if (uses.empty()) return nullptr;
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");
-  const bool wants_pad = std::any_of(uses.begin(), uses.end(), [](const WheelButtonUse& use) { return use.guid.empty() && !use.own; });
+  const bool wants_pad =
+      std::any_of(uses.begin(), uses.end(), [](const WheelButtonUse& use) { return use.guid.empty() && !use.own; });
   if (SDL_InitSubSystem(kSubsystems) != 0) return nullptr;
   SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
   if (wants_pad) SDL_GameControllerEventState(SDL_IGNORE);
@@ -39,7 +40,8 @@ WheelButtons::~WheelButtons() {
   SDL_QuitSubSystem(kSubsystems);
 }
 
-// The first device whose own file names a button, as the input looks for its own. Files are looked for when a device has come or gone.
+// The first device whose own file names a button, as the input looks for its own. Files are looked for when a device
+// has come or gone.
 void WheelButtons::FindOwn(Button& button) {
   if (button.seen == SDL_NumJoysticks()) return;
   button.seen = SDL_NumJoysticks();
@@ -49,7 +51,8 @@ void WheelButtons::FindOwn(Button& button) {
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) continue;
     const auto wheel = input_devices::PeekWheel(file, [](const std::string&) { return std::optional<std::string>(); });
-    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)] : std::optional<input_devices::ButtonUse>();
+    const auto& use = wheel ? wheel->buttons[static_cast<std::size_t>(input_devices::WheelButton::kCamera)]
+                            : std::optional<input_devices::ButtonUse>();
     if (use) button.use = {wheel->devices[use->device].guid, static_cast<int>(use->button), true};
   }
 }
@@ -59,7 +62,8 @@ void WheelButtons::Find(Button& button) {
   if (button.use.own) FindOwn(button);
   for (int index = 0; index < SDL_NumJoysticks() && button.joystick == nullptr && button.pad == nullptr; ++index) {
     if (button.use.guid == GuidOf(index)) button.joystick = SDL_JoystickOpen(index);
-    const bool is_pad = SDL_IsGameController(index) == SDL_TRUE && SDL_JoystickGetDeviceType(index) != SDL_JOYSTICK_TYPE_WHEEL;
+    const bool is_pad =
+        SDL_IsGameController(index) == SDL_TRUE && SDL_JoystickGetDeviceType(index) != SDL_JOYSTICK_TYPE_WHEEL;
     if (button.use.guid.empty() && !button.use.own && is_pad) button.pad = SDL_GameControllerOpen(index);
   }
   SDL_UnlockJoysticks();
@@ -83,8 +87,10 @@ bool WheelButtons::Pressed() {
     if (lost) Drop(button);
     if (button.joystick == nullptr && button.pad == nullptr) Find(button);
     if (button.joystick == nullptr && button.pad == nullptr) continue;
-    const bool down = button.pad != nullptr ? SDL_GameControllerGetButton(button.pad, static_cast<SDL_GameControllerButton>(button.use.button)) != 0
-                                            : SDL_JoystickGetButton(button.joystick, button.use.button) != 0;
+    const bool down =
+        button.pad != nullptr
+            ? SDL_GameControllerGetButton(button.pad, static_cast<SDL_GameControllerButton>(button.use.button)) != 0
+            : SDL_JoystickGetButton(button.joystick, button.use.button) != 0;
     any = any || (down && !button.down);
     button.down = down;
   }

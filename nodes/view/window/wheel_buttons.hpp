@@ -9,8 +9,9 @@ struct _SDL_GameController;
 
 namespace rodeira::nodes {
 
-// A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their buttons. `own`: what the
-// files of the wheels that are plugged in (`rodeira input setup`) call `camera`, whichever these are, and the rest of it is not looked at.
+// A button of a steering wheel on the window's PC; without a GUID: of the first game pad, by SDL's numbers of their
+// buttons. `own`: what the files of the wheels that are plugged in (`rodeira input setup`) call `camera`, whichever
+// these are, and the rest of it is not looked at.
 struct WheelButtonUse {
   std::string guid;
   int button = 0;
@@ -18,8 +19,8 @@ struct WheelButtonUse {
 };
 inline constexpr int kPadCameraButton = 3;  // y
 
-// Buttons of the wheel that change what the window shows (`camera` of a wheel file). A file that cannot be read names none: that is the
-// input's to say. Used on the thread of the window.
+// Buttons of the wheel that change what the window shows (`camera` of a wheel file). A file that cannot be read names
+// none: that is the input's to say. Used on the thread of the window.
 class WheelButtons {
  public:
   // Null where none is named, or SDL cannot look at devices.
@@ -37,7 +38,7 @@ class WheelButtons {
     _SDL_Joystick* joystick = nullptr;
     _SDL_GameController* pad = nullptr;  // instead of it
     int seen = -1;                       // so many devices were there when their own files were looked for
-    bool down = true;  // one that is held as it begins is no press
+    bool down = true;                    // one that is held as it begins is no press
   };
   WheelButtons() = default;
   static void Find(Button& button);

@@ -1,4 +1,5 @@
-// The editor with 2000 curves over a background of 8000 by 8000 pixels, drawn by the processor without a display: opening, pan and zoom, undo.
+// The editor with 2000 curves over a background of 8000 by 8000 pixels, drawn by the processor without a display:
+// opening, pan and zoom, undo.
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
@@ -28,22 +29,32 @@ double Processor() {
   return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-double Milliseconds(Clock::time_point since) { return std::chrono::duration<double, std::milli>(Clock::now() - since).count(); }
+double Milliseconds(Clock::time_point since) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - since).count();
+}
 
 // Something like a photograph: large forms with noise upon them.
 std::string Photograph(const char* kind, const std::filesystem::path& path) {
   GDALAllRegister();
-  const std::unique_ptr<GDALDataset> set(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kPicture_px, kPicture_px, 3, GDT_Byte, nullptr));
+  const std::unique_ptr<GDALDataset> set(
+      GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kPicture_px, kPicture_px, 3, GDT_Byte, nullptr));
   std::vector<std::uint8_t> row(kPicture_px), noise(1 << 20), wave(kPicture_px);
   for (std::size_t i = 0; i < noise.size(); ++i) noise[i] = static_cast<std::uint8_t>(base::RandomBits({i}) % 24);
   for (int band = 1; band <= 3; ++band) {
-    for (std::size_t x = 0; x < wave.size(); ++x) wave[x] = static_cast<std::uint8_t>(80.0 + 50.0 * std::sin(0.003 * static_cast<double>(x) + band));
+    for (std::size_t x = 0; x < wave.size(); ++x)
+      wave[x] = static_cast<std::uint8_t>(80.0 + 50.0 * std::sin(0.003 * static_cast<double>(x) + band));
     for (int y = 0; y < kPicture_px; ++y) {
-      for (std::size_t x = 0; x < row.size(); ++x) row[x] = static_cast<std::uint8_t>(wave[x] + wave[static_cast<std::size_t>(y)] / 2 + noise[(x / 2 + 7919 * static_cast<std::size_t>(y)) % noise.size()]);
-      if (set->GetRasterBand(band)->RasterIO(GF_Write, 0, y, kPicture_px, 1, row.data(), kPicture_px, 1, GDT_Byte, 0, 0) != CE_None) return {};
+      for (std::size_t x = 0; x < row.size(); ++x)
+        row[x] = static_cast<std::uint8_t>(wave[x] + wave[static_cast<std::size_t>(y)] / 2 +
+                                           noise[(x / 2 + 7919 * static_cast<std::size_t>(y)) % noise.size()]);
+      if (set->GetRasterBand(band)->RasterIO(GF_Write, 0, y, kPicture_px, 1, row.data(), kPicture_px, 1, GDT_Byte, 0,
+                                             0) != CE_None)
+        return {};
     }
   }
-  std::unique_ptr<GDALDataset>(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)).reset();
+  std::unique_ptr<GDALDataset>(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE,
+                                                                                         nullptr, nullptr, nullptr))
+      .reset();
   return base::ReadText(path, 1u << 28).value();
 }
 
@@ -73,7 +84,9 @@ void Measure(nodes::Desk& desk, const char* what, int frames, const std::functio
   std::sort(all.begin(), all.end());
   double sum = 0.0;
   for (const double one : all) sum += one;
-  fmt::print("{:28} {:6.1f} pictures a second; a picture: median {:.1f} ms, worst {:.1f} ms, of the processor {:.1f} ms\n", what, 1000.0 * frames / sum, all[all.size() / 2], all.back(), (Processor() - processor) / frames);
+  fmt::print(
+      "{:28} {:6.1f} pictures a second; a picture: median {:.1f} ms, worst {:.1f} ms, of the processor {:.1f} ms\n",
+      what, 1000.0 * frames / sum, all[all.size() / 2], all.back(), (Processor() - processor) / frames);
 }
 
 void Try(const char* kind, const std::filesystem::path& folder) {
@@ -81,7 +94,8 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   {
     const auto document = Map(Photograph(kind, folder / "photo"));
     if (!traffic_map::SaveMap(document.map, file)) std::abort();
-    fmt::print("{}: {} curves, a map of {:.0f} MB\n", kind, document.map.curves.size(), static_cast<double>(std::filesystem::file_size(file)) / 1e6);
+    fmt::print("{}: {} curves, a map of {:.0f} MB\n", kind, document.map.curves.size(),
+               static_cast<double>(std::filesystem::file_size(file)) / 1e6);
   }
   auto window = window::Window::Open({window::Kind::kOffscreen, 1280, 800, "bench"});
   if (!window) return fmt::print("{}\n", window.error().Text());
@@ -97,7 +111,8 @@ void Try(const char* kind, const std::filesystem::path& folder) {
     seen = true;
     fmt::print("{:28} {:.0f} ms\n", "the background is seen", Milliseconds(begin));
   }
-  fmt::print("{:28} {:.0f} ms, of the processor {:.0f} ms\n", "in all its detail", Milliseconds(begin), Processor() - processor);
+  fmt::print("{:28} {:.0f} ms, of the processor {:.0f} ms\n", "in all its detail", Milliseconds(begin),
+             Processor() - processor);
   auto& view = desk.work().view;
   Measure(desk, "standing, all of it", 60, [](int) {});
   Measure(desk, "panning, all of it", 120, [&](int i) { view.Go({i < 60 ? 2.0 : -2.0, 1.0}); });
@@ -108,9 +123,13 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   nodes::ShowAll(desk.work());
   auto& session = desk.work().session;
   Measure(desk, "a handle dragged, all of it", 60, [&](int i) {
-    const auto move = [i](editor::Document& document) { return editor::MoveHandles(document, {{1000, 0}}, {0.01 * (i + 1), 0.0}); };
-    if (i == 0) session.Do(move);
-    else session.Again(move);
+    const auto move = [i](editor::Document& document) {
+      return editor::MoveHandles(document, {{1000, 0}}, {0.01 * (i + 1), 0.0});
+    };
+    if (i == 0)
+      session.Do(move);
+    else
+      session.Again(move);
   });
   session.Do([](editor::Document& document) { return editor::Reset(document); });
   const auto undo = Clock::now();

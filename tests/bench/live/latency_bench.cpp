@@ -1,5 +1,6 @@
-// From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the view with its window, in real
-// time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH HEIGHT] [WORLD]
+// From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the
+// view with its window, in real time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH
+// HEIGHT] [WORLD]
 #include <SDL.h>
 #include <fmt/format.h>
 
@@ -35,7 +36,8 @@ struct Size {
   std::exit(1);
 }
 
-std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms, const Size& size, const std::string& world) {
+std::string LaunchText(const std::string& guid, const std::string& input_ms, const std::string& view_ms,
+                       const Size& size, const std::string& world) {
   return fmt::format(R"(rodeira: launch/1
 world: {}
 nodes:
@@ -43,18 +45,23 @@ nodes:
   driver: {{kind: input, period_s: {}e-3, config: {{source: joystick, wheel: configs/drivers/wheel.yaml, devices: {{wheel: "{}"}}}}}}
   ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml}}}}
   view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false}}}}
-)", world, input_ms, guid, view_ms, size.width_px, size.height_px);
+)",
+                     world, input_ms, guid, view_ms, size.width_px, size.height_px);
 }
 
-// Milliseconds from each turn of the wheel to the first other pixel in the lower middle of the picture, where the steering wheel is.
+// Milliseconds from each turn of the wheel to the first other pixel in the lower middle of the picture, where the
+// steering wheel is.
 std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size, SDL_Joystick* wheel, int turns) {
   std::vector<double> latencies_ms;
-  const auto seen = [&] { return display.HashOf(size.width_px / 4, size.height_px / 2, size.width_px / 2, size.height_px / 2); };
+  const auto seen = [&] {
+    return display.HashOf(size.width_px / 4, size.height_px / 2, size.width_px / 2, size.height_px / 2);
+  };
   for (int turn = 0; turn < turns; ++turn) {
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     const auto before = seen();
     // Whatever phase of all periods it meets.
-    std::this_thread::sleep_for(std::chrono::microseconds(200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0))));
+    std::this_thread::sleep_for(std::chrono::microseconds(
+        200'000 + static_cast<int>(base::RandomUniform({7, static_cast<std::uint64_t>(turn)}, 0.0, 100'000.0))));
     if (seen() != before) Fail("the picture changes although nobody touches the wheel");
     const auto begin = Wall::now();
     SDL_JoystickSetVirtualAxis(wheel, 0, static_cast<Sint16>(turn % 2 == 0 ? 6000 : -6000));
@@ -86,7 +93,9 @@ int main(int argc, char** argv) {
   if (wheel == nullptr) Fail(SDL_GetError());
   for (const int pedal : {2, 3}) SDL_JoystickSetVirtualAxis(wheel, pedal, 32767);
 
-  const auto launch = launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size, world), SourceDir() + "/latency.yaml");
+  const auto launch =
+      launch::Launch::Parse(LaunchText(guid, argc > 2 ? argv[2] : "10", argc > 3 ? argv[3] : "20", size, world),
+                            SourceDir() + "/latency.yaml");
   if (!launch) Fail(launch.error().Text());
   auto nodes = cli::LocalNodes::Make(launch.value());
   if (!nodes) Fail(nodes.error().Text());
@@ -102,6 +111,10 @@ int main(int argc, char** argv) {
   run.join();
   if (!outcome.ok) Fail(outcome.fault);
   std::sort(latencies_ms.begin(), latencies_ms.end());
-  fmt::print("wheel to pixel, {}, {} x {}, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean {:.2f} ms\n", world, size.width_px, size.height_px, latencies_ms.size(), latencies_ms[latencies_ms.size() / 2], latencies_ms.front(),
-             latencies_ms.back(), outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
+  fmt::print(
+      "wheel to pixel, {}, {} x {}, {} turns: median {:.1f} ms, best {:.1f}, worst {:.1f}; late steps {} of {}, mean "
+      "{:.2f} ms\n",
+      world, size.width_px, size.height_px, latencies_ms.size(), latencies_ms[latencies_ms.size() / 2],
+      latencies_ms.front(), latencies_ms.back(), outcome.lateness.late, outcome.lateness.steps,
+      outcome.lateness.mean_ns() * 1e-6);
 }

@@ -1,5 +1,6 @@
-// How even what a window shows is: a car at 30 m/s straight ahead on the plane, real time, a real window on a display of its own, by the window's own frame log
-// against the car's own samples. motion_bench [SECONDS] [POSE_PERIOD_MS] [WIDTH HEIGHT]
+// How even what a window shows is: a car at 30 m/s straight ahead on the plane, real time, a real window on a display
+// of its own, by the window's own frame log against the car's own samples. motion_bench [SECONDS] [POSE_PERIOD_MS]
+// [WIDTH HEIGHT]
 #include <fmt/format.h>
 
 #include <chrono>
@@ -29,15 +30,17 @@ namespace {
 
 using namespace rodeira;
 
-constexpr double kRefresh_Hz = 60.0;  // the display does not say: the window counts itself (scene::PicturePace::kUnknown_Hz)
-constexpr double kFrom_s = 3.0;       // until then windows open and clocks settle
+constexpr double kRefresh_Hz =
+    60.0;                        // the display does not say: the window counts itself (scene::PicturePace::kUnknown_Hz)
+constexpr double kFrom_s = 3.0;  // until then windows open and clocks settle
 
 [[noreturn]] void Fail(const std::string& why) {
   fmt::print(stderr, "{}\n", why);
   std::exit(1);
 }
 
-std::string LaunchText(const std::filesystem::path& folder, const std::string& period_ms, const std::string& width, const std::string& height) {
+std::string LaunchText(const std::filesystem::path& folder, const std::string& period_ms, const std::string& width,
+                       const std::string& height) {
   return fmt::format(R"(rodeira: launch/1
 world: configs/worlds/plane.yaml
 nodes:
@@ -45,7 +48,8 @@ nodes:
   driver: {{kind: input, config: {{source: script, script: "{}/straight.csv"}}}}
   ego: {{kind: vehicle, config: {{vehicle: configs/vehicles/default.yaml, start: {{x_m: 0, y_m: 0, heading_deg: 0, speed_mps: 30}}}}}}
   view: {{kind: view, period_s: {}e-3, config: {{window: always, camera: driver, width_px: {}, height_px: {}, mirrors: [], instruments: false, sound: false, frame_log: "{}/frames.csv"}}}}
-)", folder.string(), period_ms, width, height, folder.string());
+)",
+                     folder.string(), period_ms, width, height, folder.string());
 }
 
 // A sample of the car: when it came, where it was, how fast.
@@ -61,7 +65,8 @@ Sample At(const std::map<std::int64_t, Sample>& samples, double time_s) {
   if (after == samples.end()) return before->second;
   const double share = time_s * 1e3 - static_cast<double>(step);
   const auto mix = [share](double a, double b) { return a + share * (b - a); };
-  return {mix(before->second.wall_s, after->second.wall_s), mix(before->second.x_m, after->second.x_m), mix(before->second.speed_mps, after->second.speed_mps)};
+  return {mix(before->second.wall_s, after->second.wall_s), mix(before->second.x_m, after->second.x_m),
+          mix(before->second.speed_mps, after->second.speed_mps)};
 }
 
 void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t, Sample>& samples) {
@@ -73,7 +78,8 @@ void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t,
     off_mm.push_back(1e3 * std::fabs(now.x_m - car.x_m));
     delay_ms.push_back(1e3 * (now.wall_s - car.wall_s));
     const bench::Shown& first = shown.front();
-    eye_mm.push_back(1e3 * std::hypot(now.eye_x_m - now.x_m - (first.eye_x_m - first.x_m), now.eye_y_m - now.y_m - (first.eye_y_m - first.y_m)));
+    eye_mm.push_back(1e3 * std::hypot(now.eye_x_m - now.x_m - (first.eye_x_m - first.x_m),
+                                      now.eye_y_m - now.y_m - (first.eye_y_m - first.y_m)));
     if (i == 0) continue;
     const double way_m = now.x_m - shown[i - 1].x_m, passed_s = now.wall_s - shown[i - 1].wall_s;
     const double refreshes = std::max(std::round((now.simulated_s - shown[i - 1].simulated_s) * kRefresh_Hz), 1.0);
@@ -83,9 +89,11 @@ void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t,
   }
   if (even_pc.empty()) Fail("no two pictures of refreshes that follow one another");
   const double speed_mps = At(samples, shown.back().simulated_s).speed_mps;
-  fmt::print("{} pictures in {:.1f} s at {:.1f} m/s, {} refreshes without one\n", shown.size(), shown.back().simulated_s - shown.front().simulated_s, speed_mps, missed);
+  fmt::print("{} pictures in {:.1f} s at {:.1f} m/s, {} refreshes without one\n", shown.size(),
+             shown.back().simulated_s - shown.front().simulated_s, speed_mps, missed);
   const auto line = [](const char* what, const char* unit, const std::vector<double>& v) {
-    fmt::print("  {:<58} median {:.3f} {}, 99 % {:.3f}, worst {:.3f}\n", what, bench::Quantile(v, 0.5), unit, bench::Quantile(v, 0.99), bench::Quantile(v, 1.0));
+    fmt::print("  {:<58} median {:.3f} {}, 99 % {:.3f}, worst {:.3f}\n", what, bench::Quantile(v, 0.5), unit,
+               bench::Quantile(v, 0.99), bench::Quantile(v, 1.0));
   };
   line("way from picture to picture against speed / 60 Hz, off by", "%", even_pc);
   line("the same against speed x the wall's time between them", "%", on_wall_pc);
@@ -99,14 +107,18 @@ void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t,
 int main(int argc, char** argv) {
   base::FixMathematics(argv);
   const double seconds = argc > 1 ? std::atof(argv[1]) : 20.0;
-  const std::string period_ms = argc > 2 ? argv[2] : "20", width = argc > 4 ? argv[3] : "320", height = argc > 4 ? argv[4] : "180";
+  const std::string period_ms = argc > 2 ? argv[2] : "20", width = argc > 4 ? argv[3] : "320",
+                    height = argc > 4 ? argv[4] : "180";
   const bench::WatchedDisplay display(96, std::atoi(width.c_str()), std::atoi(height.c_str()));
   ::setenv("DISPLAY", display.name().c_str(), 1);
   const auto folder = base::TemporaryFolder::Make("motion");
   if (!folder) Fail(folder.error().Text());
-  const auto written = base::WriteWhole(folder.value().path() / "straight.csv", std::string_view("time_s,steering_wheel_deg,throttle,brake\n0,0,0.35,0\n1000,0,0.35,0\n"));
+  const auto written =
+      base::WriteWhole(folder.value().path() / "straight.csv",
+                       std::string_view("time_s,steering_wheel_deg,throttle,brake\n0,0,0.35,0\n1000,0,0.35,0\n"));
   if (!written) Fail(written.error().Text());
-  const auto launch = launch::Launch::Parse(LaunchText(folder.value().path(), period_ms, width, height), SourceDir() + "/motion.yaml");
+  const auto launch =
+      launch::Launch::Parse(LaunchText(folder.value().path(), period_ms, width, height), SourceDir() + "/motion.yaml");
   if (!launch) Fail(launch.error().Text());
   std::map<std::int64_t, Sample> samples;
   {
@@ -122,7 +134,8 @@ int main(int argc, char** argv) {
     };
     const auto outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), settings);
     if (!outcome.ok) Fail(outcome.fault);
-    fmt::print("pose every {} ms, {} x {}: late steps {} of {}, mean {:.2f} ms\n", period_ms, width, height, outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
+    fmt::print("pose every {} ms, {} x {}: late steps {} of {}, mean {:.2f} ms\n", period_ms, width, height,
+               outcome.lateness.late, outcome.lateness.steps, outcome.lateness.mean_ns() * 1e-6);
   }
   Report(bench::ReadShown(folder.value().path() / "frames.csv", kFrom_s, kFrom_s + seconds), samples);
 }

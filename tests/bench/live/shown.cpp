@@ -21,11 +21,14 @@ std::vector<Shown> ReadShown(const std::filesystem::path& file, double from_s, d
     std::replace(line.begin(), line.end(), ',', ' ');
     std::istringstream words(line);
     Shown shown;
-    if (!(words >> shown.wall_s >> shown.simulated_s >> shown.x_m >> shown.y_m >> shown.z_m >> shown.eye_x_m >> shown.eye_y_m >> shown.eye_z_m)) break;  // its last line may be cut
+    if (!(words >> shown.wall_s >> shown.simulated_s >> shown.x_m >> shown.y_m >> shown.z_m >> shown.eye_x_m >>
+          shown.eye_y_m >> shown.eye_z_m))
+      break;  // its last line may be cut
     if (shown.simulated_s >= from_s && shown.simulated_s <= to_s) all.push_back(shown);
   }
   if (all.size() < 10) {
-    fmt::print(stderr, "{}: {} pictures between {} and {} s were found; at least 10 were expected\n", file.string(), all.size(), from_s, to_s);
+    fmt::print(stderr, "{}: {} pictures between {} and {} s were found; at least 10 were expected\n", file.string(),
+               all.size(), from_s, to_s);
     std::exit(1);
   }
   return all;

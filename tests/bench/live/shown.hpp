@@ -12,7 +12,8 @@ struct Shown {
   double eye_x_m = 0.0, eye_y_m = 0.0, eye_z_m = 0.0;
 };
 
-// The lines of a log whose simulated time lies between these two. Ends the program with a sentence where it cannot be read.
+// The lines of a log whose simulated time lies between these two. Ends the program with a sentence where it cannot be
+// read.
 std::vector<Shown> ReadShown(const std::filesystem::path& file, double from_s, double to_s);
 
 // The value below which this share of them lies; they need not be in order.

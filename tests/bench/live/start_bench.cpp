@@ -1,5 +1,5 @@
-// From `rodeira run launch/keyboard.yaml` to a car that can be driven: somebody holds the throttle from the beginning; when is the first picture on the
-// display, when does the car move? start_bench [STARTS] [KEY=VALUE …]
+// From `rodeira run launch/keyboard.yaml` to a car that can be driven: somebody holds the throttle from the beginning;
+// when is the first picture on the display, when does the car move? start_bench [STARTS] [KEY=VALUE …]
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -13,9 +13,9 @@
 #include <thread>
 #include <vector>
 
+#include "common/data/record/mcap_reader.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_keys.hpp"
-#include "common/data/record/mcap_reader.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -56,7 +56,9 @@ double MovedAfter(const std::filesystem::path& file, Wall::time_point begin) {
   for (auto message = grants.Next(); message.ok() && message.value(); message = grants.Next()) {
     const auto grant = idl::Decode<msg::WallTime>(message.value()->data).value();
     if (grant.through_step() < *moved) continue;
-    return static_cast<double>(grant.utc_ns() - std::chrono::duration_cast<std::chrono::nanoseconds>(begin.time_since_epoch()).count()) * 1e-9;
+    return static_cast<double>(grant.utc_ns() -
+                               std::chrono::duration_cast<std::chrono::nanoseconds>(begin.time_since_epoch()).count()) *
+           1e-9;
   }
   Fail("no time of that step is in the recording");
 }
@@ -71,7 +73,18 @@ int main(int argc, char** argv) {
   for (int start = 0; start < starts; ++start) {
     const std::string name = fmt::format("start-bench-{}", start);
     std::filesystem::remove(file);
-    std::vector<std::string> command{"DISPLAY=" + display.name(), system_test::Bin("rodeira"), "run", system_test::LaunchFile("keyboard.yaml"), "--run", name, "--domain", std::to_string(kDomain), "--record", file.string(), "--for", "4"};
+    std::vector<std::string> command{"DISPLAY=" + display.name(),
+                                     system_test::Bin("rodeira"),
+                                     "run",
+                                     system_test::LaunchFile("keyboard.yaml"),
+                                     "--run",
+                                     name,
+                                     "--domain",
+                                     std::to_string(kDomain),
+                                     "--record",
+                                     file.string(),
+                                     "--for",
+                                     "4"};
     for (int word = 2; word < argc; ++word) command.insert(command.end(), {"--set", argv[word]});
     const auto begin = Wall::now();
     system_test::Started run(command);
@@ -90,10 +103,11 @@ int main(int argc, char** argv) {
     if (ended.status != 0) Fail(ended.out);
     seen_s.push_back(*seen);
     moved_s.push_back(MovedAfter(file, begin));
-    fmt::print("start {}: picture after {:.2f} s, the car moves after {:.2f} s\n", start + 1, seen_s.back(), moved_s.back());
+    fmt::print("start {}: picture after {:.2f} s, the car moves after {:.2f} s\n", start + 1, seen_s.back(),
+               moved_s.back());
     std::fflush(stdout);
   }
   std::filesystem::remove(file);
-  fmt::print("{} starts: picture at worst after {:.2f} s, the car moves at worst after {:.2f} s\n", starts, *std::max_element(seen_s.begin(), seen_s.end()),
-             *std::max_element(moved_s.begin(), moved_s.end()));
+  fmt::print("{} starts: picture at worst after {:.2f} s, the car moves at worst after {:.2f} s\n", starts,
+             *std::max_element(seen_s.begin(), seen_s.end()), *std::max_element(moved_s.begin(), moved_s.end()));
 }

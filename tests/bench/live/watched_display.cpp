@@ -34,14 +34,20 @@ std::size_t WordOf(std::span<const std::byte> file, Word word) {
 }  // namespace
 
 WatchedDisplay::WatchedDisplay(int number, int width_px, int height_px)
-    : name_(fmt::format(":{}", number)), width_px_(width_px), height_px_(height_px),
+    : name_(fmt::format(":{}", number)),
+      width_px_(width_px),
+      height_px_(height_px),
       folder_(std::filesystem::temp_directory_path() / fmt::format("rodeira-display-{}", ::getpid())) {
   std::filesystem::create_directories(folder_);
-  server_ = std::make_unique<system_test::Started>(std::vector<std::string>{"/usr/bin/Xvfb", name_, "-screen", "0", fmt::format("{}x{}x24", width_px, height_px), "-fbdir", folder_.string(), "-nolisten", "tcp"});
+  server_ = std::make_unique<system_test::Started>(
+      std::vector<std::string>{"/usr/bin/Xvfb", name_, "-screen", "0", fmt::format("{}x{}x24", width_px, height_px),
+                               "-fbdir", folder_.string(), "-nolisten", "tcp"});
   const auto socket = fmt::format("/tmp/.X11-unix/X{}", number);
   const auto file = folder_ / "Xvfb_screen0";
-  for (int tries = 0; tries < 100 && !(std::filesystem::exists(socket) && std::filesystem::exists(file)); ++tries) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  if (!std::filesystem::exists(file)) Give("Xvfb did not start: the package xvfb was expected, and nobody else at display " + name_);
+  for (int tries = 0; tries < 100 && !(std::filesystem::exists(socket) && std::filesystem::exists(file)); ++tries)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  if (!std::filesystem::exists(file))
+    Give("Xvfb did not start: the package xvfb was expected, and nobody else at display " + name_);
   std::this_thread::sleep_for(std::chrono::milliseconds(500));
   Map();
 }
@@ -60,7 +66,8 @@ void WatchedDisplay::Map() {
   if (descriptor >= 0) ::close(descriptor);
   if (memory == MAP_FAILED) Give("the display's memory cannot be read");
   file_ = {static_cast<const std::byte*>(memory), size};
-  if (size < 4 * kWords || WordOf(file_, kBitsPerPixel) != 32) Give("the display's memory is no picture of 32 bits a pixel");
+  if (size < 4 * kWords || WordOf(file_, kBitsPerPixel) != 32)
+    Give("the display's memory is no picture of 32 bits a pixel");
   pixels_ = WordOf(file_, kHeaderSize) + 12 * WordOf(file_, kColours);
   pitch_ = WordOf(file_, kBytesPerLine);
 }
@@ -68,14 +75,17 @@ void WatchedDisplay::Map() {
 std::uint64_t WatchedDisplay::HashOf(int left, int top, int width, int height) const {
   base::Digest digest = 0;
   for (int y = top; y < top + height; ++y) {
-    digest = base::Combine(digest, base::Hash(file_.subspan(pixels_ + static_cast<std::size_t>(y) * pitch_ + 4 * static_cast<std::size_t>(left), 4 * static_cast<std::size_t>(width))));
+    digest = base::Combine(digest, base::Hash(file_.subspan(pixels_ + static_cast<std::size_t>(y) * pitch_ +
+                                                                4 * static_cast<std::size_t>(left),
+                                                            4 * static_cast<std::size_t>(width))));
   }
   return digest;
 }
 
 std::uint32_t WatchedDisplay::Pixel(int x, int y) const {
   std::uint32_t pixel = 0;
-  std::memcpy(&pixel, file_.data() + pixels_ + static_cast<std::size_t>(y) * pitch_ + 4 * static_cast<std::size_t>(x), sizeof pixel);
+  std::memcpy(&pixel, file_.data() + pixels_ + static_cast<std::size_t>(y) * pitch_ + 4 * static_cast<std::size_t>(x),
+              sizeof pixel);
   return pixel;
 }
 

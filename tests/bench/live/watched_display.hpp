@@ -11,7 +11,8 @@
 
 namespace rodeira::bench {
 
-// A display of its own (Xvfb) whose pixels lie in this process's memory as they are shown: watching them costs the run nothing but reading.
+// A display of its own (Xvfb) whose pixels lie in this process's memory as they are shown: watching them costs the run
+// nothing but reading.
 class WatchedDisplay {
  public:
   // Ends the program with a sentence where Xvfb is missing or does not start.

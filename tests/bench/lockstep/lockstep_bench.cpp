@@ -51,7 +51,9 @@ void RawNode(const std::array<Socket, kNodes>& sockets, int self, std::int64_t s
     for (int other = 0; other < kNodes; ++other) {
       if (other == self) continue;
       const auto& to = sockets[static_cast<std::size_t>(other)].address;
-      if (::sendto(sockets[static_cast<std::size_t>(self)].descriptor, buffer.data(), kPayload, 0, reinterpret_cast<const sockaddr*>(&to), sizeof(to)) < 0) std::abort();
+      if (::sendto(sockets[static_cast<std::size_t>(self)].descriptor, buffer.data(), kPayload, 0,
+                   reinterpret_cast<const sockaddr*>(&to), sizeof(to)) < 0)
+        std::abort();
     }
     const auto missing = [&] {
       for (int other = 0; other < kNodes; ++other) {
@@ -61,7 +63,9 @@ void RawNode(const std::array<Socket, kNodes>& sockets, int self, std::int64_t s
     };
     while (missing()) {
       std::array<char, kPayload> in{};
-      if (::recv(sockets[static_cast<std::size_t>(self)].descriptor, in.data(), kPayload, 0) != static_cast<ssize_t>(kPayload)) std::abort();
+      if (::recv(sockets[static_cast<std::size_t>(self)].descriptor, in.data(), kPayload, 0) !=
+          static_cast<ssize_t>(kPayload))
+        std::abort();
       std::int64_t of = 0;
       int from = 0;
       std::memcpy(&of, in.data(), sizeof(of));
@@ -90,8 +94,8 @@ double RawRate(std::int64_t steps) {
   return static_cast<double>(steps) / seconds;
 }
 
-// Steps a wall second between the first grant and the end, and the nodes' wall times from step to step (the mean of the medians, the
-// worst 99th percentile), from the closing table.
+// Steps a wall second between the first grant and the end, and the nodes' wall times from step to step (the mean of the
+// medians, the worst 99th percentile), from the closing table.
 struct Rate {
   double steps_1ps = 0.0;
   double median_us = 0.0;
@@ -99,8 +103,9 @@ struct Rate {
 };
 
 Rate RodeiraRate(std::int64_t steps, const std::string& transport) {
-  const std::string command = fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}", rodeira::BinaryDir(), rodeira::SourceDir(),
-                                          static_cast<double>(steps) * 1e-3, transport);
+  const std::string command =
+      fmt::format("{}/bin/rodeira run {}/launch/empty.yaml --no-record --for {} --set transport={}",
+                  rodeira::BinaryDir(), rodeira::SourceDir(), static_cast<double>(steps) * 1e-3, transport);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::array<char, 512> line{};
   Rate rate;
@@ -116,7 +121,8 @@ Rate RodeiraRate(std::int64_t steps, const std::string& transport) {
     }
     const std::string text(line.data());
     const auto factor = text.find('(');
-    if (text.starts_with("simulated") && factor != std::string::npos) wall_s = simulated_s / std::strtod(text.c_str() + factor + 1, nullptr);
+    if (text.starts_with("simulated") && factor != std::string::npos)
+      wall_s = simulated_s / std::strtod(text.c_str() + factor + 1, nullptr);
   }
   if (::pclose(pipe) == 0 && wall_s > 0.0) rate.steps_1ps = simulated_s * 1e3 / wall_s;
   return rate;
@@ -141,10 +147,14 @@ int main(int argc, char** argv) {
     const Rate by_udp = RodeiraRate(steps, "udp");
     shared.push_back(by_memory.steps_1ps);
     udp.push_back(by_udp.steps_1ps);
-    fmt::print("round {}: raw UDP {:.0f}, shared memory {:.0f} ({:.3f}), UDP {:.0f} ({:.3f}) steps/s\n", round + 1, raw.back(), shared.back(),
-               shared.back() / raw.back(), udp.back(), udp.back() / raw.back());
-    fmt::print("         step to step: shared memory {:.0f} µs, 99th percentile {:.0f} ({:.1f} x); UDP {:.0f} µs, {:.0f} ({:.1f} x)\n", by_memory.median_us,
-               by_memory.p99_us, by_memory.p99_us / by_memory.median_us, by_udp.median_us, by_udp.p99_us, by_udp.p99_us / by_udp.median_us);
+    fmt::print("round {}: raw UDP {:.0f}, shared memory {:.0f} ({:.3f}), UDP {:.0f} ({:.3f}) steps/s\n", round + 1,
+               raw.back(), shared.back(), shared.back() / raw.back(), udp.back(), udp.back() / raw.back());
+    fmt::print(
+        "         step to step: shared memory {:.0f} µs, 99th percentile {:.0f} ({:.1f} x); UDP {:.0f} µs, {:.0f} "
+        "({:.1f} x)\n",
+        by_memory.median_us, by_memory.p99_us, by_memory.p99_us / by_memory.median_us, by_udp.median_us, by_udp.p99_us,
+        by_udp.p99_us / by_udp.median_us);
   }
-  fmt::print("median: raw UDP {:.0f} steps/s; shared memory {:.3f}, UDP {:.3f} of it\n", Median(raw), Median(shared) / Median(raw), Median(udp) / Median(raw));
+  fmt::print("median: raw UDP {:.0f} steps/s; shared memory {:.3f}, UDP {:.3f} of it\n", Median(raw),
+             Median(shared) / Median(raw), Median(udp) / Median(raw));
 }

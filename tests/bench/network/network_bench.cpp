@@ -81,7 +81,8 @@ void Town04Beside(benchmark::State& state) {
   if (network == nullptr) return state.SkipWithError("no Town04");
   auto points = OnLanes(*network);
   for (std::uint64_t i = 0; i < kPoints; ++i) {
-    points[i] += Eigen::Vector3d(base::RandomUniform({i, 3}, -30.0, 30.0), base::RandomUniform({i, 4}, -30.0, 30.0), 0.0);
+    points[i] +=
+        Eigen::Vector3d(base::RandomUniform({i, 3}, -30.0, 30.0), base::RandomUniform({i, 4}, -30.0, 30.0), 0.0);
   }
   Ask(state, *network, points, false);
 }
@@ -97,13 +98,15 @@ void Town04Hinted(benchmark::State& state) {
     const LaneKey key = lanes[base::RandomBits({n, 7}) % lanes.size()];
     const LaneSection& section = network->Section(key);
     if (!IsDrivable(network->Find(key)->type)) continue;
-    for (double s = section.s_m; s < section.end_s_m && points.size() < kPoints; s += 0.02) points.push_back(network->Centre(key, s));
+    for (double s = section.s_m; s < section.end_s_m && points.size() < kPoints; s += 0.02)
+      points.push_back(network->Centre(key, s));
   }
   Ask(state, *network, points, true);
 }
 BENCHMARK(Town04Hinted)->Arg(1)->Arg(10);
 
-// As traffic asks: forty cars a town, each in turn, 0.2 m farther along its lane (20 m/s, 100 Hz) than the last time, without hints.
+// As traffic asks: forty cars a town, each in turn, 0.2 m farther along its lane (20 m/s, 100 Hz) than the last time,
+// without hints.
 void Town04Cars(benchmark::State& state) {
   const auto network = Towns(static_cast<int>(state.range(0)));
   if (network == nullptr) return state.SkipWithError("no Town04");

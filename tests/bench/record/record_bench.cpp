@@ -132,7 +132,8 @@ void Again(benchmark::State& state) {
     base::Bytes file;
     auto writer = McapWriter::Open(std::make_unique<MemorySink>(&file), settings).value();
     std::map<ChannelId, ChannelId> ids;
-    for (const Channel& channel : recorded.channels) ids[channel.id] = writer.AddChannel(channel.topic, 0, "cdr", channel.metadata).value();
+    for (const Channel& channel : recorded.channels)
+      ids[channel.id] = writer.AddChannel(channel.topic, 0, "cdr", channel.metadata).value();
     for (const auto& m : recorded.messages) {
       if (!writer.Write(ids.at(m.channel), 0, m.log_time_ns, m.log_time_ns, m.data)) std::abort();
     }
@@ -143,7 +144,10 @@ void Again(benchmark::State& state) {
   state.counters["GB_per_hour"] = static_cast<double>(bytes) * 3.6e-6 / recorded.simulated_s;
   state.counters["simulated_s"] = recorded.simulated_s;
 }
-BENCHMARK(Again)->ArgNames({"level", "chunk_MiB"})->ArgsProduct({{1, 3, 9, 13, 16}, {1, 4}})->Unit(benchmark::kMillisecond);
+BENCHMARK(Again)
+    ->ArgNames({"level", "chunk_MiB"})
+    ->ArgsProduct({{1, 3, 9, 13, 16}, {1, 4}})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace rodeira::record

@@ -1,6 +1,7 @@
 // How long a person waits who watches a recording: to another place in an hour's file, and from picture to picture.
-// The hour is a real recording again and again (RODEIRA_RECORDING=FILE, whose view, cars and traffic are looked at), or,
-// without one, a car at 1 kHz and twenty others at 100 Hz that were never computed. It needs 2 to 5 GB in the temporary folder.
+// The hour is a real recording again and again (RODEIRA_RECORDING=FILE, whose view, cars and traffic are looked at),
+// or, without one, a car at 1 kHz and twenty others at 100 Hz that were never computed. It needs 2 to 5 GB in the
+// temporary folder.
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <unistd.h>
@@ -24,7 +25,8 @@ using lockstep::Step;
 constexpr Step kHour = 3'600'000;
 
 constexpr const char* kLaunch =
-    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle}\n  others: {kind: traffic}\n  "
+    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle}\n  others: {kind: "
+    "traffic}\n  "
     "picture: {kind: view}\n";
 
 // Numbers whose low bits are as good as random, as a vehicle's are.

@@ -1,4 +1,5 @@
-// SUELO in the library: at most 50 ns a point on terrain alone (513 x 513, random), 150 ns on 8193 x 8193, 1 µs on the road.
+// SUELO in the library: at most 50 ns a point on terrain alone (513 x 513, random), 150 ns on 8193 x 8193, 1 µs on the
+// road.
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
@@ -16,7 +17,9 @@ namespace {
 
 constexpr std::size_t kPoints = 1 << 16;
 
-std::shared_ptr<const World> Loaded(const char* file) { return World::Load(std::filesystem::path(SourceDir()) / file).value(); }
+std::shared_ptr<const World> Loaded(const char* file) {
+  return World::Load(std::filesystem::path(SourceDir()) / file).value();
+}
 std::shared_ptr<const World> N222() {
   static const auto world = Loaded("configs/worlds/n222.yaml");
   return world;
@@ -30,13 +33,16 @@ std::vector<ground::GroundQuery> OnRoad(const World& world, double from_t_m, dou
   std::vector<ground::GroundQuery> queries;
   const network::Road& road = world.network()->roads()[0];
   for (std::uint64_t i = 0; i < kPoints; ++i) {
-    const Eigen::Vector3d p = road.Surface(base::RandomUniform({i, 1}, 0.0, road.length_m()), base::RandomUniform({i, 2}, from_t_m, to_t_m)).p_W;
+    const Eigen::Vector3d p =
+        road.Surface(base::RandomUniform({i, 1}, 0.0, road.length_m()), base::RandomUniform({i, 2}, from_t_m, to_t_m))
+            .p_W;
     queries.push_back({p.x(), p.y(), p.z()});
   }
   return queries;
 }
 
-void Ask(benchmark::State& state, ground::Ground& ground, const std::vector<ground::GroundQuery>& queries, std::size_t batch) {
+void Ask(benchmark::State& state, ground::Ground& ground, const std::vector<ground::GroundQuery>& queries,
+         std::size_t batch) {
   std::vector<ground::GroundPoint> points(batch);
   std::size_t at = 0;
   for (auto _ : state) {
@@ -44,9 +50,10 @@ void Ask(benchmark::State& state, ground::Ground& ground, const std::vector<grou
     benchmark::DoNotOptimize(points.data());
     at = (at + batch) & (kPoints - 1);
   }
-  state.counters["points"] = benchmark::Counter(static_cast<double>(state.iterations() * batch), benchmark::Counter::kIsRate);
-  state.counters["s_a_point"] =
-      benchmark::Counter(static_cast<double>(state.iterations() * batch), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["points"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * batch), benchmark::Counter::kIsRate);
+  state.counters["s_a_point"] = benchmark::Counter(static_cast<double>(state.iterations() * batch),
+                                                   benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void TerrainAloneRandom(benchmark::State& state) {
@@ -55,9 +62,11 @@ void TerrainAloneRandom(benchmark::State& state) {
   WorldSpec spec;
   std::vector<float> heights(static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts));
   for (std::size_t i = 0; i < heights.size(); ++i) heights[i] = static_cast<float>(i % 1009) * 0.5F;
-  spec.grid = std::make_shared<terrain::ElevationGrid>(terrain::ElevationGrid::Frame{posts, posts, 0.0, 0.0, edge, edge}, std::move(heights));
+  spec.grid = std::make_shared<terrain::ElevationGrid>(
+      terrain::ElevationGrid::Frame{posts, posts, 0.0, 0.0, edge, edge}, std::move(heights));
   std::vector<ground::GroundQuery> queries;
-  for (std::uint64_t i = 0; i < kPoints; ++i) queries.push_back({base::RandomUniform({i, 1}, 0.0, edge), base::RandomUniform({i, 2}, 0.0, edge)});
+  for (std::uint64_t i = 0; i < kPoints; ++i)
+    queries.push_back({base::RandomUniform({i, 1}, 0.0, edge), base::RandomUniform({i, 2}, 0.0, edge)});
   Ask(state, *World::Make(spec)->MakeGround(), queries, 64);
 }
 BENCHMARK(TerrainAloneRandom)->Arg(513)->Arg(8193);
@@ -84,11 +93,18 @@ BENCHMARK(N222Patch)->Unit(benchmark::kMicrosecond);
 
 // The same on one element of 400 m: of a road of a world file of version 2 on a plane (0), of a version 1's (1).
 std::string OfVersion2(const std::string& element, const std::string& more = "") {
-  return fmt::format("rodeira: world/2\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [{}]\n{}    section: {{template: rural}}\n", element, more);
+  return fmt::format(
+      "rodeira: world/2\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, "
+      "heading_deg: 20}}\n    axis: [{}]\n{}    section: {{template: rural}}\n",
+      element, more);
 }
 std::string OfVersion1(const std::string& element) {
-  return fmt::format("rodeira: world/1\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [{}]\n    vertical: [{{s_m: 0, z_m: 0}}]\n"
-                     "    section: {{lanes: [{{id: -1, width_m: 3.5, speed_limit_kmh: 80}}, {{id: 1, width_m: 3.5, speed_limit_kmh: 80}}]}}\n", element);
+  return fmt::format(
+      "rodeira: world/1\nname: one\nground: {{kind: plane}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, "
+      "heading_deg: 20}}\n    axis: [{}]\n    vertical: [{{s_m: 0, z_m: 0}}]\n"
+      "    section: {{lanes: [{{id: -1, width_m: 3.5, speed_limit_kmh: 80}}, {{id: 1, width_m: 3.5, speed_limit_kmh: "
+      "80}}]}}\n",
+      element);
 }
 
 void AskPatches(benchmark::State& state, const std::string& text, double to_s_m) {
@@ -114,28 +130,41 @@ constexpr const char* kStraight = "line: {length_m: 400}";
 constexpr const char* kArc = "arc: {length_m: 400, radius_m: 200}";
 constexpr const char* kClothoid = "clothoid: {length_m: 400, radius_end_m: 200}";
 
-void PatchOn(benchmark::State& state, const char* element) { AskPatches(state, state.range(0) == 0 ? OfVersion2(element) : OfVersion1(element), 400.0); }
+void PatchOn(benchmark::State& state, const char* element) {
+  AskPatches(state, state.range(0) == 0 ? OfVersion2(element) : OfVersion1(element), 400.0);
+}
 BENCHMARK_CAPTURE(PatchOn, Straight, kStraight)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(PatchOn, Arc, kArc)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(PatchOn, Clothoid, kClothoid)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
-// The same on banked roads of version 2: climbing by 3 % and banked by 5 % throughout (0), where bank and grade change along the road (1),
-// before a road's bank begins (2).
+// The same on banked roads of version 2: climbing by 3 % and banked by 5 % throughout (0), where bank and grade change
+// along the road (1), before a road's bank begins (2).
 void PatchOnBank(benchmark::State& state, const char* element) {
-  const char* climbing = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0.05}]\n";
-  const char* changing = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 200, z_m: 6, parabola_m: 390}, {s_m: 400, z_m: 4}]\n    superelevation: [{s_m: 0, slope: -0.03}, {s_m: 400, slope: 0.06}]\n";
-  const char* before = "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0}, {s_m: 380, slope: 0}, {s_m: 400, slope: 0.05}]\n";
-  AskPatches(state, OfVersion2(element, state.range(0) == 0 ? climbing : state.range(0) == 1 ? changing : before), state.range(0) == 2 ? 380.0 : 400.0);
+  const char* climbing =
+      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0.05}]\n";
+  const char* changing =
+      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 200, z_m: 6, parabola_m: 390}, {s_m: 400, z_m: 4}]\n    superelevation: "
+      "[{s_m: 0, slope: -0.03}, {s_m: 400, slope: 0.06}]\n";
+  const char* before =
+      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 600, z_m: 18}]\n    superelevation: [{s_m: 0, slope: 0}, {s_m: 380, "
+      "slope: 0}, {s_m: 400, slope: 0.05}]\n";
+  AskPatches(state,
+             OfVersion2(element, state.range(0) == 0   ? climbing
+                                 : state.range(0) == 1 ? changing
+                                                       : before),
+             state.range(0) == 2 ? 380.0 : 400.0);
 }
 BENCHMARK_CAPTURE(PatchOnBank, Straight, kStraight)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(PatchOnBank, Arc, kArc)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(PatchOnBank, Clothoid, kClothoid)->DenseRange(0, 2)->Unit(benchmark::kMicrosecond);
 
-// The same on a real file's driving lanes, as they come, or only where more than one road lies on one level (needs the files beside the project).
+// The same on a real file's driving lanes, as they come, or only where more than one road lies on one level (needs the
+// files beside the project).
 void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
   const std::filesystem::path root(SourceDir());
   const std::filesystem::path file = std::filesystem::path("shared/data/road/xodr") / name;
-  const auto world = World::Load(std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file);
+  const auto world =
+      World::Load(std::filesystem::exists(root / ".." / file) ? root / ".." / file : root / "../.." / file);
   if (!world) return state.SkipWithError("no such file");
   const network::Network& network = *world.value()->network();
   const auto lanes = network.Lanes();
@@ -147,8 +176,10 @@ void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
     const double s = base::RandomUniform({i, 2}, network.Section(key).s_m, network.Section(key).end_s_m);
     const Eigen::Vector3d p = network.Centre(key, s);
     network.Surfaces(p.x(), p.y(), surfaces);
-    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < ground::kHintAbove_m)) continue;
-    patches.push_back({p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
+    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < ground::kHintAbove_m))
+      continue;
+    patches.push_back(
+        {p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});
   }
   const auto ground = world.value()->MakeGround();
   std::vector<ground::GroundPoint> points(400);
@@ -160,12 +191,15 @@ void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
 }
 BENCHMARK_CAPTURE(FilePatch, Town04, "carla_Town04.xodr", false)->Unit(benchmark::kMicrosecond);
 BENCHMARK_CAPTURE(FilePatch, Town04WhereRoadsOverlap, "carla_Town04.xodr", true)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(FilePatch, BankedStraight, "esmini_straight_500_superelevation_elevation_curve.xodr", false)->Unit(benchmark::kMicrosecond);
-BENCHMARK_CAPTURE(FilePatch, RolledBy45Degrees, "esmini_two_pitched_and_rolled_roads.xodr", false)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, BankedStraight, "esmini_straight_500_superelevation_elevation_curve.xodr", false)
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(FilePatch, RolledBy45Degrees, "esmini_two_pitched_and_rolled_roads.xodr", false)
+    ->Unit(benchmark::kMicrosecond);
 
 void N222TerrainRandom(benchmark::State& state) {
   std::vector<ground::GroundQuery> queries;
-  for (std::uint64_t i = 0; i < kPoints; ++i) queries.push_back({base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)});
+  for (std::uint64_t i = 0; i < kPoints; ++i)
+    queries.push_back({base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)});
   Ask(state, *N222()->MakeGround(), queries, 64);
 }
 BENCHMARK(N222TerrainRandom);
@@ -182,7 +216,9 @@ void N222SlopesRandom(benchmark::State& state) {
   Ask(state, *world->MakeGround(), OnRoad(*world, 4.7, 13.0), 64);
 }
 BENCHMARK(N222SlopesRandom);
-void N222OfVersion1BlendRandom(benchmark::State& state) { Ask(state, *N222OfVersion1()->MakeGround(), OnRoad(*N222OfVersion1(), 4.7, 13.0), 64); }
+void N222OfVersion1BlendRandom(benchmark::State& state) {
+  Ask(state, *N222OfVersion1()->MakeGround(), OnRoad(*N222OfVersion1(), 4.7, 13.0), 64);
+}
 BENCHMARK(N222OfVersion1BlendRandom);
 
 void N222FourWheels(benchmark::State& state) {
@@ -190,7 +226,8 @@ void N222FourWheels(benchmark::State& state) {
   std::vector<ground::GroundQuery> queries;
   for (std::size_t i = 0; i < kPoints / 4; ++i) {  // 20 m/s at 1 kHz
     for (const auto& [forward, left] : {std::pair{2.6, 0.75}, {2.6, -0.75}, {0.0, 0.75}, {0.0, -0.75}}) {
-      const Eigen::Vector3d p = world->network()->roads()[0].Surface(100.0 + 0.02 * static_cast<double>(i) + forward, -1.45 + left).p_W;
+      const Eigen::Vector3d p =
+          world->network()->roads()[0].Surface(100.0 + 0.02 * static_cast<double>(i) + forward, -1.45 + left).p_W;
       queries.push_back({p.x(), p.y(), p.z()});
     }
   }
@@ -204,7 +241,8 @@ void LocateFarAway(benchmark::State& state) {
   std::uint64_t i = 0;
   for (auto _ : state) {
     ++i;
-    benchmark::DoNotOptimize(world->roads()[0].Locate(base::RandomUniform({i, 1}, -2560.0, 2560.0), base::RandomUniform({i, 2}, -2560.0, 2560.0)));
+    benchmark::DoNotOptimize(world->roads()[0].Locate(base::RandomUniform({i, 1}, -2560.0, 2560.0),
+                                                      base::RandomUniform({i, 2}, -2560.0, 2560.0)));
   }
 }
 BENCHMARK(LocateFarAway);
@@ -226,7 +264,8 @@ void ClothoidEnd(benchmark::State& state) {
 BENCHMARK(ClothoidEnd);
 
 void LoadN222(benchmark::State& state) {
-  for (auto _ : state) benchmark::DoNotOptimize(World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml"));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/n222.yaml"));
 }
 BENCHMARK(LoadN222)->Unit(benchmark::kMillisecond);
 

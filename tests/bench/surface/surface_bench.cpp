@@ -48,7 +48,8 @@ void CrgOverXAndY(benchmark::State& state) {
   const CrgSurface& grid = Grid(state.range(0) != 0);
   std::vector<Eigen::Vector2d> places;
   for (std::uint64_t i = 0; i < kPoints; ++i) {
-    places.push_back(grid.line().Position(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0)));
+    places.push_back(
+        grid.line().Position(base::RandomUniform({i, 1}, 0.0, 100.0), base::RandomUniform({i, 2}, -2.0, 2.0)));
   }
   std::size_t i = 0;
   for (auto _ : state) {

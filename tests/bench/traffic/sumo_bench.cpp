@@ -1,5 +1,6 @@
-// What a step costs SUMO on the same streets: netconvert reads the OpenDRIVE that is written of the same map, and `sumo` drives as many
-// vehicles over it, from places and by turns drawn by lot, in steps of the same 10 ms. Where SUMO is not installed the benchmark says so.
+// What a step costs SUMO on the same streets: netconvert reads the OpenDRIVE that is written of the same map, and
+// `sumo` drives as many vehicles over it, from places and by turns drawn by lot, in steps of the same 10 ms. Where SUMO
+// is not installed the benchmark says so.
 #include <benchmark/benchmark.h>
 #include <sys/resource.h>
 
@@ -25,7 +26,9 @@ constexpr int kEdges = 60;  // of a route: more than is driven in that time
 double ChildrensCpu_s() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
-  const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
@@ -46,7 +49,8 @@ std::map<std::string, std::vector<std::string>> Streets(const std::string& net) 
 }
 
 // Each vehicle begins on a street drawn by lot and turns by lot.
-void WriteRoutes(const std::map<std::string, std::vector<std::string>>& next, std::int64_t vehicles, const std::string& file) {
+void WriteRoutes(const std::map<std::string, std::vector<std::string>>& next, std::int64_t vehicles,
+                 const std::string& file) {
   std::vector<std::string> streets;
   for (const auto& [street, links] : next) {
     if (!links.empty()) streets.push_back(street);
@@ -62,7 +66,8 @@ void WriteRoutes(const std::map<std::string, std::vector<std::string>>& next, st
       at = next.at(at)[drawn(next.at(at).size(), vehicle, edge)];
       route += " " + at;
     }
-    out << "  <vehicle id=\"" << vehicle << "\" depart=\"0\" departPos=\"random_free\"><route edges=\"" << route << "\"/></vehicle>\n";
+    out << "  <vehicle id=\"" << vehicle << "\" depart=\"0\" departPos=\"random_free\"><route edges=\"" << route
+        << "\"/></vehicle>\n";
   }
   out << "</routes>\n";
 }
@@ -75,8 +80,9 @@ struct Driven {
 // Nothing where the run failed.
 std::optional<Driven> Drive(const std::string& folder, double until_s, double from_s) {
   const std::string summary = folder + "/summary.xml";
-  const std::string command = "sumo -n " + folder + "/net.xml -r " + folder + "/routes.xml --step-length 0.01 --end " + std::to_string(until_s) +
-                              " --seed 7 --no-step-log --no-warnings --summary-output " + summary + " >/dev/null 2>&1";
+  const std::string command = "sumo -n " + folder + "/net.xml -r " + folder + "/routes.xml --step-length 0.01 --end " +
+                              std::to_string(until_s) + " --seed 7 --no-step-log --no-warnings --summary-output " +
+                              summary + " >/dev/null 2>&1";
   if (std::system(command.c_str()) != 0) return std::nullopt;
   pugi::xml_document document;
   if (!document.load_file(summary.c_str())) return std::nullopt;
@@ -89,10 +95,13 @@ std::optional<Driven> Drive(const std::string& folder, double until_s, double fr
   return driven;
 }
 
-// Arguments as of BM_PlanarStep. What the first seconds cost, with reading the net, is taken off by running them alone as well.
+// Arguments as of BM_PlanarStep. What the first seconds cost, with reading the net, is taken off by running them alone
+// as well.
 void BM_Sumo(benchmark::State& state) {
-  if (std::system("command -v netconvert sumo >/dev/null") != 0) return state.SkipWithError("SUMO is not installed (package sumo)");
-  ::setenv("SUMO_HOME", "/usr/share/sumo", 0);  // where Debian puts the types without which netconvert reads no OpenDRIVE
+  if (std::system("command -v netconvert sumo >/dev/null") != 0)
+    return state.SkipWithError("SUMO is not installed (package sumo)");
+  ::setenv("SUMO_HOME", "/usr/share/sumo",
+           0);  // where Debian puts the types without which netconvert reads no OpenDRIVE
   const auto map = traffic_map::LoadLaneMap(Grid(state.range(0)));
   if (!map) return state.SkipWithError(kNoGrids);
   const auto drawn = traffic_map::ToOpenDrive(map.value(), "grid");
@@ -100,7 +109,8 @@ void BM_Sumo(benchmark::State& state) {
   if (!drawn || !scratch) return state.SkipWithError("no OpenDRIVE of the grid could be written");
   const std::string folder = scratch.value().path().string();
   std::ofstream(folder + "/grid.xodr") << drawn.value().xml;
-  const std::string convert = "netconvert --opendrive-files " + folder + "/grid.xodr -o " + folder + "/net.xml >/dev/null 2>&1";
+  const std::string convert =
+      "netconvert --opendrive-files " + folder + "/grid.xodr -o " + folder + "/net.xml >/dev/null 2>&1";
   if (std::system(convert.c_str()) != 0) return state.SkipWithError("netconvert refused the grid's OpenDRIVE");
   WriteRoutes(Streets(folder + "/net.xml"), state.range(1), folder + "/routes.xml");
   for (auto _ : state) {

@@ -1,5 +1,6 @@
-// What a step of traffic costs: planar mode on closed-meshed grids of streets, by the number of vehicles. The grids are maps that
-// tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors, grid32.motors and grid37.motors.
+// What a step of traffic costs: planar mode on closed-meshed grids of streets, by the number of vehicles. The grids are
+// maps that tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors, grid32.motors and
+// grid37.motors.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -8,9 +9,9 @@
 #include <vector>
 
 #include "common/core/base/state.hpp"
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "tests/bench/traffic/grid.hpp"
 
 namespace rodeira::traffic {
@@ -21,7 +22,8 @@ double HeapBytes() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-// A town with so many streets each way and so many vehicles, after 20 simulated seconds; nothing, and the state says why, where there is no town.
+// A town with so many streets each way and so many vehicles, after 20 simulated seconds; nothing, and the state says
+// why, where there is no town.
 std::optional<TrafficModel> Warm(benchmark::State& state) {
   const auto network = traffic_map::LoadNetwork(Grid(state.range(0)));
   if (!network) {
@@ -35,7 +37,8 @@ std::optional<TrafficModel> Warm(benchmark::State& state) {
   return model;
 }
 
-// Arguments: streets each way, vehicles. After 20 simulated seconds a step of 10 ms: decision and motion of every vehicle.
+// Arguments: streets each way, vehicles. After 20 simulated seconds a step of 10 ms: decision and motion of every
+// vehicle.
 void BM_PlanarStep(benchmark::State& state) {
   auto warm = Warm(state);
   if (!warm) return;
@@ -50,10 +53,16 @@ void BM_PlanarStep(benchmark::State& state) {
   state.counters["updates"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
   state.counters["on_road"] = on_road / steps;
 }
-BENCHMARK(BM_PlanarStep)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Args({37, 12700})->Unit(benchmark::kMillisecond)->MinTime(4.0);
+BENCHMARK(BM_PlanarStep)
+    ->Args({4, 100})
+    ->Args({10, 1000})
+    ->Args({32, 10000})
+    ->Args({37, 12700})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(4.0);
 
-// The same where nothing of a step before is in near memory: between two steps, untimed, more is written than the caches hold. What a step of many
-// vehicles costs more than one of few is compared with this.
+// The same where nothing of a step before is in near memory: between two steps, untimed, more is written than the
+// caches hold. What a step of many vehicles costs more than one of few is compared with this.
 void BM_PlanarStepFromFarMemory(benchmark::State& state) {
   auto warm = Warm(state);
   if (!warm) return;
@@ -72,10 +81,16 @@ void BM_PlanarStepFromFarMemory(benchmark::State& state) {
   }
   state.counters["updates"] = benchmark::Counter(updates, benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_PlanarStepFromFarMemory)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Args({37, 12700})->Unit(benchmark::kMillisecond)->MinTime(0.4);
+BENCHMARK(BM_PlanarStepFromFarMemory)
+    ->Args({4, 100})
+    ->Args({10, 1000})
+    ->Args({32, 10000})
+    ->Args({37, 12700})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(0.4);
 
-// Full physics, 1 kHz below decisions of 100 Hz, SUELO under every wheel: 10 ms of the town of 10 × 10 on one thread, and how many of such cars one core
-// drives in real time.
+// Full physics, 1 kHz below decisions of 100 Hz, SUELO under every wheel: 10 ms of the town of 10 × 10 on one thread,
+// and how many of such cars one core drives in real time.
 void BM_FullPhysics(benchmark::State& state) {
   const auto network = traffic_map::LoadNetwork(Grid(10));
   if (!network) return state.SkipWithError(kNoGrids);
@@ -115,7 +130,12 @@ void BM_HeatMapOfAMetre(benchmark::State& state) {
   }
   state.counters["added_share"] = static_cast<double>(summing.count()) / static_cast<double>(stepping.count());
 }
-BENCHMARK(BM_HeatMapOfAMetre)->Args({4, 100})->Args({10, 1000})->Args({32, 10000})->Unit(benchmark::kMillisecond)->MinTime(2.0);
+BENCHMARK(BM_HeatMapOfAMetre)
+    ->Args({4, 100})
+    ->Args({10, 1000})
+    ->Args({32, 10000})
+    ->Unit(benchmark::kMillisecond)
+    ->MinTime(2.0);
 
 // The heap that vehicles take beyond the map, a vehicle.
 void BM_Memory(benchmark::State& state) {

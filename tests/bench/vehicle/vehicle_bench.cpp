@@ -1,4 +1,5 @@
-// What a step of the bicycle costs, and its tyre formula. Simulated seconds a second = 1e6 / (microseconds a 1 ms step).
+// What a step of the bicycle costs, and its tyre formula. Simulated seconds a second = 1e6 / (microseconds a 1 ms
+// step).
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -101,8 +102,8 @@ void BM_MagicFormula(benchmark::State& state) {
   }
 }
 
-// A decision's 10 ms of many cars: ground asked once, ten steps of 1 ms each. Argument: how many; with the slip curve's tyres or the file's formula.
-// Counter: how many cars go in real time on this core.
+// A decision's 10 ms of many cars: ground asked once, ten steps of 1 ms each. Argument: how many; with the slip curve's
+// tyres or the file's formula. Counter: how many cars go in real time on this core.
 void BM_CarArray(benchmark::State& state) {
   constexpr double kDecision_s = 0.01;
   ground::PlaneGround ground;
@@ -114,7 +115,9 @@ void BM_CarArray(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
   CarArray cars;
   const auto kind = cars.AddKind(settings);
-  for (std::size_t i = 0; i < count; ++i) (void)cars.Add(kind.value(), {.y_m = 4.0 * static_cast<double>(i), .speed_mps = 8.0 + 0.02 * static_cast<double>(i)}, ground);
+  for (std::size_t i = 0; i < count; ++i)
+    (void)cars.Add(kind.value(),
+                   {.y_m = 4.0 * static_cast<double>(i), .speed_mps = 8.0 + 0.02 * static_cast<double>(i)}, ground);
   std::vector<Controls> controls(count);
   int step = 0;
   for (auto _ : state) {
@@ -128,7 +131,8 @@ void BM_CarArray(benchmark::State& state) {
     ++step;
   }
   state.SetItemsProcessed(state.iterations() * static_cast<long>(count));
-  state.counters["cars_in_real_time"] = benchmark::Counter(kDecision_s * static_cast<double>(state.iterations()) * static_cast<double>(count), benchmark::Counter::kIsRate);
+  state.counters["cars_in_real_time"] = benchmark::Counter(
+      kDecision_s * static_cast<double>(state.iterations()) * static_cast<double>(count), benchmark::Counter::kIsRate);
   state.counters["bytes_a_car"] = sizeof(BicycleCar) + sizeof(BicycleFindings);
 }
 

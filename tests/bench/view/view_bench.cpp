@@ -1,5 +1,5 @@
-// What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file. RODEIRA_BENCH_SIZE=1920x1080 draws frames and
-// worlds in that size.
+// What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
+// RODEIRA_BENCH_SIZE=1920x1080 draws frames and worlds in that size.
 #include <benchmark/benchmark.h>
 #include <malloc.h>
 
@@ -11,13 +11,13 @@
 #include <fstream>
 
 #include "common/core/base/temporary_folder.hpp"
+#include "common/view/scene/visual_world/world_scene.hpp"
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
-#include "common/view/scene/visual_world/world_scene.hpp"
+#include "nodes/view/frame/png.hpp"
+#include "nodes/view/renderer/painter.hpp"
 #include "nodes/view/visual_database/database.hpp"
 #include "nodes/view/visual_database/find_built.hpp"
-#include "nodes/view/renderer/painter.hpp"
-#include "nodes/view/frame/png.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {
@@ -39,22 +39,27 @@ Size AskedSize() {
     const char* text = std::getenv("RODEIRA_BENCH_SIZE");
     char rest = 0;
     if (text == nullptr) return asked;
-    if (std::sscanf(text, "%dx%d%c", &asked.width_px, &asked.height_px, &rest) == 2 && asked.width_px >= 64 && asked.width_px <= 7680 && asked.height_px >= 64 && asked.height_px <= 4320) return asked;
-    std::fprintf(stderr, "RODEIRA_BENCH_SIZE is '%s'; a size as 1920x1080 was expected, from 64x64 to 7680x4320\n", text);
+    if (std::sscanf(text, "%dx%d%c", &asked.width_px, &asked.height_px, &rest) == 2 && asked.width_px >= 64 &&
+        asked.width_px <= 7680 && asked.height_px >= 64 && asked.height_px <= 4320)
+      return asked;
+    std::fprintf(stderr, "RODEIRA_BENCH_SIZE is '%s'; a size as 1920x1080 was expected, from 64x64 to 7680x4320\n",
+                 text);
     std::exit(2);
   }();
   return size;
 }
 
 base::Result<std::unique_ptr<Surface>> SurfaceOf(Quality quality) {
-  return Surface::Open(SurfaceKind::kOffscreen, AskedSize().width_px, AskedSize().height_px, "bench", false, 0, quality);
+  return Surface::Open(SurfaceKind::kOffscreen, AskedSize().width_px, AskedSize().height_px, "bench", false, 0,
+                       quality);
 }
 
 const network::Road& Road() { return N222().network()->roads()[0]; }
 
 Eigen::Quaterniond Along(double s_m, bool back = false) {
   const double pitch_rad = std::atan(Road().spec().elevation.Evaluate(s_m).slope);
-  return scene::Attitude(Road().axis().Evaluate(s_m).heading_rad + (back ? 3.14159265358979 : 0.0), back ? pitch_rad : -pitch_rad, 0.0);
+  return scene::Attitude(Road().axis().Evaluate(s_m).heading_rad + (back ? 3.14159265358979 : 0.0),
+                         back ? pitch_rad : -pitch_rad, 0.0);
 }
 
 Picture AlongTheRoad(double s_m, scene::CameraKind camera) {
@@ -114,9 +119,16 @@ void Frame(benchmark::State& state) {
   state.counters["calls"] = static_cast<double>(cost.calls);
   state.counters["triangles"] = static_cast<double>(cost.triangles);
   state.SetLabel(surface.value()->renderer() + ", " + std::string(QualityNames()[static_cast<std::size_t>(quality)]) +
-                 (state.range(1) == 0 ? ", chase" : mirrors ? ", driver with three mirrors" : ", driver"));
+                 (state.range(1) == 0 ? ", chase"
+                  : mirrors           ? ", driver with three mirrors"
+                                      : ", driver"));
 }
-BENCHMARK(Frame)->ArgsProduct({{0, 1, 2}, {0, 1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(30);
+BENCHMARK(Frame)
+    ->ArgsProduct({{0, 1, 2}, {0, 1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(30);
 
 // Each world of the project from behind a car at its start, looking round once; argument: quality.
 void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
@@ -148,14 +160,22 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
 }
 template <class Run>
 void RegisterWorld(const std::string& name, Run run) {
-  benchmark::RegisterBenchmark(("EveryWorld/" + name).c_str(), run)->Arg(0)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+  benchmark::RegisterBenchmark(("EveryWorld/" + name).c_str(), run)
+      ->Arg(0)
+      ->Arg(1)
+      ->Arg(2)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime()
+      ->Iterations(20);
 }
 
 // Its elevations are no part of the project: beside its file, or where the project's data lie, or nothing is measured.
 void Crater(benchmark::State& state) {
   const std::filesystem::path worlds = SourceDir() + "/configs/worlds", name = "crater_0513.bt";
   std::filesystem::path elevations = worlds / name;
-  if (!std::filesystem::exists(elevations)) elevations = std::filesystem::path(SourceDir()) / "../shared/data/road/bt" / name;
+  if (!std::filesystem::exists(elevations))
+    elevations = std::filesystem::path(SourceDir()) / "../shared/data/road/bt" / name;
   if (!std::filesystem::exists(elevations)) return state.SkipWithError("its elevations (crater_0513.bt) are not here");
   const auto folder = base::TemporaryFolder::Make("crater");
   if (!folder) return state.SkipWithError(folder.error().Text().c_str());
@@ -167,10 +187,13 @@ void Crater(benchmark::State& state) {
 [[maybe_unused]] const bool kWorlds = [] {
   const std::filesystem::path worlds = SourceDir() + "/configs/worlds";
   for (const auto& entry : std::filesystem::directory_iterator(worlds)) {
-    if (entry.path().stem() == "crater" || (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr")) continue;
-    RegisterWorld(entry.path().stem().string(), [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); });
+    if (entry.path().stem() == "crater" || (entry.path().extension() != ".yaml" && entry.path().extension() != ".xodr"))
+      continue;
+    RegisterWorld(entry.path().stem().string(),
+                  [file = entry.path()](benchmark::State& state) { EveryWorld(state, file); });
   }
-  RegisterWorld("example", [file = worlds / "example/world.yaml"](benchmark::State& state) { EveryWorld(state, file); });
+  RegisterWorld("example",
+                [file = worlds / "example/world.yaml"](benchmark::State& state) { EveryWorld(state, file); });
   RegisterWorld("crater", Crater);
   return true;
 }();
@@ -183,7 +206,8 @@ double Resident_MB() {
   return resident * 4096.0 / 1e6;
 }
 
-// Trees, posts and what else is repeated, along N222's or HASTE's start at medium quality: merged (0), or one model at many places (1).
+// Trees, posts and what else is repeated, along N222's or HASTE's start at medium quality: merged (0), or one model at
+// many places (1).
 void Repeated(benchmark::State& state, const char* name) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name).value();
   const scene::WorldScene standing = scene::BuildWorldScene(*world);
@@ -213,17 +237,31 @@ void Repeated(benchmark::State& state, const char* name) {
   state.counters["calls"] = static_cast<double>(most.calls);
   state.counters["drawn_MB"] = Resident_MB() - before_MB;
 }
-BENCHMARK_CAPTURE(Repeated, n222, "n222.yaml")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
-BENCHMARK_CAPTURE(Repeated, haste, "haste.yaml")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->MeasureProcessCPUTime()->Iterations(20);
+BENCHMARK_CAPTURE(Repeated, n222, "n222.yaml")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(20);
+BENCHMARK_CAPTURE(Repeated, haste, "haste.yaml")
+    ->Arg(0)
+    ->Arg(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime()
+    ->MeasureProcessCPUTime()
+    ->Iterations(20);
 
-// From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and read (1).
+// From a loaded HASTE to its first picture: the ground built in memory (0), or the built database found, checked and
+// read (1).
 void FirstPictureOfHaste(benchmark::State& state) {
   static const auto world = road::World::Load(SourceDir() + "/configs/worlds/haste.yaml").value();
   const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-haste";
   DatabaseOptions options;
   options.folder = folder;
   if (state.range(0) == 1) {
-    if (auto written = WriteDatabase(*world, options); !written) return state.SkipWithError(written.error().Text().c_str());
+    if (auto written = WriteDatabase(*world, options); !written)
+      return state.SkipWithError(written.error().Text().c_str());
   }
   Picture picture;
   scene::CarPose car;
@@ -245,18 +283,20 @@ void FirstPictureOfHaste(benchmark::State& state) {
 }
 BENCHMARK(FirstPictureOfHaste)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(2);
 
-// HASTE's main road, all of its parts between junctions and over them, from end to end, a picture each 50 m, its ground made in memory (0), or from its built
-// database (1): what is held of it.
+// HASTE's main road, all of its parts between junctions and over them, from end to end, a picture each 50 m, its ground
+// made in memory (0), or from its built database (1): what is held of it.
 void DriveHaste(benchmark::State& state) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/haste.yaml").value();
   const auto folder = std::filesystem::temp_directory_path() / "rodeira-view-bench-drive";
   DatabaseOptions options;
   options.folder = folder;
   if (state.range(0) == 1) {
-    if (auto written = WriteDatabase(*world, options); !written) return state.SkipWithError(written.error().Text().c_str());
+    if (auto written = WriteDatabase(*world, options); !written)
+      return state.SkipWithError(written.error().Text().c_str());
   }
   const std::vector<road::RoadChain> chains = road::ChainsOf(*world->network());
-  const auto longest = std::max_element(chains.begin(), chains.end(), [](const auto& a, const auto& b) { return a.length_m < b.length_m; });
+  const auto longest = std::max_element(chains.begin(), chains.end(),
+                                        [](const auto& a, const auto& b) { return a.length_m < b.length_m; });
   for (auto _ : state) {
     malloc_trim(0);
     auto surface = Surface::Open(SurfaceKind::kOffscreen, 640, 360, "bench", false, 0, Quality::kLow);

@@ -1,5 +1,6 @@
-// `rodeira world build`, by the clock and in processor time of all threads: asked are 10 s for HASTE on two cores and 3 s for Town04. Each world is read and
-// written into a fresh folder; once more where nothing has changed; and once more after one sign has moved.
+// `rodeira world build`, by the clock and in processor time of all threads: asked are 10 s for HASTE on two cores and 3
+// s for Town04. Each world is read and written into a fresh folder; once more where nothing has changed; and once more
+// after one sign has moved.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -63,7 +64,8 @@ void AMovedSign(benchmark::State& state) {
   std::string text = base::ReadText(fs::path(SourceDir()) / "configs/worlds/haste.yaml").value();
   const std::string sign = "{type: town, text: Alvite, s_m: 3918.204}";
   const std::size_t at = text.find(sign);
-  if (at == std::string::npos) return state.SkipWithError("HASTE has no sign of Alvite where this program looks for it");
+  if (at == std::string::npos)
+    return state.SkipWithError("HASTE has no sign of Alvite where this program looks for it");
   const fs::path file = folder.Write("haste.yaml", text);
   DatabaseReport report;
   if (!Build(state, file, folder.path() / "out", report)) return;
@@ -71,7 +73,9 @@ void AMovedSign(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     std::string other = text;
-    folder.Write("haste.yaml", other.replace(at, sign.size(), "{type: town, text: Alvite, s_m: " + std::to_string(3918 - ++moved) + "}"));
+    folder.Write(
+        "haste.yaml",
+        other.replace(at, sign.size(), "{type: town, text: Alvite, s_m: " + std::to_string(3918 - ++moved) + "}"));
     state.ResumeTiming();
     if (!Build(state, file, folder.path() / "out", report)) return;
   }

@@ -26,15 +26,19 @@ std::uint8_t Value(int x, int y, int channel) { return static_cast<std::uint8_t>
 // A picture of Value, written by GDAL in a kind that it knows.
 void Write(const std::filesystem::path& path, const char* kind, int bands) {
   GDALAllRegister();
-  const std::unique_ptr<GDALDataset> set(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kWidth, kHeight, bands, GDT_Byte, nullptr));
+  const std::unique_ptr<GDALDataset> set(
+      GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kWidth, kHeight, bands, GDT_Byte, nullptr));
   for (int band = 0; band < bands; ++band) {
     std::vector<std::uint8_t> values;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) values.push_back(Value(x, y, band));
     }
-    ASSERT_EQ(set->GetRasterBand(band + 1)->RasterIO(GF_Write, 0, 0, kWidth, kHeight, values.data(), kWidth, kHeight, GDT_Byte, 0, 0), CE_None);
+    ASSERT_EQ(set->GetRasterBand(band + 1)->RasterIO(GF_Write, 0, 0, kWidth, kHeight, values.data(), kWidth, kHeight,
+                                                     GDT_Byte, 0, 0),
+              CE_None);
   }
-  const std::unique_ptr<GDALDataset> written(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE, nullptr, nullptr, nullptr));
+  const std::unique_ptr<GDALDataset> written(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(
+      path.c_str(), set.get(), FALSE, nullptr, nullptr, nullptr));
   ASSERT_NE(written, nullptr) << kind;
 }
 
@@ -60,13 +64,15 @@ TEST_P(APicture, ComesInWithItsPixels) {
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       for (int channel = 0; channel < 3; ++channel)
-        EXPECT_NEAR(pixels.value().rgb[static_cast<std::size_t>(3 * (y * kWidth + x) + channel)], Value(x, y, bands >= 3 ? channel : 0), tolerance);
+        EXPECT_NEAR(pixels.value().rgb[static_cast<std::size_t>(3 * (y * kWidth + x) + channel)],
+                    Value(x, y, bands >= 3 ? channel : 0), tolerance);
     }
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, APicture,
-                         testing::Values(std::tuple("PNG", "a.png", 3), std::tuple("PNG", "a.png", 4), std::tuple("PNG", "grey.png", 1), std::tuple("JPEG", "a.jpg", 3),
+                         testing::Values(std::tuple("PNG", "a.png", 3), std::tuple("PNG", "a.png", 4),
+                                         std::tuple("PNG", "grey.png", 1), std::tuple("JPEG", "a.jpg", 3),
                                          std::tuple("BMP", "a.bmp", 3), std::tuple("GTiff", "a.tif", 3)));
 
 TEST(Background, WhatIsNoPictureIsRefused) {
@@ -76,7 +82,9 @@ TEST(Background, WhatIsNoPictureIsRefused) {
   ASSERT_TRUE(base::WriteWhole(path, "Dear Sir or Madam, enclosed you find a picture.").ok());
   const auto letter = ImportPicture(path);
   ASSERT_FALSE(letter.ok());
-  EXPECT_NE(letter.error().Text().find("letter.png: this is no picture; a PNG, JPEG, BMP or TIFF file was expected"), std::string::npos) << letter.error().Text();
+  EXPECT_NE(letter.error().Text().find("letter.png: this is no picture; a PNG, JPEG, BMP or TIFF file was expected"),
+            std::string::npos)
+      << letter.error().Text();
   EXPECT_NE(ImportPicture(folder.value().path() / "none.png").error().Text().find("no such file"), std::string::npos);
   Write(folder.value().path() / "whole.png", "PNG", 3);
   const std::string whole = base::ReadText(folder.value().path() / "whole.png").value();
@@ -108,9 +116,12 @@ TEST(Pyramid, EachLevelHasTheMeansOfTheOneBefore) {
   EXPECT_EQ(pyramid.level(1).width_px, 651);
   EXPECT_EQ(pyramid.level(1).height_px, 350);
   EXPECT_EQ(pyramid.level(2).width_px, 326);
-  const auto at = [](const Pixels& p, int x, int y, int c) { return int(p.rgb[std::size_t(3 * (y * p.width_px + x) + c)]); };
+  const auto at = [](const Pixels& p, int x, int y, int c) {
+    return int(p.rgb[std::size_t(3 * (y * p.width_px + x) + c)]);
+  };
   for (const auto& [x, y] : {std::pair(0, 0), std::pair(17, 300), std::pair(649, 349)}) {
-    const int sum = at(pyramid.level(0), 2 * x, 2 * y, 1) + at(pyramid.level(0), 2 * x + 1, 2 * y, 1) + at(pyramid.level(0), 2 * x, 2 * y + 1, 1) + at(pyramid.level(0), 2 * x + 1, 2 * y + 1, 1);
+    const int sum = at(pyramid.level(0), 2 * x, 2 * y, 1) + at(pyramid.level(0), 2 * x + 1, 2 * y, 1) +
+                    at(pyramid.level(0), 2 * x, 2 * y + 1, 1) + at(pyramid.level(0), 2 * x + 1, 2 * y + 1, 1);
     EXPECT_EQ(at(pyramid.level(1), x, y, 1), (sum + 2) / 4);
   }
   EXPECT_EQ(pyramid.LevelFor(3.0), 0u);
@@ -120,21 +131,24 @@ TEST(Pyramid, EachLevelHasTheMeansOfTheOneBefore) {
 }
 
 TEST(Pyramid, GrownInStripsItIsTheSame) {
-  for (const auto& [width, height] : {std::pair(1301, 701), std::pair(2048, 1025), std::pair(513, 1), std::pair(1, 1400), std::pair(7, 5)}) {
+  for (const auto& [width, height] :
+       {std::pair(1301, 701), std::pair(2048, 1025), std::pair(513, 1), std::pair(1, 1400), std::pair(7, 5)}) {
     const Pyramid whole(Patterned(width, height));
     for (const int strip : {1, 3, 256, 5000}) {
       PyramidBuilder builder(width, height);
       const Pixels all = Patterned(width, height);
       for (int rows = 0; rows < height;) {
         const int to = std::min(height, rows + strip);
-        std::copy(all.rgb.begin() + 3L * width * rows, all.rgb.begin() + 3L * width * to, builder.finest().rgb.begin() + 3L * width * rows);
+        std::copy(all.rgb.begin() + 3L * width * rows, all.rgb.begin() + 3L * width * to,
+                  builder.finest().rgb.begin() + 3L * width * rows);
         builder.Grow(rows = to);
       }
       const Pyramid grown = std::move(builder).Finish();
       ASSERT_EQ(grown.levels(), whole.levels());
       for (std::size_t level = 0; level < whole.levels(); ++level) {
         EXPECT_EQ(grown.level(level).width_px, Pyramid::SizeAt(width, level));
-        EXPECT_TRUE(grown.level(level).rgb == whole.level(level).rgb) << width << " by " << height << " in strips of " << strip << ", level " << level;
+        EXPECT_TRUE(grown.level(level).rgb == whole.level(level).rgb)
+            << width << " by " << height << " in strips of " << strip << ", level " << level;
       }
     }
   }
@@ -144,17 +158,24 @@ TEST(Pyramid, GrownInStripsItIsTheSame) {
 std::string Photograph(const char* kind) {
   constexpr int kWide = 3000, kHigh = 2100;
   GDALAllRegister();
-  const std::unique_ptr<GDALDataset> set(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kWide, kHigh, 3, GDT_Byte, nullptr));
+  const std::unique_ptr<GDALDataset> set(
+      GetGDALDriverManager()->GetDriverByName("MEM")->Create("", kWide, kHigh, 3, GDT_Byte, nullptr));
   std::vector<std::uint8_t> values(static_cast<std::size_t>(kWide) * kHigh);
   for (int band = 1; band <= 3; ++band) {
     for (int y = 0; y < kHigh; ++y) {
-      for (int x = 0; x < kWide; ++x) values[static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x)] = static_cast<std::uint8_t>(40 * band + x / 40 + y / 40);
+      for (int x = 0; x < kWide; ++x)
+        values[static_cast<std::size_t>(y) * kWide + static_cast<std::size_t>(x)] =
+            static_cast<std::uint8_t>(40 * band + x / 40 + y / 40);
     }
-    EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kWide, kHigh, values.data(), kWide, kHigh, GDT_Byte, 0, 0), CE_None);
+    EXPECT_EQ(
+        set->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kWide, kHigh, values.data(), kWide, kHigh, GDT_Byte, 0, 0),
+        CE_None);
   }
   auto folder = base::TemporaryFolder::Make("editor");
   const auto path = folder.value().path() / "photo";
-  std::unique_ptr<GDALDataset>(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)).reset();
+  std::unique_ptr<GDALDataset>(GetGDALDriverManager()->GetDriverByName(kind)->CreateCopy(path.c_str(), set.get(), FALSE,
+                                                                                         nullptr, nullptr, nullptr))
+      .reset();
   return base::ReadText(path, 1u << 26).value();
 }
 
@@ -163,12 +184,14 @@ TEST(Pyramid, ReadOnTwoThreadsItIsTheSameAndAJpegIsSeenSooner) {
     const std::string bytes = Photograph(kind);
     std::shared_ptr<const Pyramid> preview;
     double last = 0.0;
-    const auto read = ReadPyramid(bytes, [&](double share) { return last = share, true; }, [&](auto small) { preview = std::move(small); });
+    const auto read = ReadPyramid(
+        bytes, [&](double share) { return last = share, true; }, [&](auto small) { preview = std::move(small); });
     ASSERT_TRUE(read.ok()) << read.error().Text();
     EXPECT_EQ(last, 1.0);
     const Pyramid expected(DecodePicture(bytes).value());
     ASSERT_EQ(read.value()->levels(), expected.levels());
-    for (std::size_t level = 0; level < expected.levels(); ++level) EXPECT_TRUE(read.value()->level(level).rgb == expected.level(level).rgb) << kind << level;
+    for (std::size_t level = 0; level < expected.levels(); ++level)
+      EXPECT_TRUE(read.value()->level(level).rgb == expected.level(level).rgb) << kind << level;
     EXPECT_EQ(preview != nullptr, std::string(kind) == "JPEG");
     if (preview == nullptr) continue;
     EXPECT_EQ(preview->first(), 3u);
@@ -179,7 +202,8 @@ TEST(Pyramid, ReadOnTwoThreadsItIsTheSameAndAJpegIsSeenSooner) {
     double worst = 0.0;
     for (int y = 0; y < 2100; y += 7) {
       for (int x = 0; x < 3000; x += 7) {
-        const auto small = preview->level(3).rgb[3 * (static_cast<std::size_t>(y / 8) * 375 + static_cast<std::size_t>(x / 8))];
+        const auto small =
+            preview->level(3).rgb[3 * (static_cast<std::size_t>(y / 8) * 375 + static_cast<std::size_t>(x / 8))];
         worst = std::max(worst, std::abs(small - (40.0 + x / 40.0 + y / 40.0)));
       }
     }

@@ -9,7 +9,8 @@ namespace rodeira::traffic_map {
 namespace {
 
 const std::string kText =
-    "# the bridge over the river\nrodeira: motors/1\n\n# surveyed in May\nheights_m:   # m\n  3: [0, 0, 6, 6]   # abutment\n  4: [0.0, 0, 6, 6]\n"
+    "# the bridge over the river\nrodeira: motors/1\n\n# surveyed in May\nheights_m:   # m\n  3: [0, 0, 6, 6]   # "
+    "abutment\n  4: [0.0, 0, 6, 6]\n"
     "lights:  # by day\n  - phases:\n      - {green: [1], for_s: 25}   # main road\n      - {green: [2], for_s: 20}\n"
     "# signs by the council\nsigns:\n  - lane: 2\n    kind: give_way\n";
 
@@ -25,15 +26,19 @@ TEST(Companion, OnlyWhatIsEditedIsWrittenAnewAndNoCommentIsLost) {
   Heights now = Read(kText);
   now.curves.push_back({7, {1, 2, 3, 4.5}, 0});
   now.flows.push_back({1, 300.0, 0});
-  EXPECT_EQ(CompanionText(now, Read(kText), kText),
-            "# the bridge over the river\nrodeira: motors/1\n# surveyed in May\n# m\nheights_m:\n  3: [0, 0, 6, 6]   # abutment\n  4: [0.0, 0, 6, 6]\n  7: [1, 2, 3, 4.5]\n"
-            "lights:  # by day\n  - phases:\n      - {green: [1], for_s: 25}   # main road\n      - {green: [2], for_s: 20}\n"
-            "# signs by the council\nsigns:\n  - lane: 2\n    kind: give_way\nflows_vehph:\n  1: 300\n");
+  EXPECT_EQ(
+      CompanionText(now, Read(kText), kText),
+      "# the bridge over the river\nrodeira: motors/1\n# surveyed in May\n# m\nheights_m:\n  3: [0, 0, 6, 6]   # "
+      "abutment\n  4: [0.0, 0, 6, 6]\n  7: [1, 2, 3, 4.5]\n"
+      "lights:  # by day\n  - phases:\n      - {green: [1], for_s: 25}   # main road\n      - {green: [2], for_s: 20}\n"
+      "# signs by the council\nsigns:\n  - lane: 2\n    kind: give_way\nflows_vehph:\n  1: 300\n");
   now = Read(kText);
   now.lights[0].phases[1].green_s = 30.0;
   now.curves[0].z_m = {};
   const std::string text = CompanionText(now, Read(kText), kText);
-  for (const char* comment : {"# the bridge", "# surveyed", "# m\n", "# abutment", "# by day", "# main road", "# signs by"}) EXPECT_NE(text.find(comment), std::string::npos) << comment << text;
+  for (const char* comment :
+       {"# the bridge", "# surveyed", "# m\n", "# abutment", "# by day", "# main road", "# signs by"})
+    EXPECT_NE(text.find(comment), std::string::npos) << comment << text;
   EXPECT_EQ(CompanionText(Read(text)), CompanionText(now));
 }
 

@@ -22,9 +22,14 @@ inline Document Parsed(const std::string& bytes, const std::string& companion = 
   return document;
 }
 
-inline Points Straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return {from, from + (to - from) / 3.0, to - (to - from) / 3.0, to}; }
+inline Points Straight(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  return {from, from + (to - from) / 3.0, to - (to - from) / 3.0, to};
+}
 
-inline traffic_map::LaneSide Side(std::int32_t curve, bool inverted = false, traffic_map::BorderType type = traffic_map::BorderType::kBoundary) { return {curve, inverted, type}; }
+inline traffic_map::LaneSide Side(std::int32_t curve, bool inverted = false,
+                                  traffic_map::BorderType type = traffic_map::BorderType::kBoundary) {
+  return {curve, inverted, type};
+}
 
 // The command does something, undo gives the same bytes again, redo those after it.
 template <class Command>

@@ -5,9 +5,9 @@
 
 #include "common/editor/commands.hpp"
 #include "common/editor/templates.hpp"
+#include "common/traffic/arrivals.hpp"
 #include "common/world/lanes/signs.hpp"
 #include "common/world/traffic_map/map_network.hpp"
-#include "common/traffic/arrivals.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {
@@ -30,7 +30,8 @@ TEST(Preview, ItIsTheModelWhateverTheFramesAre) {
   EXPECT_NEAR(preview.value().time_s(), 10.0, 0.011);
   for (int i = 0; i < steps; ++i) model.value().Step(Preview::kStep_s, {});
   ASSERT_EQ(preview.value().model().poses().size(), model.value().poses().size());
-  for (std::size_t i = 0; i < model.value().poses().size(); ++i) EXPECT_EQ(preview.value().model().poses()[i].p_WB_W, model.value().poses()[i].p_WB_W);
+  for (std::size_t i = 0; i < model.value().poses().size(); ++i)
+    EXPECT_EQ(preview.value().model().poses()[i].p_WB_W, model.value().poses()[i].p_WB_W);
 }
 
 TEST(Preview, HeatLiesWhereSomebodyDrove) {
@@ -52,7 +53,9 @@ TEST(Preview, HeatLiesWhereSomebodyDrove) {
 
 // Signs of the companion, as traffic reads them from the roads that the map becomes.
 TEST(Preview, SignsAreObeyed) {
-  Document document = Parsed(traffic_map::GoodMap(), "rodeira: motors/1\nsigns:\n  - {lane: 1, kind: give_way}\n  - {lane: 2, kind: speed_limit, limit_kmh: 18, before_end_m: 20}\n  - {lane: 3, kind: priority}\n");
+  Document document = Parsed(traffic_map::GoodMap(),
+                             "rodeira: motors/1\nsigns:\n  - {lane: 1, kind: give_way}\n  - {lane: 2, kind: "
+                             "speed_limit, limit_kmh: 18, before_end_m: 20}\n  - {lane: 3, kind: priority}\n");
   document.map.connections[1].value.stop = false;
   const auto preview = Preview::Start(document, {2, 1});
   ASSERT_TRUE(preview.ok()) << preview.error().Text();
@@ -84,7 +87,9 @@ TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
   std::int64_t next_ns = traffic::NextArrival_ns(flow, 5, 0, 0, 0);
   for (int second = 0; second <= 60; ++second) {
     ASSERT_EQ(preview.value().model().flows().size(), 1u);
-    for (; next_ns < std::llround(preview.value().time_s() * 1e9); next_ns = traffic::NextArrival_ns(flow, 5, 0, arrived, next_ns)) ++arrived;
+    for (; next_ns < std::llround(preview.value().time_s() * 1e9);
+         next_ns = traffic::NextArrival_ns(flow, 5, 0, arrived, next_ns))
+      ++arrived;
     EXPECT_EQ(preview.value().model().flows()[0].arrived, arrived) << second;
     if (arrived == 0) {
       EXPECT_TRUE(preview.value().model().poses().empty()) << second;

@@ -1,5 +1,5 @@
-// 10 000 drawn actions on a map, undo and redo among them: whatever comes, the document stays a map that the file can hold, and all of
-// it can be taken back to the first byte.
+// 10 000 drawn actions on a map, undo and redo among them: whatever comes, the document stays a map that the file can
+// hold, and all of it can be taken back to the first byte.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -19,27 +19,80 @@ class Walk {
 
   void Step() {
     switch (Below(24)) {
-      case 0: case 1: Do([&](Document& d) { return NewCurve(d, {Point(), Point(), Point(), Point()}); }); break;
-      case 2: case 3: Do([&](Document& d) { return MoveHandles(d, {{Number(), int(Below(4))}, {Number(), int(Below(4))}}, Point()); }); break;
-      case 4: Do([&](Document& d) { return NewLane(d, AnySide(), AnySide(), AnyMode()); }); break;
-      case 5: Do([&](Document& d) { return SetLane(d, {Number(), AnySide(), AnySide(), AnyMode()}); }); break;
-      case 6: case 7: Do([&](Document& d) { return NewConnection(d, Number(), Number(), Below(2) == 1); }); break;
-      case 8: Do([&](Document& d) { return SetStop(d, Number(), Number(), Below(2) == 1); }); break;
-      case 9: Do([&](Document& d) { return Remove(d, {{}, {Number()}, {}, {}}); }); break;
-      case 10: Do([&](Document& d) { return Remove(d, {{}, {}, {Number()}, {{Number(), Number()}}}); }); break;
-      case 11: if (Below(40) == 0) Do([&](Document& d) { return Reset(d); }); break;
-      case 12: Do([&](Document& d) { return SetHeights(d, Number(), {0, 0, double(Below(3)), 0}); }); break;
-      case 13: Do([&](Document& d) { return SetFlow(d, Number(), double(Below(3)) * 100.0); }); break;
-      case 14: Do([&](Document& d) { return SetSigns(d, {{Number(), traffic_map::SignKind(Below(4)), 3.0, 50.0, 0}, {Number(), traffic_map::SignKind::kStop, 0, 0, 0}}); }); break;
-      case 15: Do([&](Document& d) { return SetLights(d, {AnyLights()}); }); break;
-      case 16: Do([&](Document& d) { return SetPicture(d, std::string(Below(9), 'i'), 1.0f + float(Below(5))); }); break;
-      case 17: Do([&](Document& d) { return ScaleByDistance(d, Point(), Point(), double(Below(100))); }); break;
-      case 18: Do([&](Document& d) { return LaneAlong(d, {Point(), Point(), Point(), Point()}, {.width_m = double(Below(8)), .mode = AnyMode()}); }); break;
-      case 19: Do([&](Document& d) { return LaneBeside(d, Number(), Below(2) == 1, Below(2) == 1); }); break;
-      case 20: Do([&](Document& d) { return Connect(d, MissingConnections(d)); }); break;
-      case 21: if (Below(40) == 0) Do([&](Document& d) { return Place(d, Template(Below(3)), {Point(), double(Below(7)), 3.5, 40.0}); }); break;
-      case 22: for (auto n = Below(12); n > 0 && history_.CanUndo(); --n) history_.Undo(); break;
-      default: for (auto n = Below(12); n > 0 && history_.CanRedo(); --n) history_.Redo(); break;
+      case 0:
+      case 1:
+        Do([&](Document& d) { return NewCurve(d, {Point(), Point(), Point(), Point()}); });
+        break;
+      case 2:
+      case 3:
+        Do([&](Document& d) {
+          return MoveHandles(d, {{Number(), int(Below(4))}, {Number(), int(Below(4))}}, Point());
+        });
+        break;
+      case 4:
+        Do([&](Document& d) { return NewLane(d, AnySide(), AnySide(), AnyMode()); });
+        break;
+      case 5:
+        Do([&](Document& d) { return SetLane(d, {Number(), AnySide(), AnySide(), AnyMode()}); });
+        break;
+      case 6:
+      case 7:
+        Do([&](Document& d) { return NewConnection(d, Number(), Number(), Below(2) == 1); });
+        break;
+      case 8:
+        Do([&](Document& d) { return SetStop(d, Number(), Number(), Below(2) == 1); });
+        break;
+      case 9:
+        Do([&](Document& d) { return Remove(d, {{}, {Number()}, {}, {}}); });
+        break;
+      case 10:
+        Do([&](Document& d) { return Remove(d, {{}, {}, {Number()}, {{Number(), Number()}}}); });
+        break;
+      case 11:
+        if (Below(40) == 0) Do([&](Document& d) { return Reset(d); });
+        break;
+      case 12:
+        Do([&](Document& d) { return SetHeights(d, Number(), {0, 0, double(Below(3)), 0}); });
+        break;
+      case 13:
+        Do([&](Document& d) { return SetFlow(d, Number(), double(Below(3)) * 100.0); });
+        break;
+      case 14:
+        Do([&](Document& d) {
+          return SetSigns(d, {{Number(), traffic_map::SignKind(Below(4)), 3.0, 50.0, 0},
+                              {Number(), traffic_map::SignKind::kStop, 0, 0, 0}});
+        });
+        break;
+      case 15:
+        Do([&](Document& d) { return SetLights(d, {AnyLights()}); });
+        break;
+      case 16:
+        Do([&](Document& d) { return SetPicture(d, std::string(Below(9), 'i'), 1.0f + float(Below(5))); });
+        break;
+      case 17:
+        Do([&](Document& d) { return ScaleByDistance(d, Point(), Point(), double(Below(100))); });
+        break;
+      case 18:
+        Do([&](Document& d) {
+          return LaneAlong(d, {Point(), Point(), Point(), Point()}, {.width_m = double(Below(8)), .mode = AnyMode()});
+        });
+        break;
+      case 19:
+        Do([&](Document& d) { return LaneBeside(d, Number(), Below(2) == 1, Below(2) == 1); });
+        break;
+      case 20:
+        Do([&](Document& d) { return Connect(d, MissingConnections(d)); });
+        break;
+      case 21:
+        if (Below(40) == 0)
+          Do([&](Document& d) { return Place(d, Template(Below(3)), {Point(), double(Below(7)), 3.5, 40.0}); });
+        break;
+      case 22:
+        for (auto n = Below(12); n > 0 && history_.CanUndo(); --n) history_.Undo();
+        break;
+      default:
+        for (auto n = Below(12); n > 0 && history_.CanRedo(); --n) history_.Redo();
+        break;
     }
   }
 
@@ -58,7 +111,9 @@ class Walk {
   std::uint64_t Below(std::uint64_t end) { return base::RandomBits({seed_, count_++}) % end; }
   std::int32_t Number() { return static_cast<std::int32_t>(Below(14)); }
   Eigen::Vector2d Point() { return {double(Below(4000)) * 0.05 - 100.0, double(Below(4000)) * 0.05 - 100.0}; }
-  traffic_map::LaneSide AnySide() { return {Number(), Below(2) == 1, traffic_map::BorderType(Below(traffic_map::kBorderTypes))}; }
+  traffic_map::LaneSide AnySide() {
+    return {Number(), Below(2) == 1, traffic_map::BorderType(Below(traffic_map::kBorderTypes))};
+  }
   traffic_map::LaneMode AnyMode() { return traffic_map::LaneMode(Below(3)); }
   lights::LightPlan AnyLights() {
     lights::LightPlan plan;

@@ -38,7 +38,9 @@ class Store : public testing::Test {
     const auto text = base::ReadText(path);
     return text.ok() ? text.value() : text.error().Text();
   }
-  std::size_t Files() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_->path()), fs::directory_iterator())); }
+  std::size_t Files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_->path()), fs::directory_iterator()));
+  }
 
   std::optional<base::TemporaryFolder> folder_;
 };
@@ -104,7 +106,8 @@ TEST_F(Store, AFullDiskLeavesBothOldFilesWhole) {
   History history(opened.value().document);
   ASSERT_TRUE(history.Do([](Document& d) { return SetStop(d, 1, 4, true); }).ok());
   ASSERT_TRUE(history.Do([](Document& d) { return SetHeights(d, 1, {1, 1, 1, 1}); }).ok());
-  for (const rlim_t room : {rlim_t{0}, rlim_t{30}, rlim_t{300}}) {  // nothing fits; half of the companion; the companion, but half of the map
+  for (const rlim_t room : {rlim_t{0}, rlim_t{30},
+                            rlim_t{300}}) {  // nothing fits; half of the companion; the companion, but half of the map
     base::Result<LoadedCompanion> written = LoadedCompanion{};
     {
       const FullDisk full(room);
@@ -112,7 +115,8 @@ TEST_F(Store, AFullDiskLeavesBothOldFilesWhole) {
     }
     ASSERT_FALSE(written.ok());
     EXPECT_EQ(written.error().exit_status(), 1);
-    EXPECT_NE(written.error().Text().find("a.motors: the file cannot be written: File too large"), std::string::npos) << written.error().Text();
+    EXPECT_NE(written.error().Text().find("a.motors: the file cannot be written: File too large"), std::string::npos)
+        << written.error().Text();
     EXPECT_EQ(Text(path), traffic_map::Figure18());
     EXPECT_EQ(Text(CompanionPath(path)), kBeside);
     EXPECT_EQ(Files(), 2u);
@@ -124,7 +128,11 @@ TEST_F(Store, BrokenForeignAndHugeFilesAreRefused) {
   EXPECT_NE(Open(At("none.motors")).error().Text().find("there is no such file"), std::string::npos);
   EXPECT_NE(Open(folder_->path()).error().Text().find("this is a folder"), std::string::npos);
   EXPECT_NE(Open(Written("a.png", traffic_map::kPng2x1)).error().Text().find("a.png"), std::string::npos);
-  EXPECT_NE(Open(Written("bad.motors", traffic_map::GoodMap(), "rodeira: motors/1\nheigths_m: {}\n")).error().Text().find("bad.motors.yaml:2"), std::string::npos);
+  EXPECT_NE(Open(Written("bad.motors", traffic_map::GoodMap(), "rodeira: motors/1\nheigths_m: {}\n"))
+                .error()
+                .Text()
+                .find("bad.motors.yaml:2"),
+            std::string::npos);
   const fs::path huge = At("huge.motors");
   std::ofstream(huge).put('p');
   fs::resize_file(huge, (std::uintmax_t{1} << 28) + 1);
@@ -141,10 +149,18 @@ TEST_F(Store, MutatedFilesAreRefusedOrEditable) {
       std::string& text = base::RandomBits({number, i, 1}) % 4 == 0 ? beside : bytes;
       const std::size_t at = base::RandomBits({number, i, 2}) % text.size();
       switch (base::RandomBits({number, i, 3}) % 4) {
-        case 0: text[at] = "0123456789,-pcl\n"[base::RandomBits({number, i, 4}) % 16]; break;
-        case 1: text.erase(at, base::RandomBits({number, i, 4}) % 9); break;
-        case 2: text.insert(at, text.substr(base::RandomBits({number, i, 4}) % text.size(), 20)); break;
-        default: text.resize(at); break;
+        case 0:
+          text[at] = "0123456789,-pcl\n"[base::RandomBits({number, i, 4}) % 16];
+          break;
+        case 1:
+          text.erase(at, base::RandomBits({number, i, 4}) % 9);
+          break;
+        case 2:
+          text.insert(at, text.substr(base::RandomBits({number, i, 4}) % text.size(), 20));
+          break;
+        default:
+          text.resize(at);
+          break;
       }
       if (text.empty()) text = "\n";
     }
@@ -155,7 +171,8 @@ TEST_F(Store, MutatedFilesAreRefusedOrEditable) {
     }
     ++opened_count;
     History history(opened.value().document);
-    for (const auto& lane : opened.value().document.map.lanes) (void)history.Do([&](Document& d) { return SetLane(d, lane.value); });
+    for (const auto& lane : opened.value().document.map.lanes)
+      (void)history.Do([&](Document& d) { return SetLane(d, lane.value); });
     (void)history.Do([](Document& d) { return Remove(d, {{}, {3}, {2}, {}}); });
     (void)history.Do([](Document& d) { return NewCurve(d, Straight({0, 0}, {9, 9})); });
     const auto saved = Save(history.document(), opened.value().companion, At("n.motors"));
@@ -176,7 +193,8 @@ TEST_F(Store, UnsavedWorkOutlivesAKilledEditor) {
   ASSERT_GE(child, 0);
   if (child == 0) {
     auto keeper = Keeper::Make(kept);
-    const bool good = keeper.ok() && keeper.value().Keep(document, "town.motors", 1).ok() && keeper.value().Keep(document, "town.motors", 1).ok();
+    const bool good = keeper.ok() && keeper.value().Keep(document, "town.motors", 1).ok() &&
+                      keeper.value().Keep(document, "town.motors", 1).ok();
     ::_exit(good ? 7 : 1);  // as if killed: nothing is cleaned up
   }
   int status = 0;

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/traffic/study.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "tests/common/editor/drawing.hpp"
 
 namespace rodeira::editor {
@@ -13,7 +13,8 @@ namespace {
 class ATemplate : public testing::TestWithParam<Template> {};
 
 TEST_P(ATemplate, IsWholeWhereverItIsPlaced) {
-  for (const TemplatePlace& place : {TemplatePlace{}, TemplatePlace{{-300.0, 250.0}, 0.7, 3.5, 25.0}, TemplatePlace{{40.0, 0.0}, -2.0, 2.75, 200.0}}) {
+  for (const TemplatePlace& place : {TemplatePlace{}, TemplatePlace{{-300.0, 250.0}, 0.7, 3.5, 25.0},
+                                     TemplatePlace{{40.0, 0.0}, -2.0, 2.75, 200.0}}) {
     History history(EmptyDocument());
     ExpectUndone(history, [&](Document& d) { return Place(d, GetParam(), place); });
     const auto findings = traffic_map::CheckMap(history.document().map, history.document().companion);
@@ -43,8 +44,13 @@ INSTANTIATE_TEST_SUITE_P(All, ATemplate, testing::Values(Template::kCrossing, Te
 TEST(Templates, TwoBesideEachOtherAreTwo) {
   History history(Parsed(traffic_map::GoodMap()));
   ASSERT_TRUE(history.Do([](Document& d) { return Place(d, Template::kMerge, {{0.0, 300.0}, 0.0, 3.25, 60.0}); }).ok());
-  ASSERT_TRUE(history.Do([](Document& d) { return Place(d, Template::kCrossing, {{400.0, 300.0}, 0.3, 3.25, 60.0}); }).ok());
-  for (const traffic_map::Finding& finding : traffic_map::CheckMap(history.document().map, history.document().companion)) EXPECT_NE(finding.severity, traffic_map::Severity::kError) << finding.Text();
+  ASSERT_TRUE(history.Do([](Document& d) {
+                       return Place(d, Template::kCrossing, {{400.0, 300.0}, 0.3, 3.25, 60.0});
+                     })
+                  .ok());
+  for (const traffic_map::Finding& finding :
+       traffic_map::CheckMap(history.document().map, history.document().companion))
+    EXPECT_NE(finding.severity, traffic_map::Severity::kError) << finding.Text();
 }
 
 }  // namespace

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <vector>
 
-#include "common/world/lanes/ring.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/world/lanes/ring.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -32,7 +32,8 @@ std::uint32_t TrackOf(const Agent& agent) {
   return agent.path[i].track;
 }
 
-// Drives a map and tells of each time that somebody's middle goes from one track onto another: told(before, after), the moments since he entered, oldest first.
+// Drives a map and tells of each time that somebody's middle goes from one track onto another: told(before, after), the
+// moments since he entered, oldest first.
 template <class Told>
 void WatchTracks(const std::string& map, double for_s, const Told& told) {
   TrafficSettings settings;
@@ -42,7 +43,8 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
   for (int i = 0; i * kStep_s < for_s; ++i) {
     model.Step(kStep_s, {});
     for (const AgentPose& pose : model.poses()) {
-      const Moment now{pose.trip, TrackOf(model.agent(pose.id)), FootprintOf(pose, model.traits(pose.id)).heading_rad, pose.speed_mps, model.LightsOf(pose)};
+      const Moment now{pose.trip, TrackOf(model.agent(pose.id)), FootprintOf(pose, model.traits(pose.id)).heading_rad,
+                       pose.speed_mps, model.LightsOf(pose)};
       auto& moments = past[pose.id];
       if (!moments.empty() && moments.back().trip != now.trip) moments.clear();
       moments.push_back(now);
@@ -52,8 +54,8 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
   }
 }
 
-// Whoever turns by more than 30° at a branch has indicated to that side, and to no other, for two seconds before he reaches it and until half way round; whoever goes
-// straight on has not.
+// Whoever turns by more than 30° at a branch has indicated to that side, and to no other, for two seconds before he
+// reaches it and until half way round; whoever goes straight on has not.
 TEST(CarLights, WhoTurnsIndicatesToThatSide) {
   for (const char* map : {"crossing", "town", "lights"}) {
     int left = 0, right = 0, straight = 0;
@@ -64,14 +66,18 @@ TEST(CarLights, WhoTurnsIndicatesToThatSide) {
       if (first < 40) return;  // too early to tell
       const std::uint32_t before = moments[first - 1].track;
       const auto& graph = model.graph();
-      if (graph[before].next.size() < 2 || graph[on].length_m() > 60.0 || lanes::OnRing(graph, on) || lanes::OnRing(graph, before)) return;
-      const double turned = std::remainder(moments.back().heading_rad - moments[first - 1].heading_rad, 2.0 * std::numbers::pi);
+      if (graph[before].next.size() < 2 || graph[on].length_m() > 60.0 || lanes::OnRing(graph, on) ||
+          lanes::OnRing(graph, before))
+        return;
+      const double turned =
+          std::remainder(moments.back().heading_rad - moments[first - 1].heading_rad, 2.0 * std::numbers::pi);
       const std::uint32_t says = std::fabs(turned) < 0.2 ? 0 : turned > 0.0 ? kLeft : kRight;
       if (std::fabs(turned) >= 0.2 && std::fabs(turned) < 0.55) return;
       (says == 0 ? straight : says == kLeft ? left : right) += 1;
       for (std::size_t k = first - 40; k < first + (moments.size() - first) / 2; ++k) {
         if (k < first && moments[k].track != before) continue;  // still in the last turn
-        ASSERT_EQ(moments[k].lights & (kLeft | kRight), says) << map << ", car " << id << ", " << (static_cast<double>(k) - static_cast<double>(first)) * kStep_s << " s";
+        ASSERT_EQ(moments[k].lights & (kLeft | kRight), says)
+            << map << ", car " << id << ", " << (static_cast<double>(k) - static_cast<double>(first)) * kStep_s << " s";
       }
     });
     EXPECT_GT(left, 3) << map;
@@ -93,8 +99,10 @@ TEST(CarLights, InARoundaboutWhoLeavesItIndicates) {
     }
     if (!from_ring || graph[before.track].next.size() < 2) return;
     ++(to_ring ? stays : leaves);
-    for (std::size_t k = moments.size() - 1; k-- > 0 && k + 11 > moments.size() && lanes::OnRing(graph, moments[k].track);) {
-      EXPECT_EQ(moments[k].lights & (kLeft | kRight), to_ring ? 0u : kRight) << "car " << id << (to_ring ? " stays" : " leaves");
+    for (std::size_t k = moments.size() - 1;
+         k-- > 0 && k + 11 > moments.size() && lanes::OnRing(graph, moments[k].track);) {
+      EXPECT_EQ(moments[k].lights & (kLeft | kRight), to_ring ? 0u : kRight)
+          << "car " << id << (to_ring ? " stays" : " leaves");
     }
   });
   EXPECT_GT(leaves, 10);
@@ -102,7 +110,8 @@ TEST(CarLights, InARoundaboutWhoLeavesItIndicates) {
   EXPECT_GT(enters, 10);
 }
 
-// On two lanes around a circle: whoever goes over from one to the other indicates to that side from the first hand's breadth on, and nobody else does.
+// On two lanes around a circle: whoever goes over from one to the other indicates to that side from the first hand's
+// breadth on, and nobody else does.
 TEST(CarLights, WhoChangesLanesIndicatesToThatSide) {
   constexpr double kRadius_m = 500.0, kAbout_m = 0.15;
   opendrive::RoadText road = CircleRoad(2.0 * std::numbers::pi * kRadius_m);
@@ -117,7 +126,8 @@ TEST(CarLights, WhoChangesLanesIndicatesToThatSide) {
   for (int i = 0; i < 2400; ++i) {
     model.Step(kStep_s, {});
     for (const AgentPose& pose : model.poses()) {
-      const double out = std::hypot(pose.p_WB_W.x(), pose.p_WB_W.y() - kRadius_m) - kRadius_m;  // to the right of the axis
+      const double out =
+          std::hypot(pose.p_WB_W.x(), pose.p_WB_W.y() - kRadius_m) - kRadius_m;  // to the right of the axis
       const double moved = out - before[pose.id];
       before[pose.id] = out;
       if (i == 0) continue;
@@ -134,7 +144,8 @@ TEST(CarLights, WhoChangesLanesIndicatesToThatSide) {
   EXPECT_GT(over, 200);
 }
 
-// Brake lights burn while somebody brakes harder than a lifted foot does, until he stands and as long as he does, and never while he gains speed.
+// Brake lights burn while somebody brakes harder than a lifted foot does, until he stands and as long as he does, and
+// never while he gains speed.
 TEST(CarLights, BrakeLightsBurnFromTheFootToTheStand) {
   TrafficSettings settings;
   settings.vehicles = 25;

@@ -1,5 +1,5 @@
-// Three at a crossing of whom each keeps the next one out: who turns right waits for room at his exit, another one wants to go straight on behind him, and a third one
-// comes across to the same exit.
+// Three at a crossing of whom each keeps the next one out: who turns right waits for room at his exit, another one
+// wants to go straight on behind him, and a third one comes across to the same exit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 
 #include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/traffic/restored.hpp"
+#include "tests/common/world/lanes/closed_grid.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -54,7 +54,8 @@ class Deadlock : public testing::Test {
       const std::uint32_t track = graph()[street].next[i].to;
       const auto& nodes = graph()[track].curve.nodes();
       const Eigen::Vector2d from = nodes.front().along_W.head<2>(), to = nodes.back().along_W.head<2>();
-      if (std::lround(from.x() * to.y() - from.y() * to.x()) == turn) return Way{street, track, graph()[track].next.front().to, i};
+      if (std::lround(from.x() * to.y() - from.y() * to.x()) == turn)
+        return Way{street, track, graph()[track].next.front().to, i};
     }
     return std::nullopt;
   }
@@ -63,7 +64,8 @@ class Deadlock : public testing::Test {
   double ZoneOf(std::uint32_t track, std::uint32_t other, lanes::ZoneKind kind, bool begins) const {
     for (const lanes::Zone& zone : model_->zones().zones()) {
       for (const std::size_t side : {0u, 1u}) {
-        if (zone.kind == kind && zone.track[side] == track && zone.track[1 - side] == other) return begins ? zone.in_m[side] : zone.out_m[side];
+        if (zone.kind == kind && zone.track[side] == track && zone.track[1 - side] == other)
+          return begins ? zone.in_m[side] : zone.out_m[side];
       }
     }
     ADD_FAILURE() << "no zone";
@@ -75,7 +77,9 @@ class Deadlock : public testing::Test {
   std::uint32_t TripFor(std::uint32_t id, const Way& way) const {
     const std::size_t ways = graph()[way.from].next.size();
     for (std::uint32_t trip = 0;; ++trip) {
-      if (static_cast<std::size_t>(static_cast<double>(ways) * base::RandomUniform({settings_.seed, id, kDrawLink, trip, 0})) == way.choice) return trip;
+      if (static_cast<std::size_t>(static_cast<double>(ways) *
+                                   base::RandomUniform({settings_.seed, id, kDrawLink, trip, 0})) == way.choice)
+        return trip;
     }
   }
 
@@ -92,7 +96,8 @@ class Deadlock : public testing::Test {
     if (front_m > end) agent.path.push_back({way->track, end, end, 0.0, 0.0, 1.0}), agent.links = 1;
   }
 
-  // One whose rear, when he stands a centimetre before his line, is clear of who goes straight on but for less than a centimetre.
+  // One whose rear, when he stands a centimetre before his line, is clear of who goes straight on but for less than a
+  // centimetre.
   std::optional<std::uint32_t> NearlyClear() const {
     const double clear = ZoneOf(right_.track, straight_.track, lanes::ZoneKind::kDiverge, false);
     for (std::uint32_t id = 0; id < kCars; ++id) {
@@ -114,7 +119,8 @@ class Deadlock : public testing::Test {
     return first;
   }
 
-  // Each of them comes to a street beyond the crossing within a minute after who blocks the exit drives on, and nobody touches anybody.
+  // Each of them comes to a street beyond the crossing within a minute after who blocks the exit drives on, and nobody
+  // touches anybody.
   void AllGoOn(const std::vector<std::uint32_t>& cars, std::uint32_t blocks, double blocks_until_s) {
     std::set<std::uint32_t> through;
     for (int i = 1; i * kStep_s < blocks_until_s + 60.0; ++i) {
@@ -123,7 +129,8 @@ class Deadlock : public testing::Test {
       const auto& poses = model_->poses();
       for (const AgentPose& a : poses) {
         for (const AgentPose& b : poses) {
-          const bool touch = a.id < b.id && driver::Overlap(FootprintOf(a, model_->traits(a.id)), FootprintOf(b, model_->traits(b.id)));
+          const bool touch = a.id < b.id && driver::Overlap(FootprintOf(a, model_->traits(a.id)),
+                                                            FootprintOf(b, model_->traits(b.id)));
           ASSERT_FALSE(touch) << a.id << " and " << b.id << " at " << i * kStep_s;
         }
       }
@@ -132,7 +139,8 @@ class Deadlock : public testing::Test {
         if (on == right_.to || on == straight_.to) through.insert(id);
       }
     }
-    for (const std::uint32_t id : cars) EXPECT_TRUE(through.contains(id)) << id << ", free after " << blocks_until_s << " s";
+    for (const std::uint32_t id : cars)
+      EXPECT_TRUE(through.contains(id)) << id << ", free after " << blocks_until_s << " s";
   }
 
   TrafficSettings settings_;
@@ -143,7 +151,8 @@ class Deadlock : public testing::Test {
   std::optional<std::uint32_t> nearly_clear_;
 };
 
-// Nobody is let in behind who stands at a line with his rear in the way, be it by a centimetre that he would still have to his line.
+// Nobody is let in behind who stands at a line with his rear in the way, be it by a centimetre that he would still have
+// to his line.
 TEST_F(Deadlock, NobodyIsLetInBehindWhoStandsInHisWayByACentimetre) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_;
@@ -163,7 +172,8 @@ TEST_F(Deadlock, NobodyIsLetInBehindWhoStandsInHisWayByACentimetre) {
   EXPECT_GT(front, street - 5.0);
 }
 
-// As it came about: the exit is full; the one behind comes; the third one has waited longest and goes first when there is room. All get through.
+// As it came about: the exit is full; the one behind comes; the third one has waited longest and goes first when there
+// is room. All get through.
 TEST_F(Deadlock, ThreeWhoWaitForRoomAllGoOn) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_;
@@ -171,7 +181,8 @@ TEST_F(Deadlock, ThreeWhoWaitForRoomAllGoOn) {
   Put(right, right_.track, RightLine() - kAtLine_m);
   agents_[right].waited_s = 5.0;
   Put(behind, straight_.from, graph()[straight_.from].length_m() - 20.0, 5.0, &straight_);
-  Put(across, across_.from, graph()[across_.from].length_m() + FirstZone(across_.track) - kLine_m - kAtLine_m, 0.0, &across_);
+  Put(across, across_.from, graph()[across_.from].length_m() + FirstZone(across_.track) - kLine_m - kAtLine_m, 0.0,
+      &across_);
   agents_[across].waited_s = 52.0;
   Put(blocks, right_.to, Length(blocks) + 2.0);
   agents_[blocks].brake_mps2 = 2.0;
@@ -181,7 +192,8 @@ TEST_F(Deadlock, ThreeWhoWaitForRoomAllGoOn) {
   }
 }
 
-// Who is behind has been let in although he cannot go, and the third one after him, who waits for him: the chain is closed, and he gives back what he has not come into.
+// Who is behind has been let in although he cannot go, and the third one after him, who waits for him: the chain is
+// closed, and he gives back what he has not come into.
 TEST_F(Deadlock, WhoHasBeenLetInAndCannotGoGivesItBackWhereTheChainCloses) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_, behind = (right + 1) % kCars, across = (right + 2) % kCars;
@@ -189,7 +201,8 @@ TEST_F(Deadlock, WhoHasBeenLetInAndCannotGoGivesItBackWhereTheChainCloses) {
   ASSERT_LT(rear, ZoneOf(right_.track, straight_.track, lanes::ZoneKind::kDiverge, false));
   Put(right, right_.track, RightLine() - kAtLine_m);
   Put(behind, straight_.from, street + rear - kStands_m, 0.0, &straight_);
-  Put(across, across_.track, ZoneOf(across_.track, straight_.track, lanes::ZoneKind::kCross, true) - kLine_m - kAtLine_m);
+  Put(across, across_.track,
+      ZoneOf(across_.track, straight_.track, lanes::ZoneKind::kCross, true) - kLine_m - kAtLine_m);
   agents_[behind].granted_m = street + LastZone(straight_.track);
   agents_[behind].grants = {{agents_[behind].granted_m, 1, true}};
   agents_[across].granted_m = LastZone(across_.track);

@@ -24,12 +24,15 @@ inline TrafficSettings Settings(const std::string& yaml, std::uint64_t seed = 1)
 // A road of two lanes to the east; the right one goes on into an exit, the left one straight on.
 inline std::shared_ptr<const network::Network> Exit(double length_m, const std::string& more = "") {
   const auto lane = [](int id, int to, double width, const char* mark) {
-    return fmt::format("<lane id=\"{}\" type=\"driving\"><link>{}</link><width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>"
-                       "<roadMark sOffset=\"0\" type=\"{}\" color=\"white\" width=\"0.12\"/><speed sOffset=\"0\" max=\"20\" unit=\"m/s\"/></lane>",
-                       id, to == 0 ? "" : fmt::format("<successor id=\"{}\"/>", to), width, mark);
+    return fmt::format(
+        "<lane id=\"{}\" type=\"driving\"><link>{}</link><width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>"
+        "<roadMark sOffset=\"0\" type=\"{}\" color=\"white\" width=\"0.12\"/><speed sOffset=\"0\" max=\"20\" "
+        "unit=\"m/s\"/></lane>",
+        id, to == 0 ? "" : fmt::format("<successor id=\"{}\"/>", to), width, mark);
   };
   const auto line = [](double x, double y, double heading, double length) {
-    return fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y, heading, length);
+    return fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y, heading,
+                       length);
   };
   opendrive::RoadText road, on, off;
   road.left = on.left = off.left = "";
@@ -46,8 +49,10 @@ inline std::shared_ptr<const network::Network> Exit(double length_m, const std::
   on.link = off.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>";
   const std::string junction =
       "<junction id=\"9\" name=\"exit\" type=\"direct\">"
-      "<connection id=\"0\" incomingRoad=\"1\" linkedRoad=\"2\" contactPoint=\"start\"><laneLink from=\"-1\" to=\"-1\"/></connection>"
-      "<connection id=\"1\" incomingRoad=\"1\" linkedRoad=\"3\" contactPoint=\"start\"><laneLink from=\"-2\" to=\"-1\"/></connection></junction>";
+      "<connection id=\"0\" incomingRoad=\"1\" linkedRoad=\"2\" contactPoint=\"start\"><laneLink from=\"-1\" "
+      "to=\"-1\"/></connection>"
+      "<connection id=\"1\" incomingRoad=\"1\" linkedRoad=\"3\" contactPoint=\"start\"><laneLink from=\"-2\" "
+      "to=\"-1\"/></connection></junction>";
   on.link = off.link = "<predecessor elementType=\"junction\" elementId=\"9\"/>";
   return opendrive::MustRead(opendrive::Document(road.Text() + on.Text() + off.Text() + junction + more));
 }

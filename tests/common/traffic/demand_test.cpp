@@ -7,8 +7,8 @@
 #include <set>
 
 #include "common/traffic/study.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/demand_road.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -37,11 +37,17 @@ std::string RefusedSettings(const std::string& yaml) {
   return status.ok() ? "not refused" : status.error().Text();
 }
 
-std::string RoadOf(const TrafficModel& model, const AgentPose& pose) { return model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id(); }
+std::string RoadOf(const TrafficModel& model, const AgentPose& pose) {
+  return model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id();
+}
 
-// At every step all who were given a vehicle wait, drive, or have ended; who has arrived and was given none finds none free.
+// At every step all who were given a vehicle wait, drive, or have ended; who has arrived and was given none finds none
+// free.
 TEST(Demand, VehiclesAreConserved) {
-  const TrafficSettings settings = Settings("vehicles: 30\nflows:\n  - {every_s: [3, 8]}\n  - {lane: \"1:-1\", vehicles_per_h: 600}\n  - {lane: \"3:-1\", by_hour: [500], arrivals: even, to_s: 200}\n", 4);
+  const TrafficSettings settings = Settings(
+      "vehicles: 30\nflows:\n  - {every_s: [3, 8]}\n  - {lane: \"1:-1\", vehicles_per_h: 600}\n  - {lane: \"3:-1\", "
+      "by_hour: [500], arrivals: even, to_s: 200}\n",
+      4);
   TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
   EXPECT_EQ(model.on_road() + model.waiting(), 0u);
   std::set<std::size_t> busy;
@@ -63,7 +69,9 @@ TEST(Demand, VehiclesAreConserved) {
 
 // Who enters a free road enters when he arrives, and enough of them: Poisson's number of them within four deviations.
 TEST(Demand, ComesAsTheFlowSays) {
-  TrafficModel model = TrafficModel::Make(Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 400}\n"), lanes::MapNetwork("ramp"), {}).value();
+  TrafficModel model =
+      TrafficModel::Make(Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 400}\n"), lanes::MapNetwork("ramp"), {})
+          .value();
   for (int i = 0; i < 36000; ++i) model.Step(kStep_s, {});
   EXPECT_NEAR(static_cast<double>(model.flows()[0].arrived), 200.0, 4.0 * std::sqrt(200.0));
   EXPECT_EQ(model.flows()[0].given, model.flows()[0].arrived);
@@ -89,7 +97,9 @@ TEST(Demand, RoutesAreDriven) {
   for (const std::uint32_t track : open) {
     if (graph[track].next.empty()) to = name(track);
   }
-  const std::string yaml = fmt::format("routes: {{far: [\"{}\", \"{}\"]}}\nflows:\n  - {{lane: \"{}:{}\", vehicles_per_h: 300, route: far}}\n", via, to, name(from), graph[from].lane.lane);
+  const std::string yaml = fmt::format(
+      "routes: {{far: [\"{}\", \"{}\"]}}\nflows:\n  - {{lane: \"{}:{}\", vehicles_per_h: 300, route: far}}\n", via, to,
+      name(from), graph[from].lane.lane);
   TrafficModel model = TrafficModel::Make(Settings(yaml), network, {}).value();
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>> seen;
   for (int i = 0; i < 12000; ++i) {
@@ -121,8 +131,10 @@ TEST(Demand, TurnsHaveTheirShares) {
   const auto name = [&](std::uint32_t track) { return network->roads()[graph[track].lane.road].id(); };
   const auto& next = graph[from].next;
   const std::string lane = fmt::format("{}:{}", name(from), graph[from].lane.lane);
-  const std::string yaml = fmt::format("flows:\n  - {{lane: \"{0}\", vehicles_per_h: 700}}\nturns:\n  - {{lane: \"{0}\", shares: {{\"{1}\": 6, \"{2}\": 3, \"{3}\": 1}}}}\n",
-                                       lane, name(next[0].to), name(next[1].to), name(next[2].to));
+  const std::string yaml = fmt::format(
+      "flows:\n  - {{lane: \"{0}\", vehicles_per_h: 700}}\nturns:\n  - {{lane: \"{0}\", shares: {{\"{1}\": 6, \"{2}\": "
+      "3, \"{3}\": 1}}}}\n",
+      lane, name(next[0].to), name(next[1].to), name(next[2].to));
   TrafficModel model = TrafficModel::Make(Settings(yaml), network, {}).value();
   std::map<std::string, std::set<std::pair<std::uint32_t, std::uint32_t>>> taken;
   for (int i = 0; i < 60000; ++i) {
@@ -135,26 +147,31 @@ TEST(Demand, TurnsHaveTheirShares) {
   const double shares[] = {0.6, 0.3, 0.1};
   for (std::size_t i = 0; i < 3; ++i) {
     const double share = shares[i];
-    EXPECT_NEAR(static_cast<double>(taken[name(next[i].to)].size()), share * all, 4.0 * std::sqrt(all * share * (1.0 - share))) << i;
+    EXPECT_NEAR(static_cast<double>(taken[name(next[i].to)].size()), share * all,
+                4.0 * std::sqrt(all * share * (1.0 - share)))
+        << i;
   }
 }
 
-// Both lanes full of drivers of whom half want over to the other lane before it parts: nearly all get there, who does not is counted, and nobody touches
-// anybody.
+// Both lanes full of drivers of whom half want over to the other lane before it parts: nearly all get there, who does
+// not is counted, and nobody touches anybody.
 TEST(Demand, LanesAreChangedForARoute) {
   const auto network = Exit(900.0);
   StudySettings study;
-  study.traffic = Settings("routes: {on: [\"2\"], off: [\"3\"]}\nflows:\n"
-                           "  - {lane: \"1:-1\", vehicles_per_h: 350, route: off}\n  - {lane: \"1:-1\", vehicles_per_h: 350, route: on}\n"
-                           "  - {lane: \"1:-2\", vehicles_per_h: 350, route: on}\n  - {lane: \"1:-2\", vehicles_per_h: 350, route: off}\n", 2);
+  study.traffic = Settings(
+      "routes: {on: [\"2\"], off: [\"3\"]}\nflows:\n"
+      "  - {lane: \"1:-1\", vehicles_per_h: 350, route: off}\n  - {lane: \"1:-1\", vehicles_per_h: 350, route: on}\n"
+      "  - {lane: \"1:-2\", vehicles_per_h: 350, route: on}\n  - {lane: \"1:-2\", vehicles_per_h: 350, route: off}\n",
+      2);
   study.duration_s = 900.0;
   study.step_s = 0.05;
   std::uint64_t ended = 0, missed = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::int32_t, std::string>> last;
   const StudyResult r = RunStudy(study, network, [&](const StudyMoment& moment) {
-    ended = moment.model.ended(), missed = moment.model.missed();
-    for (const AgentPose& pose : moment.model.poses()) last[{pose.id, pose.trip}] = {moment.model.agent(pose.id).flow, RoadOf(moment.model, pose)};
-  }).value();
+                          ended = moment.model.ended(), missed = moment.model.missed();
+                          for (const AgentPose& pose : moment.model.poses())
+                            last[{pose.id, pose.trip}] = {moment.model.agent(pose.id).flow, RoadOf(moment.model, pose)};
+                        }).value();
   int right = 0, wrong = 0;
   for (const auto& [key, way] : last) {
     if (way.second == "1") continue;
@@ -183,12 +200,16 @@ TEST(Demand, TheMixIsWhatItSays) {
       EXPECT_LT(traits.idm.acceleration_mps2, 1.0);
     }
   }
-  for (const auto& [kind, share] : std::map<VehicleKind, double>{{VehicleKind::kCar, 0.7}, {VehicleKind::kVan, 0.1}, {VehicleKind::kLorry, 0.15}, {VehicleKind::kBus, 0.05}}) {
+  for (const auto& [kind, share] : std::map<VehicleKind, double>{{VehicleKind::kCar, 0.7},
+                                                                 {VehicleKind::kVan, 0.1},
+                                                                 {VehicleKind::kLorry, 0.15},
+                                                                 {VehicleKind::kBus, 0.05}}) {
     EXPECT_NEAR(count[kind], 4000.0 * share, 4.0 * std::sqrt(4000.0 * share * (1.0 - share)));
   }
 }
 
-// Lorries and buses turn through crossings and a roundabout among cars without touching anybody or making anybody brake hard.
+// Lorries and buses turn through crossings and a roundabout among cars without touching anybody or making anybody brake
+// hard.
 TEST(Demand, LongVehiclesDriveTheMaps) {
   for (const std::string map : {"crossing", "roundabout", "town", "ramp", "overpass"}) {
     StudySettings study;
@@ -206,7 +227,10 @@ TEST(Demand, LongVehiclesDriveTheMaps) {
 }
 
 TEST(Demand, RestoredItGoesOnWithTheSameBits) {
-  const TrafficSettings settings = Settings("vehicles: 40\nmix: {car: 80, lorry: 20}\nflows:\n  - {every_s: [1, 3]}\n  - {lane: \"1:-1\", vehicles_per_h: 300, mix: {bus: 1}}\n", 8);
+  const TrafficSettings settings = Settings(
+      "vehicles: 40\nmix: {car: 80, lorry: 20}\nflows:\n  - {every_s: [1, 3]}\n  - {lane: \"1:-1\", vehicles_per_h: "
+      "300, mix: {bus: 1}}\n",
+      8);
   TrafficModel a = TrafficModel::Make(settings, lanes::MapNetwork("town"), {}).value();
   for (int i = 0; i < 3000; ++i) a.Step(kStep_s, {});
   base::StateWriter writer;
@@ -227,11 +251,21 @@ TEST(Demand, RestoredItGoesOnWithTheSameBits) {
 }
 
 TEST(Demand, WhatIsWrongIsSaid) {
-  const auto flow = [](const std::string& lane, const std::string& more = "") { return "flows:\n  - {lane: \"" + lane + "\", vehicles_per_h: 100" + more + "}\n"; };
-  EXPECT_NE(RefusedBy("town", flow("999:-1")).find("t.yaml:3: '999:-1' was found; a drivable lane as ROAD:LANE"), std::string::npos) << RefusedBy("town", flow("999:-1"));
-  EXPECT_NE(RefusedBy("town", flow("1:-1", ", route: west")).find("t.yaml:3: the route 'west' does not exist"), std::string::npos) << RefusedBy("town", flow("1:-1", ", route: west"));
-  EXPECT_NE(RefusedBy("town", "routes: {west: [\"nowhere\"]}\n" + flow("1:-1", ", route: west")).find("'nowhere' was found"), std::string::npos);
-  EXPECT_NE(RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"1\": 1}}\n" + flow("1:-1")).find("does not go on into '1'"), std::string::npos);
+  const auto flow = [](const std::string& lane, const std::string& more = "") {
+    return "flows:\n  - {lane: \"" + lane + "\", vehicles_per_h: 100" + more + "}\n";
+  };
+  EXPECT_NE(RefusedBy("town", flow("999:-1")).find("t.yaml:3: '999:-1' was found; a drivable lane as ROAD:LANE"),
+            std::string::npos)
+      << RefusedBy("town", flow("999:-1"));
+  EXPECT_NE(RefusedBy("town", flow("1:-1", ", route: west")).find("t.yaml:3: the route 'west' does not exist"),
+            std::string::npos)
+      << RefusedBy("town", flow("1:-1", ", route: west"));
+  EXPECT_NE(
+      RefusedBy("town", "routes: {west: [\"nowhere\"]}\n" + flow("1:-1", ", route: west")).find("'nowhere' was found"),
+      std::string::npos);
+  EXPECT_NE(RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"1\": 1}}\n" + flow("1:-1"))
+                .find("does not go on into '1'"),
+            std::string::npos);
   // Where traffic enters nobody comes from elsewhere.
   const auto network = lanes::MapNetwork("town");
   const lanes::Graph graph(*network);
@@ -241,24 +275,38 @@ TEST(Demand, WhatIsWrongIsSaid) {
   }
   ASSERT_GE(starts.size(), 2u);
   const std::string there = "routes: {back: [\"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
-  EXPECT_NE(RefusedBy("town", there).find("no way leads from there to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", there);
-  const std::string between = "routes: {back: [\"" + starts[0] + "\", \"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
-  EXPECT_NE(RefusedBy("town", between).find("no way leads from '" + starts[0] + "' on to '" + starts[1] + "'"), std::string::npos) << RefusedBy("town", between);
+  EXPECT_NE(RefusedBy("town", there).find("no way leads from there to '" + starts[1] + "'"), std::string::npos)
+      << RefusedBy("town", there);
+  const std::string between =
+      "routes: {back: [\"" + starts[0] + "\", \"" + starts[1] + "\"]}\n" + flow(starts[0] + ":-1", ", route: back");
+  EXPECT_NE(RefusedBy("town", between).find("no way leads from '" + starts[0] + "' on to '" + starts[1] + "'"),
+            std::string::npos)
+      << RefusedBy("town", between);
   const std::string way = WayOnFrom("ramp", "1");
   const auto twice = [&](const std::string& second) {
-    return RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"" + way + "\": 1}}\n  - {lane: \"" + second + "\", shares: {\"" + way + "\": 1}}\n" + flow("1:-1"));
+    return RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"" + way + "\": 1}}\n  - {lane: \"" + second +
+                                 "\", shares: {\"" + way + "\": 1}}\n" + flow("1:-1"));
   };
-  for (const std::string second : {"1:-1", "1"}) EXPECT_EQ(twice(second), "t.yaml:4: the lane '" + second + "' has turns already, as '1:-1' in t.yaml:3; one item a lane was expected");
+  for (const std::string second : {"1:-1", "1"})
+    EXPECT_EQ(twice(second), "t.yaml:4: the lane '" + second +
+                                 "' has turns already, as '1:-1' in t.yaml:3; one item a lane was expected");
   const std::string one_of = "one of 'vehicles_per_h', 'by_hour' and 'every_s' was expected";
   EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a}\n"), "t.yaml:2: 'lane' was found; " + one_of);
   EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, rate: 4}\n"), "t.yaml:2: 'lane' and 'rate' were found; " + one_of);
-  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_hour: 400\n"), "t.yaml:3: 'vehicles_per_hour' was found; " + one_of + "; did you mean 'vehicles_per_h'?");
-  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_h: 400\n    by_hour: [4]\n"), "t.yaml:4: 'vehicles_per_h' and 'by_hour' were found; " + one_of);
-  EXPECT_EQ(RefusedSettings("flows:\n  - {every_s: [3, 8], by_hour: [4], vehicles_per_h: 1}\n"), "t.yaml:2: 'vehicles_per_h', 'by_hour' and 'every_s' were found; " + one_of);
-  EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n"), "t.yaml:2: [8, 3] was found; the shortest and the longest gap, as [3, 8], were expected");
-  EXPECT_EQ(RefusedSettings("vehicles: 3\nspeed_factor_low: 1.5\n"), "t.yaml:2: 'speed_factor_high' is 1, below 'speed_factor_low', which is 1.5");
-  EXPECT_EQ(RefusedSettings("speed_factor_low: 0.9\nspeed_factor_high: 0.8\n"), "t.yaml:2: 'speed_factor_high' is 0.8, below 'speed_factor_low', which is 0.9");
-  EXPECT_EQ(RefusedSettings("pedestrians:\n  per_hour: 3\n  slowest_mps: 2\n"), "t.yaml:3: 'fastest_mps' is 1.5, below 'slowest_mps', which is 2");
+  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_hour: 400\n"),
+            "t.yaml:3: 'vehicles_per_hour' was found; " + one_of + "; did you mean 'vehicles_per_h'?");
+  EXPECT_EQ(RefusedSettings("flows:\n  - lane: a\n    vehicles_per_h: 400\n    by_hour: [4]\n"),
+            "t.yaml:4: 'vehicles_per_h' and 'by_hour' were found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - {every_s: [3, 8], by_hour: [4], vehicles_per_h: 1}\n"),
+            "t.yaml:2: 'vehicles_per_h', 'by_hour' and 'every_s' were found; " + one_of);
+  EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n"),
+            "t.yaml:2: [8, 3] was found; the shortest and the longest gap, as [3, 8], were expected");
+  EXPECT_EQ(RefusedSettings("vehicles: 3\nspeed_factor_low: 1.5\n"),
+            "t.yaml:2: 'speed_factor_high' is 1, below 'speed_factor_low', which is 1.5");
+  EXPECT_EQ(RefusedSettings("speed_factor_low: 0.9\nspeed_factor_high: 0.8\n"),
+            "t.yaml:2: 'speed_factor_high' is 0.8, below 'speed_factor_low', which is 0.9");
+  EXPECT_EQ(RefusedSettings("pedestrians:\n  per_hour: 3\n  slowest_mps: 2\n"),
+            "t.yaml:3: 'fastest_mps' is 1.5, below 'slowest_mps', which is 2");
   const std::string nowhere = RefusedBy("ramp", "vehicles: 3\npedestrians: {per_hour: 60}\n");
   EXPECT_EQ(nowhere.find("t.yaml:3: the network '"), 0u) << nowhere;
   EXPECT_NE(RefusedSettings("flows:\n  - {lane: a, vehicles_per_h: -3}\n").find("t.yaml:2"), std::string::npos);
@@ -266,16 +314,21 @@ TEST(Demand, WhatIsWrongIsSaid) {
   EXPECT_NE(RefusedSettings("mix: {car: 0}\n").find("no kind of vehicle"), std::string::npos);
 }
 
-// A car a second wants to come onto a lane. By MOTORS' rule each is let in in the first step in which the first five metres, or its own length and 0.4 m, are free of
-// everybody's rear, told from the poses; otherwise later, when it need not brake.
+// A car a second wants to come onto a lane. By MOTORS' rule each is let in in the first step in which the first five
+// metres, or its own length and 0.4 m, are free of everybody's rear, told from the poses; otherwise later, when it need
+// not brake.
 TEST(Demand, BySourcesRuleWhoWaitsEntersWhereFiveMetresAreFree) {
   opendrive::RoadText road;
   road.length = 800.0;
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"800\"><line/></geometry>";
   road.left = "";
-  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"8\" unit=\"m/s\"/></lane>";
+  road.right =
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" "
+      "max=\"8\" unit=\"m/s\"/></lane>";
   const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
-  const std::string flows = "vehicles: 300\nmix: {car: 2, van: 1, lorry: 1}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 3600, arrivals: even}\n";
+  const std::string flows =
+      "vehicles: 300\nmix: {car: 2, van: 1, lorry: 1}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 3600, arrivals: "
+      "even}\n";
   std::map<std::string, int> entered;
   std::map<std::string, double> closest_m;  // to who is ahead, when somebody enters
   for (const auto& [rule, free_m] : {std::pair{"safe", 0.0}, {"free", 5.0}, {"free, free_m: 9", 9.0}}) {
@@ -295,8 +348,10 @@ TEST(Demand, BySourcesRuleWhoWaitsEntersWhereFiveMetresAreFree) {
       std::optional<std::uint32_t> came;
       for (const AgentPose& pose : model.poses()) {
         now.insert(pose.id);
-        if (!before.contains(pose.id)) came = pose.id;
-        else nearest = std::min(nearest, pose.p_WB_W.x() - 0.5 * model.traits(pose.id).length_m);
+        if (!before.contains(pose.id))
+          came = pose.id;
+        else
+          nearest = std::min(nearest, pose.p_WB_W.x() - 0.5 * model.traits(pose.id).length_m);
       }
       before = now;
       if (came) {

@@ -6,7 +6,8 @@
 
 namespace rodeira::traffic {
 
-// Kolmogorov and Smirnov: the largest distance of two distributions stays below 1.63/sqrt(n) in 99 of 100 samples of the one.
+// Kolmogorov and Smirnov: the largest distance of two distributions stays below 1.63/sqrt(n) in 99 of 100 samples of
+// the one.
 template <class Distribution>
 inline double Distance(const std::vector<double>& sorted, const Distribution& distribution) {
   double most = 0.0;

@@ -28,13 +28,14 @@ double FullLoad(double radps) {
   const double rpm = radps / kRpm;
   if (rpm < kCurve[0][0]) return kCurve[0][1] * rpm / kCurve[0][0];
   for (std::size_t i = 1; i < kCurve.size(); ++i) {
-    if (rpm <= kCurve[i][0]) return std::lerp(kCurve[i - 1][1], kCurve[i][1], (rpm - kCurve[i - 1][0]) / (kCurve[i][0] - kCurve[i - 1][0]));
+    if (rpm <= kCurve[i][0])
+      return std::lerp(kCurve[i - 1][1], kCurve[i][1], (rpm - kCurve[i - 1][0]) / (kCurve[i][0] - kCurve[i - 1][0]));
   }
   return kCurve.back()[1];
 }
 
-// Newton's second law: what the engine gives through the gears less air, rolling and slope is m a, wherever clutch and brake are shut and
-// the throttle is neither.
+// Newton's second law: what the engine gives through the gears less air, rolling and slope is m a, wherever clutch and
+// brake are shut and the throttle is neither.
 TEST(Drivetrain, TheEngineMovesTheCar) {
   constexpr std::array<double, 5> kGears{3.46, 1.96, 1.39, 1.03, 0.85};
   const dynamics::BicycleSettings car = Car();
@@ -51,9 +52,12 @@ TEST(Drivetrain, TheEngineMovesTheCar) {
           EXPECT_LE(d.engine_radps, 6500.0 * kRpm);
         }
         const double slope = std::atan(grade);
-        if (d.throttle < 1.0 && d.brake < 1.0) EXPECT_NEAR(AccelerationOf(car, d, v, grade), a, 1e-12);
-        else EXPECT_LT(AccelerationOf(car, d, v, grade), a);
-        const double wanted = 1050.0 * (a + 9.81 * (std::sin(slope) + 0.012 * std::cos(slope))) + 0.5 * 1.2 * 0.5 * v * v;
+        if (d.throttle < 1.0 && d.brake < 1.0)
+          EXPECT_NEAR(AccelerationOf(car, d, v, grade), a, 1e-12);
+        else
+          EXPECT_LT(AccelerationOf(car, d, v, grade), a);
+        const double wanted =
+            1050.0 * (a + 9.81 * (std::sin(slope) + 0.012 * std::cos(slope))) + 0.5 * 1.2 * 0.5 * v * v;
         if (d.throttle == 0.0) {
           ++overrun;
           EXPECT_LT(wanted, 0.0);
@@ -101,8 +105,9 @@ struct Changes {
   }
 };
 
-// No change up is undone within a second while the demand stays: neither where the engine is at its limit uphill, nor where a foot that trembles by
-// 0.02 m/s² and a speed that swings by two parts in a hundred come and go over the bounds of a gear, in no body on no grade.
+// No change up is undone within a second while the demand stays: neither where the engine is at its limit uphill, nor
+// where a foot that trembles by 0.02 m/s² and a speed that swings by two parts in a hundred come and go over the bounds
+// of a gear, in no body on no grade.
 TEST(Drivetrain, DoesNotHuntBetweenGears) {
   constexpr double kStep_s = 0.01;
   int up = 0, down = 0;
@@ -127,7 +132,8 @@ TEST(Drivetrain, DoesNotHuntBetweenGears) {
         Changes changes;
         for (int i = 0; i < 2000; ++i) {
           const double phase = 2.0 * std::numbers::pi * i * kStep_s;
-          const Driving next = DriveOn(car, driving, mean * (1.0 + 0.02 * std::sin(1.9 * phase)), 0.3 + 0.02 * std::sin(1.3 * phase), grade, kStep_s);
+          const Driving next = DriveOn(car, driving, mean * (1.0 + 0.02 * std::sin(1.9 * phase)),
+                                       0.3 + 0.02 * std::sin(1.3 * phase), grade, kStep_s);
           if (i > 0) changes.Add(i * kStep_s, next.gear - driving.gear);
           driving = next;
         }
@@ -139,7 +145,8 @@ TEST(Drivetrain, DoesNotHuntBetweenGears) {
   EXPECT_GT(down, 0);
 }
 
-// A foot that is lifted for a moment changes no gear; one that stays on the throttle comes to the highest gear after the pause.
+// A foot that is lifted for a moment changes no gear; one that stays on the throttle comes to the highest gear after
+// the pause.
 TEST(Drivetrain, ALiftedFootChangesNoGear) {
   const dynamics::BicycleSettings car = Car();
   Driving driving = DrivingFor(car, 12.0, 1.2, 0.0);
@@ -154,7 +161,8 @@ TEST(Drivetrain, ALiftedFootChangesNoGear) {
   EXPECT_EQ(driving.gear, pulls);
 }
 
-// Willans' line through the engine: burnt power = (net + drag) / efficiency, with the drag alone while idling, and nothing in overrun.
+// Willans' line through the engine: burnt power = (net + drag) / efficiency, with the drag alone while idling, and
+// nothing in overrun.
 TEST(Drivetrain, FuelIsWillansLine) {
   const dynamics::BicycleSettings car = Car();
   const double at_50 = [&] {

@@ -10,12 +10,15 @@
 
 namespace rodeira::traffic {
 
-// How long anybody stands before a crossing, first at its line, while there is room at the exit that he takes: told by the published poses and the lanes
-// alone, apart from what drivers take for room. Streets are the tracks that are not short; an exit is the next street on a way; there is room on it while
-// no rectangle lies on its first metres, as many as the car needs to stand there clear of who else comes into it. Which exit he takes is what he does later; of who still stands in the end any counts.
+// How long anybody stands before a crossing, first at its line, while there is room at the exit that he takes: told by
+// the published poses and the lanes alone, apart from what drivers take for room. Streets are the tracks that are not
+// short; an exit is the next street on a way; there is room on it while no rectangle lies on its first metres, as many
+// as the car needs to stand there clear of who else comes into it. Which exit he takes is what he does later; of who
+// still stands in the end any counts.
 class ExitRoom {
  public:
-  ExitRoom(const lanes::Graph& graph, std::size_t vehicles, double look_s) : graph_(&graph), look_s_(look_s), cars_(vehicles), exits_(graph.tracks().size()) {
+  ExitRoom(const lanes::Graph& graph, std::size_t vehicles, double look_s)
+      : graph_(&graph), look_s_(look_s), cars_(vehicles), exits_(graph.tracks().size()) {
     for (std::uint32_t track = 0; track < exits_.size(); ++track) {
       if (IsStreet(track)) FindExits(track, track);
     }
@@ -32,7 +35,9 @@ class ExitRoom {
       double nearest = 1.0;
       for (const lanes::Graph::Beside& beside : graph_->TracksAt(pose.p_WB_W.head<2>(), nearest)) {
         const lanes::Track& track = (*graph_)[beside.track];
-        if (track.lane.road != static_cast<std::uint32_t>(pose.road) || track.lane.lane != pose.lane || std::fabs(beside.foot.offset_m) >= nearest) continue;
+        if (track.lane.road != static_cast<std::uint32_t>(pose.road) || track.lane.lane != pose.lane ||
+            std::fabs(beside.foot.offset_m) >= nearest)
+          continue;
         nearest = std::fabs(beside.foot.offset_m);
         on[pose.id] = beside.track, at[pose.id] = beside.foot.d_m;
       }
@@ -49,8 +54,10 @@ class ExitRoom {
         car = {track, {}, {}};
       }
       if (car.street != track) continue;
-      if (pose.speed_mps > kAtRest_mps) car.stands_s.clear();
-      else if (at[pose.id] >= farthest.at(track)) Stand(car, model.traits(pose.id).length_m);
+      if (pose.speed_mps > kAtRest_mps)
+        car.stands_s.clear();
+      else if (at[pose.id] >= farthest.at(track))
+        Stand(car, model.traits(pose.id).length_m);
     }
   }
 
@@ -65,7 +72,9 @@ class ExitRoom {
 
  private:
   static constexpr double kStreet_m = 50.0, kAtRest_mps = 0.05, kEvery_m = 0.5;
-  static constexpr double kShared_m = 3.0, kGap_m = 2.5;  // ways into a street are one from so far on; before and behind who stands there
+  static constexpr double kShared_m = 3.0,
+                          kGap_m =
+                              2.5;  // ways into a street are one from so far on; before and behind who stands there
 
   struct Car {
     std::uint32_t street = 0xFFFFFFFF;
@@ -76,8 +85,10 @@ class ExitRoom {
 
   void FindExits(std::uint32_t street, std::uint32_t from) {
     for (const lanes::Link& link : (*graph_)[from].next) {
-      if (IsStreet(link.to)) exits_[street].push_back(link.to);
-      else FindExits(street, link.to);
+      if (IsStreet(link.to))
+        exits_[street].push_back(link.to);
+      else
+        FindExits(street, link.to);
     }
   }
 
@@ -92,9 +103,11 @@ class ExitRoom {
   bool HasRoom(std::uint32_t exit, double to_m) const {
     for (double d = 0.0; d <= to_m; d += kEvery_m) {
       const lanes::CurvePoint point = (*graph_)[exit].curve.At(d);
-      const driver::Footprint spot{0, point.p_W.x(), point.p_W.y(), std::atan2(point.ahead_W.y(), point.ahead_W.x()), 0.0, kEvery_m, kEvery_m};
+      const driver::Footprint spot{0,   point.p_W.x(), point.p_W.y(), std::atan2(point.ahead_W.y(), point.ahead_W.x()),
+                                   0.0, kEvery_m,      kEvery_m};
       for (const driver::Footprint& body : bodies_) {
-        if (std::hypot(body.x_m - spot.x_m, body.y_m - spot.y_m) < body.length_m && driver::Overlap(body, spot)) return false;
+        if (std::hypot(body.x_m - spot.x_m, body.y_m - spot.y_m) < body.length_m && driver::Overlap(body, spot))
+          return false;
       }
     }
     return true;

@@ -14,10 +14,10 @@
 
 #include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/restored.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -33,8 +33,8 @@ int Combinations() {
 }
 
 struct Meeting {
-  std::array<int, 4> turn{};         // of the car from each arm: which of the three ways
-  std::array<double, 4> later_s{};   // it comes than the earliest possible one
+  std::array<int, 4> turn{};        // of the car from each arm: which of the three ways
+  std::array<double, 4> later_s{};  // it comes than the earliest possible one
 };
 
 struct Outcome {
@@ -54,7 +54,8 @@ class FourCars : public testing::Test {
  protected:
   FourCars() : settings_(Identical(4, 1.4)) {
     const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
-    network_ = traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), {}, "crossing").value(), "crossing").value();  // without its lights
+    network_ = traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), {}, "crossing").value(), "crossing")
+                   .value();  // without its lights
     model_ = std::make_unique<TrafficModel>(TrafficModel::Make(settings_, network_, {}).value());
     for (std::uint32_t track = 0; track < model_->graph().tracks().size(); ++track) {
       const lanes::Track& t = model_->graph()[track];
@@ -77,7 +78,8 @@ class FourCars : public testing::Test {
       agent.on_road = there[id];
       agent.trip = TripFor(id, meeting.turn[id]);
       agent.speed_mps = kSpeed_mps;
-      agent.o_m = model_->graph()[arms_[id]].length_m() - kFrom_m - kSpeed_mps * meeting.later_s[id] - 0.5 * model_->traits(id).length_m;
+      agent.o_m = model_->graph()[arms_[id]].length_m() - kFrom_m - kSpeed_mps * meeting.later_s[id] -
+                  0.5 * model_->traits(id).length_m;
       agent.path = {{arms_[id], 0.0, 0.0, 0.0, 0.0, 1.0}};
     }
     RestoreWith(*model_, agents);
@@ -100,7 +102,8 @@ class FourCars : public testing::Test {
       const auto& poses = model_->poses();
       for (std::size_t a = 0; a < poses.size(); ++a) {
         for (std::size_t b = a + 1; b < poses.size(); ++b) {
-          outcome.touched = outcome.touched || driver::Overlap(FootprintOf(poses[a], model_->traits(poses[a].id)), FootprintOf(poses[b], model_->traits(poses[b].id)));
+          outcome.touched = outcome.touched || driver::Overlap(FootprintOf(poses[a], model_->traits(poses[a].id)),
+                                                               FootprintOf(poses[b], model_->traits(poses[b].id)));
         }
       }
       if (left == there) break;
@@ -124,7 +127,8 @@ class FourCars : public testing::Test {
     for (const Meeting& meeting : meetings) {
       const Outcome outcome = Run(meeting, {true, true, true, true}, step_s);
       std::string told;
-      for (std::size_t id = 0; id < 4; ++id) told += " " + std::to_string(meeting.turn[id]) + "/" + std::to_string(meeting.later_s[id]);
+      for (std::size_t id = 0; id < 4; ++id)
+        told += " " + std::to_string(meeting.turn[id]) + "/" + std::to_string(meeting.later_s[id]);
       EXPECT_FALSE(outcome.touched) << told;
       EXPECT_LE(outcome.hardest_mps2, 4.5) << told;
       hardest_mps2_ = std::max(hardest_mps2_, outcome.hardest_mps2);
@@ -132,10 +136,12 @@ class FourCars : public testing::Test {
       for (std::uint32_t id = 0; id < 4; ++id) {
         EXPECT_GT(outcome.out_s[id], 0.0) << told;
         last_s_ = std::max(last_s_, outcome.out_s[id]);
-        course.delay_s[id] = outcome.out_s[id] - meeting.later_s[id] - alone[id][static_cast<std::size_t>(meeting.turn[id])];
+        course.delay_s[id] =
+            outcome.out_s[id] - meeting.later_s[id] - alone[id][static_cast<std::size_t>(meeting.turn[id])];
         course.order[id] = id;
       }
-      std::stable_sort(course.order.begin(), course.order.end(), [&](std::uint32_t a, std::uint32_t b) { return outcome.out_s[a] < outcome.out_s[b]; });
+      std::stable_sort(course.order.begin(), course.order.end(),
+                       [&](std::uint32_t a, std::uint32_t b) { return outcome.out_s[a] < outcome.out_s[b]; });
       courses.push_back(course);
     }
     return courses;
@@ -154,9 +160,10 @@ double MeanDelay(const std::vector<Course>& courses) {
   return delay / (4.0 * static_cast<double>(courses.size()));
 }
 
-// All pass, gently, and what it costs does not depend on the step: not in the mean, nor, where they leave in the same order, by more than a step for nineteen of twenty. Nearly all leave in the same order. (SUMO 1.15's last one leaves after 38.5 s
-// with a step of a second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.) Who comes to a line in the same moment as another one may go before him by one step and behind
-// him by another.
+// All pass, gently, and what it costs does not depend on the step: not in the mean, nor, where they leave in the same
+// order, by more than a step for nineteen of twenty. Nearly all leave in the same order. (SUMO 1.15's last one leaves
+// after 38.5 s with a step of a second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.) Who comes to a line
+// in the same moment as another one may go before him by one step and behind him by another.
 TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   ASSERT_EQ(arms_.size(), 4u);
   std::mt19937 random(11);
@@ -164,7 +171,8 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   for (int i = 0; i < Combinations(); ++i) {
     Meeting meeting;
     for (int& turn : meeting.turn) turn = static_cast<int>(random() % 3);
-    for (double& later : meeting.later_s) later = i % 10 == 0 ? 0.0 : kLatest_s * static_cast<double>(random()) / 4294967296.0;
+    for (double& later : meeting.later_s)
+      later = i % 10 == 0 ? 0.0 : kLatest_s * static_cast<double>(random()) / 4294967296.0;
     meetings.push_back(meeting);
   }
   const auto fine = Courses(meetings, 0.01);
@@ -186,13 +194,19 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
       }
     }
     std::sort(apart_s.begin(), apart_s.end());
-    const auto share = [&](double of) { return apart_s[static_cast<std::size_t>(of * static_cast<double>(apart_s.size() - 1))]; };
+    const auto share = [&](double of) {
+      return apart_s[static_cast<std::size_t>(of * static_cast<double>(apart_s.size() - 1))];
+    };
     if (std::getenv("RODEIRA_TELL") != nullptr) {
-      fmt::print("{} s: mean {:.4f} s (0.01 s: {:.4f} s), {} of {} in another order; of the others half are within {:.3f} s, 95 % within {:.3f} s, all within {:.3f} s; of all within {:.3f} s\n", step_s,
-                 MeanDelay(coarse), delay_s, others, meetings.size(), share(0.5), share(0.95), worst_s, worst_of_all_s);
+      fmt::print(
+          "{} s: mean {:.4f} s (0.01 s: {:.4f} s), {} of {} in another order; of the others half are within {:.3f} s, "
+          "95 % within {:.3f} s, all within {:.3f} s; of all within {:.3f} s\n",
+          step_s, MeanDelay(coarse), delay_s, others, meetings.size(), share(0.5), share(0.95), worst_s,
+          worst_of_all_s);
     }
     EXPECT_NEAR(MeanDelay(coarse), delay_s, 0.02 * delay_s) << step_s;
-    EXPECT_LE(static_cast<double>(others), (step_s > 0.05 ? 0.03 : 0.01) * static_cast<double>(meetings.size())) << step_s;
+    EXPECT_LE(static_cast<double>(others), (step_s > 0.05 ? 0.03 : 0.01) * static_cast<double>(meetings.size()))
+        << step_s;
     EXPECT_LE(share(0.95), step_s);
   }
   RecordProperty("hardest_mps2", std::to_string(hardest_mps2_));
@@ -201,7 +215,8 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
 
 // The picture of docs/traffic.md: all four go straight on and would be there in the same moment.
 TEST_F(FourCars, WhoComeInTheSameMomentPassOneAfterTheOther) {
-  const Outcome fine = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.01), coarse = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.1);
+  const Outcome fine = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.01),
+                coarse = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.1);
   std::vector<PlotCurve> curves;
   const std::array<const char*, 4> colours = {"#b03020", "#1f5f8b", "#2c8040", "#8050a0"};
   std::vector<double> out_s(fine.out_s.begin(), fine.out_s.end());
@@ -216,7 +231,8 @@ TEST_F(FourCars, WhoComeInTheSameMomentPassOneAfterTheOther) {
   std::sort(out_s.begin(), out_s.end());
   EXPECT_GT(out_s[0], 0.0);
   EXPECT_GT(out_s[3], out_s[0] + 2.0);
-  EXPECT_TRUE(WritePicture("traffic_four_cars.svg", PlotSvg("Four cars, each with another one on its right", "s", "driven, m", 5.0, 25.0, curves)));
+  EXPECT_TRUE(WritePicture("traffic_four_cars.svg", PlotSvg("Four cars, each with another one on its right", "s",
+                                                            "driven, m", 5.0, 25.0, curves)));
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 #include <string>
 #include <vector>
 
-#include "common/world/lanes/signs.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
+#include "common/world/lanes/signs.hpp"
+#include "tests/common/traffic/two_way_ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
-#include "tests/common/traffic/two_way_ring.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -27,8 +27,8 @@ TrafficSettings Full(std::uint32_t vehicles) {
   return settings;
 }
 
-// On a level crossing without lights a car slows down harder than 3 m/s² only within a second after a change of gear: the foot itself never asks the brake for so
-// much there. That does not hold everywhere (docs/traffic.md).
+// On a level crossing without lights a car slows down harder than 3 m/s² only within a second after a change of gear:
+// the foot itself never asks the brake for so much there. That does not hold everywhere (docs/traffic.md).
 TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
   constexpr double kStep_s = 0.01, kHard_mps2 = 3.0, kTakesHold_s = 1.0;
   TrafficModel model = TrafficModel::Make(Full(24), lanes::MapNetwork("crossing"), {}).value();
@@ -58,7 +58,8 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
       foot_mps2 = std::max(foot_mps2, driving.brake * FullBrake_N(car) / car.body.mass_kg);
       if (pose.acceleration_mps2 > -kHard_mps2) continue;
       ++hard;
-      EXPECT_LT(b.since_s, kTakesHold_s) << "car " << pose.id << " at " << i * kStep_s << " s, " << pose.acceleration_mps2 << " m/s2";
+      EXPECT_LT(b.since_s, kTakesHold_s) << "car " << pose.id << " at " << i * kStep_s << " s, "
+                                         << pose.acceleration_mps2 << " m/s2";
     }
   }
   EXPECT_LE(foot_mps2, kHard_mps2);
@@ -66,9 +67,12 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
   for (auto* all : {&jerks_mps3, &shifting_mps3}) {
     std::sort(all->begin(), all->end());
     ASSERT_FALSE(all->empty());
-    const auto part = [&](double share) { return (*all)[static_cast<std::size_t>(share * static_cast<double>(all->size() - 1))]; };
+    const auto part = [&](double share) {
+      return (*all)[static_cast<std::size_t>(share * static_cast<double>(all->size() - 1))];
+    };
     const std::string name = all == &jerks_mps3 ? "driven" : "shifting";
-    RecordProperty(name + "_jerk_mps3", fmt::format("median {:.2f}, 95 % {:.2f}, 99 % {:.2f}, most {:.2f}, of {} steps", part(0.5), part(0.95), part(0.99), part(1.0), all->size()));
+    RecordProperty(name + "_jerk_mps3", fmt::format("median {:.2f}, 95 % {:.2f}, 99 % {:.2f}, most {:.2f}, of {} steps",
+                                                    part(0.5), part(0.95), part(0.99), part(1.0), all->size()));
   }
   RecordProperty("foot_mps2", std::to_string(foot_mps2));
   RecordProperty("hard_steps", std::to_string(hard));
@@ -90,7 +94,8 @@ TEST(FullDrive, NobodyPassesAtRed) {
         if (lights.empty() || piece.begin_m > agent.o_m) continue;
         gap = piece.zero_m + lights[0].d_m - agent.o_m - 0.5 * model.traits(pose.id).length_m;
         if (gaps[pose.id] && *gaps[pose.id] >= 0.0 && *gap < 0.0) {
-          EXPECT_NE(colours[lights[0].controller], network::LightColour::kRed) << "car " << pose.id << " at " << 0.01 * i << " s";
+          EXPECT_NE(colours[lights[0].controller], network::LightColour::kRed)
+              << "car " << pose.id << " at " << 0.01 * i << " s";
           ++passed;
         }
         break;
@@ -113,18 +118,19 @@ TEST(FullDrive, LanesAreChangedOnTheMotorway) {
   std::vector<int> side(50, 0);
   int changes = 0;
   const StudyResult r = RunStudy(settings, NetworkOf(world.value()), [&](const StudyMoment& moment) {
-    for (const AgentPose& pose : moment.model.poses()) {
-      const int now = moment.model.agent(pose.id).change.side;
-      if (now != 0 && side[pose.id] == 0) ++changes;
-      side[pose.id] = now;
-    }
-  }).value();
+                          for (const AgentPose& pose : moment.model.poses()) {
+                            const int now = moment.model.agent(pose.id).change.side;
+                            if (now != 0 && side[pose.id] == 0) ++changes;
+                            side[pose.id] = now;
+                          }
+                        }).value();
   EXPECT_EQ(r.collisions, 0);
   EXPECT_EQ(r.off_lane, 0);
   EXPECT_GT(changes, 5);
 }
 
-// A crawling car is passed on the lane of oncoming traffic; who comes is two seconds away at least, and nobody is touched.
+// A crawling car is passed on the lane of oncoming traffic; who comes is two seconds away at least, and nobody is
+// touched.
 TEST(FullDrive, SlowOnesAreOvertaken) {
   TrafficSettings settings = Full(12);
   settings.speed_factor_low = 0.9;
@@ -165,15 +171,21 @@ void DriveAFile(const std::string& name, const std::vector<Run>& runs) {
     EXPECT_EQ(r.wheels_off, 0) << what;
     EXPECT_LT(r.hardest_mps2, run.foot_mps2) << what;
     EXPECT_GT(r.driven_km, 10.0) << what;
-    testing::Test::RecordProperty(what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.2f} in all, {} steps in an emergency, {:.1f} km", r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2, r.hurried_steps, r.driven_km));
+    testing::Test::RecordProperty(
+        what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.2f} in all, {} steps in an "
+                          "emergency, {:.1f} km",
+                          r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2, r.hurried_steps, r.driven_km));
   }
 }
 
-// Lanes here turn on a radius of 2.9 m, which no van can drive, beside oncoming traffic. The foot brakes by 4 m/s² at most, in two minutes of a hundred cars by 4.5; what does not hold is in
-// docs/traffic.md.
-TEST(FullDrive, DrivesARealTown) { DriveAFile("carla_Town04", {{60, 1, 50.0, 4.0}, {60, 11, 50.0, 4.0}, {100, 1, 120.0, 4.5}, {100, 11, 120.0, 4.5}}); }
+// Lanes here turn on a radius of 2.9 m, which no van can drive, beside oncoming traffic. The foot brakes by 4 m/s² at
+// most, in two minutes of a hundred cars by 4.5; what does not hold is in docs/traffic.md.
+TEST(FullDrive, DrivesARealTown) {
+  DriveAFile("carla_Town04", {{60, 1, 50.0, 4.0}, {60, 11, 50.0, 4.0}, {100, 1, 120.0, 4.5}, {100, 11, 120.0, 4.5}});
+}
 
-// Lorries and buses among them, which cannot pass one another in its bends: nobody stands in the way of somebody who stands in his. (Two did from 30 s on.)
+// Lorries and buses among them, which cannot pass one another in its bends: nobody stands in the way of somebody who
+// stands in his. (Two did from 30 s on.)
 TEST(FullDrive, LongBodiesGoOnInARealTown) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
@@ -182,7 +194,9 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
   settings.traffic.mix.shares = {0.6, 0.1, 0.2, 0.1};
   settings.duration_s = 120.0;
   const StudyResult r = RunStudy(settings, opendrive::LoadNetwork(file).value()).value();
-  std::string what = fmt::format("{:.1f} km, {:.1f} s at rest with room ahead, {} wheels off, {:.2f} m/s² with a foot on the brake", r.driven_km, r.longest_with_room_s, r.wheels_off, r.hardest_mps2);
+  std::string what =
+      fmt::format("{:.1f} km, {:.1f} s at rest with room ahead, {} wheels off, {:.2f} m/s² with a foot on the brake",
+                  r.driven_km, r.longest_with_room_s, r.wheels_off, r.hardest_mps2);
   RecordProperty("drive", what);
   for (const std::string& incident : r.incidents) what += "\n  " + incident;
   EXPECT_EQ(r.collisions, 0) << what;
@@ -191,8 +205,10 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
   EXPECT_LT(r.longest_with_room_s, 75.0) << what;
 }
 
-// Somebody who has waited long for room at a merge keeps it, and who is kept out for that counts as waiting for him, so that a chain of them that closes is opened: here the room was missing since those who stood there waited, one for
-// another, for the one who was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1 s since).
+// Somebody who has waited long for room at a merge keeps it, and who is kept out for that counts as waiting for him, so
+// that a chain of them that closes is opened: here the room was missing since those who stood there waited, one for
+// another, for the one who was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1 s
+// since).
 TEST(FullDrive, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
@@ -209,7 +225,8 @@ TEST(FullDrive, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
 
 // Up to 0.55 rad across, outward in its bend for one direction.
 TEST(FullDrive, DrivesOnABank) {
-  DriveAFile("esmini_straight_500_superelevation_elevation_curve", {{25, 1, 60.0, 4.0}, {25, 2, 60.0, 4.0}, {25, 3, 60.0, 4.0}, {25, 4, 60.0, 4.0}, {100, 11, 60.0, 4.0}});
+  DriveAFile("esmini_straight_500_superelevation_elevation_curve",
+             {{25, 1, 60.0, 4.0}, {25, 2, 60.0, 4.0}, {25, 3, 60.0, 4.0}, {25, 4, 60.0, 4.0}, {100, 11, 60.0, 4.0}});
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ TEST(Grants, ReachFartherEachTime) {
       for (const AgentPose& pose : model.poses()) {
         const auto& grants = model.agent(pose.id).grants;
         granted += grants.size();
-        for (std::size_t k = 1; k < grants.size(); ++k) ASSERT_GT(grants[k].to_m, grants[k - 1].to_m) << name << ": car " << pose.id << " at " << 0.02 * (i + 1) << " s, " << grants.size() << " grants";
+        for (std::size_t k = 1; k < grants.size(); ++k)
+          ASSERT_GT(grants[k].to_m, grants[k - 1].to_m)
+              << name << ": car " << pose.id << " at " << 0.02 * (i + 1) << " s, " << grants.size() << " grants";
       }
     }
     EXPECT_GT(granted, 0u) << name;

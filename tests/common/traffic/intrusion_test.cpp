@@ -1,4 +1,5 @@
-// Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit him.
+// Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit
+// him.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,11 +13,11 @@
 
 #include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
-#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -29,7 +30,9 @@ std::shared_ptr<const network::Network> Straight() {
   road.length = 4000.0;
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"4000\"><line/></geometry>";
   road.left = "";
-  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"36\" unit=\"m/s\"/></lane>";
+  road.right =
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" "
+      "max=\"36\" unit=\"m/s\"/></lane>";
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
@@ -46,18 +49,25 @@ struct Intruder {
     i.kind = static_cast<int>(draw(0.0, 4.0));
     const double gap = draw(2.0, 30.0 + 4.0 * agent_mps);
     i.y_m = kLane_y;
-    if (i.kind == kCutsIn) i.y_m += draw(0.0, 1.0) < 0.5 ? 3.5 : -3.5, i.speed_mps = draw(0.3, 1.2) * agent_mps, i.brakes_mps2 = draw(0.0, 7.0), i.sideways_s = draw(1.0, 4.0);
-    if (i.kind == kCrosses) i.speed_mps = draw(1.0, 15.0), i.heading_rad = draw(0.0, 1.0) < 0.5 ? std::numbers::pi / 2 : -std::numbers::pi / 2;
+    if (i.kind == kCutsIn)
+      i.y_m += draw(0.0, 1.0) < 0.5 ? 3.5 : -3.5, i.speed_mps = draw(0.3, 1.2) * agent_mps,
+                                                  i.brakes_mps2 = draw(0.0, 7.0), i.sideways_s = draw(1.0, 4.0);
+    if (i.kind == kCrosses)
+      i.speed_mps = draw(1.0, 15.0),
+      i.heading_rad = draw(0.0, 1.0) < 0.5 ? std::numbers::pi / 2 : -std::numbers::pi / 2;
     if (i.kind == kCrosses) i.y_m -= std::copysign(draw(3.0, 40.0), i.heading_rad);
-    if (i.kind == kAgainst) i.heading_rad = std::numbers::pi, i.speed_mps = draw(0.0, 10.0), i.brakes_mps2 = draw(0.5, 7.0);
+    if (i.kind == kAgainst)
+      i.heading_rad = std::numbers::pi, i.speed_mps = draw(0.0, 10.0), i.brakes_mps2 = draw(0.5, 7.0);
     if (i.kind == kAppears) i.heading_rad = draw(-3.1, 3.1), i.y_m += draw(-1.5, 1.5);
     i.x_m = front_m + gap + 2.2;
     return i;
   }
   driver::Footprint At(double t) const {
     const double stops = brakes_mps2 > 0.0 ? speed_mps / brakes_mps2 : 1e9, moving = std::min(t, stops);
-    const double way = speed_mps * moving - 0.5 * brakes_mps2 * moving * moving, speed = std::max(0.0, speed_mps - brakes_mps2 * t);
-    driver::Footprint f{9999, x_m + way * std::cos(heading_rad), y_m + way * std::sin(heading_rad), heading_rad, speed, 4.4, 1.8};
+    const double way = speed_mps * moving - 0.5 * brakes_mps2 * moving * moving,
+                 speed = std::max(0.0, speed_mps - brakes_mps2 * t);
+    driver::Footprint f{
+        9999, x_m + way * std::cos(heading_rad), y_m + way * std::sin(heading_rad), heading_rad, speed, 4.4, 1.8};
     if (kind == kCutsIn) {
       const double u = std::min(1.0, t / sideways_s);
       f.y_m += (kLane_y - y_m) * u * u * (3.0 - 2.0 * u);
@@ -66,15 +76,18 @@ struct Intruder {
   }
   // Whether it is in the way of a car of that width in the lane.
   static bool InTheWay(const driver::Footprint& f, double width_m) {
-    const double across = 0.5 * (std::fabs(std::sin(f.heading_rad)) * f.length_m + std::fabs(std::cos(f.heading_rad)) * f.width_m);
+    const double across =
+        0.5 * (std::fabs(std::sin(f.heading_rad)) * f.length_m + std::fabs(std::cos(f.heading_rad)) * f.width_m);
     return std::fabs(f.y_m - kLane_y) < across + 0.5 * width_m + 0.3;
   }
 };
 
-driver::Footprint CarAt(double x_m, double speed_mps, const AgentTraits& traits) { return {0, x_m, kLane_y, 0.0, speed_mps, traits.length_m, traits.width_m}; }
+driver::Footprint CarAt(double x_m, double speed_mps, const AgentTraits& traits) {
+  return {0, x_m, kLane_y, 0.0, speed_mps, traits.length_m, traits.width_m};
+}
 
-// Whether who keeps his speed for the reaction's time, from when it is in the way, and then brakes as hard as he can, gets by
-// without driving into it. What drives into a car at rest is not that one's doing.
+// Whether who keeps his speed for the reaction's time, from when it is in the way, and then brakes as hard as he can,
+// gets by without driving into it. What drives into a car at rest is not that one's doing.
 bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const AgentTraits& traits) {
   double since = -1.0, x = x_m, v = speed_mps;
   for (double t = 0.0; t < kFor_s; t += 0.005) {
@@ -88,10 +101,12 @@ bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const Agen
   return true;
 }
 
-// What became of so many drawn intrusions: whether half a second and 0.8 g sufficed, and whether somebody was driven into all the same.
+// What became of so many drawn intrusions: whether half a second and 0.8 g sufficed, and whether somebody was driven
+// into all the same.
 struct Intruded {
   std::uint64_t sufficed = 0, hopeless = 0;
-  PlotCurve could{"half a second and 0.8 g suffice: nobody is hit", "#1f5f8b", {}, false}, hit{"hit all the same", "#b03020", {}, false}, beyond{"they do not suffice", "#b8b8b8", {}, false};
+  PlotCurve could{"half a second and 0.8 g suffice: nobody is hit", "#1f5f8b", {}, false},
+      hit{"hit all the same", "#b03020", {}, false}, beyond{"they do not suffice", "#b8b8b8", {}, false};
 };
 
 // One after another before each of these in turn, each the only one on its road.
@@ -102,7 +117,8 @@ Intruded Intrude(const std::vector<TrafficModel>& driving, std::uint64_t count, 
     const AgentTraits& traits = model.traits(0);
     const AgentPose start = model.poses()[0];
     const Intruder intruder = Intruder::Draw(number, start.p_WB_W.x() + 0.5 * traits.length_m, start.speed_mps);
-    const std::pair<double, double> drawn(start.speed_mps, intruder.x_m - 2.2 - start.p_WB_W.x() - 0.5 * traits.length_m);
+    const std::pair<double, double> drawn(start.speed_mps,
+                                          intruder.x_m - 2.2 - start.p_WB_W.x() - 0.5 * traits.length_m);
     if (!Suffices(intruder, start.p_WB_W.x(), start.speed_mps, traits)) {
       ++told.hopeless;
       told.beyond.points.push_back(drawn);
@@ -115,8 +131,10 @@ Intruded Intrude(const std::vector<TrafficModel>& driving, std::uint64_t count, 
       model.Step(step_s, others);
       if (model.on_road() == 0) break;
       const AgentPose& pose = model.poses()[0];
-      const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + step_s)), hits = touches && pose.speed_mps > 0.05;
-      EXPECT_FALSE(hits) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, " << start.speed_mps << " m/s, " << pose.speed_mps << " m/s when it touches, a car of kind "
+      const bool touches = driver::Overlap(FootprintOf(pose, traits), intruder.At(t + step_s)),
+                 hits = touches && pose.speed_mps > 0.05;
+      EXPECT_FALSE(hits) << "intruder " << number << " of kind " << intruder.kind << " at " << t << " s, "
+                         << start.speed_mps << " m/s, " << pose.speed_mps << " m/s when it touches, a car of kind "
                          << static_cast<int>(traits.kind);
       if (hits) told.hit.points.push_back(drawn);
       if (touches) break;
@@ -134,7 +152,8 @@ std::uint64_t Intrusions() {
 }
 
 // Alone on that road, as fast as `cap_mps` or the driver wishes, ten seconds after it came.
-TrafficModel Alone(const TrafficSettings& settings, const std::shared_ptr<const network::Network>& network, double cap_mps, double step_s) {
+TrafficModel Alone(const TrafficSettings& settings, const std::shared_ptr<const network::Network>& network,
+                   double cap_mps, double step_s) {
   TrafficModel model = TrafficModel::Make(settings, network, {}).value();
   model.CapSpeed(0, cap_mps);
   for (double t = 0.0; t < 10.0; t += step_s) model.Step(step_s, {});
@@ -149,7 +168,9 @@ TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
   std::vector<TrafficModel> driving;  // by speed
   for (const double cap : kCaps_mps) driving.push_back(Alone(Identical(1, 1.4), network, cap, kStep_s));
   const Intruded told = Intrude(driving, Intrusions(), kStep_s);
-  EXPECT_TRUE(WritePicture("traffic_intrusions.svg", PlotSvg("Who gets in the way", "speed of the car, m/s", "how far ahead, m", 5.0, 25.0, {told.beyond, told.could, told.hit})));
+  EXPECT_TRUE(
+      WritePicture("traffic_intrusions.svg", PlotSvg("Who gets in the way", "speed of the car, m/s", "how far ahead, m",
+                                                     5.0, 25.0, {told.beyond, told.could, told.hit})));
   RecordProperty("sufficed", std::to_string(told.sufficed));
 }
 
@@ -190,36 +211,47 @@ std::string Touching(const TrafficModel& model) {
   for (std::size_t a = 0; a < poses.size(); ++a) {
     for (std::size_t b = a + 1; b < poses.size(); ++b) {
       if ((poses[a].p_WB_W - poses[b].p_WB_W).head<2>().norm() > 12.0) continue;
-      if (driver::Overlap(FootprintOf(poses[a], model.traits(poses[a].id)), FootprintOf(poses[b], model.traits(poses[b].id)))) told += fmt::format(" {} and {}", poses[a].id, poses[b].id);
+      if (driver::Overlap(FootprintOf(poses[a], model.traits(poses[a].id)),
+                          FootprintOf(poses[b], model.traits(poses[b].id))))
+        told += fmt::format(" {} and {}", poses[a].id, poses[b].id);
     }
   }
   return told;
 }
 
-// Twenty cars follow one another around a ring, and somebody is there all at once before one of them, in its lane, at rest or braking to it: who comes does not drive into him where half a
-// second and braking at 0.8 g suffice, and none of those behind drives into the one before.
+// Twenty cars follow one another around a ring, and somebody is there all at once before one of them, in its lane, at
+// rest or braking to it: who comes does not drive into him where half a second and braking at 0.8 g suffice, and none
+// of those behind drives into the one before.
 TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
   constexpr double kLength_m = 700.0;
   const auto network = Ring(kLength_m, 25.0);
   TrafficModel start = TrafficModel::Make(Identical(20, 1.4), network, {}).value();
   ASSERT_EQ(start.on_road(), 20u);
   for (int i = 0; i < 3000; ++i) start.Step(kStep_s, {});
-  const double lane_m = start.graph()[0].length_m(), radius = lane_m / (2.0 * std::numbers::pi), centre_y = kLength_m / (2.0 * std::numbers::pi);
+  const double lane_m = start.graph()[0].length_m(), radius = lane_m / (2.0 * std::numbers::pi),
+               centre_y = kLength_m / (2.0 * std::numbers::pi);
   int sufficed = 0, hopeless = 0;
   double hardest = 0.0;
   for (std::uint64_t number = 0; number < 300; ++number) {
     TrafficModel model = start;
-    const auto draw = [&](std::uint64_t key, double low, double high) { return base::RandomUniform({78, number, key}, low, high); };
+    const auto draw = [&](std::uint64_t key, double low, double high) {
+      return base::RandomUniform({78, number, key}, low, high);
+    };
     for (int i = 0, wait = static_cast<int>(draw(1, 0.0, 400.0)); i < wait; ++i) model.Step(kStep_s, {});
     const AgentPose agent = model.poses()[static_cast<std::size_t>(draw(2, 0.0, 20.0))];
     const AgentTraits& traits = model.traits(agent.id);
     const double gap = model.GapAhead(agent.id), room = gap - 4.4 - 1.0;
     if (room < 2.0) continue;
-    const double free_m = draw(3, 1.0, room), brakes = draw(4, 2.0, 7.0), u0 = draw(5, 0.0, 1.0) < 0.5 ? 0.0 : draw(6, 0.2, 1.0) * agent.speed_mps;
-    const double angle0 = std::atan2(agent.p_WB_W.x(), centre_y - agent.p_WB_W.y()) + (0.5 * traits.length_m + free_m + 2.2) / radius;
+    const double free_m = draw(3, 1.0, room), brakes = draw(4, 2.0, 7.0),
+                 u0 = draw(5, 0.0, 1.0) < 0.5 ? 0.0 : draw(6, 0.2, 1.0) * agent.speed_mps;
+    const double angle0 =
+        std::atan2(agent.p_WB_W.x(), centre_y - agent.p_WB_W.y()) + (0.5 * traits.length_m + free_m + 2.2) / radius;
     const auto intruder = [&](double t) {
-      const double moving = std::min(t, u0 / brakes), angle = angle0 + (u0 * moving - 0.5 * brakes * moving * moving) / radius;
-      return driver::Footprint{9999, radius * std::sin(angle), centre_y - radius * std::cos(angle), angle, std::max(0.0, u0 - brakes * t), 4.4, 1.8};
+      const double moving = std::min(t, u0 / brakes),
+                   angle = angle0 + (u0 * moving - 0.5 * brakes * moving * moving) / radius;
+      return driver::Footprint{9999,  radius * std::sin(angle),       centre_y - radius * std::cos(angle),
+                               angle, std::max(0.0, u0 - brakes * t), 4.4,
+                               1.8};
     };
     double x = 0.0, v = agent.speed_mps;
     bool suffices = true;
@@ -237,7 +269,9 @@ TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
       ASSERT_EQ(Touching(model), "") << "intruder " << number << " at " << t;
       for (const AgentPose& pose : model.poses()) {
         hardest = std::max(hardest, -pose.acceleration_mps2);
-        ASSERT_FALSE(pose.speed_mps > 0.05 && driver::Overlap(FootprintOf(pose, model.traits(pose.id)), intruder(t + kStep_s))) << "intruder " << number << ", car " << pose.id << " at " << t;
+        ASSERT_FALSE(pose.speed_mps > 0.05 &&
+                     driver::Overlap(FootprintOf(pose, model.traits(pose.id)), intruder(t + kStep_s)))
+            << "intruder " << number << ", car " << pose.id << " at " << t;
       }
     }
   }
@@ -246,8 +280,9 @@ TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
   EXPECT_GT(hardest, 4.0);
 }
 
-// Somebody stands all at once anywhere on a crossing, whichever way he points, for eight seconds, and is gone again: as long as everybody is so far from him that half a second and braking
-// at 0.8 g suffice on the straight way to him, nobody drives into him, nor anybody into anybody.
+// Somebody stands all at once anywhere on a crossing, whichever way he points, for eight seconds, and is gone again: as
+// long as everybody is so far from him that half a second and braking at 0.8 g suffice on the straight way to him,
+// nobody drives into him, nor anybody into anybody.
 TEST(Intrusion, OnACrossingNobodyIsDrivenInto) {
   TrafficSettings settings;
   settings.vehicles = 22;
@@ -258,13 +293,17 @@ TEST(Intrusion, OnACrossingNobodyIsDrivenInto) {
   double until = 0.0, standing = 0.0;
   for (int i = 0; i < 50 * 1200; ++i) {
     const double t = i * kStep_s;
-    const auto draw = [&](std::uint64_t key, double low, double high) { return base::RandomUniform({79, number, key}, low, high); };
+    const auto draw = [&](std::uint64_t key, double low, double high) {
+      return base::RandomUniform({79, number, key}, low, high);
+    };
     if (there && t > until) there.reset();
     if (!there && t > until + 4.0) {
       ++number;
-      const driver::Footprint other{9999, draw(1, -14.0, 14.0), draw(2, -14.0, 14.0), draw(3, -3.1, 3.1), 0.0, 4.4, 1.8};
+      const driver::Footprint other{9999, draw(1, -14.0, 14.0), draw(2, -14.0, 14.0), draw(3, -3.1, 3.1), 0.0, 4.4,
+                                    1.8};
       const bool far = std::all_of(model.poses().begin(), model.poses().end(), [&](const AgentPose& pose) {
-        const double v = pose.speed_mps, way = std::hypot(pose.p_WB_W.x() - other.x_m, pose.p_WB_W.y() - other.y_m) - 0.5 * model.traits(pose.id).length_m - 2.4;
+        const double v = pose.speed_mps, way = std::hypot(pose.p_WB_W.x() - other.x_m, pose.p_WB_W.y() - other.y_m) -
+                                               0.5 * model.traits(pose.id).length_m - 2.4;
         return way > kReaction_s * v + v * v / (2.0 * kGrip_mps2) + 0.3;
       });
       if (far) there = other, until = t + 8.0, ++intrusions;
@@ -276,7 +315,8 @@ TEST(Intrusion, OnACrossingNobodyIsDrivenInto) {
     for (const AgentPose& pose : model.poses()) {
       standing += there && pose.speed_mps < 0.05 ? kStep_s : 0.0;
       if (there) {
-        ASSERT_FALSE(pose.speed_mps > 0.05 && driver::Overlap(FootprintOf(pose, model.traits(pose.id)), *there)) << "intruder " << number << ", car " << pose.id << " at " << t;
+        ASSERT_FALSE(pose.speed_mps > 0.05 && driver::Overlap(FootprintOf(pose, model.traits(pose.id)), *there))
+            << "intruder " << number << ", car " << pose.id << " at " << t;
       }
     }
   }

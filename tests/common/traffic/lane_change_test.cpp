@@ -16,11 +16,13 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kRadius_m = 500.0, kLaneWidth_m = 3.5, kLimit_mps = 30.0, kRound = 2.0 * std::numbers::pi, kNobody_m = 1e9;
-constexpr double kExact_mps2 = 1e-3;  // what a centimetre of gap makes at most: poses are of the middle between the axles
+constexpr double kRadius_m = 500.0, kLaneWidth_m = 3.5, kLimit_mps = 30.0, kRound = 2.0 * std::numbers::pi,
+                 kNobody_m = 1e9;
+constexpr double kExact_mps2 =
+    1e-3;  // what a centimetre of gap makes at most: poses are of the middle between the axles
 
-// Two lanes of one direction around a circle to the left, each going on into itself, with a mark of the given type between
-// them. One keeps to lane 2, the road's outer one; in left-hand traffic it lies towards the circle's middle.
+// Two lanes of one direction around a circle to the left, each going on into itself, with a mark of the given type
+// between them. One keeps to lane 2, the road's outer one; in left-hand traffic it lies towards the circle's middle.
 std::shared_ptr<const network::Network> TwoLaneRing(const std::string& mark = "broken", bool left_hand = false) {
   opendrive::RoadText road = CircleRoad(kRound * kRadius_m, left_hand);
   const auto lane = [&](int id) { return CircleLane(id, kLimit_mps, Mark(std::abs(id) == 1 ? mark : "solid")); };
@@ -52,10 +54,13 @@ class RingSeen {
     for (const AgentPose& pose : model.poses()) {
       const double x = pose.p_WB_W.x(), y = pose.p_WB_W.y() - kRadius_m, r = std::hypot(x, y);
       const int lane = std::fabs(r - RadiusOf(1)) < std::fabs(r - RadiusOf(2)) ? 1 : 2;
-      seen_.push_back({pose.id, lane, std::atan2(x, -y), pose.speed_mps, model.traits(pose.id).length_m, model.agent(pose.id).change.side != 0});
+      seen_.push_back({pose.id, lane, std::atan2(x, -y), pose.speed_mps, model.traits(pose.id).length_m,
+                       model.agent(pose.id).change.side != 0});
     }
   }
-  double RadiusOf(int lane) const { return kRadius_m + (left_hand_ ? -1.0 : 1.0) * (lane == 1 ? 0.5 : 1.5) * kLaneWidth_m; }
+  double RadiusOf(int lane) const {
+    return kRadius_m + (left_hand_ ? -1.0 : 1.0) * (lane == 1 ? 0.5 : 1.5) * kLaneWidth_m;
+  }
 
   struct Verdict {
     std::vector<std::uint32_t> near;
@@ -72,7 +77,8 @@ class RingSeen {
     for (const Seen* near : {leader, then_leader, old_follower, new_follower}) {
       if (near != nullptr && near->changing) return {{}, false, false, 0.0};
     }
-    const double gap = leader == nullptr ? kNobody_m : Gap(me, *leader, me.lane), then_gap = then_leader == nullptr ? kNobody_m : Gap(me, *then_leader, other);
+    const double gap = leader == nullptr ? kNobody_m : Gap(me, *leader, me.lane),
+                 then_gap = then_leader == nullptr ? kNobody_m : Gap(me, *then_leader, other);
     const double a_c = Idm(me, leader, gap), then_c = Idm(me, then_leader, then_gap);
     double a_o = 0.0, then_o = 0.0, a_n = 0.0, then_n = 0.0;
     if (old_follower != nullptr) {
@@ -84,7 +90,8 @@ class RingSeen {
       a_n = Idm(*new_follower, then_leader, behind + me.length_m + then_gap), then_n = Idm(*new_follower, &me, behind);
     }
     const driver::MobilSettings mobil;
-    const bool room = (then_leader == nullptr || Gap(me, *then_leader, other) > 2.0) && (new_follower == nullptr || Gap(*new_follower, me, other) > 2.0);
+    const bool room = (then_leader == nullptr || Gap(me, *then_leader, other) > 2.0) &&
+                      (new_follower == nullptr || Gap(*new_follower, me, other) > 2.0);
     const double bias = other == 2 ? mobil.bias_mps2 : -mobil.bias_mps2;
     std::vector<std::uint32_t> near;
     for (const Seen* seen : {leader, then_leader, old_follower, new_follower}) {
@@ -109,7 +116,8 @@ class RingSeen {
     return next;
   }
   double Gap(const Seen& behind, const Seen& ahead, int lane) const {
-    return std::remainder(ahead.angle - behind.angle, kRound) * RadiusOf(lane) - 0.5 * (ahead.length_m + behind.length_m);
+    return std::remainder(ahead.angle - behind.angle, kRound) * RadiusOf(lane) -
+           0.5 * (ahead.length_m + behind.length_m);
   }
   double Idm(const Seen& car, const Seen* leader, double s) const {
     const AgentTraits& traits = model_.traits(car.id);
@@ -118,7 +126,10 @@ class RingSeen {
     double a = v <= v0 ? idm.acceleration_mps2 * (1.0 - std::pow(v / v0, 4.0))
                        : -idm.braking_mps2 * (1.0 - std::pow(v0 / v, 4.0 * idm.acceleration_mps2 / idm.braking_mps2));
     if (leader != nullptr && s < 200.0) {
-      const double wanted = idm.standing_gap_m + std::max(0.0, v * idm.time_gap_s + v * (v - leader->speed_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
+      const double wanted =
+          idm.standing_gap_m +
+          std::max(0.0, v * idm.time_gap_s +
+                            v * (v - leader->speed_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
       a -= idm.acceleration_mps2 * (wanted / s) * (wanted / s);
       if (s <= 0.0) a = -idm.hardest_mps2;
     }
@@ -141,15 +152,19 @@ void ChangesAsMobilSays(bool left_hand) {
       const RingSeen before(model, left_hand);
       std::map<std::uint32_t, RingSeen::Verdict> verdicts;
       for (const Seen& s : before.seen()) {
-        if (s.changing) settled_s[s.id] = 0.0;
-        else settled_s[s.id] += 0.02;
+        if (s.changing)
+          settled_s[s.id] = 0.0;
+        else
+          settled_s[s.id] += 0.02;
         if (!s.changing) verdicts[s.id] = before.Judge(s.id);
       }
       model.Step(0.02, {});
       for (const auto& [id, verdict] : verdicts) {
         const bool began = model.agent(id).change.side != 0;
         // Who began in the same step was seen by some and not by others.
-        const bool clean = verdict.clean && std::none_of(verdict.near.begin(), verdict.near.end(), [&](std::uint32_t n) { return model.agent(n).change.side != 0; });
+        const bool clean =
+            verdict.clean && std::none_of(verdict.near.begin(), verdict.near.end(),
+                                          [&](std::uint32_t n) { return model.agent(n).change.side != 0; });
         if (began) ++changes;
         if (began && (model.agent(id).change.side < 0) != left_hand) ++to_keep;
         if (began && clean) {
@@ -157,8 +172,8 @@ void ChangesAsMobilSays(bool left_hand) {
           EXPECT_TRUE(verdict.safe) << id << " at " << 0.02 * i;
           EXPECT_GT(verdict.surplus_mps2, -kExact_mps2) << id << " at " << 0.02 * i;
         }
-        const bool wants = clean && verdict.safe && verdict.surplus_mps2 > kExact_mps2 && settled_s[id] > 4.1 && !began &&
-                           model.agent(id).speed_mps > 3.1;
+        const bool wants = clean && verdict.safe && verdict.surplus_mps2 > kExact_mps2 && settled_s[id] > 4.1 &&
+                           !began && model.agent(id).speed_mps > 3.1;
         due_s[id] = wants ? due_s[id] + 0.02 : 0.0;
         EXPECT_LT(due_s[id], 0.57) << id << " at " << 0.02 * i;
       }
@@ -202,14 +217,17 @@ TEST(LaneChange, ASlowOneIsPassedByEverybody) {
     const Seen& slow = ring.seen()[5];
     for (const Seen& s : ring.seen()) {
       const double gained = std::remainder(s.angle - slow.angle, kRound);
-      if (i > 0 && s.id != 5 && before[s.id] < 0.0 && gained >= 0.0 && gained < 0.1) inside += s.lane == 1 && slow.lane == 2;
+      if (i > 0 && s.id != 5 && before[s.id] < 0.0 && gained >= 0.0 && gained < 0.1)
+        inside += s.lane == 1 && slow.lane == 2;
       if (i > 0) passed[s.id] += std::remainder(gained - before[s.id], kRound);
       before[s.id] = gained;
     }
     if (i % 5 != 0) continue;
     for (std::size_t a = 0; a < model.poses().size(); ++a) {
       for (std::size_t b = a + 1; b < model.poses().size(); ++b) {
-        ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[a], model.traits(model.poses()[a].id)), FootprintOf(model.poses()[b], model.traits(model.poses()[b].id)))) << 0.02 * i;
+        ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[a], model.traits(model.poses()[a].id)),
+                                     FootprintOf(model.poses()[b], model.traits(model.poses()[b].id))))
+            << 0.02 * i;
       }
     }
   }
@@ -222,8 +240,15 @@ TEST(LaneChange, ASlowOneIsPassedByEverybody) {
 
 // A continuous line is not crossed, nor one that is continuous on the own side.
 TEST(LaneChange, MarksAreKept) {
-  struct Case { const char* mark; bool in, out; };
-  for (const Case& c : {Case{"solid", false, false}, {"solid solid", false, false}, {"solid broken", true, false}, {"broken solid", false, true}, {"none", true, true}}) {
+  struct Case {
+    const char* mark;
+    bool in, out;
+  };
+  for (const Case& c : {Case{"solid", false, false},
+                        {"solid solid", false, false},
+                        {"solid broken", true, false},
+                        {"broken solid", false, true},
+                        {"none", true, true}}) {
     TrafficModel model = TrafficModel::Make(Drivers(30), TwoLaneRing(c.mark), {}).value();
     int in = 0, out = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -231,7 +256,8 @@ TEST(LaneChange, MarksAreKept) {
       for (std::uint32_t id = 0; id < 30; ++id) before.push_back(model.agent(id).change.side);
       model.Step(0.05, {});
       for (std::uint32_t id = 0; id < 30; ++id) {
-        in += before[id] == 0 && model.agent(id).change.side > 0, out += before[id] == 0 && model.agent(id).change.side < 0;
+        in += before[id] == 0 && model.agent(id).change.side > 0,
+            out += before[id] == 0 && model.agent(id).change.side < 0;
       }
     }
     EXPECT_EQ(in > 0, c.in) << c.mark;
@@ -242,7 +268,10 @@ TEST(LaneChange, MarksAreKept) {
 // What a person in the car feels: from the published headings and speeds, not from the plan.
 TEST(LaneChange, IsComfortable) {
   TrafficModel model = TrafficModel::Make(Drivers(40), TwoLaneRing(), {}).value();
-  struct Felt { double heading, lateral_mps2; int steps; };
+  struct Felt {
+    double heading, lateral_mps2;
+    int steps;
+  };
   std::map<std::uint32_t, Felt> felt;
   double lateral = 0.0, jerk = 0.0, yaw = 0.0;
   constexpr double kStep_s = 0.01;
@@ -257,7 +286,8 @@ TEST(LaneChange, IsComfortable) {
         const double now = pose.speed_mps * rate;
         lateral = std::max(lateral, std::fabs(now));
         // Where the speed changes so does v² κ; that is not the steering's.
-        if (f.steps > 1 && std::fabs(pose.acceleration_mps2) < 0.05) jerk = std::max(jerk, std::fabs(now - f.lateral_mps2) / kStep_s);
+        if (f.steps > 1 && std::fabs(pose.acceleration_mps2) < 0.05)
+          jerk = std::max(jerk, std::fabs(now - f.lateral_mps2) / kStep_s);
         if (f.steps > 1) yaw = std::max(yaw, std::fabs(rate - yaw_rate[pose.id]) / kStep_s);
         f.lateral_mps2 = now;
         yaw_rate[pose.id] = rate;
@@ -284,14 +314,17 @@ std::shared_ptr<const network::Network> TwoRoads() {
   one.length = other.length = kJoin_m;
   one.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kJoin_m);
   other.id = "2";
-  other.geometry = fmt::format("<geometry s=\"0\" x=\"{0}\" y=\"0\" hdg=\"0\" length=\"{0}\"><line/></geometry>", kJoin_m);
+  other.geometry =
+      fmt::format("<geometry s=\"0\" x=\"{0}\" y=\"0\" hdg=\"0\" length=\"{0}\"><line/></geometry>", kJoin_m);
   one.link = "<successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/>";
   other.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>";
   return opendrive::MustRead(opendrive::Document(one.Text() + other.Text()));
 }
 
-// Who has gone over sees nobody on the lane that he has left, though his rear is not quite there yet, where his front comes onto another road as well: one who crawls there, and appears when he is clear
-// of that lane, is nothing to him. Until now the front's piece of path there began without an offset, and he seemed to be at the beginning of his change again.
+// Who has gone over sees nobody on the lane that he has left, though his rear is not quite there yet, where his front
+// comes onto another road as well: one who crawls there, and appears when he is clear of that lane, is nothing to him.
+// Until now the front's piece of path there began without an offset, and he seemed to be at the beginning of his change
+// again.
 TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
   constexpr double kSpeed_mps = 15.0, kAhead_m = 30.0;
   int came_onto_it = 0;
@@ -312,16 +345,20 @@ TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
     for (bool goes_over = true; goes_over;) {
       Step(model);
       goes_over = agent.change.side != 0;
-      if (goes_over && agent.o_m + half_m > agent.change.to_m && agent.path.size() > 1 && agent.path.back().begin_m > agent.change.to_m) ++came_onto_it;
-      ASSERT_EQ(model.GapAhead(0), kNobody_m) << before_m << " m before the road's end, at " << PoseOf(model, 0)->p_WB_W.x() << " m";
+      if (goes_over && agent.o_m + half_m > agent.change.to_m && agent.path.size() > 1 &&
+          agent.path.back().begin_m > agent.change.to_m)
+        ++came_onto_it;
+      ASSERT_EQ(model.GapAhead(0), kNobody_m)
+          << before_m << " m before the road's end, at " << PoseOf(model, 0)->p_WB_W.x() << " m";
       ASSERT_FALSE(model.Hurries(0)) << before_m;
     }
   }
   EXPECT_GT(came_onto_it, 10);
 }
 
-// Who leaves a lane on which somebody stands brakes for that one until he is clear of him, though somebody nearer drives away before him on the new lane: nobody comes into an emergency. Until now the nearer one of both
-// alone was seen, and who stood when he had become the nearer one.
+// Who leaves a lane on which somebody stands brakes for that one until he is clear of him, though somebody nearer
+// drives away before him on the new lane: nobody comes into an emergency. Until now the nearer one of both alone was
+// seen, and who stood when he had become the nearer one.
 TEST(LaneChange, WhoStandsOnTheOldLaneIsSeenBeyondWhoDrivesAwayOnTheNewOne) {
   constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0;
   int hidden = 0;
@@ -341,7 +378,8 @@ TEST(LaneChange, WhoStandsOnTheOldLaneIsSeenBeyondWhoDrivesAwayOnTheNewOne) {
         if (i == 0) {
           ASSERT_EQ(model.agent(0).change.side, 1) << stands_m << " " << away_m;
         }
-        ASSERT_FALSE(model.Hurries(0)) << "who stands is " << stands_m << " m ahead, who drives away " << away_m << " m, after " << i * kStep_s << " s";
+        ASSERT_FALSE(model.Hurries(0)) << "who stands is " << stands_m << " m ahead, who drives away " << away_m
+                                       << " m, after " << i * kStep_s << " s";
         if (i == 0 && model.GapAhead(0) > away_m) ++hidden;
       }
       EXPECT_EQ(model.agent(0).change.side, 0) << stands_m << " " << away_m;

@@ -6,12 +6,12 @@
 #include <string>
 
 #include "common/core/base/files.hpp"
+#include "common/traffic/study.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "common/world/traffic_map/open_drive.hpp"
-#include "common/traffic/study.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -30,7 +30,9 @@ traffic_map::LaneMap MapWith(const std::string& name, const std::map<std::int32_
   return made.value();
 }
 
-NetworkPointer NetworkWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) { return traffic_map::ToNetwork(MapWith(name, modes), name).value(); }
+NetworkPointer NetworkWith(const std::string& name, const std::map<std::int32_t, LaneMode>& modes) {
+  return traffic_map::ToNetwork(MapWith(name, modes), name).value();
+}
 
 // On which roads trips began and were last seen, how many of each; whoever is on the road at first has begun before.
 struct Trips {
@@ -44,7 +46,8 @@ Trips TripsOn(const NetworkPointer& network, const TrafficSettings& traffic, dou
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> on;
   bool first = true;
   StudySettings settings;
-  settings.traffic = traffic, settings.duration_s = duration_s, settings.step_s = step_s, settings.watch_s = std::max(0.05, step_s);
+  settings.traffic = traffic, settings.duration_s = duration_s, settings.step_s = step_s,
+  settings.watch_s = std::max(0.05, step_s);
   const auto result = RunStudy(settings, network, [&](const StudyMoment& moment) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> now;
     for (const AgentPose& pose : moment.model.poses()) {
@@ -91,7 +94,8 @@ TEST(LaneModes, NobodyIsAtFirstWhereNobodyCanCome) {
   const auto network = NetworkWith("crossing", {{1, LaneMode::kNone}});
   const TrafficModel model = TrafficModel::Make(Vehicles(60), network, {}).value();
   EXPECT_GT(model.on_road(), 20u);
-  for (const AgentPose& pose : model.poses()) EXPECT_NE(network->roads()[static_cast<std::size_t>(pose.road)].id(), "1");
+  for (const AgentPose& pose : model.poses())
+    EXPECT_NE(network->roads()[static_cast<std::size_t>(pose.road)].id(), "1");
 }
 
 TEST(LaneModes, VehiclesAreGoneAtTheEndOfAnEndLaneThatGoesOn) {
@@ -129,10 +133,12 @@ TEST(LaneModes, HoldOnARing) {
 // What the modes of the project's maps say is what their edges say.
 TEST(LaneModes, OfTheEdgesChangeNoBit) {
   for (const std::string& name : lanes::MapNames()) {
-    const auto made = traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
+    const auto made =
+        traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
     EXPECT_TRUE(traffic_map::BeginsAndEndsAtItsEdge(made)) << name;
     std::string xml = traffic_map::ToOpenDrive(made, name, traffic_map::Junctions::kDirect).value().xml;
-    for (std::size_t at = 0; (at = xml.find("rodeira:traffic", at)) != std::string::npos;) xml.replace(at, 15, "somebody's");
+    for (std::size_t at = 0; (at = xml.find("rodeira:traffic", at)) != std::string::npos;)
+      xml.replace(at, 15, "somebody's");
     const auto import = opendrive::Read(xml, name).value();
     ASSERT_TRUE(import.errors.empty());
     auto told = TrafficModel::Make(Vehicles(30), traffic_map::ToNetwork(made, name).value(), {}).value();
@@ -144,9 +150,11 @@ TEST(LaneModes, OfTheEdgesChangeNoBit) {
   }
 }
 
-// A world that a map is converted to lets vehicles begin and end where the map does; the files of other maps say nothing of it.
+// A world that a map is converted to lets vehicles begin and end where the map does; the files of other maps say
+// nothing of it.
 TEST(LaneModes, GoWithAConvertedMap) {
-  const traffic_map::LaneMap made = MapWith("crossing", {{13, LaneMode::kStart}, {9, LaneMode::kEnd}, {1, LaneMode::kNone}});
+  const traffic_map::LaneMap made =
+      MapWith("crossing", {{13, LaneMode::kStart}, {9, LaneMode::kEnd}, {1, LaneMode::kNone}});
   EXPECT_FALSE(traffic_map::BeginsAndEndsAtItsEdge(made));
   const auto import = opendrive::Read(traffic_map::ToOpenDrive(made, "crossing").value().xml, "crossing.xodr").value();
   ASSERT_TRUE(import.errors.empty());
@@ -162,15 +170,20 @@ TEST(LaneModes, GoWithAConvertedMap) {
   }
   EXPECT_EQ(begins, (std::set<std::string>{"3", "5", "7", "13"}));
   EXPECT_EQ(ends, (std::set<std::string>{"2", "4", "6", "8", "9"}));
-  EXPECT_EQ(traffic_map::ToOpenDrive(MapWith("crossing", {}), "crossing").value().xml.find("rodeira:traffic"), std::string::npos);
+  EXPECT_EQ(traffic_map::ToOpenDrive(MapWith("crossing", {}), "crossing").value().xml.find("rodeira:traffic"),
+            std::string::npos);
 }
 
-// A flow into the middle of a crossing, and others that come to it: from the arm from which its lane leads on, and from those that cross its way within its
-// first metres. Who begins there waits until nobody comes and its zones are its own.
+// A flow into the middle of a crossing, and others that come to it: from the arm from which its lane leads on, and from
+// those that cross its way within its first metres. Who begins there waits until nobody comes and its zones are its
+// own.
 TEST(LaneModes, WhoBeginsWithinACrossingIsInNobodysWay) {
-  const auto flow = [](const std::string& lane, int per_h) { return "{lane: \"" + lane + ":-1\", vehicles_per_h: " + std::to_string(per_h) + "}"; };
+  const auto flow = [](const std::string& lane, int per_h) {
+    return "{lane: \"" + lane + ":-1\", vehicles_per_h: " + std::to_string(per_h) + "}";
+  };
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
-    for (const auto& [middle, others] : {std::pair<std::string, std::string>("13", flow("3", 400)), {"11", flow("3", 400) + ", " + flow("5", 500) + ", " + flow("7", 400)}}) {
+    for (const auto& [middle, others] : {std::pair<std::string, std::string>("13", flow("3", 400)),
+                                         {"11", flow("3", 400) + ", " + flow("5", 500) + ", " + flow("7", 400)}}) {
       const TrafficSettings settings = Settings("flows: [" + flow(middle, 600) + ", " + others + "]\n", seed);
       const Trips trips = TripsOn(lanes::MapNetwork("crossing"), settings, 300.0, 0.01);
       EXPECT_EQ(trips.collisions, 0) << middle << trips.told;

@@ -13,9 +13,9 @@
 #include "common/traffic/floating_cars.hpp"
 #include "common/traffic/lane_tables.hpp"
 #include "common/traffic/trajectory_diagram.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -41,7 +41,8 @@ TEST_F(Written, TheTableHasARowACell) {
   EXPECT_EQ(line, "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps");
   std::size_t rows = 0, cells = 0;
   while (std::getline(table, line)) ++rows;
-  for (std::uint32_t track = 0; track < model_.graph().tracks().size(); ++track) cells += statistics_.CellsOf(track).size();
+  for (std::uint32_t track = 0; track < model_.graph().tracks().size(); ++track)
+    cells += statistics_.CellsOf(track).size();
   EXPECT_EQ(rows, cells);
 }
 
@@ -62,7 +63,9 @@ TEST_F(Written, TheRasterHoldsWhatWasSummed) {
     const int columns = set->GetRasterXSize(), rows = set->GetRasterYSize();
     const auto read = [&](int band) {
       std::vector<double> values(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
-      EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows, GDT_Float64, 0, 0), CE_None);
+      EXPECT_EQ(set->GetRasterBand(band)->RasterIO(GF_Read, 0, 0, columns, rows, values.data(), columns, rows,
+                                                   GDT_Float64, 0, 0),
+                CE_None);
       return values;
     };
     const auto flow = read(1), density = read(2), speed = read(3), free = read(5);
@@ -89,8 +92,10 @@ TEST_F(Written, FloatingCarsAreThoseOfTheModel) {
   auto pose = model_.poses().begin();
   for (const pugi::xml_node vehicle : moment.children("vehicle")) {
     ASSERT_NE(pose, model_.poses().end());
-    EXPECT_EQ(std::string(vehicle.attribute("id").value()), std::to_string(pose->id) + "." + std::to_string(pose->trip));
-    const double heading = std::atan2(2.0 * (pose->q_WB.w() * pose->q_WB.z() + pose->q_WB.x() * pose->q_WB.y()), 1.0 - 2.0 * (std::pow(pose->q_WB.y(), 2) + std::pow(pose->q_WB.z(), 2)));
+    EXPECT_EQ(std::string(vehicle.attribute("id").value()),
+              std::to_string(pose->id) + "." + std::to_string(pose->trip));
+    const double heading = std::atan2(2.0 * (pose->q_WB.w() * pose->q_WB.z() + pose->q_WB.x() * pose->q_WB.y()),
+                                      1.0 - 2.0 * (std::pow(pose->q_WB.y(), 2) + std::pow(pose->q_WB.z(), 2)));
     const double angle = vehicle.attribute("angle").as_double() * 3.14159265358979323846 / 180.0;
     EXPECT_NEAR(std::sin(angle), std::cos(heading), 1e-3);  // from north, clockwise
     EXPECT_NEAR(std::cos(angle), std::sin(heading), 1e-3);
@@ -123,7 +128,8 @@ std::vector<Eigen::Vector2d> PointsOf(const pugi::xml_node& line) {
   return points;
 }
 
-// Every cell of the map lies where its lane does, north up, and has the colour of the legend that its mean speed over its limit asks for; grey where nobody was.
+// Every cell of the map lies where its lane does, north up, and has the colour of the legend that its mean speed over
+// its limit asks for; grey where nobody was.
 TEST_F(Written, TheMapHasTheColoursOfItsLegend) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(SpeedMap(model_.graph(), statistics_, "a").c_str()));
@@ -144,16 +150,20 @@ TEST_F(Written, TheMapHasTheColoursOfItsLegend) {
       const LaneCell& cell = statistics_.CellsOf(track)[i];
       std::string colour = "#d0d0d0";
       if (cell.time_s > 0.0) {
-        const double share = cell.distance_m / cell.time_s / model_.graph().SpeedLimit_mps(track, (static_cast<double>(i) + 0.5) * length_m);
-        colour = legend[std::min(legend.size() - 1, static_cast<std::size_t>(share * static_cast<double>(legend.size())))];
+        const double share = cell.distance_m / cell.time_s /
+                             model_.graph().SpeedLimit_mps(track, (static_cast<double>(i) + 0.5) * length_m);
+        colour =
+            legend[std::min(legend.size() - 1, static_cast<std::size_t>(share * static_cast<double>(legend.size())))];
       }
       ASSERT_TRUE(line);
       EXPECT_EQ(std::string(line.attribute("stroke").value()), colour) << track << " " << i;
       seen.insert(colour);
       ASSERT_LT(at, points.size());
-      const Eigen::Vector2d world = model_.graph()[track].curve.At(static_cast<double>(i) * length_m).p_W.head<2>(), pixel = points[at];
+      const Eigen::Vector2d world = model_.graph()[track].curve.At(static_cast<double>(i) * length_m).p_W.head<2>(),
+                            pixel = points[at];
       if (!first) first = {world, pixel};
-      const Eigen::Vector2d across = world - first->first, moved(pixel.x() - first->second.x(), first->second.y() - pixel.y());
+      const Eigen::Vector2d across = world - first->first,
+                            moved(pixel.x() - first->second.x(), first->second.y() - pixel.y());
       if (scale == 0.0 && across.norm() > 20.0) scale = moved.norm() / across.norm();
       if (scale > 0.0) {
         EXPECT_LT((moved - scale * across).norm(), 0.3 + 0.02 * scale * across.norm()) << track << " " << i;
@@ -181,7 +191,8 @@ TEST(Diagram, HasTheColoursOfSpeeds) {
   bool stands = false;
   for (const pugi::xml_node line : document.child("svg").child("g").children("polyline")) {
     const auto points = PointsOf(line);
-    if (std::string(line.attribute("stroke").value()) == "#b2182b" && points.front().y() == points.back().y()) stands = true;
+    if (std::string(line.attribute("stroke").value()) == "#b2182b" && points.front().y() == points.back().y())
+      stands = true;
   }
   EXPECT_TRUE(stands);
   model.Release(0);

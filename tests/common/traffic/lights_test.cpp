@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "common/traffic/study.hpp"
+#include "tests/common/traffic/identical.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
-#include "tests/common/traffic/identical.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -43,13 +43,15 @@ std::optional<Line> LineAhead(const TrafficModel& model, const AgentPose& pose) 
   const double front = agent.o_m + 0.5 * model.traits(pose.id).length_m;
   for (const Piece& piece : agent.path) {
     const auto lights = lanes::LightsOf(model.graph(), piece.track);
-    if (!lights.empty() && piece.begin_m <= agent.o_m) return Line{piece.zero_m + lights[0].d_m - front, lights[0].controller};
+    if (!lights.empty() && piece.begin_m <= agent.o_m)
+      return Line{piece.zero_m + lights[0].d_m - front, lights[0].controller};
   }
   return std::nullopt;
 }
 
-// At the instant at which a light turns amber every car that comes to it is looked at: the motion apart says whether it could stop
-// (Gazis, Herman, Maradudin 1960), but for a decimetre. Whoever crosses a line is one that could not, or does it at green.
+// At the instant at which a light turns amber every car that comes to it is looked at: the motion apart says whether it
+// could stop (Gazis, Herman, Maradudin 1960), but for a decimetre. Whoever crosses a line is one that could not, or
+// does it at green.
 TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
   TrafficSettings settings;
   settings.vehicles = 60;
@@ -66,7 +68,8 @@ TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
       double& gap = gaps[pose.id];
       if (line && gap >= 0.0 && line->gap_m < 0.0) {
         const LightColour colour = before[line->controller];
-        ASSERT_TRUE(colour == LightColour::kGreen || colour == LightColour::kAmber) << "car " << pose.id << " at " << 0.01 * i << " s";
+        ASSERT_TRUE(colour == LightColour::kGreen || colour == LightColour::kAmber)
+            << "car " << pose.id << " at " << 0.01 * i << " s";
         if (colour == LightColour::kAmber) {
           ASSERT_EQ(could[pose.id], 0) << "car " << pose.id << " at " << 0.01 * i << " s";
           ++at_amber;
@@ -74,7 +77,8 @@ TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
           ++at_green;
         }
       }
-      if (line && before[line->controller] == LightColour::kGreen && model.colours()[line->controller] == LightColour::kAmber && line->gap_m > 0.0) {
+      if (line && before[line->controller] == LightColour::kGreen &&
+          model.colours()[line->controller] == LightColour::kAmber && line->gap_m > 0.0) {
         const double gap_m = line->gap_m - kBefore_m, v = pose.speed_mps;
         could[pose.id] = gap_m > 0.0 && StopsIn(v, pose.acceleration_mps2) < gap_m - 0.1 ? 1 : 0;
         if (could[pose.id] == 1 && v * v > 2.0 * gap_m) ++stopped;
@@ -94,8 +98,10 @@ std::shared_ptr<const network::Network> Road(double green_s) {
   road.length = 1200.0;
   road.left = "";
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"1200\"><line/></geometry>";
-  road.more = "<signals><signal s=\"700\" t=\"-4\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"2\" type=\"1000001\" subtype=\"-1\" "
-              "country=\"OpenDRIVE\"/></signals>";
+  road.more =
+      "<signals><signal s=\"700\" t=\"-4\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"2\" type=\"1000001\" "
+      "subtype=\"-1\" "
+      "country=\"OpenDRIVE\"/></signals>";
   return opendrive::MustRead(opendrive::Document(
       road.Text() + fmt::format("<controller id=\"1\" name=\"only\"><control signalId=\"7\" type=\"0\"/>"
                                 "<userData code=\"rodeira:times\" value=\"60 5 {} 3 1\"/></controller>",
@@ -106,11 +112,11 @@ struct Car {
   double front_m = 0.0, length_m = 0.0, speed_mps = 0.0, acceleration_mps2 = 0.0;  // the line lies at 0
 };
 
-// A queue that starts at green, by the IDM integrated here with accelerations that change by 3 m/s³ at most: how many pass if it is green for `green_s` and whoever cannot stop
-// at the line then goes on. `passes`: when each front passes were it green for ever; `last_mps`: how fast the last one that passes is
-// when green ends.
-int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desired_mps, double green_s, std::vector<double>& passes,
-             double& last_mps) {
+// A queue that starts at green, by the IDM integrated here with accelerations that change by 3 m/s³ at most: how many
+// pass if it is green for `green_s` and whoever cannot stop at the line then goes on. `passes`: when each front passes
+// were it green for ever; `last_mps`: how fast the last one that passes is when green ends.
+int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desired_mps, double green_s,
+             std::vector<double>& passes, double& last_mps) {
   constexpr double kStep_s = 0.002;
   passes.assign(queue.size(), 1e9);
   int passed = -1;
@@ -127,10 +133,14 @@ int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desi
       double interaction = 0.0;
       const double v = old[n].speed_mps;
       if (n > 0) {
-        const double wanted = idm.standing_gap_m + std::max(0.0, v * idm.time_gap_s + v * (v - old[n - 1].speed_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
+        const double wanted =
+            idm.standing_gap_m +
+            std::max(0.0, v * idm.time_gap_s + v * (v - old[n - 1].speed_mps) /
+                                                   (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
         interaction = std::pow(wanted / (old[n - 1].front_m - old[n - 1].length_m - old[n].front_m), 2);
       }
-      const double wanted_mps2 = idm.acceleration_mps2 * (1.0 - std::pow(v / desired_mps, 4) - interaction), before = old[n].acceleration_mps2;
+      const double wanted_mps2 = idm.acceleration_mps2 * (1.0 - std::pow(v / desired_mps, 4) - interaction),
+                   before = old[n].acceleration_mps2;
       const double then = std::clamp(wanted_mps2, before - kStep_s * kJerk_mps3, before + kStep_s * kJerk_mps3);
       queue[n].acceleration_mps2 = std::max(then, -std::sqrt(2.0 * kJerk_mps3 * v));  // comes to rest without a jerk
       queue[n].speed_mps = std::max(0.0, v + kStep_s * queue[n].acceleration_mps2);
@@ -141,9 +151,10 @@ int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desi
   return passed;
 }
 
-// Webster (1958): an approach carries s g / c: s the saturation flow, g the effective green, which is the green without what is
-// lost at the start and with what of amber is used. Here the queue that stands at the beginning of each green is taken as it is,
-// and the IDM integrated apart says how many of it pass, within one car in all, and what s and the lost time are.
+// Webster (1958): an approach carries s g / c: s the saturation flow, g the effective green, which is the green without
+// what is lost at the start and with what of amber is used. Here the queue that stands at the beginning of each green
+// is taken as it is, and the IDM integrated apart says how many of it pass, within one car in all, and what s and the
+// lost time are.
 TEST(Lights, CarryWhatWebsterSays) {
   constexpr double kCycle_s = 60.0, kLimit_mps = 50.0 / 3.6, kStep_s = 0.02, kGreenFrom_s = 5.0;
   constexpr int kFrom = 3, kCycles = 5;
@@ -212,7 +223,8 @@ TEST(Lights, RestoredAtAnyColourItGoesOnWithTheSameBits) {
   EXPECT_EQ(digest(a), digest(b));
 }
 
-// A driver's car that comes from the right towards its red light, and can stop, keeps nobody waiting who has green: those drive to the bit as without it.
+// A driver's car that comes from the right towards its red light, and can stop, keeps nobody waiting who has green:
+// those drive to the bit as without it.
 TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
   constexpr double kBefore_light_m = 25.0, kGhost_mps = 8.0;
   const auto network = lanes::MapNetwork("lights");
@@ -229,28 +241,33 @@ TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
   ASSERT_NE(from_the_right, arms.end());
   const auto light = lanes::LightsOf(graph, *from_the_right)[0];
   const lanes::CurvePoint at = graph[*from_the_right].curve.At(light.d_m - kBefore_light_m);
-  const driver::Footprint ghost{1'000'000, at.p_W.x(), at.p_W.y(), std::atan2(at.ahead_W.y(), at.ahead_W.x()), kGhost_mps, 4.4, 1.8};
+  const driver::Footprint ghost{1'000'000,  at.p_W.x(), at.p_W.y(), std::atan2(at.ahead_W.y(), at.ahead_W.x()),
+                                kGhost_mps, 4.4,        1.8};
   TrafficSettings settings;
   settings.vehicles = 30;
   FlowSettings flow;
   flow.lane = network->roads()[graph[arms[0]].lane.road].id() + ":" + std::to_string(graph[arms[0]].lane.lane);
   flow.per_h = {900.0};
   settings.demand.flows = {flow};
-  TrafficModel without = TrafficModel::Make(settings, network, {}).value(), with = TrafficModel::Make(settings, network, {}).value();
+  TrafficModel without = TrafficModel::Make(settings, network, {}).value(),
+               with = TrafficModel::Make(settings, network, {}).value();
   for (int i = 0; i < 6000; ++i) {
     const bool red = with.colours()[light.controller] == LightColour::kRed;
     without.Step(0.02, {});
     with.Step(0.02, red ? std::span(&ghost, 1) : std::span<const driver::Footprint>());
     ASSERT_EQ(with.poses().size(), without.poses().size()) << i;
-    for (std::size_t k = 0; k < with.poses().size(); ++k) ASSERT_EQ(with.poses()[k].p_WB_W, without.poses()[k].p_WB_W) << i;
+    for (std::size_t k = 0; k < with.poses().size(); ++k)
+      ASSERT_EQ(with.poses()[k].p_WB_W, without.poses()[k].p_WB_W) << i;
   }
   EXPECT_GT(with.ended(), 5u);
 }
 
 TEST(Lights, ConflictingGreensAreRefused) {
   const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
-  const auto heights = traffic_map::ParseHeights("rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");
-  const auto network = traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), heights.value(), "x").value(), "x").value();
+  const auto heights = traffic_map::ParseHeights(
+      "rodeira: motors/1\nlights: [{phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 9}]}]\n", "x.yaml");
+  const auto network =
+      traffic_map::ToNetwork(traffic_map::MakeLaneMap(file.value(), heights.value(), "x").value(), "x").value();
   const auto model = TrafficModel::Make({}, network, {});
   ASSERT_FALSE(model.ok());
   EXPECT_EQ(model.error().exit_status(), 2);

@@ -7,17 +7,18 @@
 #include <string>
 
 #include "common/traffic/traffic_model.hpp"
+#include "tests/common/traffic/scripted.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/lanes/mirrored.hpp"
 #include "tests/common/world/lanes/short_sections.hpp"
-#include "tests/common/traffic/scripted.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-// More wish to drive from the motorway's lane and from the ramp than the lane beyond carries. After the queues have come, of ten
-// that pass nine come from the other lane than the one before, and never three from one.
-void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const std::string& lane_name, const std::string& ramp_name) {
+// More wish to drive from the motorway's lane and from the ramp than the lane beyond carries. After the queues have
+// come, of ten that pass nine come from the other lane than the one before, and never three from one.
+void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const std::string& lane_name,
+                  const std::string& ramp_name) {
   constexpr double kStep_s = 0.05, kWarm_s = 120.0, kFor_s = 420.0, kBeyond_m = 300.0;
   TrafficSettings settings;
   settings.vehicles = 400;
@@ -48,11 +49,14 @@ void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const 
   EXPECT_EQ(passed.find("lll"), std::string::npos) << passed;
   EXPECT_EQ(passed.find("rrr"), std::string::npos) << passed;
   EXPECT_LE(hardest_mps2, 3.0);
-  testing::Test::RecordProperty("passed_per_h", std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
+  testing::Test::RecordProperty("passed_per_h",
+                                std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
 }
 
-// Somebody comes on each of two ways whose last decimetres are lane sections of their own, at all times apart: who is let in behind the other stops at the line or follows him, whichever is the less
-// braking, when the other one's front is on these sections as well. While they were told as ways that part he followed from then on, and braked in an emergency. Returns how often one came in behind the other.
+// Somebody comes on each of two ways whose last decimetres are lane sections of their own, at all times apart: who is
+// let in behind the other stops at the line or follows him, whichever is the less braking, when the other one's front
+// is on these sections as well. While they were told as ways that part he followed from then on, and braked in an
+// emergency. Returns how often one came in behind the other.
 int ComeTogetherCalmly(double straight_mps, double cut_m) {
   constexpr double kBend_mps = 4.0, kFrom_m = 220.0, kFor_s = 45.0;
   int followed = 0;
@@ -65,7 +69,8 @@ int ComeTogetherCalmly(double straight_mps, double cut_m) {
     for (int i = 0; i * kStep_s < kFor_s; ++i) {
       Step(model);
       for (const AgentPose& pose : model.poses()) {
-        EXPECT_FALSE(model.Hurries(pose.id)) << straight_mps << " m/s, " << apart_m << " m apart: car " << pose.id << " after " << i * kStep_s << " s";
+        EXPECT_FALSE(model.Hurries(pose.id))
+            << straight_mps << " m/s, " << apart_m << " m apart: car " << pose.id << " after " << i * kStep_s << " s";
         follows = follows || model.agent(pose.id).eased_for >= 0;
       }
     }
@@ -75,11 +80,14 @@ int ComeTogetherCalmly(double straight_mps, double cut_m) {
 }
 
 TEST(Merging, ShortLaneSectionsAtTheEndOfTheWaysChangeNothing) {
-  for (const double straight_mps : {3.0, 4.0, 5.0, 6.0}) EXPECT_GT(ComeTogetherCalmly(straight_mps, 0.2), 20) << straight_mps;
+  for (const double straight_mps : {3.0, 4.0, 5.0, 6.0})
+    EXPECT_GT(ComeTogetherCalmly(straight_mps, 0.2), 20) << straight_mps;
 }
 
 TEST(Merging, TwoQueuesZip) { TwoQueuesZip(lanes::MapNetwork("ramp"), "1:-1", "13:-1"); }
-TEST(Merging, TwoQueuesZipMirroredInLeftHandTraffic) { TwoQueuesZip(lanes::Drawn(lanes::MapText("ramp")).Mirror().Read(), "1:1", "13:1"); }
+TEST(Merging, TwoQueuesZipMirroredInLeftHandTraffic) {
+  TwoQueuesZip(lanes::Drawn(lanes::MapText("ramp")).Mirror().Read(), "1:1", "13:1");
+}
 
 }  // namespace
 }  // namespace rodeira::traffic

@@ -8,20 +8,22 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-// A minor road across a major one, whose cars are given from outside at chosen times. The minor road's cars queue; how many of
-// them cross is counted.
+// A minor road across a major one, whose cars are given from outside at chosen times. The minor road's cars queue; how
+// many of them cross is counted.
 class Crossroads {
  public:
   static constexpr double kMajor_mps = 50.0 / 3.6, kHalf_m = 300.0, kStep_s = 0.05;
 
-  // `times_s`: when a major car's front is at the crossing's middle; ascending. Returns when a minor one's middle is there.
-  static std::vector<double> Crossed(const std::vector<double>& times_s, double duration_s, const driver::SmoothSettings& smooth = {}) {
+  // `times_s`: when a major car's front is at the crossing's middle; ascending. Returns when a minor one's middle is
+  // there.
+  static std::vector<double> Crossed(const std::vector<double>& times_s, double duration_s,
+                                     const driver::SmoothSettings& smooth = {}) {
     TrafficSettings settings = Identical(40, 1.4);
     settings.smooth = smooth;
     TrafficModel model = TrafficModel::Make(settings, Roads(), {}).value();
@@ -32,7 +34,8 @@ class Crossroads {
       others.clear();
       for (std::size_t n = 0; n < times_s.size(); ++n) {
         const double x = (now - times_s[n]) * kMajor_mps;
-        if (std::fabs(x) < kHalf_m - 5.0) others.push_back({100000 + static_cast<std::uint32_t>(n), x - 2.2, -1.75, 0.0, kMajor_mps, 4.4, 1.8});
+        if (std::fabs(x) < kHalf_m - 5.0)
+          others.push_back({100000 + static_cast<std::uint32_t>(n), x - 2.2, -1.75, 0.0, kMajor_mps, 4.4, 1.8});
       }
       model.Step(kStep_s, others);
       for (const AgentPose& pose : model.poses()) {
@@ -52,19 +55,23 @@ class Crossroads {
   static std::shared_ptr<const network::Network> Roads() {
     opendrive::RoadText major, minor;
     const auto sign = [](double s, const char* type) {
-      return fmt::format("<signals><signal s=\"{}\" t=\"-4\" id=\"1\" dynamic=\"no\" orientation=\"+\" zOffset=\"2\" "
-                         "type=\"{}\" subtype=\"-1\" country=\"DE\"/></signals>", s, type);
+      return fmt::format(
+          "<signals><signal s=\"{}\" t=\"-4\" id=\"1\" dynamic=\"no\" orientation=\"+\" zOffset=\"2\" "
+          "type=\"{}\" subtype=\"-1\" country=\"DE\"/></signals>",
+          s, type);
     };
     const auto line = [](double x, double y, double heading) {
-      return fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y, heading, 2.0 * kHalf_m);
+      return fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y,
+                         heading, 2.0 * kHalf_m);
     };
     major.length = minor.length = 2.0 * kHalf_m;
     major.left = minor.left = "";
     minor.id = "2";
     major.geometry = line(-kHalf_m, 0.0, 0.0);
     minor.geometry = line(0.0, -kHalf_m, 0.5 * std::numbers::pi);
-    major.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"1.9\" b=\"0.016\" c=\"0\" d=\"0\"/>"
-                  "<width sOffset=\"100\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+    major.right =
+        "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"1.9\" b=\"0.016\" c=\"0\" d=\"0\"/>"
+        "<width sOffset=\"100\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
     major.more = sign(kHalf_m - 20.0, "301");
     minor.more = sign(kHalf_m - 8.0, "205");
     return opendrive::MustRead(opendrive::Document(major.Text() + minor.Text()));
@@ -89,13 +96,15 @@ TEST(MinorRoad, AMinorRoadCarriesWhatItsOwnGapsSay) {
   const std::vector<double> crossed = Crossroads::Crossed(times, at, kAtOnce);
   double n = 0.0, sum_k = 0.0, sum_g = 0.0, sum_kk = 0.0, sum_kg = 0.0;
   for (std::size_t i = 0; i < gaps.size(); ++i) {
-    const auto k = static_cast<double>(std::count_if(crossed.begin(), crossed.end(), [&](double t) { return t > begins[i] && t < begins[i] + gaps[i]; }));
+    const auto k = static_cast<double>(std::count_if(
+        crossed.begin(), crossed.end(), [&](double t) { return t > begins[i] && t < begins[i] + gaps[i]; }));
     if (k < 1.0) continue;
     n += 1.0, sum_k += k, sum_g += gaps[i], sum_kk += k * k, sum_kg += k * gaps[i];
   }
   ASSERT_GT(n, 20.0);
   const double follow_up = (n * sum_kg - sum_k * sum_g) / (n * sum_kk - sum_k * sum_k);
-  const double zero = (sum_g - follow_up * sum_k) / n - 0.5 * follow_up;  // of the line through the middles of the stairs
+  const double zero =
+      (sum_g - follow_up * sum_k) / n - 0.5 * follow_up;  // of the line through the middles of the stairs
   RecordProperty("follow_up_s", std::to_string(follow_up));
   RecordProperty("critical_gap_s", std::to_string(zero + 0.5 * follow_up));
   for (const double flow_per_h : {200.0, 400.0, 600.0}) {
@@ -106,14 +115,16 @@ TEST(MinorRoad, AMinorRoadCarriesWhatItsOwnGapsSay) {
       arrivals.push_back(t);
     }
     const auto passed = Crossroads::Crossed(arrivals, kRandomFor_s, kAtOnce);
-    const double measured = static_cast<double>(std::count_if(passed.begin(), passed.end(), [](double t) { return t > 60.0; })) * 3600.0 / (kRandomFor_s - 60.0);
+    const double measured =
+        static_cast<double>(std::count_if(passed.begin(), passed.end(), [](double t) { return t > 60.0; })) * 3600.0 /
+        (kRandomFor_s - 60.0);
     const double capacity = 3600.0 / follow_up * std::exp(-flow_per_h / 3600.0 * zero);
     EXPECT_NEAR(measured, capacity, 0.1 * capacity) << flow_per_h;
   }
 }
 
-// Drivers who come to each acceleration smoothly count the time that this takes: nobody touches anybody between dense cars (Crossed looks at each step), and no fewer
-// than four fifths of those cross.
+// Drivers who come to each acceleration smoothly count the time that this takes: nobody touches anybody between dense
+// cars (Crossed looks at each step), and no fewer than four fifths of those cross.
 TEST(MinorRoad, SmoothDriversCrossAsSafely) {
   constexpr double kFor_s = 2400.0;
   std::mt19937 random(7);
@@ -122,7 +133,8 @@ TEST(MinorRoad, SmoothDriversCrossAsSafely) {
     t -= 6.0 * std::log(1.0 - (static_cast<double>(random()) + 0.5) / 4294967296.0);
     arrivals.push_back(t);
   }
-  EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s).size(), Crossroads::Crossed(arrivals, kFor_s, kAtOnce).size() * 4 / 5);
+  EXPECT_GT(Crossroads::Crossed(arrivals, kFor_s).size(),
+            Crossroads::Crossed(arrivals, kFor_s, kAtOnce).size() * 4 / 5);
 }
 
 }  // namespace

@@ -12,10 +12,10 @@
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -26,12 +26,14 @@ Eigen::Vector2d RolledCourseOf(const AgentPose& pose) {
   return Eigen::Rotation2Dd(std::atan(0.5 * std::tan(pose.steer_rad))) * ahead.normalized();
 }
 
-// Where the middle of an agent's car goes, unit: with planar physics both axles' middles keep to the path, so that it goes the mean of their ways; with full physics as the car's body moves.
+// Where the middle of an agent's car goes, unit: with planar physics both axles' middles keep to the path, so that it
+// goes the mean of their ways; with full physics as the car's body moves.
 Eigen::Vector2d CourseOf(const TrafficModel& model, const AgentPose& pose) {
   if (model.full() == nullptr) {
     const Agent& agent = model.agent(pose.id);
     const double half = 0.5 * model.traits(pose.id).wheelbase_m;
-    const PathFrame front = FrameAt(model.graph(), agent.path, agent.o_m + half), rear = FrameAt(model.graph(), agent.path, agent.o_m - half);
+    const PathFrame front = FrameAt(model.graph(), agent.path, agent.o_m + half),
+                    rear = FrameAt(model.graph(), agent.path, agent.o_m - half);
     return (front.stretch * front.ahead_W + rear.stretch * rear.ahead_W).normalized();
   }
   const Eigen::Vector2d v = model.full()->cars().car(pose.id).body.VelocityAt(pose.p_WB_W).head<2>();
@@ -59,13 +61,17 @@ class Feels {
       ++samples;
       if (model.Hurries(pose.id)) {
         if (hurried++ < 3) {
-          first += fmt::format("\n  car {} at {:.2f} s, {:.3f} m/s, {:.3f} m/s2, {:.2f} m behind the next, at ({:.1f}, {:.1f})", pose.id, time_s, pose.speed_mps, pose.acceleration_mps2, model.GapAhead(pose.id), pose.p_WB_W.x(), pose.p_WB_W.y());
+          first += fmt::format(
+              "\n  car {} at {:.2f} s, {:.3f} m/s, {:.3f} m/s2, {:.2f} m behind the next, at ({:.1f}, {:.1f})", pose.id,
+              time_s, pose.speed_mps, pose.acceleration_mps2, model.GapAhead(pose.id), pose.p_WB_W.x(),
+              pose.p_WB_W.y());
         }
         emergency_mps3 = std::max(emergency_mps3, jerk);
         continue;
       }
       if (jerk > planned_mps3) {
-        worst = fmt::format("car {} ({}) at {:.2f} s, {:.3f} m/s, from {:.3f} to {:.3f} m/s2", pose.id, static_cast<int>(model.traits(pose.id).kind), time_s, pose.speed_mps,
+        worst = fmt::format("car {} ({}) at {:.2f} s, {:.3f} m/s, from {:.3f} to {:.3f} m/s2", pose.id,
+                            static_cast<int>(model.traits(pose.id).kind), time_s, pose.speed_mps,
                             pose.acceleration_mps2 - jerk * step_s_, pose.acceleration_mps2);
       }
       planned_mps3 = std::max(planned_mps3, jerk);
@@ -85,7 +91,8 @@ class Feels {
   std::vector<Before> before_;
 };
 
-// Bends, queues, merges, lights, STOP lines, hills; cars, lorries and buses. Where no driver's car drives nobody hurries.
+// Bends, queues, merges, lights, STOP lines, hills; cars, lorries and buses. Where no driver's car drives nobody
+// hurries.
 TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
   for (const std::string& name : lanes::MapNames()) {
     for (const double step_s : {0.01, 0.05}) {
@@ -106,20 +113,23 @@ TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
   }
 }
 
-// Who drives with the throttle open until his engine turns as fast as it may, and would have less pull in the next gear all at once, gives way before: lorries and buses uphill, each from rest to
-// as fast as it comes.
+// Who drives with the throttle open until his engine turns as fast as it may, and would have less pull in the next gear
+// all at once, gives way before: lorries and buses uphill, each from rest to as fast as it comes.
 TEST(Motion, AChangeOfGearWithTheThrottleOpenIsPlannedToo) {
   constexpr double kLong_m = 3000.0;
   for (const double grade : {0.03, 0.05}) {
     opendrive::RoadText road;
     road.length = kLong_m;
-    road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kLong_m);
+    road.geometry =
+        fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{}\"><line/></geometry>", kLong_m);
     road.elevation = fmt::format("<elevation s=\"0\" a=\"0\" b=\"{}\" c=\"0\" d=\"0\"/>", grade);
     road.left = "";
     road.right = CircleLane(-1, 30.0);
     for (const double step_s : {0.01, 0.05}) {
       for (const VehicleKind kind : {VehicleKind::kLorry, VehicleKind::kBus}) {
-        TrafficModel model = TrafficModel::Make(OnlyScripted({kind, kind, kind, kind}), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
+        TrafficModel model = TrafficModel::Make(OnlyScripted({kind, kind, kind, kind}),
+                                                opendrive::MustRead(opendrive::Document(road.Text())), {})
+                                 .value();
         for (std::uint32_t id = 0; id < 4; ++id) Put(model, id, "1:-1", 100.0 + 200.0 * id, 0.0);
         Feels feels(model, step_s);
         int changes = 0;
@@ -141,8 +151,9 @@ TEST(Motion, AChangeOfGearWithTheThrottleOpenIsPlannedToo) {
   }
 }
 
-// Sideways no jerk is planned: it is that of the path, v³ dκ/ds where its curvature changes, at the speed that its curvature allows. From the published headings: more than the 3 m/s³ that are
-// kept along the way, and less than what an emergency may take there.
+// Sideways no jerk is planned: it is that of the path, v³ dκ/ds where its curvature changes, at the speed that its
+// curvature allows. From the published headings: more than the 3 m/s³ that are kept along the way, and less than what
+// an emergency may take there.
 TEST(Motion, BendsBeginNoHarderThanTheirPathsSay) {
   constexpr double kStep_s = 0.01;
   for (const std::string& name : lanes::MapNames()) {
@@ -163,11 +174,13 @@ TEST(Motion, BendsBeginNoHarderThanTheirPathsSay) {
         Before& at = before[pose.id];
         if (at.trip != static_cast<std::int64_t>(pose.trip)) at = {pose.trip, 0, 0.0, 0.0};
         const double heading = FootprintOf(pose, model.traits(pose.id)).heading_rad;
-        const double lateral = pose.speed_mps * std::remainder(heading - at.heading_rad, 2.0 * std::numbers::pi) / kStep_s;
+        const double lateral =
+            pose.speed_mps * std::remainder(heading - at.heading_rad, 2.0 * std::numbers::pi) / kStep_s;
         const double jerk = std::fabs(lateral - at.lateral_mps2) / kStep_s;
         if (at.steps >= 2 && jerk > hardest) {
           hardest = jerk;
-          where = fmt::format("car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", pose.id, i * kStep_s, pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
+          where = fmt::format("car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", pose.id, i * kStep_s,
+                              pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
         }
         at = {pose.trip, at.steps + 1, heading, lateral};
       }
@@ -179,7 +192,8 @@ TEST(Motion, BendsBeginNoHarderThanTheirPathsSay) {
   }
 }
 
-// A car stands in the lane all at once, so near that it takes more than comfort: who comes hurries, by 15 m/s³ at most, to rest, and does not touch it.
+// A car stands in the lane all at once, so near that it takes more than comfort: who comes hurries, by 15 m/s³ at most,
+// to rest, and does not touch it.
 TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
   for (const double step_s : {0.01, 0.05}) {
     TrafficModel model = TrafficModel::Make(Identical(1, 1.4), driver::StraightWorld(1500.0, 20.0), {}).value();
@@ -205,8 +219,9 @@ TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
   }
 }
 
-// Position and velocity agree as vectors: what each car goes in a step is the mean of its speeds before and after, along its course, to 1 mm. Heading and steering alone say it less well (printed by
-// RODEIRA_TELL): where a bend begins both axles of a planar car lead elsewhere than it points, and the tyres of one with full physics slip.
+// Position and velocity agree as vectors: what each car goes in a step is the mean of its speeds before and after,
+// along its course, to 1 mm. Heading and steering alone say it less well (printed by RODEIRA_TELL): where a bend begins
+// both axles of a planar car lead elsewhere than it points, and the tyres of one with full physics slip.
 TEST(Motion, PositionAndVelocityAgreeAsVectors) {
   constexpr double kStep_s = 0.01;
   for (const Physics physics : {Physics::kPlanar, Physics::kFull}) {
@@ -217,27 +232,40 @@ TEST(Motion, PositionAndVelocityAgreeAsVectors) {
       settings.vehicles = 25;
       settings.physics = physics;
       TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork(name), {}).value();
-      struct Before { std::int64_t trip = -1; Eigen::Vector2d p_W, course, ahead, rolled; double speed_mps = 0.0; };
+      struct Before {
+        std::int64_t trip = -1;
+        Eigen::Vector2d p_W, course, ahead, rolled;
+        double speed_mps = 0.0;
+      };
       std::vector<Before> before(model.vehicles());
       for (int i = 0; i < (physics == Physics::kFull ? 3000 : 9000); ++i) {
         model.Step(kStep_s, {});
         for (const AgentPose& pose : model.poses()) {
           Before& last = before[pose.id];
-          const Eigen::Vector2d course = CourseOf(model, pose), ahead = (pose.q_WB * Eigen::Vector3d::UnitX()).head<2>().normalized(), rolled = RolledCourseOf(pose);
+          const Eigen::Vector2d course = CourseOf(model, pose),
+                                ahead = (pose.q_WB * Eigen::Vector3d::UnitX()).head<2>().normalized(),
+                                rolled = RolledCourseOf(pose);
           if (last.trip == static_cast<std::int64_t>(pose.trip)) {
             const double way = 0.5 * (pose.speed_mps + last.speed_mps) * kStep_s;
             const Eigen::Vector2d moved = pose.p_WB_W.head<2>() - last.p_W;
             const double error = (moved - way * (course + last.course).normalized()).norm();
-            if (error > worst_m) where = fmt::format("{}: car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", name, pose.id, kStep_s * i, pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
+            if (error > worst_m)
+              where = fmt::format("{}: car {} at {:.2f} s, {:.2f} m/s, at ({:.1f}, {:.1f})", name, pose.id, kStep_s * i,
+                                  pose.speed_mps, pose.p_WB_W.x(), pose.p_WB_W.y());
             worst_m = std::max(worst_m, error);
-            if (i >= 200) by_steering_m = std::max(by_steering_m, (moved - way * (rolled + last.rolled).normalized()).norm());  // it has settled
+            if (i >= 200)
+              by_steering_m = std::max(by_steering_m,
+                                       (moved - way * (rolled + last.rolled).normalized()).norm());  // it has settled
             by_heading_m = std::max(by_heading_m, (moved - way * (ahead + last.ahead).normalized()).norm());
           }
           last = {pose.trip, pose.p_WB_W.head<2>(), course, ahead, rolled, pose.speed_mps};
         }
       }
     }
-    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {:.4f} mm by the course ({}), {:.2f} mm by the heading, {:.2f} mm by heading and steering\n", physics == Physics::kFull ? "full" : "planar", 1e3 * worst_m, where, 1e3 * by_heading_m, 1e3 * by_steering_m);
+    if (std::getenv("RODEIRA_TELL") != nullptr)
+      fmt::print("{}: {:.4f} mm by the course ({}), {:.2f} mm by the heading, {:.2f} mm by heading and steering\n",
+                 physics == Physics::kFull ? "full" : "planar", 1e3 * worst_m, where, 1e3 * by_heading_m,
+                 1e3 * by_steering_m);
     EXPECT_LT(worst_m, 1e-3) << where;
   }
 }

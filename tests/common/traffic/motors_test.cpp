@@ -29,7 +29,8 @@ TEST(Motors, SteersBetweenThePathAndTheTarget) {
 
 // A.41 and A.66, its weights the right way round; A.69, A.70.
 TEST(Motors, PedalsAreTheSources) {
-  for (const auto& [degrees, speed] : {std::pair{0.0, 17.0}, {10.0, 17.0}, {15.0, 14.5}, {20.0, 12.0}, {30.0, 8.5}, {40.0, 5.0}, {170.0, 5.0}}) {
+  for (const auto& [degrees, speed] :
+       {std::pair{0.0, 17.0}, {10.0, 17.0}, {15.0, 14.5}, {20.0, 12.0}, {30.0, 8.5}, {40.0, 5.0}, {170.0, 5.0}}) {
     EXPECT_NEAR(TurningSpeed_mps(degrees * kDegree, 17.0), speed, 1e-9) << degrees;
     EXPECT_NEAR(TurningSpeed_mps(-degrees * kDegree, 17.0), speed, 1e-9) << degrees;
   }
@@ -66,7 +67,8 @@ TEST(Motors, HandsHaveARate) {
   EXPECT_NEAR(half.steer_rad(), 5.0 * kDegree, 1e-12);
 }
 
-// A.75 to A.81: a gear up at 1500 1/min, the clutch up by 0.08 a frame without throttle, the next one a hundred frames later.
+// A.75 to A.81: a gear up at 1500 1/min, the clutch up by 0.08 a frame without throttle, the next one a hundred frames
+// later.
 TEST(Motors, GearsGoUpAndDownWithTheirPause) {
   MotorsDriver driver;
   driver.Begin(1);
@@ -108,14 +110,18 @@ TrafficSettings AsMotors(std::uint32_t vehicles) {
   return settings;
 }
 
-// Alone on a long straight road, where he begins slower: he comes to 17 m/s and no faster, whatever the lane's limit, within his lane.
+// Alone on a long straight road, where he begins slower: he comes to 17 m/s and no faster, whatever the lane's limit,
+// within his lane.
 TEST(Motors, DrivesAloneToItsLimit) {
   opendrive::RoadText road;
   road.length = 8000.0;
   road.left = "";
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"8000\"><line/></geometry>";
-  road.right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"10\" unit=\"m/s\"/></lane>";
-  TrafficModel model = TrafficModel::Make(AsMotors(1), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
+  road.right =
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" "
+      "max=\"10\" unit=\"m/s\"/></lane>";
+  TrafficModel model =
+      TrafficModel::Make(AsMotors(1), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
   double fastest = 0.0, aside = 0.0;
   int published = 0;
   for (int i = 0; i < 12000 && model.agent(0).trip == 0; ++i) {
@@ -128,7 +134,8 @@ TEST(Motors, DrivesAloneToItsLimit) {
     ASSERT_NEAR(detail.target_mps, 17.0, 1e-9);
     const Eigen::Vector3d& at_W = model.poses()[0].p_WB_W;
     ASSERT_NEAR(detail.look_ahead_W.x() - at_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
-    // The point behind the nearest one of his trajectory, which has one every 0.3 m along the road, as it was before the step's way.
+    // The point behind the nearest one of his trajectory, which has one every 0.3 m along the road, as it was before
+    // the step's way.
     const double ahead_m = detail.target_W.x() - at_W.x() + 0.01 * model.poses()[0].speed_mps;
     ASSERT_TRUE(ahead_m > 0.14 && ahead_m < 0.46) << ahead_m;
     ASSERT_LT(std::fabs(detail.target_W.y() + 1.75), 0.15 * 3.5 + 1e-9);
@@ -141,7 +148,8 @@ TEST(Motors, DrivesAloneToItsLimit) {
   EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what he is beside his trajectory
 }
 
-// On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody (NetworkTraffic).
+// On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody
+// (NetworkTraffic).
 TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
   std::int64_t collisions = 0;
   for (const char* name : {"crossing", "roundabout", "town"}) {
@@ -153,14 +161,19 @@ TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
     EXPECT_GT(r.mean_speed_mps(), 2.0) << name;
     EXPECT_EQ(r.on_road + r.waiting, 15u) << name;
     collisions += r.collisions;
-    testing::Test::RecordProperty(name, fmt::format("{} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane", r.collisions, r.arrivals, r.driven_km, r.mean_speed_mps(), r.off_lane));
-    if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("{}: {} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane\n", name, r.collisions, r.arrivals, r.driven_km, r.mean_speed_mps(), r.off_lane);
+    testing::Test::RecordProperty(
+        name, fmt::format("{} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane", r.collisions, r.arrivals,
+                          r.driven_km, r.mean_speed_mps(), r.off_lane));
+    if (std::getenv("RODEIRA_TELL") != nullptr)
+      fmt::print("{}: {} collisions, {} trips, {:.1f} km, {:.1f} m/s, {} looks off lane\n", name, r.collisions,
+                 r.arrivals, r.driven_km, r.mean_speed_mps(), r.off_lane);
   }
   EXPECT_GT(collisions, 0);
 }
 
-// Speed goes on from step to step even where he has lost his car and slides sideways or turns about: by no more than what four tyres take of friction, and as fast as the direction turns
-// along which it is told, heading and steering; it stays at 0 where the car goes backwards.
+// Speed goes on from step to step even where he has lost his car and slides sideways or turns about: by no more than
+// what four tyres take of friction, and as fast as the direction turns along which it is told, heading and steering; it
+// stays at 0 where the car goes backwards.
 TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
   constexpr double kStep_s = 0.01, kTyres_mps2 = 1.3 * 9.81;
   double fastest_aside_mps = 0.0, hardest_mps2 = 0.0;
@@ -168,7 +181,10 @@ TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
     TrafficSettings settings = AsMotors(15);
     settings.seed = seed;
     TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
-    struct Before { std::int64_t trip = -1; double speed_mps = 0.0, course_rad = 0.0; };
+    struct Before {
+      std::int64_t trip = -1;
+      double speed_mps = 0.0, course_rad = 0.0;
+    };
     std::vector<Before> before(model.vehicles());
     for (int i = 0; i < 6000; ++i) {
       model.Step(kStep_s, {});
@@ -180,17 +196,20 @@ TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
         Before& last = before[pose.id];
         if (last.trip == static_cast<std::int64_t>(pose.trip)) {
           const double turned = std::fabs(std::remainder(course - last.course_rad, 2.0 * std::numbers::pi));
-          ASSERT_LE(std::fabs(pose.speed_mps - last.speed_mps), kTyres_mps2 * kStep_s + v.norm() * turned + 2e-3) << "car " << pose.id << " at " << kStep_s * i << " s";
+          ASSERT_LE(std::fabs(pose.speed_mps - last.speed_mps), kTyres_mps2 * kStep_s + v.norm() * turned + 2e-3)
+              << "car " << pose.id << " at " << kStep_s * i << " s";
           hardest_mps2 = std::max(hardest_mps2, -pose.acceleration_mps2);
         }
         last = {pose.trip, pose.speed_mps, course};
-        fastest_aside_mps = std::max(fastest_aside_mps, std::fabs(v.dot(Eigen::Vector2d(-std::sin(course), std::cos(course)))));
+        fastest_aside_mps =
+            std::max(fastest_aside_mps, std::fabs(v.dot(Eigen::Vector2d(-std::sin(course), std::cos(course)))));
         ASSERT_NEAR(pose.speed_mps, std::max(0.0, v.dot(Eigen::Vector2d(std::cos(course), std::sin(course)))), 2e-3);
       }
     }
   }
   EXPECT_GT(fastest_aside_mps, 3.0);  // somebody does slide
-  if (std::getenv("RODEIRA_TELL") != nullptr) fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, hardest_mps2);
+  if (std::getenv("RODEIRA_TELL") != nullptr)
+    fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, hardest_mps2);
 }
 
 TEST(Motors, ThreadsAndSnapshotsChangeNoBit) {
@@ -202,7 +221,8 @@ TEST(Motors, ThreadsAndSnapshotsChangeNoBit) {
   };
   TrafficSettings four = AsMotors(12);
   four.threads = 4;
-  TrafficModel one = TrafficModel::Make(AsMotors(12), network, {}).value(), more = TrafficModel::Make(four, network, {}).value();
+  TrafficModel one = TrafficModel::Make(AsMotors(12), network, {}).value(),
+               more = TrafficModel::Make(four, network, {}).value();
   for (int i = 0; i < 1000; ++i) one.Step(0.02, {}), more.Step(0.02, {});
   EXPECT_EQ(digest(one), digest(more));
   TrafficModel fresh = TrafficModel::Make(AsMotors(12), network, {}).value();

@@ -26,8 +26,9 @@ TrafficSettings AsMotors(std::vector<VehicleKind> scripted) {
   return settings;
 }
 
-// The trajectory of a lap on the outer lane of a circle to the left: points 0.3 m of the lane's middle apart, each as far to the left as the weight of the
-// left border says; the first control point of the lane's cubic curve, which counts (1 - u)³, is moved.
+// The trajectory of a lap on the outer lane of a circle to the left: points 0.3 m of the lane's middle apart, each as
+// far to the left as the weight of the left border says; the first control point of the lane's cubic curve, which
+// counts (1 - u)³, is moved.
 struct Lap {
   double weight = 0.5;
   Vector2d moved = Vector2d::Zero();
@@ -35,18 +36,22 @@ struct Lap {
   static constexpr double kMiddle_m = kRadius_m + 0.5 * kWide_m, kLength_m = 2.0 * std::numbers::pi * kMiddle_m;
   static std::uint32_t points() { return static_cast<std::uint32_t>(std::ceil(kLength_m / kApart_m)) + 1; }
   Vector2d At(std::uint32_t index) const {
-    const double d = std::min(index * kApart_m, kLength_m), angle = d / kMiddle_m, r = kMiddle_m - (weight - 0.5) * kWide_m;
+    const double d = std::min(index * kApart_m, kLength_m), angle = d / kMiddle_m,
+                 r = kMiddle_m - (weight - 0.5) * kWide_m;
     return Vector2d(r * std::sin(angle), kRadius_m - r * std::cos(angle)) + std::pow(1.0 - d / kLength_m, 3) * moved;
   }
 };
 
-// Two laps: where he looks to is the point that lies two seconds of way beyond the one that he comes to, and those two are passed when the next is nearer, or is
-// reached within 10 cm. At the second lap's beginning the first point lies halfway between where it would, and where the first lap's last one was.
+// Two laps: where he looks to is the point that lies two seconds of way beyond the one that he comes to, and those two
+// are passed when the next is nearer, or is reached within 10 cm. At the second lap's beginning the first point lies
+// halfway between where it would, and where the first lap's last one was.
 TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
   opendrive::RoadText road = CircleRoad(2.0 * std::numbers::pi * kRadius_m);
   road.left = "";
   road.right = CircleLane(-1, 25.0);
-  TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar}), opendrive::MustRead(opendrive::Document(road.Text())), {}).value();
+  TrafficModel model =
+      TrafficModel::Make(AsMotors({VehicleKind::kCar}), opendrive::MustRead(opendrive::Document(road.Text())), {})
+          .value();
   ASSERT_TRUE(model.LetAppear(0, "1:-1", 5.0, 8.0).value());
   model.Step(kStep_s, {});
   ASSERT_EQ(model.on_road(), 1u);
@@ -61,7 +66,10 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
     if (driver.lanes != laps) {
       const double before = lap.weight;
       lap.weight = driver.weight;
-      lap.moved = laps == 0 ? Vector2d::Zero() : Vector2d(0.0, 0.5 * (before - lap.weight) * kWide_m);  // to the left of the lane's beginning: along y
+      lap.moved =
+          laps == 0
+              ? Vector2d::Zero()
+              : Vector2d(0.0, 0.5 * (before - lap.weight) * kWide_m);  // to the left of the lane's beginning: along y
       if (laps > 0) {
         EXPECT_GT((lap.moved).norm(), 0.01) << "the weights of two laps are too like to say anything";
       }
@@ -81,7 +89,8 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
       EXPECT_TRUE(here < next && next >= 0.1) << driver.checkpoint << " of lap " << laps;
     }
     checkpoint = driver.checkpoint;
-    const std::uint32_t looks = std::min(checkpoint + static_cast<std::uint32_t>(2.0 * model.agent(0).speed_mps / kApart_m), Lap::points() - 2);
+    const std::uint32_t looks =
+        std::min(checkpoint + static_cast<std::uint32_t>(2.0 * model.agent(0).speed_mps / kApart_m), Lap::points() - 2);
     ASSERT_LT((model.Details()[0].look_ahead_W - lap.At(looks)).norm(), 1e-4) << "lap " << laps << ", point " << looks;
     farthest = std::max(farthest, (lap.At(checkpoint) - at).norm());
     ++compared;
@@ -92,7 +101,8 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
   EXPECT_LT(farthest, 0.5) << "he drives along it";
 }
 
-// A.71: a tenth more of throttle below the speed at which the engine would stall, also while he stops; the clutch comes down as it falls further.
+// A.71: a tenth more of throttle below the speed at which the engine would stall, also while he stops; the clutch comes
+// down as it falls further.
 TEST(MotorsPedals, AreForAnEngineThatWouldStall) {
   MotorsCar car;
   MotorsDriver driver;
@@ -106,7 +116,8 @@ TEST(MotorsPedals, AreForAnEngineThatWouldStall) {
   view.speed_mps = 1.0;
   EXPECT_NEAR(driver.Step(view, car, 0.01).throttle, 0.1, 1e-12);
   EXPECT_NEAR(driver.Step(view, car, 0.01).brake, 0.6, 1e-12);
-  for (const auto& [radps, clutch] : {std::pair{200.0, 0.0}, {150.0, 0.0}, {135.0, 0.25}, {120.0, 0.5}, {90.0, 1.0}, {40.0, 1.0}}) {
+  for (const auto& [radps, clutch] :
+       {std::pair{200.0, 0.0}, {150.0, 0.0}, {135.0, 0.25}, {120.0, 0.5}, {90.0, 1.0}, {40.0, 1.0}}) {
     view.engine_radps = radps;
     MotorsDriver fresh;
     fresh.Begin(1);
@@ -118,14 +129,17 @@ TEST(MotorsPedals, AreForAnEngineThatWouldStall) {
 
 // Two roads that cross, one to the east, one to the north, and perhaps above it; one lane each.
 std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m, bool both_ways = false) {
-  const std::string lane = "<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" max=\"14\" unit=\"m/s\"/></lane>";
+  const std::string lane =
+      "<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/><speed sOffset=\"0\" "
+      "max=\"14\" unit=\"m/s\"/></lane>";
   std::string text;
   for (const bool north : {false, true}) {
     opendrive::RoadText road;
     road.id = north ? "2" : "1";
     road.length = 400.0;
     if (left_hand) road.attributes += " rule=\"LHT\"";
-    road.geometry = fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{:.17g}\" length=\"400\"><line/></geometry>", north ? 0 : -200, north ? -200 : 0, north ? 0.5 * std::numbers::pi : 0.0);
+    road.geometry = fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{:.17g}\" length=\"400\"><line/></geometry>",
+                                north ? 0 : -200, north ? -200 : 0, north ? 0.5 * std::numbers::pi : 0.0);
     if (north) road.elevation = fmt::format("<elevation s=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", above_m);
     road.left = left_hand || (north && both_ways) ? fmt::format(fmt::runtime(lane), 1) : "";
     road.right = left_hand && !(north && both_ways) ? "" : fmt::format(fmt::runtime(lane), -1);
@@ -134,12 +148,14 @@ std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m,
   return opendrive::MustRead(opendrive::Document(text));
 }
 
-// Both come to the crossing together: the one to the east has the other one on his right. He stops, and that one drives on; in left-hand traffic it is the other
-// way about. Where one drives above the other nobody stops.
+// Both come to the crossing together: the one to the east has the other one on his right. He stops, and that one drives
+// on; in left-hand traffic it is the other way about. Where one drives above the other nobody stops.
 TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
   for (const bool left_hand : {false, true}) {
     for (const double above_m : {0.0, 6.0}) {
-      TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar}), Crossing(left_hand, above_m), {}).value();
+      TrafficModel model =
+          TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar}), Crossing(left_hand, above_m), {})
+              .value();
       const double meets_m = left_hand ? 200.0 - 1.75 : 200.0 + 1.75, other_m = left_hand ? 200.0 + 1.75 : 200.0 - 1.75;
       const std::string lane = left_hand ? ":1" : ":-1";
       ASSERT_TRUE(model.LetAppear(0, "1" + lane, meets_m - 40.0, 11.0).value());
@@ -164,12 +180,15 @@ TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
   }
 }
 
-// A third one comes from the left of the one who yields, later (in left-hand traffic all is mirrored): he has that one on his right, and stops for him; without him for nobody, since the two on
-// the crossing road see past one another. They pass in this order: who has nobody on his right, who yields to him, the third.
+// A third one comes from the left of the one who yields, later (in left-hand traffic all is mirrored): he has that one
+// on his right, and stops for him; without him for nobody, since the two on the crossing road see past one another.
+// They pass in this order: who has nobody on his right, who yields to him, the third.
 TEST(MotorsYielding, AThirdWhoComesLaterLetsBothGo) {
   for (const bool left_hand : {false, true}) {
     for (const bool is_there : {true, false}) {  // the one who yields first
-      TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar, VehicleKind::kCar}), Crossing(left_hand, 0.0, true), {}).value();
+      TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar, VehicleKind::kCar}),
+                                              Crossing(left_hand, 0.0, true), {})
+                               .value();
       const double side = left_hand ? -1.0 : 1.0, meets_m = 200.0 - 1.75 * side;
       if (is_there) {
         ASSERT_TRUE(model.LetAppear(0, left_hand ? "1:1" : "1:-1", 201.75 - 40.0, 11.0).value());

@@ -16,9 +16,9 @@
 #include "common/traffic/motors_looks.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
+#include "tests/common/traffic/restored.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "tests/common/traffic/restored.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -43,8 +43,8 @@ struct Car {
   double rear_m() const { return o_m - half_m; }
 };
 
-// A whole drive: every moment, what was said of it, and each car's way as it turned out to be. Where somebody goes on is so not asked of the model, but
-// read from where it was seen to go later.
+// A whole drive: every moment, what was said of it, and each car's way as it turned out to be. Where somebody goes on
+// is so not asked of the model, but read from where it was seen to go later.
 class Drive {
  public:
   struct Moment {
@@ -54,16 +54,19 @@ class Drive {
 
   Drive(TrafficModel& model, int steps) : model_(model), parting_(model.graph().tracks().size()) {
     for (const lanes::Zone& zone : model.zones().zones()) {
-      if (zone.kind == lanes::ZoneKind::kDiverge) parting_[zone.track[0]].push_back({&zone, 0}), parting_[zone.track[1]].push_back({&zone, 1});
+      if (zone.kind == lanes::ZoneKind::kDiverge)
+        parting_[zone.track[0]].push_back({&zone, 0}), parting_[zone.track[1]].push_back({&zone, 1});
     }
     for (int i = 0; i < steps; ++i) {
       Moment moment;
       for (const AgentPose& pose : model.poses()) {
         const Agent& agent = model.agent(pose.id);
-        moment.cars.push_back({pose.id, pose.trip, agent.o_m, 0.5 * model.traits(pose.id).length_m, pose.speed_mps, agent.change.side != 0, model.traits(pose.id).idm});
+        moment.cars.push_back({pose.id, pose.trip, agent.o_m, 0.5 * model.traits(pose.id).length_m, pose.speed_mps,
+                               agent.change.side != 0, model.traits(pose.id).idm});
         auto& way = ways_[{pose.id, pose.trip}];
         for (const Piece& piece : agent.path) {
-          if (way.empty() || piece.begin_m > way.back().begin_m) way.push_back({piece.track, piece.zero_m, piece.begin_m});
+          if (way.empty() || piece.begin_m > way.back().begin_m)
+            way.push_back({piece.track, piece.zero_m, piece.begin_m});
         }
       }
       model.Step(kStep_s, {});
@@ -88,7 +91,9 @@ class Drive {
   const std::vector<Part>& WayOf(const Car& car) const { return ways_.at({car.id, car.trip}); }
   double EndOf(const Part& part) const { return part.zero_m + graph()[part.track].length_m(); }
   // Up to where the part is driven: where the next one begins.
-  double LeftAt(const std::vector<Part>& way, std::size_t i) const { return i + 1 < way.size() ? way[i + 1].begin_m : EndOf(way[i]); }
+  double LeftAt(const std::vector<Part>& way, std::size_t i) const {
+    return i + 1 < way.size() ? way[i + 1].begin_m : EndOf(way[i]);
+  }
 
  private:
   TrafficModel& model_;
@@ -102,20 +107,23 @@ struct Found {
   std::int64_t id = -1;
 };
 
-// What a search through everybody says of one car. `unsure`: somebody changes lanes near by, or the way is not known so far.
+// What a search through everybody says of one car. `unsure`: somebody changes lanes near by, or the way is not known so
+// far.
 struct Verdict {
   Found ahead;
   std::vector<double> others_m;  // whom else it could mean: who drives ahead on its way, and who parts from it
-  double known_m = kNobody_m;  // of its way before its front
+  double known_m = kNobody_m;    // of its way before its front
   bool unsure = false;
 };
 
-// The parts of a way on which a car's rectangle stands; tell(part, from): `from` is the track by which it came there, or -1.
+// The parts of a way on which a car's rectangle stands; tell(part, from): `from` is the track by which it came there,
+// or -1.
 template <class Tell>
 void EachUnder(const Drive& drive, const Car& car, const Tell& tell) {
   const auto& way = drive.WayOf(car);
   for (std::size_t i = 0; i < way.size(); ++i) {
-    if (way[i].begin_m < car.front_m() && drive.LeftAt(way, i) > car.rear_m()) tell(way[i], i > 0 ? static_cast<std::int64_t>(way[i - 1].track) : -1);
+    if (way[i].begin_m < car.front_m() && drive.LeftAt(way, i) > car.rear_m())
+      tell(way[i], i > 0 ? static_cast<std::int64_t>(way[i - 1].track) : -1);
   }
 }
 
@@ -129,7 +137,8 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
     if (!looked.empty() && part.begin_m < drive.EndOf(looked.back()) - kSame_m && part.begin_m > me.front_m()) break;
     looked.push_back(part);
   }
-  while (drive.EndOf(looked.back()) < me.front_m() + kLookedAt_m && drive.graph()[looked.back().track].next.size() == 1) {
+  while (drive.EndOf(looked.back()) < me.front_m() + kLookedAt_m &&
+         drive.graph()[looked.back().track].next.size() == 1) {
     const lanes::Link& on = drive.graph()[looked.back().track].next.front();
     const double end = drive.EndOf(looked.back());
     looked.push_back({on.to, end - on.from_d_m, end});
@@ -145,26 +154,33 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
       if (other.id == me.id) continue;
       EachUnder(drive, other, [&](const Part& theirs, std::int64_t from) {
         const lanes::Track& track = drive.graph()[mine.track];
-        const double shift = mine.zero_m - theirs.zero_m;  // from their odometer to mine, where the two tracks lie beside each other
-        if (other.changing && (theirs.track == mine.track || track.left == theirs.track || track.right == theirs.track)) changing.push_back(shift + other.rear_m() - me.front_m());
+        const double shift =
+            mine.zero_m - theirs.zero_m;  // from their odometer to mine, where the two tracks lie beside each other
+        if (other.changing && (theirs.track == mine.track || track.left == theirs.track || track.right == theirs.track))
+          changing.push_back(shift + other.rear_m() - me.front_m());
         if (shift + other.o_m <= me.o_m) return;
         if (theirs.track == mine.track) {
           double rear = shift + other.rear_m();
           if (before >= 0 && from >= 0 && from != before) rear = std::max(rear, mine.begin_m);  // comes in from beside
-          if (rear - me.front_m() < verdict.ahead.gap_m) verdict.ahead = {rear - me.front_m(), other.speed_mps, other.id};
+          if (rear - me.front_m() < verdict.ahead.gap_m)
+            verdict.ahead = {rear - me.front_m(), other.speed_mps, other.id};
           return;
         }
         // On a track that parts from this one, not clear of it yet.
         for (const auto& [zone, side] : drive.PartingFrom(mine.track)) {
           if (zone->track[1 - side] != theirs.track || me.rear_m() > mine.zero_m + zone->out_m[side]) continue;
-          if (other.rear_m() - theirs.zero_m >= zone->out_m[1 - side] || other.front_m() - theirs.zero_m <= zone->in_m[1 - side]) continue;
+          if (other.rear_m() - theirs.zero_m >= zone->out_m[1 - side] ||
+              other.front_m() - theirs.zero_m <= zone->in_m[1 - side])
+            continue;
           const double gap = shift + other.rear_m() - me.front_m();
           partings.push_back({mine.begin_m - me.front_m(), {gap, other.speed_mps, other.id}});
         }
       });
     }
   }
-  const auto lets = [&](const Found& found) { return driver::IdmAcceleration(me.idm, me.speed_mps, 1e3, found.gap_m, found.speed_mps); };
+  const auto lets = [&](const Found& found) {
+    return driver::IdmAcceleration(me.idm, me.speed_mps, 1e3, found.gap_m, found.speed_mps);
+  };
   Found parting;
   verdict.others_m.push_back(verdict.ahead.gap_m);
   for (const auto& [begins_m, found] : partings) verdict.others_m.push_back(found.gap_m);
@@ -172,7 +188,8 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
     if (begins_m <= verdict.ahead.gap_m + 10.0 && (parting.id < 0 || lets(found) < lets(parting))) parting = found;
   }
   if (parting.id >= 0 && (verdict.ahead.id < 0 || lets(parting) < lets(verdict.ahead))) verdict.ahead = parting;
-  for (const double gap : changing) verdict.unsure = verdict.unsure || (gap < verdict.ahead.gap_m + 20.0 && gap > -60.0);
+  for (const double gap : changing)
+    verdict.unsure = verdict.unsure || (gap < verdict.ahead.gap_m + 20.0 && gap > -60.0);
   return verdict;
 }
 
@@ -180,7 +197,8 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
 double Sight_m(double speed_mps) { return std::min(kLookedAt_m, speed_mps * speed_mps / 3.0 + 3.0 * speed_mps + 60.0); }
 
 struct Compared {
-  int ahead = 0, nobody = 0, another = 0, unsure = 0;  // another: not the one that lets it drive on least, but one of them
+  int ahead = 0, nobody = 0, another = 0,
+      unsure = 0;  // another: not the one that lets it drive on least, but one of them
 };
 
 Compared Compare(const std::string& name, TrafficModel& model) {
@@ -196,11 +214,17 @@ Compared Compare(const std::string& name, TrafficModel& model) {
       const Verdict verdict = WhoIsAhead(drive, moment, me);
       const double range_m = std::min(Sight_m(me.speed_mps), verdict.known_m);
       const auto is_said = [&](double gap_m) { return std::fabs(said->second - gap_m) < kSame_m; };
-      if (verdict.unsure) ++compared.unsure;
-      else if (verdict.ahead.gap_m <= range_m && is_said(verdict.ahead.gap_m)) ++compared.ahead;
-      else if (verdict.ahead.gap_m > range_m && said->second > range_m - kSame_m) ++compared.nobody;
-      else if (std::any_of(verdict.others_m.begin(), verdict.others_m.end(), is_said)) ++compared.another;
-      else ADD_FAILURE() << told() << ": " << said->second << " m to who is ahead; " << verdict.ahead.gap_m << " m to car " << verdict.ahead.id << " was expected";
+      if (verdict.unsure)
+        ++compared.unsure;
+      else if (verdict.ahead.gap_m <= range_m && is_said(verdict.ahead.gap_m))
+        ++compared.ahead;
+      else if (verdict.ahead.gap_m > range_m && said->second > range_m - kSame_m)
+        ++compared.nobody;
+      else if (std::any_of(verdict.others_m.begin(), verdict.others_m.end(), is_said))
+        ++compared.another;
+      else
+        ADD_FAILURE() << told() << ": " << said->second << " m to who is ahead; " << verdict.ahead.gap_m << " m to car "
+                      << verdict.ahead.id << " was expected";
     }
   }
   return compared;
@@ -236,7 +260,8 @@ TEST(Neighbours, OnTheMotorwayAreThoseThatASearchThroughEverybodyFinds) {
   EXPECT_EQ(compared.another, 0);
 }
 
-// Two turn off to different sides: one drives away, the other one stands a little farther on. Who goes straight on between them stops for him who stands, all the time, and not in an emergency.
+// Two turn off to different sides: one drives away, the other one stands a little farther on. Who goes straight on
+// between them stops for him who stands, all the time, and not in an emergency.
 TEST(Neighbours, OfTwoWhoTurnOffNotTheNearerCountsButWhoLetsHimDriveOnLeast) {
   constexpr std::uint32_t kMe = 0, kDrives = 1, kStands = 2;
   constexpr std::uint64_t kDrawLink = 103;  // of the draws at branches
@@ -263,9 +288,12 @@ TEST(Neighbours, OfTwoWhoTurnOffNotTheNearerCountsButWhoLetsHimDriveOnLeast) {
     agents[id].granted_m = on == street ? graph[street].length_m() + graph[track(1)].length_m() : graph[on].length_m();
     agents[id].grants = {{agents[id].granted_m, id + 1, true}};
   };
-  const double end = graph[street].length_m(), stands_m = 7.0, before_m = 20.0;  // in the way of who goes straight on, and in no one else's
+  const double end = graph[street].length_m(), stands_m = 7.0,
+               before_m = 20.0;  // in the way of who goes straight on, and in no one else's
   put(kMe, street, end + stands_m - before_m - model.traits(kMe).length_m, 5.0);
-  while (static_cast<std::size_t>(3.0 * base::RandomUniform({settings.seed, kMe, kDrawLink, agents[kMe].trip, 0})) != way[1]) ++agents[kMe].trip;
+  while (static_cast<std::size_t>(3.0 * base::RandomUniform({settings.seed, kMe, kDrawLink, agents[kMe].trip, 0})) !=
+         way[1])
+    ++agents[kMe].trip;
   put(kDrives, track(2), 0.5, 4.0);
   put(kStands, track(0), stands_m, 0.0);
   agents[kStands].brake_mps2 = 2.0;
@@ -289,17 +317,19 @@ TEST(Neighbours, EveryContactOfAStudyIsOneOfAllPairs) {
   settings.duration_s = 40.0;
   std::set<std::pair<std::uint32_t, std::uint32_t>> touching;
   std::int64_t contacts = 0;
-  const StudyResult result = RunStudy(settings, lanes::MapNetwork("crossing"), [&](const StudyMoment& moment) {
-    std::set<std::pair<std::uint32_t, std::uint32_t>> now;
-    for (const AgentPose& a : moment.model.poses()) {
-      for (const AgentPose& b : moment.model.poses()) {
-        if (a.id >= b.id || std::fabs(a.p_WB_W.z() - b.p_WB_W.z()) > network::Network::kLevel_m) continue;
-        if (driver::Overlap(FootprintOf(a, moment.model.traits(a.id)), FootprintOf(b, moment.model.traits(b.id)))) now.insert({a.id, b.id});
-      }
-    }
-    for (const auto& pair : now) contacts += touching.contains(pair) ? 0 : 1;
-    touching = std::move(now);
-  }).value();
+  const StudyResult result =
+      RunStudy(settings, lanes::MapNetwork("crossing"), [&](const StudyMoment& moment) {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> now;
+        for (const AgentPose& a : moment.model.poses()) {
+          for (const AgentPose& b : moment.model.poses()) {
+            if (a.id >= b.id || std::fabs(a.p_WB_W.z() - b.p_WB_W.z()) > network::Network::kLevel_m) continue;
+            if (driver::Overlap(FootprintOf(a, moment.model.traits(a.id)), FootprintOf(b, moment.model.traits(b.id))))
+              now.insert({a.id, b.id});
+          }
+        }
+        for (const auto& pair : now) contacts += touching.contains(pair) ? 0 : 1;
+        touching = std::move(now);
+      }).value();
   EXPECT_GT(contacts, 3);
   EXPECT_EQ(result.collisions, contacts);
 }
@@ -309,7 +339,9 @@ TEST(Neighbours, EveryCrossingOfTwoLooksIsOneOfAllPairs) {
   std::mt19937_64 draws(7);
   std::size_t crossings = 0;
   for (int round = 0; round < 200; ++round) {
-    const auto draw = [&](int range) { return static_cast<double>(draws() % static_cast<std::uint64_t>(2 * range + 1)) - range; };
+    const auto draw = [&](int range) {
+      return static_cast<double>(draws() % static_cast<std::uint64_t>(2 * range + 1)) - range;
+    };
     std::vector<MotorsLook> looks;
     for (std::uint32_t id = 0; id < 40; ++id) {
       const int reach = round % 2 == 0 ? 4 : 40;
@@ -322,7 +354,9 @@ TEST(Neighbours, EveryCrossingOfTwoLooksIsOneOfAllPairs) {
         if (a.id < b.id && a.z_m == b.z_m && SegmentsCross(a.from, a.to, b.from, b.to)) all.insert({a.id, b.id});
       }
     }
-    EachCrossing(looks, [&](const MotorsLook& a, const MotorsLook& b) { told.insert({std::min(a.id, b.id), std::max(a.id, b.id)}); });
+    EachCrossing(looks, [&](const MotorsLook& a, const MotorsLook& b) {
+      told.insert({std::min(a.id, b.id), std::max(a.id, b.id)});
+    });
     EXPECT_EQ(told, all) << round;
     crossings += all.size();
   }

@@ -7,12 +7,12 @@
 #include <map>
 #include <numbers>
 
-#include "common/world/lanes/signs.hpp"
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -41,13 +41,16 @@ struct Rough {
   bool along = false, aside = false;
 };
 Rough RoughnessOf(const std::string& name) {
-  if (name == "asamqc_lane_gap_issue119.xodr") return {false, true};  // lane 4 of its road 239896 turns on a radius of 0.6 m
+  if (name == "asamqc_lane_gap_issue119.xodr")
+    return {false, true};  // lane 4 of its road 239896 turns on a radius of 0.6 m
   if (name == "esmini_two_pitched_and_rolled_roads.xodr") return {true, false};  // climbs by 100 %
-  if (name == "esmini_straight_500_superelevation_elevation_curve.xodr") return {true, false};  // a car begins at 13 m/s on a hill that its engine is too weak for
+  if (name == "esmini_straight_500_superelevation_elevation_curve.xodr")
+    return {true, false};  // a car begins at 13 m/s on a hill that its engine is too weak for
   return {};
 }
 
-// What a person in any of the cars feels: by 3 m/s³ along the way, never more as in an emergency, 3 m/s² and 200 °/s² sideways.
+// What a person in any of the cars feels: by 3 m/s³ along the way, never more as in an emergency, 3 m/s² and 200 °/s²
+// sideways.
 void Feels(const std::string& name, const StudyResult& r) {
   const Rough rough = RoughnessOf(name);
   if (!rough.along) {
@@ -61,9 +64,10 @@ void Feels(const std::string& name, const StudyResult& r) {
   EXPECT_GT(r.planned_jerk_mps3, 2.9) << name;  // it says something
 }
 
-// Nobody touches anybody, leaves the lanes, or the road with a wheel, moves otherwise than its speed says, brakes in an emergency or is stuck. Half an hour is looked at every tenth of a
-// second, two minutes at every second step.
-void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed, const VehicleMix& mix = {}) {
+// Nobody touches anybody, leaves the lanes, or the road with a wheel, moves otherwise than its speed says, brakes in an
+// emergency or is stuck. Half an hour is looked at every tenth of a second, two minutes at every second step.
+void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed,
+             const VehicleMix& mix = {}) {
   StudySettings settings;
   settings.traffic.mix = mix;
   settings.traffic.vehicles = vehicles;
@@ -77,7 +81,8 @@ void Behaves(const std::string& name, const NetworkPointer& network, std::uint32
   EXPECT_EQ(r.collisions, 0) << name << " seed " << seed << Told(r);
   EXPECT_EQ(r.off_lane, 0) << name << " seed " << seed << Told(r);
   if (std::getenv("RODEIRA_TELL") != nullptr) {
-    fmt::print("{}: {} wheels off, jerk {:.3f} and {:.3f} m/s3, sideways {:.3f} m/s2, yaw {:.3f} rad/s2{}\n", name, r.wheels_off, r.planned_jerk_mps3, r.emergency_jerk_mps3, r.lateral_mps2, r.yaw_radps2, Told(r));
+    fmt::print("{}: {} wheels off, jerk {:.3f} and {:.3f} m/s3, sideways {:.3f} m/s2, yaw {:.3f} rad/s2{}\n", name,
+               r.wheels_off, r.planned_jerk_mps3, r.emergency_jerk_mps3, r.lateral_mps2, r.yaw_radps2, Told(r));
   }
   EXPECT_EQ(r.wheels_off, 0) << name << " seed " << seed << Told(r);
   EXPECT_LT(r.worst_step_m, 1e-3) << name << " seed " << seed << Told(r);
@@ -107,7 +112,8 @@ TEST(NetworkTraffic, DrivesTheRealFiles) {
 // The same with lorries and buses among cars.
 TEST(NetworkTraffic, DrivesWithLorriesAndBuses) {
   const VehicleMix mix{{0.6, 0.1, 0.2, 0.1}};
-  for (const std::string& name : lanes::MapNames()) Behaves(name, lanes::MapNetwork(name), name == "town" ? 60 : 25, 1, mix);
+  for (const std::string& name : lanes::MapNames())
+    Behaves(name, lanes::MapNetwork(name), name == "town" ? 60 : 25, 1, mix);
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (std::filesystem::exists(file)) Behaves(file.filename(), opendrive::LoadNetwork(file).value(), 100, 1, mix);
 }
@@ -128,10 +134,15 @@ TEST(NetworkTraffic, NobodyChangesLanesBeforeWhoComesFromARoadBehind) {
   }
 }
 
-// What a person in a car of traffic feels, from the published headings and speeds: lateral acceleration and yaw acceleration.
+// What a person in a car of traffic feels, from the published headings and speeds: lateral acceleration and yaw
+// acceleration.
 TEST(NetworkTraffic, TurnsAreComfortable) {
   constexpr double kStep_s = 0.01, kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;
-  struct Before { std::uint32_t trip; double heading_rad, rate_radps; int steps; };
+  struct Before {
+    std::uint32_t trip;
+    double heading_rad, rate_radps;
+    int steps;
+  };
   for (const std::string& name : lanes::MapNames()) {
     TrafficSettings settings;
     settings.vehicles = 25;
@@ -172,7 +183,8 @@ TEST(NetworkTraffic, DrivesTheHillRoadAndTheLongOne) {
   }
 }
 
-// More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with it.
+// More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with
+// it.
 TEST(NetworkTraffic, AFullTownGoesOn) {
   StudySettings settings;
   settings.traffic.vehicles = 150;
@@ -181,10 +193,11 @@ TEST(NetworkTraffic, AFullTownGoesOn) {
   settings.step_s = 0.02;
   std::int64_t at_half = 0;
   const StudyResult r = RunStudy(settings, lanes::MapNetwork("town"), [&](const StudyMoment& moment) {
-    if (moment.time_s > 600.0) return;
-    at_half = 0;
-    for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id) at_half += moment.model.agent(id).trip;
-  }).value();
+                          if (moment.time_s > 600.0) return;
+                          at_half = 0;
+                          for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id)
+                            at_half += moment.model.agent(id).trip;
+                        }).value();
   EXPECT_EQ(r.collisions, 0) << Told(r);
   EXPECT_LE(r.hardest_mps2, 3.0) << Told(r);
   EXPECT_LT(r.longest_stand_s, 240.0) << "car " << r.longest_stand_id;
@@ -258,14 +271,16 @@ TEST(NetworkTraffic, RestoredAmongCrossingTrafficItGoesOnWithTheSameBits) {
   }
 }
 
-// What is remembered of the step before (ways, zones ahead, tracks below) is what would be found anew: a model that forgets it all in each step, since it is restored from
-// what it has just saved, drives to the bit as one that does not.
+// What is remembered of the step before (ways, zones ahead, tracks below) is what would be found anew: a model that
+// forgets it all in each step, since it is restored from what it has just saved, drives to the bit as one that does
+// not.
 TEST(NetworkTraffic, WhatIsRememberedChangesNoBit) {
   for (const std::string& name : lanes::MapNames()) {
     TrafficSettings settings;
     settings.vehicles = 60;
     const auto network = lanes::MapNetwork(name);
-    TrafficModel remembers = TrafficModel::Make(settings, network, {}).value(), forgets = TrafficModel::Make(settings, network, {}).value();
+    TrafficModel remembers = TrafficModel::Make(settings, network, {}).value(),
+                 forgets = TrafficModel::Make(settings, network, {}).value();
     for (int i = 0; i < 1500; ++i) {
       remembers.Step(0.05, {});
       forgets.Step(0.05, {});
@@ -310,7 +325,8 @@ TEST(NetworkTraffic, StopsFullyAtStopSigns) {
       }
       if (signs.empty()) continue;
       const Agent& agent = model.agent(pose.id);
-      approach.to_line_m = signs.back().d_m - (agent.o_m + 0.5 * model.traits(pose.id).length_m - agent.path.front().zero_m);
+      approach.to_line_m =
+          signs.back().d_m - (agent.o_m + 0.5 * model.traits(pose.id).length_m - agent.path.front().zero_m);
       if (std::fabs(approach.to_line_m) < 2.0) approach.slowest_mps = std::min(approach.slowest_mps, pose.speed_mps);
     }
   }
@@ -328,7 +344,8 @@ TEST(NetworkTraffic, NobodyDrivesIntoACarThatStandsOnTheCrossing) {
     for (int i = 0; i < 6000; ++i) {
       model.Step(0.01, others);
       for (const AgentPose& pose : model.poses())
-        ASSERT_FALSE(driver::Overlap(FootprintOf(pose, model.traits(pose.id)), others[0])) << pose.id << " at " << 0.01 * i << " s";
+        ASSERT_FALSE(driver::Overlap(FootprintOf(pose, model.traits(pose.id)), others[0]))
+            << pose.id << " at " << 0.01 * i << " s";
     }
   }
 }

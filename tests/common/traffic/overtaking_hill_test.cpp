@@ -30,7 +30,10 @@ TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
     if (std::regex_search(text, found, line)) dashed.insert({std::stoi(found[1]), std::stoi(found[2])});
   }
   ASSERT_GE(dashed.size(), 15u);
-  const auto legal = [&](double s_m) { return std::any_of(dashed.begin(), dashed.end(), [&](const auto& d) { return s_m >= d.first - 0.5 && s_m <= d.second + 0.5; }); };
+  const auto legal = [&](double s_m) {
+    return std::any_of(dashed.begin(), dashed.end(),
+                       [&](const auto& d) { return s_m >= d.first - 0.5 && s_m <= d.second + 0.5; });
+  };
   TrafficSettings settings;
   settings.vehicles = 14;
   settings.seed = 3;
@@ -46,20 +49,24 @@ TEST(Overtaking, OnTheHillRoadOnlyWhereTheMiddleIsDashed) {
       for (const double x : {-0.5, 0.5}) {
         for (const double y : {-0.5, 0.5}) {
           const double c = std::cos(body.heading_rad), s = std::sin(body.heading_rad);
-          const Eigen::Vector2d corner(body.x_m + x * body.length_m * c - y * body.width_m * s, body.y_m + x * body.length_m * s + y * body.width_m * c);
+          const Eigen::Vector2d corner(body.x_m + x * body.length_m * c - y * body.width_m * s,
+                                       body.y_m + x * body.length_m * s + y * body.width_m * c);
           for (const lanes::Graph::Beside& beside : model.graph().TracksAt(corner, 5.0)) {
             const lanes::Track& track = model.graph()[beside.track];
             if (track.lane.lane != pose.lane || beside.foot.d_m <= 0.0 || beside.foot.d_m >= track.length_m()) continue;
             if (beside.foot.offset_m < 0.5 * track.curve.WidthAt(beside.foot.d_m)) continue;
             ++over, who.insert({pose.id, pose.trip});
-            EXPECT_TRUE(legal(track.curve.StationAt(beside.foot.d_m))) << "car " << pose.id << " at " << i * 0.05 << " s, s " << track.curve.StationAt(beside.foot.d_m);
+            EXPECT_TRUE(legal(track.curve.StationAt(beside.foot.d_m)))
+                << "car " << pose.id << " at " << i * 0.05 << " s, s " << track.curve.StationAt(beside.foot.d_m);
           }
         }
       }
     }
     for (std::size_t a = 0; i % 4 == 0 && a < model.poses().size(); ++a) {
       for (std::size_t b = a + 1; b < model.poses().size(); ++b) {
-        ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[a], model.traits(model.poses()[a].id)), FootprintOf(model.poses()[b], model.traits(model.poses()[b].id)))) << i * 0.05;
+        ASSERT_FALSE(driver::Overlap(FootprintOf(model.poses()[a], model.traits(model.poses()[a].id)),
+                                     FootprintOf(model.poses()[b], model.traits(model.poses()[b].id))))
+            << i * 0.05;
       }
     }
   }

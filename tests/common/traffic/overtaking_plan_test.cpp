@@ -31,7 +31,8 @@ TEST(Overtaking, ThePlanIsTheMotion) {
 }
 
 TEST(Overtaking, ShareOfTheQuintic) {
-  for (const double u : {0.1, 0.35, 0.5, 0.8}) EXPECT_NEAR(QuinticShareAt(u * u * u * (10.0 + u * (-15.0 + 6.0 * u))), u, 1e-9);
+  for (const double u : {0.1, 0.35, 0.5, 0.8})
+    EXPECT_NEAR(QuinticShareAt(u * u * u * (10.0 + u * (-15.0 + 6.0 * u))), u, 1e-9);
 }
 
 }  // namespace

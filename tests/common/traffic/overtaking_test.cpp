@@ -33,8 +33,9 @@ TrafficModel WithSlowOnes(const TrafficSettings& settings, const std::shared_ptr
   return model;
 }
 
-// Slow ones are passed against oncoming traffic by everybody behind them; who comes is never nearer than two seconds when somebody is back on
-// his side; nobody touches anybody. Who goes over indicates to that side, before he is over, and to the other one on the way back.
+// Slow ones are passed against oncoming traffic by everybody behind them; who comes is never nearer than two seconds
+// when somebody is back on his side; nobody touches anybody. Who goes over indicates to that side, before he is over,
+// and to the other one on the way back.
 void PassesInTime(bool left_hand) {
   const auto network = TwoWayRing(Mark("broken"), left_hand);
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -105,7 +106,8 @@ TEST(Overtaking, MarksAndSignsAreKept) {
   };
   const auto count = [&](const std::shared_ptr<const network::Network>& network, bool with) {
     const RingWatch watch = run(network, Drivers(12, 2));
-    return std::count_if(watch.crossings.begin(), watch.crossings.end(), [&](const RingWatch::Crossing& c) { return c.with == with; });
+    return std::count_if(watch.crossings.begin(), watch.crossings.end(),
+                         [&](const RingWatch::Crossing& c) { return c.with == with; });
   };
   EXPECT_EQ(count(TwoWayRing(Mark("solid")), true) + count(TwoWayRing(Mark("solid")), false), 0);
   EXPECT_EQ(count(TwoWayRing(Mark("solid solid")), true), 0);
@@ -117,8 +119,11 @@ TEST(Overtaking, MarksAndSignsAreKept) {
   // Dashed for a part of the road.
   const RingWatch part = run(TwoWayRing(Mark("broken") + Mark("solid", 1800.0)), Drivers(12, 2));
   EXPECT_GT(part.crossings.size(), 0u);
-  for (const RingWatch::Crossing& c : part.crossings) EXPECT_TRUE(std::max(c.from_m, c.to_m) <= 1800.0) << c.from_m << " to " << c.to_m;
-  const auto sign = TwoWayRing(Mark("broken"), false, "<signals><signal id=\"s\" s=\"5\" t=\"-5\" type=\"276\" subtype=\"-1\" orientation=\"+\" dynamic=\"no\"/></signals>");
+  for (const RingWatch::Crossing& c : part.crossings)
+    EXPECT_TRUE(std::max(c.from_m, c.to_m) <= 1800.0) << c.from_m << " to " << c.to_m;
+  const auto sign = TwoWayRing(Mark("broken"), false,
+                               "<signals><signal id=\"s\" s=\"5\" t=\"-5\" type=\"276\" subtype=\"-1\" "
+                               "orientation=\"+\" dynamic=\"no\"/></signals>");
   EXPECT_EQ(count(sign, true), 0);
   EXPECT_GT(count(sign, false), 0);
   TrafficSettings never = Drivers(12, 2);
@@ -126,8 +131,8 @@ TEST(Overtaking, MarksAndSignsAreKept) {
   EXPECT_TRUE(run(TwoWayRing(Mark("broken")), never).crossings.empty());
 }
 
-// A driver's car that crawls is passed; one that goes faster as soon as somebody is beside it, one that comes faster than the law allows, and one
-// that stops: nobody drives into it.
+// A driver's car that crawls is passed; one that goes faster as soon as somebody is beside it, one that comes faster
+// than the law allows, and one that stops: nobody drives into it.
 TEST(Overtaking, TheDriversCarIsPassedAndNeverHit) {
   int passes = 0, given_up = 0;
   std::array<int, 4> out_steps{};
@@ -154,21 +159,28 @@ TEST(Overtaking, TheDriversCarIsPassedAndNeverHit) {
       if (!entered) {  // where there is room for it
         for (angle = 0.0; angle < kRound; angle += 0.02) {
           bool free = true;
-          for (const AgentPose& pose : model.poses()) free = free && std::fabs(std::remainder(std::atan2(pose.p_WB_W.x(), kRadius_m - pose.p_WB_W.y()) - angle, kRound)) * radius > 120.0;
+          for (const AgentPose& pose : model.poses())
+            free = free &&
+                   std::fabs(std::remainder(std::atan2(pose.p_WB_W.x(), kRadius_m - pose.p_WB_W.y()) - angle, kRound)) *
+                           radius >
+                       120.0;
           if (free) break;
         }
         entered = angle < kRound;
       }
       bool beside = false;
-      for (const AgentPose& pose : model.poses()) beside = beside || std::hypot(pose.p_WB_W.x() - car.x_m, pose.p_WB_W.y() - car.y_m) < 12.0;
+      for (const AgentPose& pose : model.poses())
+        beside = beside || std::hypot(pose.p_WB_W.x() - car.x_m, pose.p_WB_W.y() - car.y_m) < 12.0;
       double wants = comes ? 30.0 : 8.0;
       if (kind == 1 && beside) wants = 17.0;
       if (kind == 3 && beside && i % 3000 < 1500) wants = 0.0;
       const double free = gap() - 3.0;
-      wants = std::min(wants, free > 0.0 ? std::sqrt(2.0 * 2.5 * free) : 0.0);  // it follows who is before it on its lane
+      wants =
+          std::min(wants, free > 0.0 ? std::sqrt(2.0 * 2.5 * free) : 0.0);  // it follows who is before it on its lane
       car.speed_mps += std::clamp(wants - car.speed_mps, -4.0 * kStep_s, 2.0 * kStep_s);
       angle += (comes ? -1.0 : 1.0) * car.speed_mps * kStep_s / radius;
-      car.x_m = radius * std::sin(angle), car.y_m = kRadius_m - radius * std::cos(angle), car.heading_rad = comes ? angle + std::numbers::pi : angle;
+      car.x_m = radius * std::sin(angle), car.y_m = kRadius_m - radius * std::cos(angle),
+      car.heading_rad = comes ? angle + std::numbers::pi : angle;
       std::vector<driver::Footprint> others;
       if (entered) others.push_back(car);
       model.Step(kStep_s, others);
@@ -181,7 +193,9 @@ TEST(Overtaking, TheDriversCarIsPassedAndNeverHit) {
         const driver::Footprint body = FootprintOf(pose, model.traits(pose.id));
         ASSERT_FALSE(driver::Overlap(body, car)) << "kind " << kind << ", car " << pose.id << " at " << i * kStep_s;
         const double past = std::remainder(std::atan2(body.x_m, kRadius_m - body.y_m) - angle, kRound) * radius;
-        if (!comes && std::cos(body.heading_rad - car.heading_rad) > 0.0 && before.count(pose.id) != 0 && before[pose.id] < 0.0 && past >= 0.0 && past < 20.0) ++passes;
+        if (!comes && std::cos(body.heading_rad - car.heading_rad) > 0.0 && before.count(pose.id) != 0 &&
+            before[pose.id] < 0.0 && past >= 0.0 && past < 20.0)
+          ++passes;
         before[pose.id] = past;
       }
     }
@@ -237,7 +251,8 @@ TEST(Overtaking, IsComfortable) {
       if (known != before.end()) {
         now = pose.speed_mps * std::remainder(heading - known->second.first, kRound) / kFine_s;
         lateral = std::max(lateral, std::fabs(now));
-        if (i > 2 && std::fabs(pose.acceleration_mps2) < 0.05) jerk = std::max(jerk, std::fabs(now - known->second.second) / kFine_s);
+        if (i > 2 && std::fabs(pose.acceleration_mps2) < 0.05)
+          jerk = std::max(jerk, std::fabs(now - known->second.second) / kFine_s);
       }
       before[pose.id] = {heading, now};
     }

@@ -7,12 +7,12 @@
 
 #include "common/traffic/road_network.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
-#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -29,7 +29,11 @@ class PeopleWatcher {
         const driver::Footprint car = FootprintOf(pose, model.traits(pose.id));
         if (std::hypot(car.x_m - person.x_m, car.y_m - person.y_m) > 10.0 || !driver::Overlap(car, person)) continue;
         const Pedestrians::Person& who = people.people()[person.id - Pedestrians::kFirstId];
-        if (touched++ == 0) first = fmt::format("{:.1f} s: car {} ({:.2f} m/s) and {} (crossing {} '{}', u {:.2f} m, walks {}) at ({:.2f}, {:.2f})", time_s, pose.id, pose.speed_mps, person.id, who.crossing, people.crossings()[who.crossing].id, who.u_m, who.walks, person.x_m, person.y_m);
+        if (touched++ == 0)
+          first = fmt::format(
+              "{:.1f} s: car {} ({:.2f} m/s) and {} (crossing {} '{}', u {:.2f} m, walks {}) at ({:.2f}, {:.2f})",
+              time_s, pose.id, pose.speed_mps, person.id, who.crossing, people.crossings()[who.crossing].id, who.u_m,
+              who.walks, person.x_m, person.y_m);
       }
     }
     std::size_t present = 0;
@@ -49,7 +53,8 @@ class PeopleWatcher {
   double longest_wait_s = 0.0;
 };
 
-void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, double per_h, Physics physics = Physics::kPlanar) {
+void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, double per_h,
+                     Physics physics = Physics::kPlanar) {
   StudySettings settings;
   settings.traffic.vehicles = vehicles;
   settings.traffic.seed = 5;
@@ -58,7 +63,8 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   settings.traffic.pedestrians->per_h = per_h;
   settings.duration_s = Duration();
   PeopleWatcher watcher;
-  const auto result = RunStudy(settings, network, [&](const StudyMoment& moment) { watcher.Look(moment.model, moment.time_s); });
+  const auto result =
+      RunStudy(settings, network, [&](const StudyMoment& moment) { watcher.Look(moment.model, moment.time_s); });
   ASSERT_TRUE(result.ok()) << name << ": " << result.error().Text();
   const StudyResult& r = result.value();
   std::string told;
@@ -70,17 +76,22 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
   EXPECT_LT(r.longest_with_room_s, 300.0) << name << " car " << r.longest_with_room_id;
   EXPECT_EQ(r.on_road + r.waiting, vehicles) << name;
   EXPECT_GT(watcher.crossed, 0u) << name;
-  testing::Test::RecordProperty(name, fmt::format("crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s", watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
+  testing::Test::RecordProperty(
+      name,
+      fmt::format("crossed {}, longest wait {:.1f} s, hardest {:.2f} m/s2, driven {:.1f} km, stood {:.0f} of {:.0f} s",
+                  watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
 }
 
 TEST(Pedestrians, NobodyIsTouchedOnTheMaps) {
-  for (const std::string& name : lanes::MapNames()) NobodyIsTouched(name, WithCrossings(*lanes::MapNetwork(name)), name == "town" ? 60 : 25, 300.0);
+  for (const std::string& name : lanes::MapNames())
+    NobodyIsTouched(name, WithCrossings(*lanes::MapNetwork(name)), name == "town" ? 60 : 25, 300.0);
 }
 
 TEST(Pedestrians, NobodyIsTouchedInTheRealFiles) {
   if (lanes::RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
   for (const char* file : {"carla_Town04.xodr", "esmini_fabriksgatan.xodr", "esmini_multi_intersections.xodr"}) {
-    NobodyIsTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()), std::string(file) == "carla_Town04.xodr" ? 100 : 25, 120.0);
+    NobodyIsTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()),
+                    std::string(file) == "carla_Town04.xodr" ? 100 : 25, 120.0);
   }
 }
 
@@ -141,7 +152,8 @@ NetworkPointer Street(bool left_hand = false) {
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
-// The gaps between those who come are exponentially distributed (Kolmogorov and Smirnov at 1 %), and half come from each side.
+// The gaps between those who come are exponentially distributed (Kolmogorov and Smirnov at 1 %), and half come from
+// each side.
 TEST(Pedestrians, ComeByPoisson) {
   constexpr double kPerHour = 720.0;
   constexpr int kCount = 3000;
@@ -169,22 +181,25 @@ TEST(Pedestrians, ComeByPoisson) {
   double apart = 0.0;
   for (int i = 0; i < kCount; ++i) {
     const double expected = 1.0 - std::exp(-gaps_s[static_cast<std::size_t>(i)] * kPerHour / 3600.0);
-    apart = std::max({apart, std::fabs(expected - static_cast<double>(i) / kCount), std::fabs(expected - static_cast<double>(i + 1) / kCount)});
+    apart = std::max({apart, std::fabs(expected - static_cast<double>(i) / kCount),
+                      std::fabs(expected - static_cast<double>(i + 1) / kCount)});
   }
   EXPECT_LT(apart * std::sqrt(kCount), 1.63);
   const double all = people.counts()[0].arrived;
   EXPECT_NEAR(from_begin, 0.5 * all, 4.0 * std::sqrt(0.25 * all));
 }
 
-// Vehicles that do not yield come one every h seconds. Each keeps the kerb from where it cannot stop any more until its rear has passed: for
-// T = (v²/(2 b) + v t + walkway + length)/v. Who comes at any time waits T²/(2 h) in the mean.
+// Vehicles that do not yield come one every h seconds. Each keeps the kerb from where it cannot stop any more until its
+// rear has passed: for T = (v²/(2 b) + v t + walkway + length)/v. Who comes at any time waits T²/(2 h) in the mean.
 TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
   constexpr double kSpeed = 12.0, kLength = 4.5, kEvery_s = 14.0, kStep_s = 0.05, kBrake = 2.0, kReacts_s = 1.0;
   const NetworkPointer network = Street();
   const TrafficModel empty = TrafficModel::Make(WithPeople(0, 0.0), network, {}).value();
   const lanes::FootCrossing& crossing = empty.people()->crossings()[0];
-  const auto pass = std::find_if(crossing.passes.begin(), crossing.passes.end(), [&](const lanes::FootPass& p) { return empty.graph()[p.track].along; });
-  const double T = (kSpeed * kSpeed / (2.0 * kBrake) + kSpeed * kReacts_s + pass->out_m - pass->in_m + kLength) / kSpeed;
+  const auto pass = std::find_if(crossing.passes.begin(), crossing.passes.end(),
+                                 [&](const lanes::FootPass& p) { return empty.graph()[p.track].along; });
+  const double T =
+      (kSpeed * kSpeed / (2.0 * kBrake) + kSpeed * kReacts_s + pass->out_m - pass->in_m + kLength) / kSpeed;
   ASSERT_LT(T, kEvery_s);
   double sum = 0.0;
   constexpr int kPhases = 56;
@@ -201,7 +216,8 @@ TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
       std::vector<driver::Footprint> others;
       for (int n = 0; n < 12; ++n) {
         const double x = kSpeed * (now - kEvery_s * n);
-        if (x > 5.0 && x < 390.0) others.push_back({100000u + static_cast<std::uint32_t>(n), x, -1.75, 0.0, kSpeed, kLength, 1.8});
+        if (x > 5.0 && x < 390.0)
+          others.push_back({100000u + static_cast<std::uint32_t>(n), x, -1.75, 0.0, kSpeed, kLength, 1.8});
       }
       model.Step(kStep_s, others);
     }
@@ -211,8 +227,9 @@ TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
   EXPECT_NEAR(sum / kPhases, T * T / (2.0 * kEvery_s), 2.0 * kStep_s);
 }
 
-// One car and one person, who comes to the kerb when it is so far away: from where it can stop by three quarters of its comfortable braking, half a
-// second later, it does, before the walkway; nearer, it drives on as if nobody was there, and the person goes when it has passed.
+// One car and one person, who comes to the kerb when it is so far away: from where it can stop by three quarters of its
+// comfortable braking, half a second later, it does, before the walkway; nearer, it drives on as if nobody was there,
+// and the person goes when it has passed.
 void YieldsWhereItCan(bool left_hand) {
   constexpr double kStep_s = 0.01;
   const NetworkPointer network = Street(left_hand);
@@ -222,11 +239,13 @@ void YieldsWhereItCan(bool left_hand) {
     settings.pedestrians = PedestrianSettings{};
     settings.seed = 3;
     TrafficModel model = TrafficModel::Make(settings, network, {}).value();
-    for (int i = 0; i < 6000 && model.agent(0).trip == 0; ++i) model.Step(kStep_s, {});  // it leaves, and enters again at a lane's beginning
+    for (int i = 0; i < 6000 && model.agent(0).trip == 0; ++i)
+      model.Step(kStep_s, {});  // it leaves, and enters again at a lane's beginning
     const auto to_walkway = [&] {
       const Agent& agent = model.agent(0);
       for (const Pedestrians::OnTrack& on : model.people()->OfTrack(agent.path.front().track))
-        return model.people()->crossings()[on.crossing].passes[on.pass].in_m + agent.path.front().zero_m - agent.o_m - 0.5 * model.traits(0).length_m;
+        return model.people()->crossings()[on.crossing].passes[on.pass].in_m + agent.path.front().zero_m - agent.o_m -
+               0.5 * model.traits(0).length_m;
       return 1e9;
     };
     const double comes_m = model.people()->crossings()[0].before_m;
@@ -267,7 +286,9 @@ TEST(Pedestrians, NobodyWaitsForEver) {
   settings.traffic = WithPeople(8, 3000.0);
   settings.duration_s = 900.0;
   PeopleWatcher watcher;
-  const StudyResult r = RunStudy(settings, Street(), [&](const StudyMoment& moment) { watcher.Look(moment.model, moment.time_s); }).value();
+  const StudyResult r = RunStudy(settings, Street(), [&](const StudyMoment& moment) {
+                          watcher.Look(moment.model, moment.time_s);
+                        }).value();
   EXPECT_EQ(watcher.touched, 0) << watcher.first;
   EXPECT_LT(r.longest_stand_s, 120.0);
   EXPECT_LT(watcher.longest_wait_s, 60.0);
@@ -275,18 +296,25 @@ TEST(Pedestrians, NobodyWaitsForEver) {
   EXPECT_GT(watcher.crossed, 500u);
 }
 
-// A crossing between two lights that face it: nobody steps out while they do not show red, or would not as long as he walks; and cars do not stop for
-// who waits at green.
+// A crossing between two lights that face it: nobody steps out while they do not show red, or would not as long as he
+// walks; and cars do not stop for who waits at green.
 TEST(Pedestrians, WalkWhileLightsAreRed) {
   opendrive::RoadText road;
   road.length = 400.0;
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"400\"><line/></geometry>";
   const auto light = [](int id, int s, char way) {
-    return fmt::format("<signal s=\"{}\" t=\"-4\" id=\"{}\" dynamic=\"yes\" orientation=\"{}\" zOffset=\"2\" type=\"1000001\" subtype=\"-1\" country=\"OpenDRIVE\"/>", s, id, way);
+    return fmt::format(
+        "<signal s=\"{}\" t=\"-4\" id=\"{}\" dynamic=\"yes\" orientation=\"{}\" zOffset=\"2\" type=\"1000001\" "
+        "subtype=\"-1\" country=\"OpenDRIVE\"/>",
+        s, id, way);
   };
-  road.more = R"(<objects><object id="z" type="crosswalk" s="200" t="0" zOffset="0" length="4" width="7"/></objects><signals>)" + light(7, 190, '+') + light(8, 210, '-') + "</signals>";
+  road.more =
+      R"(<objects><object id="z" type="crosswalk" s="200" t="0" zOffset="0" length="4" width="7"/></objects><signals>)" +
+      light(7, 190, '+') + light(8, 210, '-') + "</signals>";
   const NetworkPointer network = opendrive::MustRead(opendrive::Document(
-      road.Text() + "<controller id=\"1\" name=\"only\"><control signalId=\"7\" type=\"0\"/><control signalId=\"8\" type=\"0\"/><userData code=\"rodeira:times\" value=\"60 5 25 3 1\"/></controller>"));
+      road.Text() +
+      "<controller id=\"1\" name=\"only\"><control signalId=\"7\" type=\"0\"/><control signalId=\"8\" "
+      "type=\"0\"/><userData code=\"rodeira:times\" value=\"60 5 25 3 1\"/></controller>"));
   TrafficModel model = TrafficModel::Make(WithPeople(10, 300.0), network, {}).value();
   const lanes::FootCrossing& crossing = model.people()->crossings()[0];
   for (const lanes::FootPass& pass : crossing.passes) EXPECT_EQ(pass.light, 0);
@@ -300,7 +328,8 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
     EXPECT_TRUE(now == before || in_cycle >= 33.0 - 1e-9 || in_cycle + crossing.length_m / 1.2 <= 4.0) << in_cycle;
     before = now;
     if (in_cycle < 20.0 || in_cycle > 29.0) continue;  // the queue of the red has gone
-    for (const AgentPose& pose : model.poses()) stood_at_green += pose.speed_mps < 0.1 && std::fabs(pose.p_WB_W.x() - 200.0) < 20.0 ? 1 : 0;
+    for (const AgentPose& pose : model.poses())
+      stood_at_green += pose.speed_mps < 0.1 && std::fabs(pose.p_WB_W.x() - 200.0) < 20.0 ? 1 : 0;
   }
   EXPECT_EQ(watcher.touched, 0) << watcher.first;
   EXPECT_GT(before, 30u);
@@ -339,9 +368,13 @@ std::string Problem(const std::string& text) {
 TEST(Pedestrians, WrongSettingsAreNamed) {
   EXPECT_EQ(Problem("vehicles: 2\npedestrians: {per_hour: 100, at: [{road: '1', s_m: 190, per_hour: 20}]}\n"), "");
   EXPECT_NE(Problem("pedestrians: {per_hour: -1}\n").find("t.yaml:2"), std::string::npos);
-  EXPECT_NE(Problem("pedestrians: {slowest_mps: 2, fastest_mps: 1}\n").find("'fastest_mps' is 1, below 'slowest_mps', which is 2"), std::string::npos);
+  EXPECT_NE(Problem("pedestrians: {slowest_mps: 2, fastest_mps: 1}\n")
+                .find("'fastest_mps' is 1, below 'slowest_mps', which is 2"),
+            std::string::npos);
   EXPECT_NE(Problem("pedestrians: {per_hours: 10}\n").find("per_hour"), std::string::npos);
-  EXPECT_NE(Problem("vehicles: 2\npedestrians:\n  at:\n    - {road: main, s_m: 1, per_hour: 5}\n").find("there is no road 'main'"), std::string::npos);
+  EXPECT_NE(Problem("vehicles: 2\npedestrians:\n  at:\n    - {road: main, s_m: 1, per_hour: 5}\n")
+                .find("there is no road 'main'"),
+            std::string::npos);
   EXPECT_EQ(WithoutCrossing(*Street(), "1"), "the road '1' has no crossing for people on foot");
   const auto none = TrafficModel::Make(WithPeople(2, 100.0), lanes::MapNetwork("crossing"), {});
   ASSERT_FALSE(none.ok());

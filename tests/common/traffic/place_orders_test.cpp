@@ -36,12 +36,14 @@ PlaceOrder Brake(const TrafficModel& model, PlaceOrder::Whom whom, std::uint32_t
 // The stations of all cars, by the world's own axis, which lies at 0.3 rad.
 std::map<std::uint32_t, double> Stations(const TrafficModel& model) {
   std::map<std::uint32_t, double> stations;
-  for (const AgentPose& pose : model.poses()) stations[pose.id] = pose.p_WB_W.x() * std::cos(0.3) + pose.p_WB_W.y() * std::sin(0.3);
+  for (const AgentPose& pose : model.poses())
+    stations[pose.id] = pose.p_WB_W.x() * std::cos(0.3) + pose.p_WB_W.y() * std::sin(0.3);
   return stations;
 }
 
 // Drives until a time, and says who passed the place when: those who are on the road in one trip before and after.
-std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrders& orders, int steps, const std::function<void(int)>& look = {}) {
+std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrders& orders, int steps,
+                                                 const std::function<void(int)>& look = {}) {
   std::vector<std::pair<int, std::uint32_t>> passed;
   for (int i = 0; i < steps; ++i) {
     const auto before = Stations(model);
@@ -51,7 +53,8 @@ std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrder
     model.Step(kStep_s, {});
     orders.After(model);
     for (const auto& [id, s] : Stations(model)) {
-      if (before.contains(id) && trips.at(id) == model.agent(id).trip && (before.at(id) < kPlace_m) != (s < kPlace_m)) passed.emplace_back(i, id);
+      if (before.contains(id) && trips.at(id) == model.agent(id).trip && (before.at(id) < kPlace_m) != (s < kPlace_m))
+        passed.emplace_back(i, id);
     }
     if (look) look(i);
   }
@@ -96,7 +99,8 @@ TEST(PlaceOrders, OneAgentIsToldWhenItPassesAndAllAreToldEachTime) {
   (void)Drive(model, orders, passed[3].first);
   EXPECT_EQ(model.agent(passed[3].second).cap_mps, Agent::kNoCap_mps);
   (void)Drive(model, orders, 1);
-  for (std::uint32_t id = 0; id < model.vehicles(); ++id) EXPECT_EQ(model.agent(id).cap_mps, id == passed[3].second ? 5.0 : Agent::kNoCap_mps) << id;
+  for (std::uint32_t id = 0; id < model.vehicles(); ++id)
+    EXPECT_EQ(model.agent(id).cap_mps, id == passed[3].second ? 5.0 : Agent::kNoCap_mps) << id;
   TrafficModel many = Made(30);
   PlaceOrders all;
   PlaceOrder each = Brake(many, PlaceOrder::Whom::kAll);
@@ -139,7 +143,8 @@ TEST(PlaceOrders, APlaceWhereARoadEndsIsPassedToo) {
     model.Step(kStep_s, {});
     orders.After(model);
     for (const AgentPose& pose : model.poses()) {
-      if (!before.contains(pose.id) || before.at(pose.id).first != pose.trip || before.at(pose.id).second == pose.road) continue;
+      if (!before.contains(pose.id) || before.at(pose.id).first != pose.trip || before.at(pose.id).second == pose.road)
+        continue;
       ++changes;
       capped += model.agent(pose.id).cap_mps < Agent::kNoCap_mps ? 1 : 0;
     }
@@ -179,7 +184,8 @@ TEST(PlaceOrders, RestoredTheyAreObeyedAtTheSameSteps) {
 TEST(PlaceOrders, APlaceThatIsNotThereIsRefused) {
   const TrafficModel model = Made(1);
   EXPECT_EQ(PlaceOrders::At(model, "tst", 3.0).error().Text(), "there is no road 'tst'; did you mean 'test'?");
-  EXPECT_EQ(PlaceOrders::At(model, "test", 2000.5).error().Text(), "the station 2000.5 m is not on the road 'test', which is 2000.00 m long");
+  EXPECT_EQ(PlaceOrders::At(model, "test", 2000.5).error().Text(),
+            "the station 2000.5 m is not on the road 'test', which is 2000.00 m long");
   EXPECT_EQ(PlaceOrders::At(model, "test", 2000.5).error().exit_status(), 2);
 }
 

@@ -25,8 +25,8 @@ struct Discharged {
   double Flow_ph() const { return 3600.0 * 20.0 / (passes_s[24] - passes_s[4]); }  // from the fifth car on
 };
 
-// A queue before a barrier that is taken away, against the IDM integrated here with accelerations that change by 3 m/s³ at most. Coarse steps are
-// compared with the finest one only.
+// A queue before a barrier that is taken away, against the IDM integrated here with accelerations that change by 3 m/s³
+// at most. Coarse steps are compared with the finest one only.
 Discharged Discharge(double time_gap_s, double step_s = 0.01) {
   constexpr double kLimit_mps = 50.0 / 3.6, kLine_m = 800.0;
   const auto world = driver::StraightWorld(2000.0, kLimit_mps);
@@ -46,7 +46,9 @@ Discharged Discharge(double time_gap_s, double step_s = 0.01) {
     return path.Locate(pose.p_WB_W.x(), pose.p_WB_W.y())->d_m + 0.5 * model.traits(pose.id).length_m;
   };
   for (const AgentPose& pose : model.poses()) {
-    if (pose.lane == -1 && front_of(pose) < kLine_m) queue.push_back({pose.id, front_of(pose), pose.speed_mps, model.traits(pose.id).length_m, -1.0, pose.acceleration_mps2});
+    if (pose.lane == -1 && front_of(pose) < kLine_m)
+      queue.push_back(
+          {pose.id, front_of(pose), pose.speed_mps, model.traits(pose.id).length_m, -1.0, pose.acceleration_mps2});
   }
   std::sort(queue.begin(), queue.end(), [](const Car& a, const Car& b) { return a.front_m > b.front_m; });
   EXPECT_GE(queue.size(), 25u);
@@ -59,7 +61,9 @@ Discharged Discharge(double time_gap_s, double step_s = 0.01) {
       const double v = cars[n].speed_mps;
       double s = 1e9, dv = 0.0;
       if (n > 0) s = cars[n - 1].front_m - cars[n - 1].length_m - cars[n].front_m, dv = v - cars[n - 1].speed_mps;
-      const double wanted = idm.standing_gap_m + std::max(0.0, v * idm.time_gap_s + v * dv / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
+      const double wanted =
+          idm.standing_gap_m +
+          std::max(0.0, v * idm.time_gap_s + v * dv / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2)));
       rate.push_back(idm.acceleration_mps2 * (1.0 - std::pow(v / kLimit_mps, 4) - std::pow(wanted / s, 2)));
     }
     return rate;
@@ -69,8 +73,10 @@ Discharged Discharge(double time_gap_s, double step_s = 0.01) {
     const std::vector<double> wanted = rates(here);
     for (std::size_t n = 0; n < here.size(); ++n) {
       Car& car = here[n];
-      car.acceleration_mps2 = std::clamp(wanted[n], car.acceleration_mps2 - kStep_s * kJerk_mps3, car.acceleration_mps2 + kStep_s * kJerk_mps3);
-      car.acceleration_mps2 = std::max(car.acceleration_mps2, -std::sqrt(2.0 * kJerk_mps3 * car.speed_mps));  // comes to rest without a jerk
+      car.acceleration_mps2 = std::clamp(wanted[n], car.acceleration_mps2 - kStep_s * kJerk_mps3,
+                                         car.acceleration_mps2 + kStep_s * kJerk_mps3);
+      car.acceleration_mps2 = std::max(car.acceleration_mps2,
+                                       -std::sqrt(2.0 * kJerk_mps3 * car.speed_mps));  // comes to rest without a jerk
       const double after = std::max(0.0, car.speed_mps + kStep_s * car.acceleration_mps2);
       car.front_m += 0.5 * kStep_s * (car.speed_mps + after);
       car.speed_mps = after;
@@ -95,8 +101,8 @@ Discharged Discharge(double time_gap_s, double step_s = 0.01) {
   return discharged;
 }
 
-// The usual settings keep 1.5 s, more than drivers at lights do: their queue discharges more slowly. With 1.0 s it is within what
-// is measured at lights (1 800 to 2 000 an hour and lane).
+// The usual settings keep 1.5 s, more than drivers at lights do: their queue discharges more slowly. With 1.0 s it is
+// within what is measured at lights (1 800 to 2 000 an hour and lane).
 TEST(Queue, AQueueDischargesAsTheIdmSays) {
   const double usual = Discharge(1.5).Flow_ph(), brisk = Discharge(1.0).Flow_ph();
   EXPECT_GT(usual, 1400.0);
@@ -114,7 +120,8 @@ std::vector<std::pair<double, double>> Headways(const std::vector<double>& passe
   return headways;
 }
 
-// SUMO 1.15 discharges 1868 an hour with steps of 1 s and 2235 with 0.1 s (Krauss). The flow that is asked: 1750 to 1950 an hour.
+// SUMO 1.15 discharges 1868 an hour with steps of 1 s and 2235 with 0.1 s (Krauss). The flow that is asked: 1750 to
+// 1950 an hour.
 TEST(Queue, ItsFlowDoesNotDependOnTheStep) {
   constexpr double kLeast_ph = 1750.0, kMost_ph = 1950.0;
   const Discharged fine = Discharge(1.0);
@@ -126,12 +133,13 @@ TEST(Queue, ItsFlowDoesNotDependOnTheStep) {
     EXPECT_NEAR(coarse.Flow_ph(), fine.Flow_ph(), 0.02 * fine.Flow_ph()) << step_s;
   }
   const double end_s = fine.passes_s.back();
-  const std::string svg = PlotSvg("A queue that starts", "since the way is free, s", "behind the car before, s", 5.0, 0.5,
-                                  {{"steps of 0.1 s", "#d89030", Headways(coarse.passes_s)},
-                                   {"steps of 0.01 s", "#b03020", Headways(fine.passes_s)},
-                                   {"the IDM integrated apart", "#1f5f8b", Headways(fine.idm_s), true},
-                                   {"between 1750 an hour", "#707070", {{0.0, 3600.0 / kLeast_ph}, {end_s, 3600.0 / kLeast_ph}}, true},
-                                   {"and 1950 is asked", "#707070", {{0.0, 3600.0 / kMost_ph}, {end_s, 3600.0 / kMost_ph}}, true}});
+  const std::string svg =
+      PlotSvg("A queue that starts", "since the way is free, s", "behind the car before, s", 5.0, 0.5,
+              {{"steps of 0.1 s", "#d89030", Headways(coarse.passes_s)},
+               {"steps of 0.01 s", "#b03020", Headways(fine.passes_s)},
+               {"the IDM integrated apart", "#1f5f8b", Headways(fine.idm_s), true},
+               {"between 1750 an hour", "#707070", {{0.0, 3600.0 / kLeast_ph}, {end_s, 3600.0 / kLeast_ph}}, true},
+               {"and 1950 is asked", "#707070", {{0.0, 3600.0 / kMost_ph}, {end_s, 3600.0 / kMost_ph}}, true}});
   EXPECT_TRUE(WritePicture("traffic_saturation.svg", svg));
 }
 

@@ -1,4 +1,5 @@
-// How soon agents answer to what is suddenly there: in the step in which they see it first, wherever it is and however their cars move.
+// How soon agents answer to what is suddenly there: in the step in which they see it first, wherever it is and however
+// their cars move.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,9 +8,9 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -24,7 +25,9 @@ TrafficSettings One(Physics physics) {
 }
 
 // Where the agent of a model will be, step by step; nothing where its trip ends before.
-std::optional<std::vector<AgentPose>> Ahead(const TrafficModel& model, const std::shared_ptr<const network::Network>& network, const TrafficSettings& settings, int steps) {
+std::optional<std::vector<AgentPose>> Ahead(const TrafficModel& model,
+                                            const std::shared_ptr<const network::Network>& network,
+                                            const TrafficSettings& settings, int steps) {
   base::StateWriter writer;
   model.Save(writer);
   TrafficModel goes_on = TrafficModel::Make(settings, network, {}).value();
@@ -44,9 +47,12 @@ double HeadingOf(const AgentPose& pose) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-// From one state with somebody at a pose, turned by so much and with a speed of his own, and without him: the step that sees him first is driven otherwise, by the pedals of a car
-// with full physics, by acceleration and speed of a planar one.
-void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const network::Network>& network, const TrafficSettings& settings, const AgentPose& at, double turned_rad, double speed_mps, const char* what) {
+// From one state with somebody at a pose, turned by so much and with a speed of his own, and without him: the step that
+// sees him first is driven otherwise, by the pedals of a car with full physics, by acceleration and speed of a planar
+// one.
+void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const network::Network>& network,
+                   const TrafficSettings& settings, const AgentPose& at, double turned_rad, double speed_mps,
+                   const char* what) {
   base::StateWriter writer;
   model.Save(writer);
   std::vector<TrafficModel> both;
@@ -55,7 +61,8 @@ void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const networ
     base::StateReader reader(writer.bytes());
     both.back().Restore(reader);
   }
-  const std::vector<driver::Footprint> others{{kBody, at.p_WB_W.x(), at.p_WB_W.y(), HeadingOf(at) + turned_rad, speed_mps, 4.5, 1.8}};
+  const std::vector<driver::Footprint> others{
+      {kBody, at.p_WB_W.x(), at.p_WB_W.y(), HeadingOf(at) + turned_rad, speed_mps, 4.5, 1.8}};
   both[0].Step(kStep_s, {});
   both[1].Step(kStep_s, others);
   const AgentPose &without = both[0].poses()[0], &with = both[1].poses()[0];
@@ -64,10 +71,12 @@ void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const networ
     EXPECT_LT(with.speed_mps, without.speed_mps) << what;
   } else {
     const dynamics::Controls &feet = both[0].full()->controls(0), &now = both[1].full()->controls(0);
-    EXPECT_TRUE(now.throttle < feet.throttle || now.brake > feet.brake) << what << ": throttle " << feet.throttle << ", brake " << feet.brake;
+    EXPECT_TRUE(now.throttle < feet.throttle || now.brake > feet.brake)
+        << what << ": throttle " << feet.throttle << ", brake " << feet.brake;
     EXPECT_LE(with.acceleration_mps2, without.acceleration_mps2) << what;
   }
-  for (int i = 0; i < 100; ++i) both[0].Step(kStep_s, {}), both[1].Step(kStep_s, others);  // a second later it is seen in any case
+  for (int i = 0; i < 100; ++i)
+    both[0].Step(kStep_s, {}), both[1].Step(kStep_s, others);  // a second later it is seen in any case
   ASSERT_EQ(both[1].poses().size(), 1u) << what;
   EXPECT_LT(both[1].poses()[0].speed_mps, both[0].poses()[0].speed_mps - 0.5) << what;
 }
@@ -108,7 +117,8 @@ TEST(Reactions, WithinOneStepInAJunction) {
         const double gone = (later.p_WB_W - pose.p_WB_W).head<2>().norm();
         if (gone < (is_within ? 8.0 : 12.0)) continue;
         if (gone > 30.0 || later.p_WB_W.head<2>().norm() > kMiddle_m) break;
-        for (const double turned_rad : {0.0, 0.5 * std::numbers::pi, std::numbers::pi}) AnswersAtOnce(model, network, settings, later, turned_rad, 0.0, is_within ? "within" : "before");
+        for (const double turned_rad : {0.0, 0.5 * std::numbers::pi, std::numbers::pi})
+          AnswersAtOnce(model, network, settings, later, turned_rad, 0.0, is_within ? "within" : "before");
         ++(is_within ? within : before);
         break;
       }

@@ -8,7 +8,8 @@
 
 namespace rodeira::traffic {
 
-// A model at its beginning with just these agents, by number: on the road where they say so, nobody waits to enter. Their grants have numbers below `next_grant`.
+// A model at its beginning with just these agents, by number: on the road where they say so, nobody waits to enter.
+// Their grants have numbers below `next_grant`.
 inline void RestoreWith(TrafficModel& model, std::span<const Agent> agents, std::uint64_t next_grant = 1) {
   base::StateWriter writer;
   for (const Agent& agent : agents) writer.Put("agent", agent);

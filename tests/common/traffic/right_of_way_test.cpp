@@ -1,4 +1,5 @@
-// Two cars who would meet: whose right of way it is drives as if he were alone, the other one waits. In right-hand and in left-hand traffic.
+// Two cars who would meet: whose right of way it is drives as if he were alone, the other one waits. In right-hand and
+// in left-hand traffic.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,9 +9,9 @@
 
 #include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/lanes/mirrored.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/restored.hpp"
+#include "tests/common/world/lanes/mirrored.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -46,12 +47,14 @@ class Meeting : public testing::TestWithParam<bool> {
   const lanes::Graph& graph() const { return model_->graph(); }
   static double Up() { return GetParam() ? -1.0 : 1.0; }
 
-  // The lane by which the cars of an arm come, as it lies in right-hand traffic: 0 from the east, 1 from the north, 2 from the west, 3 from the south.
+  // The lane by which the cars of an arm come, as it lies in right-hand traffic: 0 from the east, 1 from the north, 2
+  // from the west, 3 from the south.
   std::uint32_t Arm(int arm) const {
     const double angle = 0.5 * std::numbers::pi * arm;
     for (std::uint32_t track = 0; track < graph().tracks().size(); ++track) {
       const Eigen::Vector2d from = graph()[track].curve.At(0.0).p_W.head<2>();
-      if (graph()[track].entry && from.normalized().dot(Eigen::Vector2d(std::cos(angle), Up() * std::sin(angle))) > 0.9) return track;
+      if (graph()[track].entry && from.normalized().dot(Eigen::Vector2d(std::cos(angle), Up() * std::sin(angle))) > 0.9)
+        return track;
     }
     ADD_FAILURE() << "no arm " << arm;
     return 0;
@@ -70,7 +73,9 @@ class Meeting : public testing::TestWithParam<bool> {
   std::uint32_t TripFor(std::uint32_t id, const Comes& comes) const {
     const std::size_t ways = graph()[comes.track].next.size();
     for (std::uint32_t trip = 0;; ++trip) {
-      if (static_cast<std::size_t>(static_cast<double>(ways) * base::RandomUniform({settings_.seed, id, kDrawLink, trip, 0})) == comes.way) return trip;
+      if (static_cast<std::size_t>(static_cast<double>(ways) *
+                                   base::RandomUniform({settings_.seed, id, kDrawLink, trip, 0})) == comes.way)
+        return trip;
     }
   }
 
@@ -79,8 +84,10 @@ class Meeting : public testing::TestWithParam<bool> {
       for (const std::uint32_t other : {b.track, graph()[b.track].next[b.way].to}) {
         for (const lanes::Zone& zone : model_->zones().zones()) {
           if (zone.kind == lanes::ZoneKind::kDiverge) continue;
-          if (zone.track[0] == one && zone.track[1] == other) return {Meets{one, zone.in_m[0]}, Meets{other, zone.in_m[1]}};
-          if (zone.track[1] == one && zone.track[0] == other) return {Meets{one, zone.in_m[1]}, Meets{other, zone.in_m[0]}};
+          if (zone.track[0] == one && zone.track[1] == other)
+            return {Meets{one, zone.in_m[0]}, Meets{other, zone.in_m[1]}};
+          if (zone.track[1] == one && zone.track[0] == other)
+            return {Meets{one, zone.in_m[1]}, Meets{other, zone.in_m[0]}};
         }
       }
     }
@@ -110,11 +117,14 @@ class Meeting : public testing::TestWithParam<bool> {
         if (!both[pose.id] || agent.trip != trips[pose.id] || came[pose.id].enters_s < kNever_s) continue;
         came[pose.id].slowest_mps = std::min(came[pose.id].slowest_mps, pose.speed_mps);
         for (const Piece& piece : agent.path) {
-          if (piece.track == meets[pose.id].track && agent.o_m + 0.5 * model_->traits(pose.id).length_m - piece.zero_m > meets[pose.id].in_m) came[pose.id].enters_s = i * kStep_s;
+          if (piece.track == meets[pose.id].track &&
+              agent.o_m + 0.5 * model_->traits(pose.id).length_m - piece.zero_m > meets[pose.id].in_m)
+            came[pose.id].enters_s = i * kStep_s;
         }
       }
       const auto& poses = model_->poses();
-      const bool touch = poses.size() == 2 && driver::Overlap(FootprintOf(poses[0], model_->traits(0)), FootprintOf(poses[1], model_->traits(1)));
+      const bool touch = poses.size() == 2 && driver::Overlap(FootprintOf(poses[0], model_->traits(0)),
+                                                              FootprintOf(poses[1], model_->traits(1)));
       EXPECT_FALSE(touch) << i * kStep_s;
     }
     return came;
@@ -189,7 +199,9 @@ TEST_P(Meeting, WhoHasAStopSignComesToRestAndYields) {
 TEST_P(Meeting, WhoDrivesOnARingGoesBeforeWhoEnters) {
   constexpr double kRing_m = 16.0;
   Draw(lanes::Drawn(lanes::MapText("roundabout", true, traffic_map::Junctions::kDirect)));
-  const auto on_ring = [&](std::uint32_t track) { return std::fabs(graph()[track].curve.At(0.5 * graph()[track].length_m()).p_W.head<2>().norm() - kRing_m) < 0.5; };
+  const auto on_ring = [&](std::uint32_t track) {
+    return std::fabs(graph()[track].curve.At(0.5 * graph()[track].length_m()).p_W.head<2>().norm() - kRing_m) < 0.5;
+  };
   int met = 0;
   for (std::uint32_t into = 0; into < graph().tracks().size(); ++into) {
     std::optional<std::uint32_t> ring, entry;
@@ -202,14 +214,19 @@ TEST_P(Meeting, WhoDrivesOnARingGoesBeforeWhoEnters) {
       return std::size_t{0};
     };
     ++met;
-    // On the ring all of its last lane before the entry lies before him; the other one would be at its end at the same time.
+    // On the ring all of its last lane before the entry lies before him; the other one would be at its end at the same
+    // time.
     const double ring_m = graph()[*ring].length_m() - model_->traits(0).length_m - 0.1;
-    GoesFirst({*ring, way(*ring), ring_m, 6.0}, {*entry, way(*entry), std::min(ring_m, graph()[*entry].length_m() - model_->traits(0).length_m - 0.1), 6.0}, "into track " + std::to_string(into));
+    GoesFirst(
+        {*ring, way(*ring), ring_m, 6.0},
+        {*entry, way(*entry), std::min(ring_m, graph()[*entry].length_m() - model_->traits(0).length_m - 0.1), 6.0},
+        "into track " + std::to_string(into));
   }
   EXPECT_EQ(met, 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hands, Meeting, testing::Bool(), [](const auto& which) { return which.param ? "LeftHand" : "RightHand"; });
+INSTANTIATE_TEST_SUITE_P(Hands, Meeting, testing::Bool(),
+                         [](const auto& which) { return which.param ? "LeftHand" : "RightHand"; });
 
 }  // namespace
 }  // namespace rodeira::traffic

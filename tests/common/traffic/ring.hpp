@@ -17,17 +17,22 @@ inline opendrive::RoadText CircleRoad(double length_m, bool left_hand = false) {
   opendrive::RoadText road;
   road.length = length_m;
   if (left_hand) road.attributes += " rule=\"LHT\"";
-  road.link = "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>"
-              "<successor elementType=\"road\" elementId=\"1\" contactPoint=\"start\"/>";
-  road.geometry = fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{0}\"><arc curvature=\"{1:.17g}\"/></geometry>", length_m,
-                              2.0 * std::numbers::pi / length_m);
+  road.link =
+      "<predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/>"
+      "<successor elementType=\"road\" elementId=\"1\" contactPoint=\"start\"/>";
+  road.geometry =
+      fmt::format("<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"{0}\"><arc curvature=\"{1:.17g}\"/></geometry>",
+                  length_m, 2.0 * std::numbers::pi / length_m);
   return road;
 }
 
 // A lane of such a road, 3.5 m wide, with this limit and, where it has them, these marks at its outer edge.
 inline std::string CircleLane(int id, double limit_mps, const std::string& marks = "") {
-  return fmt::format("<lane id=\"{0}\" type=\"driving\"><link><predecessor id=\"{0}\"/><successor id=\"{0}\"/></link>"
-                     "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{1}<speed sOffset=\"0\" max=\"{2}\" unit=\"m/s\"/></lane>", id, marks, limit_mps);
+  return fmt::format(
+      "<lane id=\"{0}\" type=\"driving\"><link><predecessor id=\"{0}\"/><successor id=\"{0}\"/></link>"
+      "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{1}<speed sOffset=\"0\" max=\"{2}\" "
+      "unit=\"m/s\"/></lane>",
+      id, marks, limit_mps);
 }
 
 // A mark of this type along a lane's edge, from s on.
@@ -54,7 +59,8 @@ inline Equilibrium EquilibriumOf(const TrafficModel& model, const driver::IdmSet
   double low = 0.0, high = kRingLimit_mps;
   for (int i = 0; i < 60; ++i) {
     at.speed_mps = 0.5 * (low + high);
-    const double gap = (idm.standing_gap_m + at.speed_mps * idm.time_gap_s) / std::sqrt(1.0 - std::pow(at.speed_mps / kRingLimit_mps, 4));
+    const double gap = (idm.standing_gap_m + at.speed_mps * idm.time_gap_s) /
+                       std::sqrt(1.0 - std::pow(at.speed_mps / kRingLimit_mps, 4));
     (gap < at.gap_m ? low : high) = at.speed_mps;
   }
   return at;

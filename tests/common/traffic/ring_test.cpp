@@ -1,4 +1,5 @@
-// Identical cars on a ring: equilibrium and stability of the IDM in closed form (Treiber, Kesting, Traffic Flow Dynamics, 2013).
+// Identical cars on a ring: equilibrium and stability of the IDM in closed form (Treiber, Kesting, Traffic Flow
+// Dynamics, 2013).
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -38,10 +39,12 @@ double GrowthRate(const IdmSettings& idm, const Equilibrium& at, std::size_t car
   const double wanted = idm.standing_gap_m + v * idm.time_gap_s;
   const double f_s = 2.0 * a * wanted * wanted / (s * s * s);
   const double f_l = 2.0 * a * wanted / (s * s) * v / root;
-  const double f_v = -4.0 * a * std::pow(v, 3) / std::pow(kRingLimit_mps, 4) - 2.0 * a * wanted / (s * s) * (idm.time_gap_s + v / root);
+  const double f_v = -4.0 * a * std::pow(v, 3) / std::pow(kRingLimit_mps, 4) -
+                     2.0 * a * wanted / (s * s) * (idm.time_gap_s + v / root);
   double fastest = -1e9;
   for (std::size_t j = 1; j < cars; ++j) {
-    const std::complex<double> wave = std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(cars));
+    const std::complex<double> wave =
+        std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(j) / static_cast<double>(cars));
     const std::complex<double> p = f_v + f_l * wave, q = f_s * (1.0 - wave), half = std::sqrt(p * p - 4.0 * q);
     fastest = std::max({fastest, (0.5 * (p + half)).real(), (0.5 * (p - half)).real()});
   }
@@ -94,16 +97,18 @@ TEST(Ring, StopAndGoArisesWhereTheIdmIsUnstable) {
       for (int i = 0; i < 90000; ++i) model.Step(0.02, {});
       const double deviation = SpreadOf(model).deviation_mps;
       growth < 0.0 ? ++stable : ++unstable;
-      if (growth < 0.0) EXPECT_LT(deviation, 0.02) << cars << " cars, a = " << acceleration << ", growth " << growth;
-      else EXPECT_GT(deviation, 0.3) << cars << " cars, a = " << acceleration << ", growth " << growth;
+      if (growth < 0.0)
+        EXPECT_LT(deviation, 0.02) << cars << " cars, a = " << acceleration << ", growth " << growth;
+      else
+        EXPECT_GT(deviation, 0.3) << cars << " cars, a = " << acceleration << ", growth " << growth;
     }
   }
   EXPECT_GE(stable, 2);
   EXPECT_GE(unstable, 2);
 }
 
-// Sugiyama's experiment (New Journal of Physics 10, 2008): 22 cars on 230 m jam. Where the linear theory says that a disturbance grows a jam
-// arises in which cars stand; where it says that it dies away there is none.
+// Sugiyama's experiment (New Journal of Physics 10, 2008): 22 cars on 230 m jam. Where the linear theory says that a
+// disturbance grows a jam arises in which cars stand; where it says that it dies away there is none.
 TEST(Ring, SugiyamasRingJamsWhereTheTheorySaysSo) {
   const auto network = Ring(230.0 - 2.0 * std::numbers::pi * 1.75);  // its lane lies 1.75 m outside the axis
   for (const double acceleration : {0.5, 0.8, 3.0}) {
@@ -119,19 +124,23 @@ TEST(Ring, SugiyamasRingJamsWhereTheTheorySaysSo) {
     ASSERT_GT(std::fabs(growth), 0.004) << acceleration;
     for (int i = 0; i < 60000; ++i) model.Step(0.02, {});
     const Spread spread = SpreadOf(model);
-    if (growth < 0.0) EXPECT_LT(spread.deviation_mps, 0.02) << acceleration;
-    else EXPECT_GT(spread.deviation_mps, 0.25 * spread.mean_mps) << acceleration;
+    if (growth < 0.0)
+      EXPECT_LT(spread.deviation_mps, 0.02) << acceleration;
+    else
+      EXPECT_GT(spread.deviation_mps, 0.25 * spread.mean_mps) << acceleration;
     RecordProperty("growth_" + std::to_string(acceleration), std::to_string(growth));
   }
 }
 
-// The same ring through pedals, engine, clutch and gears (`physics: full`): the spread of the 22 speeds after so long, as a share of their mean.
+// The same ring through pedals, engine, clutch and gears (`physics: full`): the spread of the 22 speeds after so long,
+// as a share of their mean.
 double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
   const auto network = Ring(230.0 - 2.0 * std::numbers::pi * 1.75);
   TrafficSettings settings = Identical(22, acceleration_mps2);
   settings.physics = Physics::kFull;
   std::optional<TrafficModel> model;
-  for (; !model || (model->on_road() < 22 && settings.seed < 100); ++settings.seed) model.emplace(TrafficModel::Make(settings, network, {}).value());
+  for (; !model || (model->on_road() < 22 && settings.seed < 100); ++settings.seed)
+    model.emplace(TrafficModel::Make(settings, network, {}).value());
   EXPECT_EQ(model->on_road(), 22u);
   double sum = 0.0;
   const auto steps = static_cast<int>(std::lround(for_s / 0.01)), looks = steps / 5;  // the last fifth is looked at
@@ -150,7 +159,8 @@ TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
   EXPECT_LT(SpreadThroughThePowertrain(3.0, 400.0), 0.05);
 }
 
-// RODEIRA_RING: prints that table, beside what the linear theory says of accelerations that are applied exactly. Some minutes.
+// RODEIRA_RING: prints that table, beside what the linear theory says of accelerations that are applied exactly. Some
+// minutes.
 TEST(Ring, TableOfTheBoundaryThroughThePowertrain) {
   if (std::getenv("RODEIRA_RING") == nullptr) GTEST_SKIP() << "a table for docs/traffic.md, with RODEIRA_RING=1";
   PlotCurve spread{"spread of the speeds over their mean, after 15 minutes", "#b03020", {}};
@@ -158,13 +168,15 @@ TEST(Ring, TableOfTheBoundaryThroughThePowertrain) {
     const TrafficSettings settings = Identical(22, acceleration);
     TrafficSettings placed = settings;
     TrafficModel model = TrafficModel::Make(placed, Ring(230.0 - 2.0 * std::numbers::pi * 1.75), {}).value();
-    while (model.on_road() < 22) ++placed.seed, model = TrafficModel::Make(placed, Ring(230.0 - 2.0 * std::numbers::pi * 1.75), {}).value();
+    while (model.on_road() < 22)
+      ++placed.seed, model = TrafficModel::Make(placed, Ring(230.0 - 2.0 * std::numbers::pi * 1.75), {}).value();
     const double growth = GrowthRate(settings.idm, EquilibriumOf(model, settings.idm), 22);
     spread.points.emplace_back(acceleration, SpreadThroughThePowertrain(acceleration, 900.0));
     fmt::print("| {} | {:+.4f} | {:.3f} |\n", acceleration, growth, spread.points.back().second);
     std::fflush(stdout);
   }
-  const std::string svg = PlotSvg("Sugiyama's ring through the powertrain: 22 cars, 230 m", "acceleration of the drivers, m/s²", "spread of the speeds", 0.5, 0.25, {spread});
+  const std::string svg = PlotSvg("Sugiyama's ring through the powertrain: 22 cars, 230 m",
+                                  "acceleration of the drivers, m/s²", "spread of the speeds", 0.5, 0.25, {spread});
   EXPECT_TRUE(WritePicture("traffic_ring_boundary.svg", svg));
 }
 

@@ -35,7 +35,8 @@ inline void Put(TrafficModel& model, std::uint32_t id, const std::string& lane, 
 }
 
 inline const AgentPose* PoseOf(const TrafficModel& model, std::uint32_t id) {
-  const auto found = std::find_if(model.poses().begin(), model.poses().end(), [id](const AgentPose& pose) { return pose.id == id; });
+  const auto found =
+      std::find_if(model.poses().begin(), model.poses().end(), [id](const AgentPose& pose) { return pose.id == id; });
   return found == model.poses().end() ? nullptr : &*found;
 }
 

@@ -9,15 +9,18 @@
 
 #include "common/world/lanes/signs.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/scripted.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-// On a straight road at 0.3 rad its middle lies at the station, 1.5 m beside the axis, and goes on with the speed that was told.
+// On a straight road at 0.3 rad its middle lies at the station, 1.5 m beside the axis, and goes on with the speed that
+// was told.
 TEST(Scripted, AVehicleAppearsWhereAndAsFastAsIsTold) {
-  TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, VehicleKind::kLorry, VehicleKind::kBus}), driver::StraightWorld(2000.0, 20.0), {}).value();
+  TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, VehicleKind::kLorry, VehicleKind::kBus}),
+                                          driver::StraightWorld(2000.0, 20.0), {})
+                           .value();
   EXPECT_EQ(model.vehicles(), 3u);
   Step(model, 10);
   EXPECT_EQ(model.on_road(), 0u);
@@ -27,7 +30,8 @@ TEST(Scripted, AVehicleAppearsWhereAndAsFastAsIsTold) {
   EXPECT_EQ(model.on_road(), 0u);
   Step(model);
   ASSERT_EQ(model.on_road(), 3u);
-  const auto expect = [&](std::uint32_t id, double s_m, double t_m, double heading_rad, double speed_mps, VehicleKind kind) {
+  const auto expect = [&](std::uint32_t id, double s_m, double t_m, double heading_rad, double speed_mps,
+                          VehicleKind kind) {
     const AgentPose& pose = *PoseOf(model, id);
     EXPECT_NEAR(pose.p_WB_W.x(), s_m * std::cos(0.3) - t_m * std::sin(0.3), 1e-6) << id;
     EXPECT_NEAR(pose.p_WB_W.y(), s_m * std::sin(0.3) + t_m * std::cos(0.3), 1e-6) << id;
@@ -40,7 +44,8 @@ TEST(Scripted, AVehicleAppearsWhereAndAsFastAsIsTold) {
   expect(2, 400.0, 1.5, 0.3 - std::numbers::pi, 17.5, VehicleKind::kBus);
   const AgentPose before = *PoseOf(model, 0);
   Step(model);
-  EXPECT_NEAR((PoseOf(model, 0)->p_WB_W - before.p_WB_W).norm(), 0.5 * (13.0 + PoseOf(model, 0)->speed_mps) * kStep_s, 1e-6);
+  EXPECT_NEAR((PoseOf(model, 0)->p_WB_W - before.p_WB_W).norm(), 0.5 * (13.0 + PoseOf(model, 0)->speed_mps) * kStep_s,
+              1e-6);
   EXPECT_FALSE(model.LetAppear(0, "test:-1", 900.0, 3.0).value());  // it is there
   // They drive to the end, are gone, and may appear again, on another trip.
   Step(model, 50 * 150);
@@ -67,14 +72,16 @@ TEST(Scripted, AVehicleAppearsWithFullPhysicsToo) {
     EXPECT_NEAR(PoseOf(model, 0)->p_WB_W.x(), 300.0 * std::cos(0.3) + 1.5 * std::sin(0.3), 1e-3);
     EXPECT_NEAR(PoseOf(model, 0)->speed_mps, 13.0, 1e-6);
     Step(model, 250);
-    EXPECT_NEAR((PoseOf(model, 0)->p_WB_W - Eigen::Vector3d(300.0 * std::cos(0.3), 300.0 * std::sin(0.3), 0.0)).norm(), 5.0 * 14.5, 12.0);
+    EXPECT_NEAR((PoseOf(model, 0)->p_WB_W - Eigen::Vector3d(300.0 * std::cos(0.3), 300.0 * std::sin(0.3), 0.0)).norm(),
+                5.0 * 14.5, 12.0);
   }
 }
 
-// Somebody stands there: it waits, and appears in the first step in which nobody's rectangle is within its standing gap, nor it nor who comes
-// would have to brake harder than 4 m/s².
+// Somebody stands there: it waits, and appears in the first step in which nobody's rectangle is within its standing
+// gap, nor it nor who comes would have to brake harder than 4 m/s².
 TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
-  TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
+  TrafficModel model =
+      TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
   Put(model, 0, "test:-1", 500.0, 0.0);
   model.Brake(0, 3.0);
   Step(model);
@@ -89,12 +96,20 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   EXPECT_EQ(model.on_road(), 2u);
   EXPECT_LT(model.agent(2).speed_mps, 0.05);
   model.Release(0);
-  const auto along = [&](std::uint32_t id) { return PoseOf(model, id)->p_WB_W.x() * std::cos(0.3) + PoseOf(model, id)->p_WB_W.y() * std::sin(0.3); };
+  const auto along = [&](std::uint32_t id) {
+    return PoseOf(model, id)->p_WB_W.x() * std::cos(0.3) + PoseOf(model, id)->p_WB_W.y() * std::sin(0.3);
+  };
   const AgentTraits& own = model.traits(1);
   // From bumper to bumper; and whether who comes would have to brake hard.
-  const auto gap = [&](std::uint32_t other) { return std::fabs(along(other) - 503.0) - 0.5 * (own.length_m + model.traits(other).length_m); };
+  const auto gap = [&](std::uint32_t other) {
+    return std::fabs(along(other) - 503.0) - 0.5 * (own.length_m + model.traits(other).length_m);
+  };
   const auto clear = [&] { return gap(0) > own.idm.standing_gap_m && gap(2) > own.idm.standing_gap_m; };
-  const auto brakes_mps2 = [&] { return along(2) > 503.0 ? 0.0 : -driver::IdmAcceleration(model.traits(2).idm, model.agent(2).speed_mps, 20.0, gap(2), 0.0); };
+  const auto brakes_mps2 = [&] {
+    return along(2) > 503.0
+               ? 0.0
+               : -driver::IdmAcceleration(model.traits(2).idm, model.agent(2).speed_mps, 20.0, gap(2), 0.0);
+  };
   int waited = 0;
   for (; model.IsAppearing(1) && waited < 2000; ++waited) {
     if (waited > 0 && clear()) {
@@ -114,7 +129,8 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
 // Not before somebody who could not stop for it within 4 m/s², by the IDM: v = 20 m/s, so near that it takes more.
 TEST(Scripted, NobodyHasToBrakeHardForIt) {
   for (const double distance_m : {30.0, 60.0, 100.0, 150.0}) {
-    TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
+    TrafficModel model =
+        TrafficModel::Make(OnlyScripted({kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
     Put(model, 0, "test:-1", 300.0, 20.0);
     Step(model);
     Put(model, 1, "test:-1", 300.0 + distance_m, 5.0);
@@ -138,9 +154,14 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   const std::string first = model.graph().network().roads()[model.graph()[0].lane.road].id();
   const std::string lane = first + ":" + std::to_string(model.graph()[0].lane.lane);
   EXPECT_EQ(refused(2, lane, 20.0), "agent 2 cannot appear; one of the traffic's 'scripted' was expected, 3 to 3");
-  EXPECT_NE(refused(3, "nowhere:-1", 20.0).find("'nowhere:-1' was found; a drivable lane as ROAD:LANE, or a road, was expected"), std::string::npos);
-  EXPECT_NE(refused(3, lane, 1e5).find("the station 100000 m is not on the lane '" + lane + "', which lies from 0.00 to"), std::string::npos);
-  EXPECT_NE(refused(3, lane, 1.0).find("would stand across the lane's end; a place on plain lane was expected"), std::string::npos);
+  EXPECT_NE(refused(3, "nowhere:-1", 20.0)
+                .find("'nowhere:-1' was found; a drivable lane as ROAD:LANE, or a road, was expected"),
+            std::string::npos);
+  EXPECT_NE(
+      refused(3, lane, 1e5).find("the station 100000 m is not on the lane '" + lane + "', which lies from 0.00 to"),
+      std::string::npos);
+  EXPECT_NE(refused(3, lane, 1.0).find("would stand across the lane's end; a place on plain lane was expected"),
+            std::string::npos);
   // By hand: clear of zones and lines by a metre, whole on the lane, and not within a junction.
   std::set<std::string> why;
   for (const char* map : {"crossing", "town", "overpass"}) {
@@ -167,7 +188,13 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   EXPECT_GE(why.size(), 2u);
   TrafficSettings none = settings;
   none.scripted.clear();
-  EXPECT_NE(TrafficModel::Make(none, lanes::MapNetwork("crossing"), {}).value().LetAppear(3, lane, 20.0, 5.0).error().Text().find("have no 'scripted' vehicles, as in 'scripted: [car]'"), std::string::npos);
+  EXPECT_NE(TrafficModel::Make(none, lanes::MapNetwork("crossing"), {})
+                .value()
+                .LetAppear(3, lane, 20.0, 5.0)
+                .error()
+                .Text()
+                .find("have no 'scripted' vehicles, as in 'scripted: [car]'"),
+            std::string::npos);
 }
 
 // Where lanes of a junction are roads of their own it is said that they are.
@@ -180,11 +207,15 @@ TEST(Scripted, NobodyAppearsWithinAJunction) {
   int within = 0;
   for (const lanes::Track& track : model.graph().tracks()) {
     if (track.junction < 0 || track.length_m() < model.traits(1).length_m + 1.0) continue;
-    const std::string lane = model.graph().network().roads()[track.lane.road].id() + ":" + std::to_string(track.lane.lane);
+    const std::string lane =
+        model.graph().network().roads()[track.lane.road].id() + ":" + std::to_string(track.lane.lane);
     const auto told = model.LetAppear(1, lane, track.curve.StationAt(0.5 * track.length_m()), 5.0);
     ASSERT_FALSE(told.ok()) << lane;
     EXPECT_EQ(told.error().exit_status(), 2);
-    EXPECT_NE(told.error().Text().find("of lane '" + lane + "' would stand within a junction; a place on plain lane was expected"), std::string::npos) << told.error().Text();
+    EXPECT_NE(told.error().Text().find("of lane '" + lane +
+                                       "' would stand within a junction; a place on plain lane was expected"),
+              std::string::npos)
+        << told.error().Text();
     ++within;
   }
   EXPECT_GE(within, 4);
@@ -205,7 +236,8 @@ TEST(Scripted, WhoDoesNotAppearChangesNothing) {
   }
 }
 
-// Behind zones into which somebody has been let nobody appears before he has come to where he wants to stand, though there were room for both.
+// Behind zones into which somebody has been let nobody appears before he has come to where he wants to stand, though
+// there were room for both.
 TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
   TrafficSettings settings = OnlyScripted({kCar});
   settings.vehicles = 10;
@@ -221,7 +253,8 @@ TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
       const lanes::Track& out = model.graph()[turn.next[0].to];
       const double ends = agent.path.back().zero_m + turn.length_m();
       TrafficModel fresh = model;
-      const std::string lane = fresh.graph().network().roads()[out.lane.road].id() + ":" + std::to_string(out.lane.lane);
+      const std::string lane =
+          fresh.graph().network().roads()[out.lane.road].id() + ":" + std::to_string(out.lane.lane);
       double d = 5.0;
       while (d < 30.0 && !fresh.LetAppear(10, lane, out.curve.StationAt(d), 8.0)) d += 1.0;
       if (!fresh.IsAppearing(10) || agent.granted_m + 20.0 < ends + d) continue;
@@ -243,10 +276,13 @@ TEST(Scripted, AmongOthersNobodyIsTouched) {
   std::size_t appeared = 0, told = 0;
   for (int i = 0; i < 50 * 90; ++i) {
     if (i % 100 == 0) {
-      for (std::uint32_t track = static_cast<std::uint32_t>(i / 100) % 7; track < model.graph().tracks().size() && told < 400; track += 7) {
+      for (std::uint32_t track = static_cast<std::uint32_t>(i / 100) % 7;
+           track < model.graph().tracks().size() && told < 400; track += 7) {
         const std::uint32_t id = 40 + static_cast<std::uint32_t>(told++ % 12);
         const lanes::Track& at = model.graph()[track];
-        const auto status = model.LetAppear(id, model.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane), at.curve.StationAt(0.5 * at.length_m()), 8.0);
+        const auto status =
+            model.LetAppear(id, model.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane),
+                            at.curve.StationAt(0.5 * at.length_m()), 8.0);
         appeared += status && status.value() ? 1 : 0;
       }
     }
@@ -255,7 +291,9 @@ TEST(Scripted, AmongOthersNobodyIsTouched) {
       for (std::size_t b = a + 1; b < model.poses().size(); ++b) {
         const AgentPose &one = model.poses()[a], &other = model.poses()[b];
         if ((one.p_WB_W - other.p_WB_W).norm() > 12.0) continue;
-        ASSERT_FALSE(driver::Overlap(FootprintOf(one, model.traits(one.id)), FootprintOf(other, model.traits(other.id)))) << one.id << " and " << other.id << " at " << i * kStep_s;
+        ASSERT_FALSE(
+            driver::Overlap(FootprintOf(one, model.traits(one.id)), FootprintOf(other, model.traits(other.id))))
+            << one.id << " and " << other.id << " at " << i * kStep_s;
       }
     }
   }

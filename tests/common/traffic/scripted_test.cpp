@@ -9,17 +9,18 @@
 
 #include "common/traffic/place_orders.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 // Cars 0 and 1 follow one another around the ring with 12 and at most 17 m/s; 2 comes against them.
 TrafficModel Following(bool left_hand, double comes_m) {
-  TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoWayRing(Mark("broken"), left_hand), {}).value();
+  TrafficModel model =
+      TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoWayRing(Mark("broken"), left_hand), {}).value();
   const std::string own = left_hand ? "1:1" : "1:-1", other = left_hand ? "1:-1" : "1:1";
   Put(model, 0, own, 400.0, 12.0);
   Put(model, 1, own, 375.0, 12.0);
@@ -31,7 +32,8 @@ TrafficModel Following(bool left_hand, double comes_m) {
   return model;
 }
 
-// Who is told overtakes, though nobody slow enough holds it up; not before who comes is far enough, and back in time; who is not told does not.
+// Who is told overtakes, though nobody slow enough holds it up; not before who comes is far enough, and back in time;
+// who is not told does not.
 TEST(Scripted, WhoIsToldOvertakesAsSoonAsItIsSafe) {
   for (const bool left_hand : {false, true}) {
     for (const double comes_m : {1800.0, 300.0}) {
@@ -131,8 +133,8 @@ TEST(Scripted, MarksAreKeptWhateverIsTold) {
   EXPECT_EQ(model.agent(0).told_side, 1);
 }
 
-// Somebody comes faster on the lane beside: it begins in the first step in which that one need not brake harder than 2 m/s² by the IDM, worked out from
-// the poses, and has gone by where it does not before.
+// Somebody comes faster on the lane beside: it begins in the first step in which that one need not brake harder than 2
+// m/s² by the IDM, worked out from the poses, and has gone by where it does not before.
 TEST(Scripted, WhoIsToldChangesLanesWhenItIsSafe) {
   for (const double behind_m : {12.0, 35.0, 90.0}) {
     TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoLanes("broken"), {}).value();
@@ -142,14 +144,20 @@ TEST(Scripted, WhoIsToldChangesLanesWhenItIsSafe) {
     Step(model);
     ASSERT_EQ(model.on_road(), 2u);
     model.TellToChange(0, 1);
-    const auto angle = [&](std::uint32_t id) { return std::atan2(PoseOf(model, id)->p_WB_W.x(), 500.0 - PoseOf(model, id)->p_WB_W.y()); };
+    const auto angle = [&](std::uint32_t id) {
+      return std::atan2(PoseOf(model, id)->p_WB_W.x(), 500.0 - PoseOf(model, id)->p_WB_W.y());
+    };
     const auto safe = [&] {
-      const double gap = std::remainder(angle(0) - angle(1), kRound) * 501.75 - 0.5 * (model.traits(0).length_m + model.traits(1).length_m);
+      const double gap = std::remainder(angle(0) - angle(1), kRound) * 501.75 -
+                         0.5 * (model.traits(0).length_m + model.traits(1).length_m);
       const driver::IdmSettings& idm = model.traits(1).idm;
-      if (gap > 0.0) return gap > idm.standing_gap_m && driver::IdmAcceleration(idm, PoseOf(model, 1)->speed_mps, 20.0, gap, PoseOf(model, 0)->speed_mps) > -2.0;
+      if (gap > 0.0)
+        return gap > idm.standing_gap_m &&
+               driver::IdmAcceleration(idm, PoseOf(model, 1)->speed_mps, 20.0, gap, PoseOf(model, 0)->speed_mps) > -2.0;
       const double ahead = -gap - model.traits(0).length_m - model.traits(1).length_m;
       const driver::IdmSettings& own = model.traits(0).idm;
-      return ahead > own.standing_gap_m && driver::IdmAcceleration(own, PoseOf(model, 0)->speed_mps, 12.0, ahead, PoseOf(model, 1)->speed_mps) > -2.0;
+      return ahead > own.standing_gap_m &&
+             driver::IdmAcceleration(own, PoseOf(model, 0)->speed_mps, 12.0, ahead, PoseOf(model, 1)->speed_mps) > -2.0;
     };
     int waited = 0;
     bool before = safe();
@@ -177,7 +185,9 @@ TEST(Scripted, OnSeveralLanesWhoIsToldPassesOnTheOther) {
   EXPECT_EQ(model.agent(1).change.side, 1);
   Step(model, 50 * 30);
   EXPECT_GT(PoseOf(model, 1)->speed_mps, 15.0);
-  const auto angle = [&](std::uint32_t id) { return std::atan2(PoseOf(model, id)->p_WB_W.x(), 500.0 - PoseOf(model, id)->p_WB_W.y()); };
+  const auto angle = [&](std::uint32_t id) {
+    return std::atan2(PoseOf(model, id)->p_WB_W.x(), 500.0 - PoseOf(model, id)->p_WB_W.y());
+  };
   EXPECT_GT(std::remainder(angle(1) - angle(0), kRound), 0.1);
 }
 
@@ -190,10 +200,13 @@ TEST(Scripted, ToldWhenTheyPassAPlace) {
   PlaceOrder order = PlaceOrders::At(model, "1", 360.0).value();
   order.kind = OrderKind::kChangeLane, order.value = 1.0, order.whom = PlaceOrder::Whom::kNext;
   orders.Add(order);
-  const auto station = [&] { return std::atan2(PoseOf(model, 0)->p_WB_W.x(), 500.0 - PoseOf(model, 0)->p_WB_W.y()) * 500.0; };
+  const auto station = [&] {
+    return std::atan2(PoseOf(model, 0)->p_WB_W.x(), 500.0 - PoseOf(model, 0)->p_WB_W.y()) * 500.0;
+  };
   bool passed = false;
   for (int i = 0; i < 700; ++i) {
-    EXPECT_EQ(model.agent(0).told_side == 1 || model.agent(0).change.side == 1 || LaneOf(model, 0) < 1.5, passed) << station();
+    EXPECT_EQ(model.agent(0).told_side == 1 || model.agent(0).change.side == 1 || LaneOf(model, 0) < 1.5, passed)
+        << station();
     orders.Before(model);
     Step(model);
     orders.After(model);
@@ -232,7 +245,8 @@ TEST(Scripted, RestoredTheSameBits) {
     }
   }
   // And one that waits for room.
-  TrafficModel full = TrafficModel::Make(OnlyScripted({kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value(), fresh = full;
+  TrafficModel full = TrafficModel::Make(OnlyScripted({kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value(),
+               fresh = full;
   Put(full, 0, "test:-1", 500.0, 0.0);
   Step(full);
   Put(full, 1, "test:-1", 501.0, 4.0);

@@ -1,4 +1,5 @@
-// docs/traffic_settings.md tells of every setting of the traffic: its key, what it is otherwise, and from where to where it goes.
+// docs/traffic_settings.md tells of every setting of the traffic: its key, what it is otherwise, and from where to
+// where it goes.
 #include "common/traffic/traffic_settings.hpp"
 
 #include <fmt/format.h>
@@ -34,9 +35,14 @@ std::map<std::string, Row> Told() {
   return rows;
 }
 
-// The keys that the reader asks for, as they stand in the program, but for those that have tables of their own in docs/formats.md.
+// The keys that the reader asks for, as they stand in the program, but for those that have tables of their own in
+// docs/formats.md.
 std::set<std::string> Asked() {
-  const std::map<std::string, std::string> prefixes{{"map", ""}, {"follow", "following."}, {"comfort", "comfort."}, {"enter", "entering."}, {"change", "lane_changes."}};
+  const std::map<std::string, std::string> prefixes{{"map", ""},
+                                                    {"follow", "following."},
+                                                    {"comfort", "comfort."},
+                                                    {"enter", "entering."},
+                                                    {"change", "lane_changes."}};
   const std::string text = base::ReadText(SourceDir() + "/common/traffic/traffic_settings.cpp").value();
   const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\("([a-z_0-9]+)")re");
   std::set<std::string> keys;
@@ -83,8 +89,10 @@ const std::map<std::string, std::function<std::string(const TrafficSettings&)>> 
     {"lane_changes.overtaking", [](const TrafficSettings& t) { return t.overtaking.allowed ? "true" : "false"; }},
 };
 // Of two that must not descend: both are said.
-const std::map<std::string, std::string> kTogether{{"speed_factor_low", "speed_factor_high"}, {"speed_factor_high", "speed_factor_low"},
-                                                   {"comfort.jerk_mps3", "emergency_jerk_mps3"}, {"comfort.emergency_jerk_mps3", "jerk_mps3"}};
+const std::map<std::string, std::string> kTogether{{"speed_factor_low", "speed_factor_high"},
+                                                   {"speed_factor_high", "speed_factor_low"},
+                                                   {"comfort.jerk_mps3", "emergency_jerk_mps3"},
+                                                   {"comfort.emergency_jerk_mps3", "jerk_mps3"}};
 
 class TrafficSettingsFile : public testing::Test {
  protected:
@@ -97,7 +105,8 @@ class TrafficSettingsFile : public testing::Test {
     const auto dot = key.find('.');
     const auto together = kTogether.find(key);
     const std::string other = together == kTogether.end() ? "" : fmt::format(", {}: {}", together->second, value);
-    if (dot == std::string::npos) return Load(fmt::format("{}: {}\n", key, value) + (other.empty() ? "" : other.substr(2) + "\n"));
+    if (dot == std::string::npos)
+      return Load(fmt::format("{}: {}\n", key, value) + (other.empty() ? "" : other.substr(2) + "\n"));
     return Load(fmt::format("{}: {{{}: {}{}}}\n", key.substr(0, dot), key.substr(dot + 1), value, other));
   }
   const cli::TemporaryFolder folder_;
@@ -107,8 +116,10 @@ TEST_F(TrafficSettingsFile, TheDocumentTellsOfEveryKey) {
   const auto told = Told();
   const std::set<std::string> asked = Asked();
   EXPECT_EQ(asked.size(), kNumbers.size() + kWords.size());
-  for (const std::string& key : asked) EXPECT_TRUE(told.contains(key)) << "docs/traffic_settings.md has no row for " << key;
-  for (const auto& [key, row] : told) EXPECT_TRUE(asked.contains(key)) << "docs/traffic_settings.md tells of " << key << ", which nobody asks for";
+  for (const std::string& key : asked)
+    EXPECT_TRUE(told.contains(key)) << "docs/traffic_settings.md has no row for " << key;
+  for (const auto& [key, row] : told)
+    EXPECT_TRUE(asked.contains(key)) << "docs/traffic_settings.md tells of " << key << ", which nobody asks for";
 }
 
 TEST_F(TrafficSettingsFile, WhatASettingIsOtherwiseIsWhatTheDocumentSays) {
@@ -135,8 +146,10 @@ TEST_F(TrafficSettingsFile, ARangeIsWhatTheDocumentSays) {
       EXPECT_NEAR(of(at.value()), std::stod(bound), 1e-12) << key;
     }
     const bool whole = key == "vehicles" || key == "threads";
-    const std::string below = whole ? std::to_string(std::stoi(row.low) - 1) : fmt::format("{}", std::stod(row.low) - 1e-6);
-    const std::string above = whole ? std::to_string(std::stoi(row.high) + 1) : fmt::format("{}", std::stod(row.high) * (1.0 + 1e-9) + 1e-9);
+    const std::string below =
+        whole ? std::to_string(std::stoi(row.low) - 1) : fmt::format("{}", std::stod(row.low) - 1e-6);
+    const std::string above =
+        whole ? std::to_string(std::stoi(row.high) + 1) : fmt::format("{}", std::stod(row.high) * (1.0 + 1e-9) + 1e-9);
     for (const std::string& beyond : {below, above}) EXPECT_FALSE(LoadOne(key, beyond).ok()) << key << " " << beyond;
   }
 }

@@ -9,15 +9,15 @@
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/study.hpp"
-#include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-// Planar cars of all kinds: what the tank has lost on a trip is the integral of the flow of engines that turn as is told, to 1e-9; none in overrun, which
-// there is, and some wherever the throttle is open.
+// Planar cars of all kinds: what the tank has lost on a trip is the integral of the flow of engines that turn as is
+// told, to 1e-9; none in overrun, which there is, and some wherever the throttle is open.
 TEST(PlanarFuel, IsTheIntegralOfItsFlowAndNoneInOverrun) {
   TrafficSettings settings;
   settings.vehicles = 30;
@@ -54,8 +54,8 @@ TEST(PlanarFuel, IsTheIntegralOfItsFlowAndNoneInOverrun) {
   EXPECT_GT(driven, 10000);
 }
 
-// In a town where cars come, go and queue: q = k v in every cell to 1e-9; all cells together have the vehicle seconds and the way that
-// were there; and nobody comes or goes uncounted.
+// In a town where cars come, go and queue: q = k v in every cell to 1e-9; all cells together have the vehicle seconds
+// and the way that were there; and nobody comes or goes uncounted.
 TEST(LaneStatistics, SumsAreWhatWasDriven) {
   TrafficSettings settings;
   settings.vehicles = 90;
@@ -85,7 +85,8 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
       }
       there[id] = agent.on_road, trips[id] = agent.trip, before[id] = agent.o_m, before_mg[id] = agent.fuel_mg;
     }
-    ASSERT_EQ(statistics.began() + statistics.entered() - statistics.left(), static_cast<std::int64_t>(model.on_road())) << i;
+    ASSERT_EQ(statistics.began() + statistics.entered() - statistics.left(), static_cast<std::int64_t>(model.on_road()))
+        << i;
   }
   EXPECT_EQ(statistics.began(), began);
   EXPECT_EQ(statistics.entered(), entered);
@@ -113,8 +114,9 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   for (const LaneTrip& trip : statistics.trips()) EXPECT_GT(trip.took_s, 3.0);
 }
 
-// Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes that are changed, in a ring and at merges; and who
-// looks in the middle of it all finds as much there, and changes nothing.
+// Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes
+// that are changed, in a ring and at merges; and who looks in the middle of it all finds as much there, and changes
+// nothing.
 TEST(LaneStatistics, EachCellHasItsOwn) {
   constexpr double kStep_s = 0.02;
   for (const char* name : {"ramp", "roundabout", "crossing"}) {
@@ -128,7 +130,11 @@ TEST(LaneStatistics, EachCellHasItsOwn) {
         time_s.emplace_back(statistics.CellsOf(track).size(), 0.0);
         visits.emplace_back(statistics.CellsOf(track).size(), 0.0);
       }
-      struct Place { std::int64_t trip = -1; std::uint32_t track = 0; std::size_t cell = 0; };
+      struct Place {
+        std::int64_t trip = -1;
+        std::uint32_t track = 0;
+        std::size_t cell = 0;
+      };
       std::vector<Place> before(settings.vehicles);
       for (int i = 0; i <= 4000; ++i) {
         if (i > 0) model.Step(kStep_s, {}), statistics.Add(model, kStep_s), asked.Add(model, kStep_s);
@@ -136,7 +142,9 @@ TEST(LaneStatistics, EachCellHasItsOwn) {
           const Agent& agent = model.agent(pose.id);
           const Piece& piece = PieceAt(agent.path, agent.o_m);
           const double cell = std::floor((agent.o_m - piece.zero_m) / statistics.CellLength_m(piece.track));
-          const Place now{pose.trip, piece.track, static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(time_s[piece.track].size() - 1)))};
+          const Place now{
+              pose.trip, piece.track,
+              static_cast<std::size_t>(std::clamp(cell, 0.0, static_cast<double>(time_s[piece.track].size() - 1)))};
           Place& last = before[pose.id];
           if (last.trip == now.trip) time_s[now.track][now.cell] += kStep_s;
           if (last.trip != now.trip || last.track != now.track || last.cell != now.cell) ++visits[now.track][now.cell];
@@ -146,14 +154,16 @@ TEST(LaneStatistics, EachCellHasItsOwn) {
         for (std::uint32_t track = 0; track < time_s.size(); ++track) {
           const auto cells = asked.CellsOf(track);
           for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-            ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0)) << name << " " << track << " " << cell << " after " << i * kStep_s << " s";
+            ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0))
+                << name << " " << track << " " << cell << " after " << i * kStep_s << " s";
           }
         }
       }
       for (std::uint32_t track = 0; track < time_s.size(); ++track) {
         const auto cells = statistics.CellsOf(track), same = asked.CellsOf(track);
         for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-          ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0)) << name << " " << track << " " << cell;
+          ASSERT_NEAR(cells[cell].time_s, time_s[track][cell], kStep_s * (visits[track][cell] + 1.0))
+              << name << " " << track << " " << cell;
           ASSERT_NEAR(cells[cell].time_s, same[cell].time_s, 1e-9 * (1.0 + same[cell].time_s));
           ASSERT_NEAR(cells[cell].distance_m, same[cell].distance_m, 1e-9 * (1.0 + same[cell].distance_m));
           ASSERT_NEAR(cells[cell].fuel_mg, same[cell].fuel_mg, 1e-9 * (1.0 + same[cell].fuel_mg));
@@ -175,7 +185,8 @@ TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   for (int i = 0; i < steps; ++i) model.Step(0.02, {}), statistics.Add(model, 0.02);
   ASSERT_EQ(statistics.CellsOf(0).size(), static_cast<std::size_t>(std::lround(0.1 * length_m)));
   for (const LaneCell& cell : statistics.CellsOf(0)) {
-    const double k = cell.Density_vehpm(statistics.CellLength_m(0), statistics.watched_s()), q = cell.Flow_vehps(statistics.CellLength_m(0), statistics.watched_s());
+    const double k = cell.Density_vehpm(statistics.CellLength_m(0), statistics.watched_s()),
+                 q = cell.Flow_vehps(statistics.CellLength_m(0), statistics.watched_s());
     EXPECT_NEAR(k, 30.0 / length_m, 0.002 * k);
     EXPECT_NEAR(cell.Speed_mps(), speed, 0.01);
     EXPECT_NEAR(q, 30.0 / length_m * speed, 0.002 * q);
@@ -184,15 +195,18 @@ TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   EXPECT_EQ(statistics.left(), 0);
 }
 
-// What somebody could drive of whom nobody is in the way: √(a R) on a ring too narrow for its limit, the limit on a wide one.
+// What somebody could drive of whom nobody is in the way: √(a R) on a ring too narrow for its limit, the limit on a
+// wide one.
 TEST(LaneStatistics, FreeSpeedIsThatOfBendAndLimit) {
   TrafficSettings settings = Identical(3, 1.4);
   for (const double round_m : {200.0, 2000.0}) {
     const TrafficModel model = TrafficModel::Make(settings, Ring(round_m), {}).value();
     const LaneStatistics statistics(model);
-    const double radius = model.graph()[0].length_m() / (2.0 * std::numbers::pi), bend = std::sqrt(settings.speed.lateral_mps2 * radius);
+    const double radius = model.graph()[0].length_m() / (2.0 * std::numbers::pi),
+                 bend = std::sqrt(settings.speed.lateral_mps2 * radius);
     EXPECT_EQ(bend < kRingLimit_mps, round_m < 1000.0);
-    for (std::size_t cell = 0; cell < statistics.CellsOf(0).size(); ++cell) EXPECT_NEAR(statistics.FreeSpeed_mps(0, cell), std::min(bend, kRingLimit_mps), 1e-3) << round_m;
+    for (std::size_t cell = 0; cell < statistics.CellsOf(0).size(); ++cell)
+      EXPECT_NEAR(statistics.FreeSpeed_mps(0, cell), std::min(bend, kRingLimit_mps), 1e-3) << round_m;
   }
 }
 
@@ -211,8 +225,9 @@ TEST(LaneStatistics, AQueueIsCounted) {
   EXPECT_NEAR(statistics.MeanQueue(0), 20.0, 0.01);
 }
 
-// On the straight arms of the crossing, told apart from the model: each step's way from where its car was seen before and is seen now, its fuel from what the car says that it has burnt, shared out
-// among the metres between the two places. Every metre of an arm has that distance, time and fuel.
+// On the straight arms of the crossing, told apart from the model: each step's way from where its car was seen before
+// and is seen now, its fuel from what the car says that it has burnt, shared out among the metres between the two
+// places. Every metre of an arm has that distance, time and fuel.
 TEST(LaneStatistics, CellsHaveWhatThePosesSay) {
   constexpr double kStep_s = 0.02;
   TrafficSettings settings;
@@ -222,12 +237,17 @@ TEST(LaneStatistics, CellsHaveWhatThePosesSay) {
   const lanes::Graph& graph = model.graph();
   std::map<std::pair<std::int32_t, std::int32_t>, std::uint32_t> arms;  // road and lane, and the track
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
-    if (graph[track].curve.straight() && graph[track].length_m() > 50.0) arms[{static_cast<std::int32_t>(graph[track].lane.road), graph[track].lane.lane}] = track;
+    if (graph[track].curve.straight() && graph[track].length_m() > 50.0)
+      arms[{static_cast<std::int32_t>(graph[track].lane.road), graph[track].lane.lane}] = track;
   }
   ASSERT_EQ(arms.size(), 8u);
   std::map<std::uint32_t, std::vector<LaneCell>> told;
   for (const auto& [lane, track] : arms) told[track].resize(statistics.CellsOf(track).size());
-  struct Before { std::int64_t trip = -1; Eigen::Vector2d p_W; double fuel_mg = 0.0; };
+  struct Before {
+    std::int64_t trip = -1;
+    Eigen::Vector2d p_W;
+    double fuel_mg = 0.0;
+  };
   std::vector<Before> before(settings.vehicles);
   const auto look = [&](bool shares) {
     for (const AgentPose& pose : model.poses()) {
@@ -236,8 +256,10 @@ TEST(LaneStatistics, CellsHaveWhatThePosesSay) {
       const auto arm = arms.find({pose.road, pose.lane});
       if (shares && last.trip == static_cast<std::int64_t>(pose.trip) && arm != arms.end()) {
         const auto& nodes = graph[arm->second].curve.nodes();
-        const Eigen::Vector2d begin = nodes.front().p_W.head<2>(), along = (nodes.back().p_W.head<2>() - begin).normalized();
-        const double from = along.dot(last.p_W - begin), to = along.dot(pose.p_WB_W.head<2>() - begin), length = statistics.CellLength_m(arm->second);
+        const Eigen::Vector2d begin = nodes.front().p_W.head<2>(),
+                              along = (nodes.back().p_W.head<2>() - begin).normalized();
+        const double from = along.dot(last.p_W - begin), to = along.dot(pose.p_WB_W.head<2>() - begin),
+                     length = statistics.CellLength_m(arm->second);
         auto& cells = told[arm->second];
         for (std::size_t i = 0; i < cells.size(); ++i) {
           const double low = static_cast<double>(i) * length, high = low + length;

@@ -33,13 +33,15 @@ TEST(Struck, SlidesAsFarAsFrictionSays) {
       double time = 0.0;
       for (; !struck.at_rest() && time < 60.0; time += 0.01) struck.Slide(traits, kMu, 0.01);
       EXPECT_NEAR(time, v / (kMu * kGravity_mps2), 0.011);
-      EXPECT_NEAR((struck.p_W - Eigen::Vector2d(10.0, -3.0)).dot(way), v * v / (2.0 * kMu * kGravity_mps2), 1e-3 * v + 1e-4);
+      EXPECT_NEAR((struck.p_W - Eigen::Vector2d(10.0, -3.0)).dot(way), v * v / (2.0 * kMu * kGravity_mps2),
+                  1e-3 * v + 1e-4);
       EXPECT_NEAR(struck.heading_rad, 0.4, 1e-9);
     }
   }
 }
 
-// A couple turns it about its middle: r × J = I ω; all wheels slide at the distance R, so that it stops after ω I/(m mu g R).
+// A couple turns it about its middle: r × J = I ω; all wheels slide at the distance R, so that it stops after ω I/(m mu
+// g R).
 TEST(Struck, SpinsAsLongAsFrictionSays) {
   const AgentTraits traits = Saloon();
   const double inertia = traits.mass_kg * (4.5 * 4.5 + 1.8 * 1.8) / 12.0, R = std::hypot(1.35, 0.9);
@@ -57,8 +59,8 @@ TEST(Struck, SpinsAsLongAsFrictionSays) {
   EXPECT_NEAR(struck.p_W.norm(), 0.0, 1e-6);
 }
 
-// A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; nobody is lost, and a snapshot goes on
-// with the same bits.
+// A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; nobody is lost, and a
+// snapshot goes on with the same bits.
 void StaysAnObstacle(Physics physics) {
   TrafficSettings settings = Identical(20, 1.4);
   settings.physics = physics;
@@ -67,7 +69,8 @@ void StaysAnObstacle(Physics physics) {
   const std::size_t on_road = model.on_road();
   const std::uint32_t id = model.poses()[3].id;
   const AgentPose before = model.poses()[3];
-  const Eigen::Vector2d ahead = (before.q_WB * Eigen::Vector3d::UnitX()).head<2>().normalized(), left(-ahead.y(), ahead.x());
+  const Eigen::Vector2d ahead = (before.q_WB * Eigen::Vector3d::UnitX()).head<2>().normalized(),
+                        left(-ahead.y(), ahead.x());
   const double mass = model.traits(id).mass_kg;
   model.Strike(id, 0.0005 * mass * left, before.p_WB_W.head<2>());
   EXPECT_FALSE(model.agent(id).is_struck) << "a touch is nothing";
@@ -94,15 +97,18 @@ void StaysAnObstacle(Physics physics) {
     for (const AgentPose& a : model.poses()) {
       for (const AgentPose& b : model.poses()) {
         if (a.id >= b.id || i < 100) continue;
-        ASSERT_FALSE(driver::Overlap(FootprintOf(a, model.traits(a.id)), FootprintOf(b, model.traits(b.id)))) << a.id << " " << b.id << " " << 0.02 * i;
+        ASSERT_FALSE(driver::Overlap(FootprintOf(a, model.traits(a.id)), FootprintOf(b, model.traits(b.id))))
+            << a.id << " " << b.id << " " << 0.02 * i;
       }
     }
   }
   const double slid = expected.squaredNorm() / (2.0 * kMu * kGravity_mps2);
-  const AgentPose& wreck = *std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == id; });
+  const AgentPose& wreck =
+      *std::find_if(model.poses().begin(), model.poses().end(), [&](const AgentPose& p) { return p.id == id; });
   EXPECT_NEAR((wreck.p_WB_W - before.p_WB_W).norm(), slid, 0.02 * slid + 0.01);
   EXPECT_EQ(wreck.speed_mps, 0.0);
-  for (const AgentPose& pose : model.poses()) EXPECT_LT(pose.speed_mps, 0.05) << pose.id << " has not come to rest behind it";
+  for (const AgentPose& pose : model.poses())
+    EXPECT_LT(pose.speed_mps, 0.05) << pose.id << " has not come to rest behind it";
 }
 
 TEST(Struck, StaysAnObstacleToTheOthers) { StaysAnObstacle(Physics::kPlanar); }

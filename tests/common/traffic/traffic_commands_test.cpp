@@ -22,7 +22,8 @@ TrafficModel Made(std::uint32_t vehicles, double length_m = 2000.0, double limit
 }
 
 const AgentPose& PoseOf(const TrafficModel& model, std::uint32_t id) {
-  return *std::find_if(model.poses().begin(), model.poses().end(), [id](const AgentPose& pose) { return pose.id == id; });
+  return *std::find_if(model.poses().begin(), model.poses().end(),
+                       [id](const AgentPose& pose) { return pose.id == id; });
 }
 
 void Pass(TrafficModel& model, double seconds) {

@@ -21,9 +21,14 @@ TEST(TrafficDrive, TwoMinutesAmongSixtyCarsWithoutTouching) {
   const auto world = N222();
   const auto ground = world->MakeGround();
   auto car = dynamics::LoadVehicle(source / "configs/vehicles/default.yaml").value();
-  driver::Autopilot autopilot(driver::AutopilotSettings{}, std::make_unique<driver::RoutePath>(*world->network(), driver::StraightOn(*world->network(), {0, 0, -1}, 1e5)));
+  driver::Autopilot autopilot(
+      driver::AutopilotSettings{},
+      std::make_unique<driver::RoutePath>(*world->network(), driver::StraightOn(*world->network(), {0, 0, -1}, 1e5)));
   const driver::LaneFrame start = autopilot.path().At(400.0);
-  ASSERT_TRUE(car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .heading_rad = start.heading_rad, .speed_mps = 8.0}, *ground).ok());
+  ASSERT_TRUE(
+      car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .heading_rad = start.heading_rad, .speed_mps = 8.0},
+                      *ground)
+          .ok());
   std::vector<Footprint> driver_car{driver::FootprintOf(0, car->state(), car->dimensions())};
   TrafficSettings settings;
   settings.vehicles = 60;

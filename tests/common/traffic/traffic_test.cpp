@@ -86,11 +86,14 @@ TEST(Traffic, KeepsTheEquilibriumGapWithin5Centimetres) {
   const std::map<int, LanePath> paths = PathsOf(*world);
   int compared = 0;
   for (const Pair& pair : PairsOf(model, paths)) {
-    const auto find = [&](std::uint32_t id) { return *std::find_if(model.poses().begin(), model.poses().end(), [&](const auto& p) { return p.id == id; }); };
+    const auto find = [&](std::uint32_t id) {
+      return *std::find_if(model.poses().begin(), model.poses().end(), [&](const auto& p) { return p.id == id; });
+    };
     const AgentPose behind = find(pair.behind);
     if (behind.lane != -1 || std::fabs(behind.speed_mps - 15.0) > 1e-3) continue;
     const AgentTraits& traits = model.traits(pair.behind);
-    EXPECT_NEAR(pair.gap_m, driver::IdmEquilibriumGap(traits.idm, 15.0, 22.0 * traits.speed_factor), 0.05) << pair.behind;
+    EXPECT_NEAR(pair.gap_m, driver::IdmEquilibriumGap(traits.idm, 15.0, 22.0 * traits.speed_factor), 0.05)
+        << pair.behind;
     ++compared;
   }
   EXPECT_GE(compared, 4);
@@ -114,7 +117,8 @@ TEST(Traffic, CirculatesOnN222WithoutLossOrCollision) {
       const LanePath& path = paths.at(pose.lane);
       const auto place = path.Locate(pose.p_WB_W.x(), pose.p_WB_W.y());
       ASSERT_LT(std::fabs(place->offset_m), 0.05);
-      most_lateral = std::max(most_lateral, pose.speed_mps * pose.speed_mps * std::fabs(path.At(place->d_m).curvature_1pm));
+      most_lateral =
+          std::max(most_lateral, pose.speed_mps * pose.speed_mps * std::fabs(path.At(place->d_m).curvature_1pm));
       most_over = std::max(most_over, pose.speed_mps - path.speed_limit_mps());
       hardest = std::max(hardest, -pose.acceleration_mps2);
     }
@@ -139,7 +143,8 @@ TEST(Traffic, StandsOnTheGroundOfSuelo) {
     const AgentTraits& traits = model.traits(pose.id);
     for (const double along : {0.5, -0.5}) {
       for (const double across : {0.4, -0.4}) {
-        const Eigen::Vector3d foot = pose.p_WB_W + pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, across * traits.width_m, 0.0);
+        const Eigen::Vector3d foot =
+            pose.p_WB_W + pose.q_WB * Eigen::Vector3d(along * traits.wheelbase_m, across * traits.width_m, 0.0);
         const ground::GroundPoint point = ground->At(foot.x(), foot.y(), foot.z());
         ASSERT_TRUE(point.inside);
         EXPECT_NEAR(foot.z(), point.z_m, 0.02) << pose.id;
@@ -203,7 +208,8 @@ TEST(Traffic, TheSeedAloneDecides) {
   settings.seed = 2;
   TrafficModel c = Made(settings, N222());
   EXPECT_NE(DigestOf(a), DigestOf(c));
-  EXPECT_NE(a.traits(0).colour_rgb * 1e6 + a.traits(0).idm.time_gap_s, c.traits(0).colour_rgb * 1e6 + c.traits(0).idm.time_gap_s);
+  EXPECT_NE(a.traits(0).colour_rgb * 1e6 + a.traits(0).idm.time_gap_s,
+            c.traits(0).colour_rgb * 1e6 + c.traits(0).idm.time_gap_s);
   for (int i = 0; i < 3000; ++i) {
     a.Step(kStep_s, {});
     b.Step(kStep_s, {});
@@ -266,7 +272,9 @@ TEST(Traffic, AWorldWithoutLanesIsRefused) {
 }
 
 TEST(Traffic, SettingsAreReadAndRefused) {
-  auto file = config::File::Parse("vehicles: 12\nfollowing: {time_gap_s: 1.2}\ncomfort: {lateral_mps2: 1.5}\n", "t.yaml").value();
+  auto file =
+      config::File::Parse("vehicles: 12\nfollowing: {time_gap_s: 1.2}\ncomfort: {lateral_mps2: 1.5}\n", "t.yaml")
+          .value();
   const TrafficSettings settings = ReadTraffic(file.root(), 7);
   EXPECT_TRUE(file.Finish().ok());
   EXPECT_EQ(settings.vehicles, 12u);

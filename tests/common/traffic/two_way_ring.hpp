@@ -19,7 +19,8 @@ inline constexpr double kRadius_m = 600.0, kWidth_m = 3.5, kLimit_mps = 20.0, kR
 inline constexpr double kNobody_s = 1e9;
 
 // A road of one lane a direction around a circle, with these marks in its middle.
-inline std::shared_ptr<const network::Network> TwoWayRing(const std::string& marks, bool left_hand = false, const std::string& more = "") {
+inline std::shared_ptr<const network::Network> TwoWayRing(const std::string& marks, bool left_hand = false,
+                                                          const std::string& more = "") {
   opendrive::RoadText road = CircleRoad(kRound * kRadius_m, left_hand);
   road.left = CircleLane(1, kLimit_mps), road.right = CircleLane(-1, kLimit_mps);
   road.more = more;
@@ -43,7 +44,7 @@ class RingWatch {
   struct Crossing {
     std::uint32_t id;
     bool with;
-    double from_m, to_m;     // along the road, where it was over the middle
+    double from_m, to_m;         // along the road, where it was over the middle
     double spare_s = kNobody_s;  // until who came was where it then was, at the end
     double length_s = 0.0;
   };
@@ -59,8 +60,10 @@ class RingWatch {
       Crossing crossing{id, car.with, out->second.s_m, car.s_m, kNobody_s, time_s - out->second.time_s};
       for (const auto& [other, comes] : cars) {
         if (comes.with == car.with) continue;
-        double gap = std::remainder((comes.s_m - car.s_m) * (car.with ? 1.0 : -1.0), kRound * kRadius_m) - 0.5 * (car.length_m + comes.length_m);
-        if (gap > -car.length_m && comes.speed_mps > 0.1) crossing.spare_s = std::min(crossing.spare_s, std::max(0.0, gap) / comes.speed_mps);
+        double gap = std::remainder((comes.s_m - car.s_m) * (car.with ? 1.0 : -1.0), kRound * kRadius_m) -
+                     0.5 * (car.length_m + comes.length_m);
+        if (gap > -car.length_m && comes.speed_mps > 0.1)
+          crossing.spare_s = std::min(crossing.spare_s, std::max(0.0, gap) / comes.speed_mps);
       }
       crossings.push_back(crossing);
       out_.erase(out);
@@ -76,7 +79,8 @@ class RingWatch {
         for (const auto& [other, slow] : cars) {
           if (id == other || car.with != slow.with) continue;
           const double sign = car.with ? 1.0 : -1.0;
-          const double was = sign * std::remainder(before_[id].s_m - before_[other].s_m, kRound * kRadius_m), is = sign * std::remainder(car.s_m - slow.s_m, kRound * kRadius_m);
+          const double was = sign * std::remainder(before_[id].s_m - before_[other].s_m, kRound * kRadius_m),
+                       is = sign * std::remainder(car.s_m - slow.s_m, kRound * kRadius_m);
           if (was < 0.0 && is >= 0.0 && is < 20.0) ++passes, passed_by[other].insert(id);
         }
       }
@@ -94,7 +98,8 @@ class RingWatch {
  private:
   static driver::Footprint Rectangle(const TrafficModel& model, std::uint32_t id) {
     const auto& poses = model.poses();
-    return FootprintOf(*std::find_if(poses.begin(), poses.end(), [&](const AgentPose& p) { return p.id == id; }), model.traits(id));
+    return FootprintOf(*std::find_if(poses.begin(), poses.end(), [&](const AgentPose& p) { return p.id == id; }),
+                       model.traits(id));
   }
   Car CarOf(const TrafficModel& model, const AgentPose& pose) const {
     const AgentTraits& traits = model.traits(pose.id);
@@ -109,7 +114,8 @@ class RingWatch {
     for (const double x : {-0.5, 0.5}) {
       for (const double y : {-0.5, 0.5}) {
         const double c = std::cos(body.heading_rad), s = std::sin(body.heading_rad);
-        const double px = body.x_m + x * traits.length_m * c - y * traits.width_m * s, py = body.y_m + x * traits.length_m * s + y * traits.width_m * c;
+        const double px = body.x_m + x * traits.length_m * c - y * traits.width_m * s,
+                     py = body.y_m + x * traits.length_m * s + y * traits.width_m * c;
         const double r = std::hypot(px, py - kRadius_m);
         car.aside_m = std::max(car.aside_m, outside ? kRadius_m - r : r - kRadius_m);
       }
@@ -117,7 +123,9 @@ class RingWatch {
     return car;
   }
 
-  struct Out { double s_m, time_s; };
+  struct Out {
+    double s_m, time_s;
+  };
   bool left_hand_;
   std::map<std::uint32_t, Out> out_;
   std::map<std::uint32_t, Car> before_;

@@ -6,12 +6,12 @@
 #include <tuple>
 #include <utility>
 
+#include "common/traffic/traffic_model.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/open_drive.hpp"
-#include "common/traffic/traffic_model.hpp"
-#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
+#include "tests/common/world/opendrive/sample.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -43,10 +43,14 @@ Lane LaneOf(const TrafficModel& model, std::uint32_t track) {
   return {model.graph().network().roads()[lane.road].id(), lane.section, lane.lane};
 }
 
-// Flows on their lanes drive to the bit as before where a road far away is added to the network, and all that is saved of them is the same.
+// Flows on their lanes drive to the bit as before where a road far away is added to the network, and all that is saved
+// of them is the same.
 TEST(UnrelatedRoad, ChangesNothing) {
-  const TrafficSettings settings = Settings("routes: {off: [\"3\"]}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 600, route: off}\n  - {lane: \"1:-2\", vehicles_per_h: 600}\n");
-  TrafficModel a = TrafficModel::Make(settings, Exit(600.0), {}).value(), b = TrafficModel::Make(settings, Exit(600.0, FarRoad()), {}).value();
+  const TrafficSettings settings = Settings(
+      "routes: {off: [\"3\"]}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 600, route: off}\n  - {lane: \"1:-2\", "
+      "vehicles_per_h: 600}\n");
+  TrafficModel a = TrafficModel::Make(settings, Exit(600.0), {}).value(),
+               b = TrafficModel::Make(settings, Exit(600.0, FarRoad()), {}).value();
   ASSERT_LT(a.graph().tracks().size(), b.graph().tracks().size());
   for (int i = 0; i < 6000; ++i) {
     a.Step(kStep_s, {});
@@ -56,7 +60,9 @@ TEST(UnrelatedRoad, ChangesNothing) {
       const AgentPose &one = a.poses()[k], &other = b.poses()[k];
       ASSERT_EQ(one.p_WB_W, other.p_WB_W) << i;
       ASSERT_EQ(one.q_WB.coeffs(), other.q_WB.coeffs()) << i;
-      ASSERT_EQ(std::tie(one.id, one.trip, one.speed_mps, one.acceleration_mps2, one.steer_rad), std::tie(other.id, other.trip, other.speed_mps, other.acceleration_mps2, other.steer_rad)) << i;
+      ASSERT_EQ(std::tie(one.id, one.trip, one.speed_mps, one.acceleration_mps2, one.steer_rad),
+                std::tie(other.id, other.trip, other.speed_mps, other.acceleration_mps2, other.steer_rad))
+          << i;
     }
     if (i % 100 == 0) {
       ASSERT_EQ(DigestOf(a), DigestOf(b)) << i;
@@ -65,8 +71,8 @@ TEST(UnrelatedRoad, ChangesNothing) {
   EXPECT_GT(a.ended(), 40u);
 }
 
-// Where so many vehicles share the whole network, or a flow comes from anywhere, a road far away, wherever it stands in the file, takes its share of the trips, within four deviations, and
-// no other trip begins elsewhere than before.
+// Where so many vehicles share the whole network, or a flow comes from anywhere, a road far away, wherever it stands in
+// the file, takes its share of the trips, within four deviations, and no other trip begins elsewhere than before.
 TEST(UnrelatedRoad, TakesItsShareOfTheTripsAlone) {
   for (const std::string yaml : {"vehicles: 30\n", "vehicles: 30\nflows:\n  - {vehicles_per_h: 1200}\n"}) {
     const auto entries_of = [&](const std::shared_ptr<const network::Network>& network, bool by_arrival) {
@@ -90,8 +96,10 @@ TEST(UnrelatedRoad, TakesItsShareOfTheTripsAlone) {
         const auto found = alone.find(trip);
         if (found == alone.end()) continue;
         ++both;
-        if (std::get<0>(lane) == "5000") ++far;
-        else EXPECT_EQ(lane, found->second) << "vehicle " << trip.first << ", trip " << trip.second;
+        if (std::get<0>(lane) == "5000")
+          ++far;
+        else
+          EXPECT_EQ(lane, found->second) << "vehicle " << trip.first << ", trip " << trip.second;
       }
       const double share = 2.0 / 6.0;  // of six entries
       EXPECT_GT(both, 200.0);
@@ -100,7 +108,8 @@ TEST(UnrelatedRoad, TakesItsShareOfTheTripsAlone) {
   }
 }
 
-// A vehicle that meets nobody drives each of its trips that still begin on the old roads as before, to the bit, from its first step to its last.
+// A vehicle that meets nobody drives each of its trips that still begin on the old roads as before, to the bit, from
+// its first step to its last.
 TEST(UnrelatedRoad, ChangesNoTripOfWhoIsAlone) {
   using Step = std::tuple<double, double, double, double, double, double>;
   const auto trips_of = [](const std::shared_ptr<const network::Network>& network) {
@@ -111,7 +120,8 @@ TEST(UnrelatedRoad, ChangesNoTripOfWhoIsAlone) {
       for (const AgentPose& pose : model.poses()) {
         auto& trip = trips[pose.trip];
         trip.first = LaneOf(model, model.agent(0).entry);
-        trip.second.emplace_back(pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), pose.q_WB.z(), pose.speed_mps, pose.acceleration_mps2);
+        trip.second.emplace_back(pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), pose.q_WB.z(), pose.speed_mps,
+                                 pose.acceleration_mps2);
       }
     }
     trips.erase(0);  // where it begins depends on how long all lanes are together

@@ -7,8 +7,8 @@
 
 namespace rodeira::traffic {
 
-// A network with crossings for people on foot across every road outside of junctions that is longer than 40 m: 14 m from its ends, and
-// every 300 m between.
+// A network with crossings for people on foot across every road outside of junctions that is longer than 40 m: 14 m
+// from its ends, and every 300 m between.
 inline std::shared_ptr<const network::Network> WithCrossings(const network::Network& network) {
   constexpr double kFromEnd_m = 14.0, kEvery_m = 300.0, kShortest_m = 40.0;
   network::NetworkSpec spec;
@@ -30,7 +30,9 @@ inline std::shared_ptr<const network::Network> WithCrossings(const network::Netw
       for (const auto* side : {&with.sections[section].left, &with.sections[section].right}) {
         for (const network::Lane& lane : *side) {
           const auto span = network::IsDrivable(lane.type) ? road.SpanAt(section, lane.id, s) : std::nullopt;
-          if (span) left = std::max({left, span->inner_t_m, span->outer_t_m}), right = std::min({right, span->inner_t_m, span->outer_t_m});
+          if (span)
+            left = std::max({left, span->inner_t_m, span->outer_t_m}),
+            right = std::min({right, span->inner_t_m, span->outer_t_m});
         }
       }
       if (!(left > right)) continue;

@@ -1,8 +1,7 @@
-/* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that rolls on its wheels.
- *   dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000 kg,
- *   dheading/dt = v tan(steering wheel / 16) / 2.5
- * by explicit Euler steps. z is the mean of the ground's four heights. Parameters make it fail, hang, crash,
- * or say what is no number. */
+/* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that
+ * rolls on its wheels. dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000
+ * kg, dheading/dt = v tan(steering wheel / 16) / 2.5 by explicit Euler steps. z is the mean of the ground's four
+ * heights. Parameters make it fail, hang, crash, or say what is no number. */
 #include <math.h>
 #include <signal.h>
 #include <stddef.h>
@@ -18,9 +17,45 @@ typedef struct {
   void* componentEnvironment;
 } fmi2CallbackFunctions;
 
-enum { kX, kY, kZ, kRoll, kPitch, kHeading, kVx, kVy, kVz, kRollRate, kPitchRate, kYawRate, kSteering, kThrottle, kBrake, kGround0, kGround1, kGround2,
-       kGround3, kStartX, kStartY, kStartZ, kStartHeading, kStartSpeed, kFailAt, kHangAt, kNonsenseAt, kPushX, kPushY, kPushZ, kMomentX,
-       kMomentY, kMomentZ, kGearLever, kCrashAt, kSpeed, kReals };
+enum {
+  kX,
+  kY,
+  kZ,
+  kRoll,
+  kPitch,
+  kHeading,
+  kVx,
+  kVy,
+  kVz,
+  kRollRate,
+  kPitchRate,
+  kYawRate,
+  kSteering,
+  kThrottle,
+  kBrake,
+  kGround0,
+  kGround1,
+  kGround2,
+  kGround3,
+  kStartX,
+  kStartY,
+  kStartZ,
+  kStartHeading,
+  kStartSpeed,
+  kFailAt,
+  kHangAt,
+  kNonsenseAt,
+  kPushX,
+  kPushY,
+  kPushZ,
+  kMomentX,
+  kMomentY,
+  kMomentZ,
+  kGearLever,
+  kCrashAt,
+  kSpeed,
+  kReals
+};
 
 typedef struct {
   double real[kReals];
@@ -46,23 +81,26 @@ static void publish(Values* v) {
 EXPORT const char* fmi2GetVersion(void) { return "2.0"; }
 EXPORT const char* fmi2GetTypesPlatform(void) { return "default"; }
 
-EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const char* resources, const fmi2CallbackFunctions* callbacks, int visible,
-                             int logging) {
+EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const char* resources,
+                             const fmi2CallbackFunctions* callbacks, int visible, int logging) {
   Car* car;
   (void)name, (void)resources, (void)visible, (void)logging;
   if (strcmp(guid, "{crashes}") == 0) raise(SIGSEGV);
   if (type != 1 || strcmp(guid, "{rodeira-test-car}") != 0) {
-    callbacks->logger(callbacks->componentEnvironment, "car", fmi2Error, "guid", "the guid is %s, which is another car's", guid);
+    callbacks->logger(callbacks->componentEnvironment, "car", fmi2Error, "guid",
+                      "the guid is %s, which is another car's", guid);
     return NULL;
   }
   car = callbacks->allocateMemory(1, sizeof(Car));
   if (car == NULL) return NULL;
   car->callbacks = callbacks;
-  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = car->values.real[kCrashAt] = 1e9;
+  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = car->values.real[kCrashAt] =
+      1e9;
   return car;
 }
 EXPORT void fmi2FreeInstance(void* c) { ((Car*)c)->callbacks->freeMemory(c); }
-EXPORT fmi2Status fmi2SetupExperiment(void* c, int has_tolerance, double tolerance, double start, int has_stop, double stop) {
+EXPORT fmi2Status fmi2SetupExperiment(void* c, int has_tolerance, double tolerance, double start, int has_stop,
+                                      double stop) {
   (void)c, (void)has_tolerance, (void)tolerance, (void)start, (void)has_stop, (void)stop;
   return fmi2OK;
 }
@@ -97,9 +135,15 @@ EXPORT fmi2Status fmi2GetInteger(void* c, const unsigned* r, size_t n, int* valu
   value[0] = ((Car*)c)->values.gear;
   return fmi2OK;
 }
-EXPORT fmi2Status fmi2SetInteger(void* c, const unsigned* r, size_t n, const int* value) { return (void)c, (void)r, (void)n, (void)value, fmi2Error; }
-EXPORT fmi2Status fmi2GetBoolean(void* c, const unsigned* r, size_t n, int* value) { return (void)c, (void)r, (void)n, (void)value, fmi2Error; }
-EXPORT fmi2Status fmi2SetBoolean(void* c, const unsigned* r, size_t n, const int* value) { return (void)c, (void)r, (void)n, (void)value, fmi2Error; }
+EXPORT fmi2Status fmi2SetInteger(void* c, const unsigned* r, size_t n, const int* value) {
+  return (void)c, (void)r, (void)n, (void)value, fmi2Error;
+}
+EXPORT fmi2Status fmi2GetBoolean(void* c, const unsigned* r, size_t n, int* value) {
+  return (void)c, (void)r, (void)n, (void)value, fmi2Error;
+}
+EXPORT fmi2Status fmi2SetBoolean(void* c, const unsigned* r, size_t n, const int* value) {
+  return (void)c, (void)r, (void)n, (void)value, fmi2Error;
+}
 
 EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
   Car* car = c;
@@ -108,7 +152,8 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
   volatile double never = 0.0;
   (void)no_return;
   if (time >= v->real[kFailAt] - 1e-9) {
-    car->callbacks->logger(car->callbacks->componentEnvironment, "car", fmi2Error, "step", "the tank is empty at %.1f s", time);
+    car->callbacks->logger(car->callbacks->componentEnvironment, "car", fmi2Error, "step",
+                           "the tank is empty at %.1f s", time);
     return fmi2Error;
   }
   while (time >= v->real[kHangAt] - 1e-9) never = never + 1.0;
@@ -118,7 +163,8 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
   v->real[kY] += step * v->real[kSpeed] * sin(v->real[kHeading]);
   v->real[kHeading] += step * v->real[kSpeed] * tan(v->real[kSteering] / 16.0) / 2.5;
   v->real[kSpeed] += step * ((v->real[kGearLever] < 0.0 ? -3.0 : 3.0) * v->real[kThrottle] - 0.05 * v->real[kSpeed]);
-  v->real[kSpeed] += step / 1000.0 * (v->real[kPushX] * cos(v->real[kHeading]) + v->real[kPushY] * sin(v->real[kHeading]));
+  v->real[kSpeed] +=
+      step / 1000.0 * (v->real[kPushX] * cos(v->real[kHeading]) + v->real[kPushY] * sin(v->real[kHeading]));
   v->real[kSpeed] = fabs(v->real[kSpeed]) <= brake ? 0.0 : v->real[kSpeed] - copysign(brake, v->real[kSpeed]);
   publish(v);
   if (time >= v->real[kNonsenseAt] - 1e-9) v->real[kY] = NAN;
@@ -131,14 +177,18 @@ EXPORT fmi2Status fmi2GetFMUstate(void* c, void** state) {
   memcpy(*state, &((Car*)c)->values, sizeof(Values));
   return fmi2OK;
 }
-EXPORT fmi2Status fmi2SetFMUstate(void* c, void* state) { return memcpy(&((Car*)c)->values, state, sizeof(Values)), fmi2OK; }
+EXPORT fmi2Status fmi2SetFMUstate(void* c, void* state) {
+  return memcpy(&((Car*)c)->values, state, sizeof(Values)), fmi2OK;
+}
 EXPORT fmi2Status fmi2FreeFMUstate(void* c, void** state) {
   (void)c;
   free(*state);
   *state = NULL;
   return fmi2OK;
 }
-EXPORT fmi2Status fmi2SerializedFMUstateSize(void* c, void* state, size_t* size) { return (void)c, (void)state, *size = sizeof(Values), fmi2OK; }
+EXPORT fmi2Status fmi2SerializedFMUstateSize(void* c, void* state, size_t* size) {
+  return (void)c, (void)state, *size = sizeof(Values), fmi2OK;
+}
 EXPORT fmi2Status fmi2SerializeFMUstate(void* c, void* state, char* bytes, size_t size) {
   (void)c;
   if (size != sizeof(Values)) return fmi2Error;

@@ -26,49 +26,72 @@ std::string Refused(std::vector<std::string> words) {
 }
 
 TEST(OptionErrors, NameTheCommandThatWasMeant) {
-  EXPECT_THAT(Refused({"wrold", "check", "a.yaml"}), HasSubstr("rodeira: 'wrold' is no command of 'rodeira'; did you mean 'world'?\n"));
-  EXPECT_THAT(Refused({"trafic", "run", "a.motors"}), HasSubstr("rodeira: 'trafic' is no command of 'rodeira'; did you mean 'traffic'?\n"));
-  EXPECT_THAT(Refused({"world", "chekc", "a.yaml"}), HasSubstr("rodeira: 'chekc' is no command of 'rodeira world'; did you mean 'check'?\n"));
+  EXPECT_THAT(Refused({"wrold", "check", "a.yaml"}),
+              HasSubstr("rodeira: 'wrold' is no command of 'rodeira'; did you mean 'world'?\n"));
+  EXPECT_THAT(Refused({"trafic", "run", "a.motors"}),
+              HasSubstr("rodeira: 'trafic' is no command of 'rodeira'; did you mean 'traffic'?\n"));
+  EXPECT_THAT(Refused({"world", "chekc", "a.yaml"}),
+              HasSubstr("rodeira: 'chekc' is no command of 'rodeira world'; did you mean 'check'?\n"));
   EXPECT_THAT(Refused({"map"}), HasSubstr("rodeira: 'rodeira map' needs a command; known are check, convert\n"));
 }
 
 TEST(OptionErrors, NameTheOptionThatWasMeant) {
-  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--vehicels", "4"}), HasSubstr("rodeira: '--vehicels' is no option of 'rodeira traffic run'; did you mean '--vehicles'?\n"));
-  EXPECT_THAT(Refused({"run", "a.yaml", "--recrod=x"}), HasSubstr("rodeira: '--recrod' is no option of 'rodeira run'; did you mean '--record'?\n"));
-  EXPECT_THAT(Refused({"info", "a.mcap", "b.mcap"}), HasSubstr("rodeira: 'b.mcap' was not expected by 'rodeira info'\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--vehicels", "4"}),
+              HasSubstr("rodeira: '--vehicels' is no option of 'rodeira traffic run'; did you mean '--vehicles'?\n"));
+  EXPECT_THAT(Refused({"run", "a.yaml", "--recrod=x"}),
+              HasSubstr("rodeira: '--recrod' is no option of 'rodeira run'; did you mean '--record'?\n"));
+  EXPECT_THAT(Refused({"info", "a.mcap", "b.mcap"}),
+              HasSubstr("rodeira: 'b.mcap' was not expected by 'rodeira info'\n"));
 }
 
 TEST(OptionErrors, SayWhatAValueShouldBe) {
-  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--driver", "moters"}), HasSubstr("rodeira: --driver: 'moters' was found; did you mean 'motors'?\n"));
-  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--seed", "-1"}), HasSubstr("rodeira: --seed: '-1' was found; a whole number from 0 on was expected\n"));
-  EXPECT_THAT(Refused({"polyline", "scale", "a.csv", "-o", "b.csv", "--by", "0"}), HasSubstr("rodeira: --by: '0' was found; a number above 0 was expected\n"));
-  EXPECT_THAT(Refused({"run", "a.yaml", "--for", "nan"}), HasSubstr("'nan' was found; a positive number of seconds was expected\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--driver", "moters"}),
+              HasSubstr("rodeira: --driver: 'moters' was found; did you mean 'motors'?\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--seed", "-1"}),
+              HasSubstr("rodeira: --seed: '-1' was found; a whole number from 0 on was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "scale", "a.csv", "-o", "b.csv", "--by", "0"}),
+              HasSubstr("rodeira: --by: '0' was found; a number above 0 was expected\n"));
+  EXPECT_THAT(Refused({"run", "a.yaml", "--for", "nan"}),
+              HasSubstr("'nan' was found; a positive number of seconds was expected\n"));
 }
 
 TEST(OptionErrors, SayWhatIsNoNumber) {
-  EXPECT_THAT(Refused({"world", "query", "a.yaml", "a", "2"}), HasSubstr("rodeira: X of 'rodeira world query' is 'a'; a number was expected\n"));
-  EXPECT_THAT(Refused({"world", "build", "a.yaml", "-o", "b", "--threads", "many"}), HasSubstr("rodeira: --threads of 'rodeira world build' is 'many'; a whole number was expected\n"));
+  EXPECT_THAT(Refused({"world", "query", "a.yaml", "a", "2"}),
+              HasSubstr("rodeira: X of 'rodeira world query' is 'a'; a number was expected\n"));
+  EXPECT_THAT(Refused({"world", "build", "a.yaml", "-o", "b", "--threads", "many"}),
+              HasSubstr("rodeira: --threads of 'rodeira world build' is 'many'; a whole number was expected\n"));
 }
 
 TEST(OptionErrors, SayThatNoNumberIsMeantByNan) {
-  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "nan", "2"}), HasSubstr("rodeira: --by: 'nan' was found; a finite number was expected\n"));
-  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "inf"}), HasSubstr("rodeira: --deg: 'inf' was found; a finite number was expected\n"));
-  EXPECT_THAT(Refused({"polyline", "offset", "a.csv", "-o", "b.csv", "--left", "nan"}), HasSubstr("rodeira: --left: 'nan' was found; a finite number was expected\n"));
-  EXPECT_THAT(Refused({"polyline", "join", "a.csv", "b.csv", "-o", "c.csv", "--within", "nan"}), HasSubstr("rodeira: --within: 'nan' was found; a number from 0 on was expected\n"));
-  EXPECT_THAT(Refused({"world", "query", "a.yaml", "nan", "0"}), HasSubstr("rodeira: X: 'nan' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "nan", "2"}),
+              HasSubstr("rodeira: --by: 'nan' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "inf"}),
+              HasSubstr("rodeira: --deg: 'inf' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "offset", "a.csv", "-o", "b.csv", "--left", "nan"}),
+              HasSubstr("rodeira: --left: 'nan' was found; a finite number was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "join", "a.csv", "b.csv", "-o", "c.csv", "--within", "nan"}),
+              HasSubstr("rodeira: --within: 'nan' was found; a number from 0 on was expected\n"));
+  EXPECT_THAT(Refused({"world", "query", "a.yaml", "nan", "0"}),
+              HasSubstr("rodeira: X: 'nan' was found; a finite number was expected\n"));
 }
 
 TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
-  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}), HasSubstr("rodeira: --by of 'rodeira polyline translate' has 1 value; 2 to 3 were expected\n"));
-  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}), HasSubstr("rodeira: --about of 'rodeira polyline rotate' has 1 value; 2 were expected\n"));
-  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}), HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
+  EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}),
+              HasSubstr("rodeira: --by of 'rodeira polyline translate' has 1 value; 2 to 3 were expected\n"));
+  EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}),
+              HasSubstr("rodeira: --about of 'rodeira polyline rotate' has 1 value; 2 were expected\n"));
+  EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}),
+              HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
 }
 
 // A folder that nobody made is no place to write into: it is more likely mistyped.
 TEST(OptionErrors, NoFolderIsMadeForAFile) {
   const TemporaryFolder folder;
   const std::string missing = (folder.path() / "no/such").string();
-  const auto says = [&](std::vector<std::string> words) { EXPECT_THAT(Refused(std::move(words)), HasSubstr("'" + missing + "/it' was found; there is no folder '" + missing + "'\n")); };
+  const auto says = [&](std::vector<std::string> words) {
+    EXPECT_THAT(Refused(std::move(words)),
+                HasSubstr("'" + missing + "/it' was found; there is no folder '" + missing + "'\n"));
+  };
   says({"world", "map", "a.yaml", "-o", missing + "/it"});
   says({"world", "export", "a.yaml", "-o", missing + "/it"});
   says({"world", "info", "a.yaml", "--svg", missing + "/it"});
@@ -80,7 +103,8 @@ TEST(OptionErrors, NoFolderIsMadeForAFile) {
 }
 
 TEST(OptionErrors, HelpAndVersionAreNoErrors) {
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"--help"}, {"--version"}, {"world", "--help"}}) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--help"}, {"--version"}, {"world", "--help"}}) {
     std::vector<std::string> command{Bin("rodeira")};
     command.insert(command.end(), words.begin(), words.end());
     const system_test::Ended ended = system_test::RunCommand(command);

@@ -13,7 +13,8 @@ namespace rodeira::cli {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::canonical(std::filesystem::temp_directory_path()) / "rodeira-front-XXXXXX").string();
+    std::string name =
+        (std::filesystem::canonical(std::filesystem::temp_directory_path()) / "rodeira-front-XXXXXX").string();
     path_ = ::mkdtemp(name.data());
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -9,8 +9,8 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
 #include "nodes/editor/desk.hpp"
-#include "tests/common/world/traffic_map/sample_map.hpp"
 #include "tests/common/view/window/hands.hpp"
+#include "tests/common/world/traffic_map/sample_map.hpp"
 
 namespace rodeira::nodes {
 

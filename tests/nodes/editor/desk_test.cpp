@@ -13,7 +13,9 @@ void WritePhotograph(const std::filesystem::path& path) {
   for (int y = 0; y < 300; ++y) {
     for (int x = 0; x < 400; ++x) {
       const bool road = std::abs(y - 150) < 12;
-      for (const int value : {road ? 110 : 70 + (x * 7 + y * 3) % 23, road ? 110 : 110 + (x * 5 + y * 11) % 31, road ? 112 : 60}) image.rgb.push_back(static_cast<std::uint8_t>(value));
+      for (const int value :
+           {road ? 110 : 70 + (x * 7 + y * 3) % 23, road ? 110 : 110 + (x * 5 + y * 11) % 31, road ? 112 : 60})
+        image.rgb.push_back(static_cast<std::uint8_t>(value));
     }
   }
   ASSERT_TRUE(window::WritePng(path, image).ok());
@@ -35,8 +37,10 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   EXPECT_EQ(document().map.curves[1].value.id, 2);
   const auto place = [&](int curve, double y_m, double from_m, double to_m) {
     for (const int handle : {0, 3, 1, 2}) {
-      const auto& p = document().map.curves[static_cast<std::size_t>(curve)].value.points[static_cast<std::size_t>(handle)];
-      Drag(On(static_cast<double>(p.x_m), static_cast<double>(p.y_m)), On(from_m + (to_m - from_m) * handle / 3.0, y_m));
+      const auto& p =
+          document().map.curves[static_cast<std::size_t>(curve)].value.points[static_cast<std::size_t>(handle)];
+      Drag(On(static_cast<double>(p.x_m), static_cast<double>(p.y_m)),
+           On(from_m + (to_m - from_m) * handle / 3.0, y_m));
     }
   };
   place(0, 3.0, -40.0, 0.0);
@@ -144,7 +148,8 @@ TEST_F(ADesk, ALaneInOneGestureAndTheProposedConnection) {
   Press(SDL_SCANCODE_ESCAPE);
   Press(SDL_SCANCODE_P);
   EXPECT_EQ(Said(), "connection 1 to 2 made");
-  for (const traffic_map::Finding& finding : work().session.Findings()) EXPECT_EQ(finding.sentence.find("jumps"), std::string::npos) << finding.Text();
+  for (const traffic_map::Finding& finding : work().session.Findings())
+    EXPECT_EQ(finding.sentence.find("jumps"), std::string::npos) << finding.Text();
   Keep("editor_gesture.png");
 }
 
@@ -186,7 +191,9 @@ TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
 TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
   OpenTheGoodMap();
   const std::string before = editor::BytesOf(document());
-  const auto point = [&](std::int32_t curve, std::size_t index) { return document().map.curves[*editor::Find(document().map.curves, curve)].value.points[index]; };
+  const auto point = [&](std::int32_t curve, std::size_t index) {
+    return document().map.curves[*editor::Find(document().map.curves, curve)].value.points[index];
+  };
   Drag(On(30.0, 1.5), On(31.0, 4.0));  // where curves 1, 3 and 5 meet
   EXPECT_NEAR(static_cast<double>(point(1, 3).y_m), 4.0, 0.2);
   EXPECT_EQ(point(3, 3), point(1, 3));
@@ -198,7 +205,8 @@ TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
   input_devices::Key(SDL_SCANCODE_LALT, false);
   Show();
   int moved = 0;
-  for (const auto& [curve, index] : {std::pair(1, 3u), std::pair(3, 3u), std::pair(5, 0u)}) moved += point(curve, index).y_m > 2.0f ? 1 : 0;
+  for (const auto& [curve, index] : {std::pair(1, 3u), std::pair(3, 3u), std::pair(5, 0u)})
+    moved += point(curve, index).y_m > 2.0f ? 1 : 0;
   EXPECT_EQ(moved, 1);
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   // All that is chosen goes along.
@@ -227,7 +235,8 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
     window::Image seen;
     desk_->Frame(0, &seen);
     int count = 0;
-    for (std::size_t i = 0; i + 2 < seen.rgb.size(); i += 3) count += seen.rgb[i] == 255 && seen.rgb[i + 1] == 220 && seen.rgb[i + 2] == 90 ? 1 : 0;
+    for (std::size_t i = 0; i + 2 < seen.rgb.size(); i += 3)
+      count += seen.rgb[i] == 255 && seen.rgb[i + 1] == 220 && seen.rgb[i + 2] == 90 ? 1 : 0;
     return count;
   };
   EXPECT_GT(yellow(), 20 * 25);  // some twenty places, seven pixels wide
@@ -247,10 +256,13 @@ TEST_F(ADesk, HandlesNumbersAndTheCentreAreHidden) {
   EXPECT_EQ(editor::BytesOf(document()), before);
 }
 
-// White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4 on a lane of 3 m).
+// White where the road has it: a bar of 0.3 m before a STOP, strokes of 0.5 m with gaps of 0.3 m where one gives way (4
+// on a lane of 3 m).
 TEST_F(ADesk, LinesWhereOneStopsOrGivesWayArePainted) {
   OpenTheGoodMap();
-  work().session.Do([](editor::Document& document) { return editor::SetSigns(document, {{2, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}}); });
+  work().session.Do([](editor::Document& document) {
+    return editor::SetSigns(document, {{2, traffic_map::SignKind::kGiveWay, 0.0, 0.0, 0}});
+  });
   work().handles = work().numbers = work().centre = false;
   work().view.metres_per_px = 0.02;
   const auto white = [&](double x_m, double y_m) {

@@ -14,7 +14,9 @@ namespace {
 
 // Of `rodeira WORDS`, run in `folder`; what it says goes into the file said.txt there.
 int StatusOf(const std::filesystem::path& folder, const std::string& words) {
-  const int status = std::system(fmt::format("cd '{}' && timeout 300 '{}/bin/rodeira' {} > said.txt 2>&1 < /dev/null", folder.string(), BinaryDir(), words).c_str());
+  const int status = std::system(fmt::format("cd '{}' && timeout 300 '{}/bin/rodeira' {} > said.txt 2>&1 < /dev/null",
+                                             folder.string(), BinaryDir(), words)
+                                     .c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -59,22 +61,29 @@ TEST_F(AnExport, IsAWorldThatIsCheckedAndDrivenOn) {
   EXPECT_EQ(world.value()->content_hash(), roads.value()->content_hash()) << "the same world as its roads alone";
   EXPECT_EQ(StatusOf(folder_->path(), "world check 'κυκλικός κόμβος.yaml'"), 0) << Told();
   // The autopilot drives a car on it, among traffic; the recording says the same again.
-  ASSERT_TRUE(base::WriteWhole(At("drive.yaml"), fmt::format("rodeira: launch/1\n"
-                                                             "world: \"κυκλικός κόμβος.yaml\"\n"
-                                                             "seed: 1\n"
-                                                             "duration_s: 6\n"
-                                                             "nodes:\n"
-                                                             "  road: {{kind: road}}\n"
-                                                             "  driver: {{kind: input, config: {{source: autopilot, driver: {0}/configs/drivers/default.yaml, vehicle: {0}/configs/vehicles/default.yaml}}}}\n"
-                                                             "  ego: {{kind: vehicle, config: {{vehicle: {0}/configs/vehicles/default.yaml}}}}\n"
-                                                             "  traffic: {{kind: traffic, config: {{vehicles: 8}}}}\n"
-                                                             "  recorder: {{kind: recorder}}\n",
-                                                             SourceDir())).ok());
-  ASSERT_EQ(StatusOf(folder_->path(), "run drive.yaml --in-process --headless --pace max --quiet --record drive.mcap"), 0) << Told();
+  ASSERT_TRUE(
+      base::WriteWhole(At("drive.yaml"),
+                       fmt::format("rodeira: launch/1\n"
+                                   "world: \"κυκλικός κόμβος.yaml\"\n"
+                                   "seed: 1\n"
+                                   "duration_s: 6\n"
+                                   "nodes:\n"
+                                   "  road: {{kind: road}}\n"
+                                   "  driver: {{kind: input, config: {{source: autopilot, driver: "
+                                   "{0}/configs/drivers/default.yaml, vehicle: {0}/configs/vehicles/default.yaml}}}}\n"
+                                   "  ego: {{kind: vehicle, config: {{vehicle: {0}/configs/vehicles/default.yaml}}}}\n"
+                                   "  traffic: {{kind: traffic, config: {{vehicles: 8}}}}\n"
+                                   "  recorder: {{kind: recorder}}\n",
+                                   SourceDir()))
+          .ok());
+  ASSERT_EQ(StatusOf(folder_->path(), "run drive.yaml --in-process --headless --pace max --quiet --record drive.mcap"),
+            0)
+      << Told();
   EXPECT_EQ(StatusOf(folder_->path(), "replay drive.mcap --verify --quiet"), 0) << Told();
   ASSERT_EQ(StatusOf(folder_->path(), "export drive.mcap --csv csv --quiet"), 0) << Told();
   const std::string states = base::ReadText(At("csv/vehicle_state.csv")).value();
-  EXPECT_GT((PlaceIn(states, LineOf(states, 1)) - PlaceIn(states, LineOf(states, -1))).norm(), 10.0) << "it has not driven";
+  EXPECT_GT((PlaceIn(states, LineOf(states, 1)) - PlaceIn(states, LineOf(states, -1))).norm(), 10.0)
+      << "it has not driven";
 }
 
 TEST_F(AnExport, OfTheRoadsAlone) {

@@ -4,7 +4,9 @@
 namespace rodeira::nodes {
 namespace {
 
-const traffic_map::Lane& LaneOf(const editor::Document& document, std::int32_t number) { return document.map.lanes[*editor::Find(document.map.lanes, number)].value; }
+const traffic_map::Lane& LaneOf(const editor::Document& document, std::int32_t number) {
+  return document.map.lanes[*editor::Find(document.map.lanes, number)].value;
+}
 
 TEST_F(ADesk, ListsShowChooseAndDelete) {
   OpenTheGoodMap();

@@ -1,5 +1,5 @@
-// `rodeira edit` in a real window (Xvfb), drawn with by a mouse and a keyboard (xdotool): the thesis' example from the photograph to the saved
-// map, and traffic on it. Skipped where those two programs are not there.
+// `rodeira edit` in a real window (Xvfb), drawn with by a mouse and a keyboard (xdotool): the thesis' example from the
+// photograph to the saved map, and traffic on it. Skipped where those two programs are not there.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -25,7 +25,9 @@ namespace {
 
 const std::string kRodeira = BinaryDir() + "/bin/rodeira";
 
-bool Has(const char* program) { return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0; }
+bool Has(const char* program) {
+  return std::system(fmt::format("command -v {} >/dev/null 2>&1", program).c_str()) == 0;
+}
 
 // A program that ends with this.
 class Running {
@@ -84,7 +86,9 @@ class ARealWindow : public testing::Test {
     folder_.emplace(std::move(made).value());
     int told[2];
     ASSERT_EQ(::pipe(told), 0);
-    server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset"}, told[1]);
+    server_.emplace(std::vector<std::string>{"Xvfb", "-displayfd", "3", "-screen", "0", "1280x800x24", "-nolisten",
+                                             "tcp", "-noreset"},
+                    told[1]);
     ::close(told[1]);
     std::string number;
     char letter = 0;
@@ -101,21 +105,32 @@ class ARealWindow : public testing::Test {
   }
 
   std::filesystem::path At(const std::string& name) const { return folder_->path() / name; }
-  void Tool(const std::string& words) const { EXPECT_EQ(std::system(("timeout 60 xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << words; }
+  void Tool(const std::string& words) const {
+    EXPECT_EQ(std::system(("timeout 60 xdotool " + words + " >/dev/null 2>&1").c_str()), 0) << words;
+  }
   // Keys and letters, one after the other, each given time to be drawn.
   void Key(const std::string& key) const { Tool("key --delay 25 " + key + " sleep 0.03"); }
-  void Write(const std::string& text) const { Tool("key --delay 25 ctrl+a sleep 0.03 type --delay 8 '" + text + "'"), Tool("sleep 0.03"); }
-  void Click(const std::string& place) const { Tool(fmt::format("mousemove {:.0f} {:.0f} sleep 0.03 click 1 sleep 0.03", places_.at(place).x(), places_.at(place).y())); }
+  void Write(const std::string& text) const {
+    Tool("key --delay 25 ctrl+a sleep 0.03 type --delay 8 '" + text + "'"), Tool("sleep 0.03");
+  }
+  void Click(const std::string& place) const {
+    Tool(fmt::format("mousemove {:.0f} {:.0f} sleep 0.03 click 1 sleep 0.03", places_.at(place).x(),
+                     places_.at(place).y()));
+  }
   void Drag(const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W) const {
-    const Eigen::Vector2d corner(ADesk::kLeft_px, ADesk::kTop_px), from = view_.ToPixels(from_W) + corner, to = view_.ToPixels(to_W) + corner, between = 0.5 * (from + to);
-    Tool(fmt::format("mousemove {:.0f} {:.0f} sleep 0.03 mousedown 1 sleep 0.03 mousemove {:.0f} {:.0f} sleep 0.03 mousemove {:.0f} {:.0f} sleep 0.03 mouseup 1 sleep 0.05", from.x(), from.y(),
-                     between.x(), between.y(), to.x(), to.y()));
+    const Eigen::Vector2d corner(ADesk::kLeft_px, ADesk::kTop_px),
+        from = view_.ToPixels(from_W) + corner, to = view_.ToPixels(to_W) + corner, between = 0.5 * (from + to);
+    Tool(
+        fmt::format("mousemove {:.0f} {:.0f} sleep 0.03 mousedown 1 sleep 0.03 mousemove {:.0f} {:.0f} sleep 0.03 "
+                    "mousemove {:.0f} {:.0f} sleep 0.03 mouseup 1 sleep 0.05",
+                    from.x(), from.y(), between.x(), between.y(), to.x(), to.y()));
   }
   // A new curve, then its handles to where they belong.
   void DrawCurve(double y_m, double from_m, double to_m) const {
     Key("c");
     const double third_m = view_.width_m() / 6.0;
-    for (const int handle : {0, 3, 1, 2}) Drag({(handle - 1.5) * third_m * 2.0 / 3.0, 0.0}, {from_m + (to_m - from_m) * handle / 3.0, y_m});
+    for (const int handle : {0, 3, 1, 2})
+      Drag({(handle - 1.5) * third_m * 2.0 / 3.0, 0.0}, {from_m + (to_m - from_m) * handle / 3.0, y_m});
   }
   void MakeLane(const std::string& left, const std::string& right, const std::string& mode) const {
     Key("n");
@@ -141,7 +156,9 @@ TEST_F(ARealWindow, TheThesisExampleIsDrawnSavedAndDrivenOn) {
   for (int y = 0; y < 300; ++y) {
     for (int x = 0; x < 400; ++x) {
       const bool road = std::abs(y - 146) < 12;
-      for (const int value : {road ? 110 : 70 + (x * 7 + y * 3) % 23, road ? 110 : 110 + (x * 5 + y * 11) % 31, road ? 112 : 60}) photograph.rgb.push_back(static_cast<std::uint8_t>(value));
+      for (const int value :
+           {road ? 110 : 70 + (x * 7 + y * 3) % 23, road ? 110 : 110 + (x * 5 + y * 11) % 31, road ? 112 : 60})
+        photograph.rgb.push_back(static_cast<std::uint8_t>(value));
     }
   }
   ASSERT_TRUE(window::WritePng(At("photo.png"), photograph).ok());
@@ -186,11 +203,16 @@ TEST_F(ARealWindow, TheThesisExampleIsDrawnSavedAndDrivenOn) {
   EXPECT_EQ(map.value().curves[0].value.points[3], map.value().curves[2].value.points[0]) << "ends catch each other";
   EXPECT_NEAR(static_cast<double>(map.value().curves[1].value.points[0].x_m), -40.0, 1.01 * view_.metres_per_px);
   EXPECT_EQ(std::system((kRodeira + " map check " + At("example.motors").string() + " >/dev/null").c_str()), 0);
-  EXPECT_EQ(std::system((kRodeira + " traffic run " + At("example.motors").string() + " --vehicles 4 --for 30 --quiet --heat " + At("heat.svg").string()).c_str()), 0);
+  EXPECT_EQ(std::system((kRodeira + " traffic run " + At("example.motors").string() +
+                         " --vehicles 4 --for 30 --quiet --heat " + At("heat.svg").string())
+                            .c_str()),
+            0);
   EXPECT_TRUE(std::filesystem::exists(At("heat.svg")));
   if (const char* kept = std::getenv("RODEIRA_PICTURES"); kept != nullptr) {
-    std::filesystem::copy(At("rodeira/pictures/map.png"), std::filesystem::path(kept) / "real_drawn.png", std::filesystem::copy_options::overwrite_existing);
-    std::filesystem::copy(At("rodeira/pictures/example.png"), std::filesystem::path(kept) / "real_traffic.png", std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy(At("rodeira/pictures/map.png"), std::filesystem::path(kept) / "real_drawn.png",
+                          std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy(At("rodeira/pictures/example.png"), std::filesystem::path(kept) / "real_traffic.png",
+                          std::filesystem::copy_options::overwrite_existing);
   }
 }
 

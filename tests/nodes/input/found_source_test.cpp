@@ -1,4 +1,5 @@
-// What drives where no wheel is named: a wheel that was set up, a game pad, a device whose file is broken, the window's keys.
+// What drives where no wheel is named: a wheel that was set up, a game pad, a device whose file is broken, the window's
+// keys.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -56,8 +57,10 @@ class FoundSource : public testing::Test {
     const launch::Launch launch = LaunchOf(config);
     testing::internal::CaptureStderr();
     auto nodes = cli::LocalNodes::Make(launch);
-    if (nodes.ok()) told.drive = DriveLive(launch, nodes.value(), last, hands);
-    else told.refused = nodes.error().Text();
+    if (nodes.ok())
+      told.drive = DriveLive(launch, nodes.value(), last, hands);
+    else
+      told.refused = nodes.error().Text();
     told.said = testing::internal::GetCapturedStderr();
     return told;
   }
@@ -84,7 +87,9 @@ TEST_F(FoundSource, ABrokenFileIsOneSentenceAndTheDeviceDrivesByAGuess) {
   EXPECT_GT(told.drive.controls.at(110).throttle(), 0.99);
   EXPECT_NEAR(told.drive.controls.at(210).steering_wheel_rad(), 7.85, 1e-6);
   // Named, it is the person's word, and wrong input.
-  const Told named = Drive("{source: joystick, wheel: \"" + input_devices::WheelFileOf(wheel.guid()).string() + "\", keyboard: " + kKeys + "}", 10, nullptr);
+  const Told named = Drive("{source: joystick, wheel: \"" + input_devices::WheelFileOf(wheel.guid()).string() +
+                               "\", keyboard: " + kKeys + "}",
+                           10, nullptr);
   EXPECT_THAT(named.refused, HasSubstr(wheel.guid() + ".yaml:3: "));
   EXPECT_EQ(named.said, "");
 }
@@ -107,7 +112,8 @@ TEST_F(FoundSource, AWheelThatNobodyHasSetUpDrivesAtOnce) {
   };
   const Told told = Drive(std::string("{source: joystick, keyboard: ") + kKeys + "}", 300, hands);
   ASSERT_EQ(told.refused, "");
-  EXPECT_THAT(told.said, HasSubstr("drives by a guess: steering on axis 0, throttle on 2, brake on 3; it was not set up: `rodeira input setup` finds its axes, ends and buttons\n"));
+  EXPECT_THAT(told.said, HasSubstr("drives by a guess: steering on axis 0, throttle on 2, brake on 3; it was not set "
+                                   "up: `rodeira input setup` finds its axes, ends and buttons\n"));
   EXPECT_EQ(told.drive.controls.at(100).throttle(), 0.0);
   EXPECT_GT(told.drive.controls.at(110).throttle(), 0.99);
   EXPECT_NEAR(told.drive.controls.at(210).steering_wheel_rad(), 7.85, 1e-6);
@@ -124,11 +130,15 @@ TEST_F(FoundSource, WithoutAnyDeviceTheWindowsKeysDriveWhereTheyAreNamed) {
     auto nodes = cli::LocalNodes::Make(launch);
     if (!nodes.ok()) return "refused: " + nodes.error().Text() + testing::internal::GetCapturedStderr();
     const auto window = nodes.value().keys().MakeSender();
-    const LiveDrive drive = DriveLive(launch, nodes.value(), 1000, [&](lockstep::Step) { window->Say({{input_devices::KeyOf("up").value(), true, 1}}); });
+    const LiveDrive drive = DriveLive(launch, nodes.value(), 1000, [&](lockstep::Step) {
+      window->Say({{input_devices::KeyOf("up").value(), true, 1}});
+    });
     EXPECT_EQ(drive.controls.at(1000).throttle(), 1.0);
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_THAT(window_keys(std::string("{source: joystick, keyboard: ") + kKeys + "}"), HasSubstr("no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is connected); the windows' keys drive"));
+  EXPECT_THAT(window_keys(std::string("{source: joystick, keyboard: ") + kKeys + "}"),
+              HasSubstr("no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is "
+                        "connected); the windows' keys drive"));
   // A device of one axis, whose file is broken: there is nothing to guess.
   const int lever = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 1, 0, 0);
   ASSERT_GE(lever, 0);
@@ -197,13 +207,15 @@ TEST_F(FoundSource, AGamePadMayComeAndGo) {
   EXPECT_THAT(told.said, HasSubstr("node 'driver': game pad 'A pad' was unplugged: pedals released, steering held"));
   EXPECT_THAT(told.said, HasSubstr("game pad 'A pad' is there"));
   pad.Detach();
-  EXPECT_THAT(Drive("{source: gamepad}", 10, nullptr).refused, HasSubstr("no game pad is there; no device is connected"));
+  EXPECT_THAT(Drive("{source: gamepad}", 10, nullptr).refused,
+              HasSubstr("no game pad is there; no device is connected"));
 }
 
 TEST_F(FoundSource, AWheelThatWasSetUpStandsAboveAGamePad) {
   VirtualPad pad;
   VirtualWheel wheel;
-  WriteOwn(wheel.guid(), "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
+  WriteOwn(wheel.guid(),
+           "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
   const Told told = Drive("{source: joystick}", 200, [&](lockstep::Step step) {
     if (step == 100) wheel.Axis(2, 32767);
   });
@@ -247,7 +259,9 @@ TEST_F(FoundSource, AWheelsOwnFileNamesTheCamerasButton) {
   EXPECT_FALSE(camera->Pressed()) << "it has no file";
   wheel.Detach();
   EXPECT_FALSE(camera->Pressed());
-  WriteOwn(wheel.guid(), "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\nbrake: {axis: 3}\nbuttons: {camera: {button: 6}}\n");
+  WriteOwn(wheel.guid(),
+           "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() +
+               "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\nbrake: {axis: 3}\nbuttons: {camera: {button: 6}}\n");
   for (int times = 0; times < 2; ++times) {
     wheel.Attach();
     EXPECT_FALSE(camera->Pressed());

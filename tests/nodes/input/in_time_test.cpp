@@ -1,4 +1,5 @@
-// What is promised of the wheel in seconds: runs at real pace, which run alone. SDL's virtual joystick, a motor of the test's.
+// What is promised of the wheel in seconds: runs at real pace, which run alone. SDL's virtual joystick, a motor of the
+// test's.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,7 +69,8 @@ class LoggedMotor final : public input_devices::ForceDevice {
 // A vehicle that is lost at a step: in its place nobody answers any more.
 class Mortal final : public lockstep::Node {
  public:
-  Mortal(lockstep::Node& whole, lockstep::Step dies_at, std::atomic<double>& died_s) : whole_(whole), dies_at_(dies_at), died_s_(died_s) {}
+  Mortal(lockstep::Node& whole, lockstep::Step dies_at, std::atomic<double>& died_s)
+      : whole_(whole), dies_at_(dies_at), died_s_(died_s) {}
   base::Status Initialise(lockstep::Outbox& outbox) override { return whole_.Initialise(outbox); }
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     if (step.step < dies_at_) return whole_.Step(step, inbox, outbox);
@@ -91,11 +93,15 @@ class InTime : public testing::Test {
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
   }
-  // A wheel with a motor drives a car at real pace; the axes move at steps, so that the rim is known and the road pulls.
-  void Drive(VirtualWheel& wheel, lockstep::InProcessSettings settings, const std::function<void(Step)>& moves = {}, std::optional<Step> car_dies_at = std::nullopt) {
+  // A wheel with a motor drives a car at real pace; the axes move at steps, so that the rim is known and the road
+  // pulls.
+  void Drive(VirtualWheel& wheel, lockstep::InProcessSettings settings, const std::function<void(Step)>& moves = {},
+             std::optional<Step> car_dies_at = std::nullopt) {
     wheel.Axis(2, -32768);
     const launch::Launch launch =
-        launch::Launch::Parse(LiveLaunch("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}"), std::filesystem::path(SourceDir()) / "launch/live.yaml").value();
+        launch::Launch::Parse(LiveLaunch("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}"),
+                              std::filesystem::path(SourceDir()) / "launch/live.yaml")
+            .value();
     input_devices::WheelSettings use;
     use.devices = {{"rim", wheel.guid(), ""}};
     use.axes[static_cast<std::size_t>(input_devices::WheelAxis::kSteering)].emplace();
@@ -103,10 +109,11 @@ class InTime : public testing::Test {
     const auto driver = launch.roster().Find("driver"), ego = launch.roster().Find("ego");
     auto nodes = cli::LocalNodes::Make(launch, [&](lockstep::NodeIndex node) -> std::unique_ptr<lockstep::Node> {
       if (node != driver) return nullptr;
-      auto source = nodes::OpenWheel(use, "driver", [&](_SDL_Joystick* joystick, bool) -> std::unique_ptr<input_devices::ForceDevice> {
-        if (joystick == nullptr) return nullptr;
-        return std::make_unique<LoggedMotor>(log_);
-      });
+      auto source = nodes::OpenWheel(use, "driver",
+                                     [&](_SDL_Joystick* joystick, bool) -> std::unique_ptr<input_devices::ForceDevice> {
+                                       if (joystick == nullptr) return nullptr;
+                                       return std::make_unique<LoggedMotor>(log_);
+                                     });
       EXPECT_TRUE(source.ok()) << source.error().Text();
       return nodes::InputNodeOf(std::move(source).value(), launch.roster().base_step_ns());
     });
@@ -150,7 +157,8 @@ TEST_F(InTime, APauseFreesTheWheelWithinATenthOfASecondAndItFadesInAfterwards) {
     }
     if (paused_s > 0.0 && resumed_s == 0.0 && Now_s() > paused_s + 0.5) {
       end_of_effects_s = log_.EndsAt_s();
-      return lockstep::Asked{{Kind::kResume, 1, 0.0, ""}, [&](const base::Result<std::string>&) { resumed_s = Now_s(); }};
+      return lockstep::Asked{{Kind::kResume, 1, 0.0, ""},
+                             [&](const base::Result<std::string>&) { resumed_s = Now_s(); }};
     }
     return std::nullopt;
   };
@@ -161,7 +169,8 @@ TEST_F(InTime, APauseFreesTheWheelWithinATenthOfASecondAndItFadesInAfterwards) {
   EXPECT_GT(end_of_effects_s, 0.0);
   EXPECT_LE(end_of_effects_s - paused_s, 0.1);
   const std::lock_guard lock(log_.mutex);
-  const auto after = std::find_if(log_.told.begin(), log_.told.end(), [&](const MotorLog::Told& one) { return one.at_s > paused_s + 0.3; });
+  const auto after = std::find_if(log_.told.begin(), log_.told.end(),
+                                  [&](const MotorLog::Told& one) { return one.at_s > paused_s + 0.3; });
   ASSERT_NE(after, log_.told.end());
   EXPECT_EQ(after->share, 0.0) << "from nothing again";
 }
@@ -227,7 +236,9 @@ TEST_F(InTime, AWheelThatIsPluggedInAgainDrivesWithinTwoSeconds) {
     }
     if (step == 1400) wheel.Axis(2, 32767);
     if (step == 1400) wheel.Axis(0, 16384);
-    if (driven_s == 0.0 && step > 1300 && controls_.at(step).throttle() > 0.9 && controls_.at(step).steering_wheel_rad() < -1.0) driven_s = seen_s_.at(step);
+    if (driven_s == 0.0 && step > 1300 && controls_.at(step).throttle() > 0.9 &&
+        controls_.at(step).steering_wheel_rad() < -1.0)
+      driven_s = seen_s_.at(step);
   });
   ASSERT_TRUE(outcome_.ok) << outcome_.fault;
   ASSERT_GT(driven_s, 0.0) << "it drives again";

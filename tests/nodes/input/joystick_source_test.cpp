@@ -26,10 +26,11 @@ class JoystickSource : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
   std::string WheelFile(const std::string& guid, const std::string& more = "") const {
-    const std::string text = "rodeira: wheel/1\ndevices: {rim: \"" + guid + "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
-                             "throttle: {axis: 2, inverted: true}\nbrake: {axis: 3, inverted: true}\nbuttons: {gear_up: {button: "
-                             "4}, gear_down: {button: 5}}\n" +
-                             more;
+    const std::string text =
+        "rodeira: wheel/1\ndevices: {rim: \"" + guid + "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
+        "throttle: {axis: 2, inverted: true}\nbrake: {axis: 3, inverted: true}\nbuttons: {gear_up: {button: "
+        "4}, gear_down: {button: 5}}\n" +
+        more;
     const auto path = folder_ / "wheel.yaml";
     EXPECT_TRUE(base::WriteWhole(path, std::string_view(text)).ok());
     return path.string();
@@ -86,7 +87,8 @@ TEST_F(JoystickSource, TheWheelDrivesTheCar) {
   EXPECT_EQ(drive.controls.at(100).throttle(), 0.0) << "nobody has touched it";
   EXPECT_EQ(drive.controls.at(110).throttle(), 1.0) << "what is there at an activation is that activation's sample";
   EXPECT_EQ(drive.controls.at(2500).steering_wheel_rad(), 0.0);
-  EXPECT_NEAR(drive.controls.at(2510).steering_wheel_rad(), 225.0 * 3.14159265358979 / 180.0, 1e-3) << "half to the left";
+  EXPECT_NEAR(drive.controls.at(2510).steering_wheel_rad(), 225.0 * 3.14159265358979 / 180.0, 1e-3)
+      << "half to the left";
   EXPECT_EQ(drive.controls.at(3010).throttle(), 0.0);
   EXPECT_NEAR(drive.controls.at(3010).brake(), 0.5, 1e-4);
   EXPECT_GT(drive.last.odometer_m(), 4.0);
@@ -123,7 +125,8 @@ TEST_F(JoystickSource, UnpluggedInTheRunThePedalsAreReleasedTheSteeringStaysAndT
   EXPECT_NE(said.find("is there again"), std::string::npos) << said;
 }
 
-// The operator's button and the window's: a press counts once, one that is held at the beginning does not, and a wheel may come and go.
+// The operator's button and the window's: a press counts once, one that is held at the beginning does not, and a wheel
+// may come and go.
 TEST_F(JoystickSource, ButtonsForPauseAndCameraArePressesAndNoControls) {
   VirtualWheel wheel;
   const std::string config = "{source: joystick, wheel: " + WheelFile(wheel.guid()) + "}";
@@ -164,7 +167,8 @@ TEST_F(JoystickSource, ButtonsForPauseAndCameraArePressesAndNoControls) {
   wheel.Button(6, true);
   EXPECT_TRUE(camera->Pressed());
   EXPECT_TRUE(pause->Pressed());
-  EXPECT_EQ(cli::PauseButtons::Open(LaunchOf("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}")), nullptr);
+  EXPECT_EQ(cli::PauseButtons::Open(LaunchOf("{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}")),
+            nullptr);
   EXPECT_EQ(nodes::WheelButtons::Open({}), nullptr);
 }
 
@@ -179,7 +183,8 @@ TEST_F(JoystickSource, AMissingDeviceIsOneSentenceThatListsWhatIsThere) {
   EXPECT_NE(said.find("connected: "), std::string::npos) << said;
   EXPECT_NE(said.find(wheel.guid()), std::string::npos) << said;
   // The GUID of the launch file stands above that of the wheel file.
-  EXPECT_EQ(Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + ", devices: {rim: \"" + wheel.guid() + "\"}}"), "");
+  EXPECT_EQ(
+      Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + ", devices: {rim: \"" + wheel.guid() + "\"}}"), "");
   EXPECT_NE(Complaint("{source: joystick, wheel: " + WheelFile(nowhere) + ", devices: {rym: \"" + wheel.guid() + "\"}}")
                 .find("the wheel file has no device 'rym'; did you mean 'rim'?"),
             std::string::npos);
@@ -187,7 +192,8 @@ TEST_F(JoystickSource, AMissingDeviceIsOneSentenceThatListsWhatIsThere) {
 
 TEST_F(JoystickSource, AnAxisThatTheDeviceDoesNotHaveIsRefused) {
   VirtualWheel wheel;
-  const std::string axis = Complaint("{source: joystick, wheel: " + WheelFile(wheel.guid(), "clutch: {axis: 7}\n") + "}");
+  const std::string axis =
+      Complaint("{source: joystick, wheel: " + WheelFile(wheel.guid(), "clutch: {axis: 7}\n") + "}");
   EXPECT_NE(axis.find("wheel.yaml:7: axis 7 of device 'rim' was asked for; "), std::string::npos) << axis;
   EXPECT_NE(axis.find("has 4 (the first is 0)"), std::string::npos) << axis;
   const std::string button =

@@ -16,7 +16,8 @@ LiveDrive Drive(const KeyScript& script, lockstep::Step last) { return DriveByKe
 
 // Held when the sample valid at 100 appears (activation 90): activation 100 sees it first, its sample is valid at 110.
 TEST(KeyboardSource, AKeyBecomesControlsAtTheNextActivation) {
-  const auto settings = input_devices::LoadKeyboard(std::filesystem::path(SourceDir()) / "configs/drivers/keyboard.yaml").value();
+  const auto settings =
+      input_devices::LoadKeyboard(std::filesystem::path(SourceDir()) / "configs/drivers/keyboard.yaml").value();
   const LiveDrive drive = Drive({{100, {"w"}}, {2000, {}}}, 3000);
   for (const auto& [step, controls] : drive.controls) {
     const double held_s = std::clamp(static_cast<double>(step - 100), 0.0, 1900.0) * 1e-3;
@@ -51,7 +52,8 @@ TEST(KeyboardSource, AGearIsChangedOncePerPressAndTheCarGoesBackward) {
 
 // Indicators, headlights and horn stand in the controls, and the car publishes what shines.
 TEST(KeyboardSource, LampsAndHornAreInTheControlsAndOnTheCar) {
-  const LiveDrive drive = Drive({{100, {"comma"}}, {200, {}}, {300, {"l", "g"}}, {600, {}}, {700, {"slash"}}, {800, {}}}, 1000);
+  const LiveDrive drive =
+      Drive({{100, {"comma"}}, {200, {}}, {300, {"l", "g"}}, {600, {}}, {700, {"slash"}}, {800, {}}}, 1000);
   EXPECT_EQ(drive.controls.at(100).indicators(), 0u);
   EXPECT_EQ(drive.controls.at(110).indicators(), 1u);
   EXPECT_EQ(drive.controls.at(300).headlights(), 0u);
@@ -68,7 +70,8 @@ TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
   const base::Digest digest = Drive({}, 1500).outcome.digest;
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
   // Which window speaks, and how often, is in no state: only what is held.
-  const auto launch = launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
+  const auto launch =
+      launch::Launch::Parse(LiveLaunch(kConfig), std::filesystem::path(SourceDir()) / "launch/live.yaml");
   auto nodes = cli::LocalNodes::Make(launch.value());
   EXPECT_EQ(DriveLive(launch.value(), nodes.value(), 1500, nullptr).outcome.digest, digest) << "without any window";
   EXPECT_NE(Drive({{100, {"w"}}}, 1500).outcome.digest, digest);
@@ -78,14 +81,16 @@ TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
 
 TEST(KeyboardSource, WrongFilesAreRefused) {
   const auto complaint = [](const std::string& config) {
-    const auto launch = launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml");
+    const auto launch =
+        launch::Launch::Parse(LiveLaunch(config), std::filesystem::path(SourceDir()) / "launch/live.yaml");
     if (!launch) return launch.error().Text();
     auto nodes = cli::LocalNodes::Make(launch.value());
     if (nodes.ok()) return std::string();
     EXPECT_EQ(nodes.error().exit_status(), 2);
     return nodes.error().Text();
   };
-  EXPECT_NE(complaint("{source: keybord}").find("did you mean 'keyboard'?"), std::string::npos) << complaint("{source: keybord}");
+  EXPECT_NE(complaint("{source: keybord}").find("did you mean 'keyboard'?"), std::string::npos)
+      << complaint("{source: keybord}");
   EXPECT_NE(complaint("{source: keyboard}").find("'nodes.driver.config.keyboard' is missing"), std::string::npos)
       << complaint("{source: keyboard}");
   EXPECT_NE(complaint("{source: keyboard, keyboard: no.yaml}").find("there is no such file"), std::string::npos);

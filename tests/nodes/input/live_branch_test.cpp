@@ -1,4 +1,5 @@
-// A branch whose new driver is a person: recorded up to T, then another source goes on where the first one left the hands.
+// A branch whose new driver is a person: recorded up to T, then another source goes on where the first one left the
+// hands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -31,8 +32,8 @@ class LiveBranch : public ::testing::Test {
     auto started = nodes::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
-    const auto ended = system_test::RunCommand({Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"), "--in-process",
-                                                "--record", File("parent.mcap"), "--for", "4"});
+    const auto ended = system_test::RunCommand({Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"),
+                                                "--in-process", "--record", File("parent.mcap"), "--for", "4"});
     ASSERT_EQ(ended.status, 0) << ended.out;
   }
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
@@ -66,10 +67,15 @@ class LiveBranch : public ::testing::Test {
 TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {
   VirtualWheel wheel;
   wheel.Axis(2, 32767);
-  const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
+  const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() +
+                                                    "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
                                                     "throttle: {axis: 2, inverted: true}\n");
   const auto parent = ControlsOf(File("parent.mcap"));
-  BranchWish wish{File("parent.mcap"), 2000, {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}}, 4000, File("live.mcap")};
+  BranchWish wish{File("parent.mcap"),
+                  2000,
+                  {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
+                  4000,
+                  File("live.mcap")};
   wish.pace = 2.0;
   // The hand moves a while after the drive has begun: an axis counts from its first move on.
   std::optional<std::chrono::steady_clock::time_point> begun;
@@ -106,8 +112,13 @@ TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {
 
 TEST_F(LiveBranch, StoppedByCtrlCItKeepsWhatThePersonHasDriven) {
   VirtualWheel wheel;
-  const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() + "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
-  BranchWish wish{File("parent.mcap"), 1000, {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}}, 100'000, File("live.mcap")};
+  const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() +
+                                                    "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
+  BranchWish wish{File("parent.mcap"),
+                  1000,
+                  {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
+                  100'000,
+                  File("live.mcap")};
   wish.pace = 1.0;
   bool stop = false;
   int asked = 0;
@@ -126,7 +137,8 @@ TEST_F(LiveBranch, StoppedByCtrlCItKeepsWhatThePersonHasDriven) {
 TEST_F(LiveBranch, AnyDriverGoesOnWithTheHandsOfAnyOther) {
   const std::string keyboard = "{source: keyboard, keyboard: \"" + Source("configs/drivers/keyboard.yaml") + "\"}";
   const auto parent = ControlsOf(File("parent.mcap"));
-  const auto to_keys = Branch({File("parent.mcap"), 2000, {{"nodes.driver.config", keyboard}}, 3000, File("keys.mcap")});
+  const auto to_keys =
+      Branch({File("parent.mcap"), 2000, {{"nodes.driver.config", keyboard}}, 3000, File("keys.mcap")});
   ASSERT_TRUE(to_keys.ok()) << to_keys.error().Text();
   EXPECT_THAT(to_keys.value().live, ElementsAre("driver"));
   const auto keys = ControlsOf(File("keys.mcap"));
@@ -138,10 +150,12 @@ TEST_F(LiveBranch, AnyDriverGoesOnWithTheHandsOfAnyOther) {
   ExpectIdentical(File("keys.mcap"), {"driver"});
 
   const std::string script = "{source: script, script: \"" + Source("configs/scenarios/first_drive.csv") + "\"}";
-  const auto back = Branch({File("keys.mcap"), 2500, {{"nodes.driver.config", script}}, std::nullopt, File("script.mcap")});
+  const auto back =
+      Branch({File("keys.mcap"), 2500, {{"nodes.driver.config", script}}, std::nullopt, File("script.mcap")});
   ASSERT_TRUE(back.ok()) << back.error().Text();
   EXPECT_TRUE(back.value().live.empty());
-  EXPECT_EQ(ControlsOf(File("script.mcap")).at(3000).throttle(), parent.at(3000).throttle()) << "a script is a function of time";
+  EXPECT_EQ(ControlsOf(File("script.mcap")).at(3000).throttle(), parent.at(3000).throttle())
+      << "a script is a function of time";
   ExpectIdentical(File("script.mcap"), {});
 }
 

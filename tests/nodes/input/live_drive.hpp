@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "common/vehicle/input_devices/key_names.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
+#include "common/vehicle/input_devices/key_names.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -20,7 +20,8 @@ namespace rodeira {
 
 // A car on the plane, driven by an input node of the test's choice, in this process.
 inline std::string LiveLaunch(const std::string& input_config) {
-  return "rodeira: launch/1\nworld: ../configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n  driver:\n    kind: input\n    "
+  return "rodeira: launch/1\nworld: ../configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n  driver:\n    kind: "
+         "input\n    "
          "config: " +
          input_config + "\n  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml}}\n";
 }

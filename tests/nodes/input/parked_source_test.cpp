@@ -10,9 +10,12 @@ namespace {
 
 // On N222, whose start is on a grade.
 LiveDrive DriveOnAHill(const KeyScript& script, lockstep::Step last, const std::string& start = "") {
-  return DriveByKeys("rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}}\n"
-                     "  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml" + start + "}}\n",
-                     script, last);
+  return DriveByKeys(
+      "rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, "
+      "config: {source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}}\n"
+      "  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml" +
+          start + "}}\n",
+      script, last);
 }
 
 double Speed(const LiveDrive& drive) {

@@ -7,9 +7,9 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
-#include "common/vehicle/input_devices/force_feedback.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
+#include "common/vehicle/input_devices/force_feedback.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -33,9 +33,15 @@ std::vector<Seen> DriveStraight() {
   const auto folder = base::TemporaryFolder::Make("road_feel");
   EXPECT_TRUE(folder.ok());
   const auto script = folder.value().path() / "straight.csv";
-  EXPECT_TRUE(base::WriteWhole(script, std::string_view("time_s,steering_wheel_deg,throttle,brake\n0,0,0.3,0\n60,0,0.3,0\n")).ok());
-  const std::string text = "rodeira: launch/1\nworld: ../configs/worlds/flat.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, config: {source: script, script: \"" + script.string() +
-                           "\"}}\n  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml, start: {x_m: -498, y_m: -122, heading_deg: 0, speed_mps: 20}}}\n";
+  EXPECT_TRUE(
+      base::WriteWhole(script, std::string_view("time_s,steering_wheel_deg,throttle,brake\n0,0,0.3,0\n60,0,0.3,0\n"))
+          .ok());
+  const std::string text =
+      "rodeira: launch/1\nworld: ../configs/worlds/flat.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, "
+      "config: {source: script, script: \"" +
+      script.string() +
+      "\"}}\n  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml, start: {x_m: -498, y_m: -122, "
+      "heading_deg: 0, speed_mps: 20}}}\n";
   auto launch = launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "launch/road_feel.yaml");
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = cli::LocalNodes::Make(launch.value());
@@ -44,9 +50,12 @@ std::vector<Seen> DriveStraight() {
   lockstep::InProcessSettings settings;
   settings.last_step = 24'000;
   settings.on_sample = [&](const lockstep::Sample& sample) {
-    if (launch.value().roster().source(sample.source()).topic != idl::topics::kVehicleState || sample.valid() % kPeriod_steps != 0) return;
+    if (launch.value().roster().source(sample.source()).topic != idl::topics::kVehicleState ||
+        sample.valid() % kPeriod_steps != 0)
+      return;
     const auto state = idl::Decode<msg::VehicleState>(*sample.payload).value();
-    seen.push_back({1e-3 * static_cast<double>(sample.valid()), state.position_w_m().x() + 500.0, state.position_w_m().y() + 122.0, nodes::SeenOf(state)});
+    seen.push_back({1e-3 * static_cast<double>(sample.valid()), state.position_w_m().x() + 500.0,
+                    state.position_w_m().y() + 122.0, nodes::SeenOf(state)});
   };
   const auto outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), settings);
   EXPECT_TRUE(outcome.ok) << outcome.fault;
@@ -54,12 +63,14 @@ std::vector<Seen> DriveStraight() {
 }
 
 // The rim's torque where the car is between two stations: its root mean square, in Nm.
-double Felt_Nm(const std::vector<Seen>& drive, const input_devices::ForceSettings& settings, double from_m, double to_m) {
+double Felt_Nm(const std::vector<Seen>& drive, const input_devices::ForceSettings& settings, double from_m,
+               double to_m) {
   input_devices::ForceFeedback law(settings);
   double squares = 0.0;
   int count = 0;
   for (const Seen& seen : drive) {
-    const double share = law.Step({0.0, 7.85, seen.car.steering_torque_Nm, seen.car.front_load_difference_N}, seen.time_s);
+    const double share =
+        law.Step({0.0, 7.85, seen.car.steering_torque_Nm, seen.car.front_load_difference_N}, seen.time_s);
     EXPECT_LE(std::fabs(share), 1.0);
     if (seen.s_m < from_m || seen.s_m > to_m) continue;
     squares += std::pow(share * settings.device_Nm, 2);
@@ -78,7 +89,8 @@ TEST(RoadFeel, ARoughRoadIsFeltWithTheWheelStraightAndASmoothOneIsNot) {
     ASSERT_NEAR(seen.car.speed_mps, kSpeed_mps, 5.0) << seen.s_m;
   }
   input_devices::ForceSettings settings;
-  const double smooth = Felt_Nm(drive, settings, 175.0, 195.0), a = Felt_Nm(drive, settings, 60.0, 150.0), c = Felt_Nm(drive, settings, 210.0, 300.0), e = Felt_Nm(drive, settings, 360.0, 450.0);
+  const double smooth = Felt_Nm(drive, settings, 175.0, 195.0), a = Felt_Nm(drive, settings, 60.0, 150.0),
+               c = Felt_Nm(drive, settings, 210.0, 300.0), e = Felt_Nm(drive, settings, 360.0, 450.0);
   EXPECT_LT(smooth, 0.002);
   EXPECT_GT(a, 5.0 * smooth);
   EXPECT_GT(c, 2.0 * a);
@@ -86,7 +98,8 @@ TEST(RoadFeel, ARoughRoadIsFeltWithTheWheelStraightAndASmoothOneIsNot) {
   settings.road_feel = 0.0;
   const double without = Felt_Nm(drive, settings, 210.0, 300.0);
   EXPECT_LT(without, 0.25 * c) << "trail times side force knows little of it";
-  std::printf("felt at the rim, Nm RMS: smooth %.4f, A %.4f, C %.4f, E %.4f; C without road_feel %.4f\n", smooth, a, c, e, without);
+  std::printf("felt at the rim, Nm RMS: smooth %.4f, A %.4f, C %.4f, E %.4f; C without road_feel %.4f\n", smooth, a, c,
+              e, without);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ class VirtualDevice {
     SDL_JoystickClose(joystick_);
     joystick_ = nullptr;
   }
-  void Axis(int axis, int value) { EXPECT_EQ(SDL_JoystickSetVirtualAxis(joystick_, axis, static_cast<Sint16>(value)), 0); }
+  void Axis(int axis, int value) {
+    EXPECT_EQ(SDL_JoystickSetVirtualAxis(joystick_, axis, static_cast<Sint16>(value)), 0);
+  }
   void Button(int button, bool down) { EXPECT_EQ(SDL_JoystickSetVirtualButton(joystick_, button, down ? 1 : 0), 0); }
 
  protected:

@@ -10,10 +10,18 @@ using lockstep::Step;
 
 // Two sources, one each step and one each third, and who writes them down.
 lockstep::Roster MakeRoster() {
-  return lockstep::Roster::Create(1'000'000, 100,
-                                  {{"fast", "t", Role::kStepped, 1, 0, 0, {"a"}, {}},
-                                   {"slow", "t", Role::kStepped, 3, 0, 0, {"b"}, {}},
-                                   {"recorder", "t", Role::kStepped, 5, 0, 0, {}, {{"a", lockstep::PortKind::kEvent, {"fast"}}, {"b", lockstep::PortKind::kEvent, {"slow"}}}}})
+  return lockstep::Roster::Create(
+             1'000'000, 100,
+             {{"fast", "t", Role::kStepped, 1, 0, 0, {"a"}, {}},
+              {"slow", "t", Role::kStepped, 3, 0, 0, {"b"}, {}},
+              {"recorder",
+               "t",
+               Role::kStepped,
+               5,
+               0,
+               0,
+               {},
+               {{"a", lockstep::PortKind::kEvent, {"fast"}}, {"b", lockstep::PortKind::kEvent, {"slow"}}}}})
       .value();
 }
 
@@ -35,7 +43,7 @@ TEST(WrittenSamples, GapsAtTheBeginningWithinAndAtTheEndAreCounted) {
   const lockstep::Roster roster = MakeRoster();
   WrittenSamples written(roster, 2);
   for (const Step step : {2, 3, 6, 7}) written.Note(step, 0);  // 0, 1, 4, 5 and 8, 9 are missing
-  for (const Step step : {0, 9}) written.Note(step, 1);         // 3 and 6
+  for (const Step step : {0, 9}) written.Note(step, 1);        // 3 and 6
   EXPECT_EQ(written.Entries(9), (record::TextMap{{"samples", "6"}, {"sources", "2"}, {"missing", "8"}}));
 }
 
@@ -46,7 +54,8 @@ TEST(WrittenSamples, AnotherLifeBeginsWhereTheFirstOneEnded) {
   EXPECT_EQ(Missing(written, 6), "1");
   written.Note(6, 1);
   written.Note(7, 0);
-  EXPECT_EQ(written.Entries(7), (record::TextMap{{"samples", "11"}, {"sources", "2"}, {"missing", "0"}})) << "0 to 7 and 0, 3, 6";
+  EXPECT_EQ(written.Entries(7), (record::TextMap{{"samples", "11"}, {"sources", "2"}, {"missing", "0"}}))
+      << "0 to 7 and 0, 3, 6";
 }
 
 }  // namespace

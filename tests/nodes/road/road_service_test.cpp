@@ -1,5 +1,5 @@
-// The road server's answers by request and reply, through the bytes that go over DDS: patches, batches and all layers are to the bit what
-// the world says in process.
+// The road server's answers by request and reply, through the bytes that go over DDS: patches, batches and all layers
+// are to the bit what the world says in process.
 #include "nodes/road/road_service.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,9 @@ class Context final : public launch::NodeContext {
  public:
   using launch::NodeContext::NodeContext;
   ground::Ground& Ground() override { std::abort(); }  // who serves it does not ask for it
-  base::Result<launch::WorldSummary> World() override { return base::Failed("nobody asks the server for its own world", ""); }
+  base::Result<launch::WorldSummary> World() override {
+    return base::Failed("nobody asks the server for its own world", "");
+  }
 };
 
 // A network of one server: what is written to it is answered on the spot, as bytes.
@@ -34,7 +36,8 @@ class Wire final : public dds::Participant {
     EXPECT_EQ(topic, idl::topics::kGroundRequest);
     return std::unique_ptr<dds::Writer>(std::make_unique<Asker>(*this));
   }
-  base::Result<std::unique_ptr<dds::Reader>> MakeReader(std::string_view topic, dds::Delivery, dds::OnPayload on_payload) override {
+  base::Result<std::unique_ptr<dds::Reader>> MakeReader(std::string_view topic, dds::Delivery,
+                                                        dds::OnPayload on_payload) override {
     EXPECT_EQ(topic, idl::topics::kGroundReply);
     on_payload_ = std::move(on_payload);
     return std::make_unique<dds::Reader>();
@@ -58,7 +61,9 @@ class Wire final : public dds::Participant {
 };
 
 msg::WorldInfo AnnouncedOf(const std::string& world) {
-  auto launch = launch::Launch::Parse("rodeira: launch/1\nworld: " + world + "\nnodes:\n  road: {kind: road}\n  other: {kind: empty}\n", "made.yaml", {});
+  auto launch = launch::Launch::Parse(
+      "rodeira: launch/1\nworld: " + world + "\nnodes:\n  road: {kind: road}\n  other: {kind: empty}\n", "made.yaml",
+      {});
   EXPECT_TRUE(launch.ok()) << launch.error().Text();
   Context context(launch.value(), 0);
   auto service = MakeRoadService(context);
@@ -69,10 +74,16 @@ msg::WorldInfo AnnouncedOf(const std::string& world) {
 // What the server announces of a world, whichever kind of file it is: counted by hand.
 TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
   const cli::TemporaryFolder folder;
-  const std::string straight = "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
-                               "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n";
-  const auto open_drive = folder.Write("two.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">" + straight +
-                                                   "<road id=\"2\" length=\"60\" junction=\"-1\">" + straight + "</OpenDRIVE>\n");
+  const std::string straight =
+      "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+      "length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
+      "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
+      "d=\"0\"/></lane></right></laneSection></lanes></road>\n";
+  const auto open_drive =
+      folder.Write("two.xodr",
+                   "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" "
+                   "length=\"60\" junction=\"-1\">" +
+                       straight + "<road id=\"2\" length=\"60\" junction=\"-1\">" + straight + "</OpenDRIVE>\n");
   EXPECT_EQ(AnnouncedOf(open_drive.string()).roads(), 2u);
   EXPECT_EQ(AnnouncedOf(SourceDir() + "/tests/data/n222_version1.yaml").roads(), 1u);
   const msg::WorldInfo ring = AnnouncedOf(SourceDir() + "/configs/worlds/ring.yaml");  // of version 2
@@ -83,15 +94,18 @@ TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
 
 bool Same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 bool Same(const ground::GroundPoint& a, const ground::GroundPoint& b) {
-  return a.inside == b.inside && Same(a.z_m, b.z_m) && Same(a.normal_W.x(), b.normal_W.x()) && Same(a.normal_W.y(), b.normal_W.y()) && Same(a.normal_W.z(), b.normal_W.z()) &&
-         Same(a.friction, b.friction) && a.surface == b.surface;
+  return a.inside == b.inside && Same(a.z_m, b.z_m) && Same(a.normal_W.x(), b.normal_W.x()) &&
+         Same(a.normal_W.y(), b.normal_W.y()) && Same(a.normal_W.z(), b.normal_W.z()) && Same(a.friction, b.friction) &&
+         a.surface == b.surface;
 }
 
 class RoadServer : public testing::Test {
  protected:
   void SetUp() override {
     const std::string world = SourceDir() + "/configs/worlds/example/world.yaml";
-    auto launch = launch::Launch::Parse("rodeira: launch/1\nworld: " + world + "\nnodes:\n  road: {kind: road}\n  other: {kind: empty}\n", "made.yaml", {});
+    auto launch = launch::Launch::Parse(
+        "rodeira: launch/1\nworld: " + world + "\nnodes:\n  road: {kind: road}\n  other: {kind: empty}\n", "made.yaml",
+        {});
     ASSERT_TRUE(launch.ok()) << launch.error().Text();
     launch_ = std::make_unique<launch::Launch>(std::move(launch).value());
     Context context(*launch_, 0);
@@ -112,20 +126,25 @@ class RoadServer : public testing::Test {
   std::shared_ptr<const road::World> world_;
 };
 
-// Tyres' patches all along the example's main road, with what is laid on it, on its bridge and in its junction: each one question.
+// Tyres' patches all along the example's main road, with what is laid on it, on its bridge and in its junction: each
+// one question.
 TEST_F(RoadServer, PatchesAreTheSameBits) {
   int patches = 0;
   for (const network::Road& road : world_->network()->roads()) {
     for (double s = 1.0; s < road.length_m(); s += 3.7, ++patches) {
-      const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({static_cast<std::uint64_t>(patches), 1}, -4.0, 4.0)).p_W;
+      const Eigen::Vector3d p =
+          road.Surface(s, base::RandomUniform({static_cast<std::uint64_t>(patches), 1}, -4.0, 4.0)).p_W;
       const double hint = patches % 2 == 0 ? p.z() : std::numeric_limits<double>::quiet_NaN();
-      const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({static_cast<std::uint64_t>(patches), 2}, -3.0, 3.0), 0.25, 0.2, 9, 7, hint};
+      const ground::GroundPatch patch{
+          p.x(), p.y(), base::RandomUniform({static_cast<std::uint64_t>(patches), 2}, -3.0, 3.0), 0.25, 0.2, 9,
+          7,     hint};
       std::vector<ground::GroundPoint> there(patch.size()), here(patch.size());
       const int before = wire_->asked;
       remote_->Patch(patch, there);
       EXPECT_EQ(wire_->asked, before + 1);
       here_->Patch(patch, here);
-      for (std::size_t i = 0; i < here.size(); ++i) ASSERT_TRUE(Same(there[i], here[i])) << road.id() << " " << s << " point " << i;
+      for (std::size_t i = 0; i < here.size(); ++i)
+        ASSERT_TRUE(Same(there[i], here[i])) << road.id() << " " << s << " point " << i;
     }
   }
   EXPECT_GT(patches, 200);
@@ -138,11 +157,13 @@ TEST_F(RoadServer, LayersAreTheSameBits) {
     Eigen::Vector2d p(base::RandomUniform({i, 1}, -450.0, 650.0), base::RandomUniform({i, 2}, -450.0, 450.0));
     if (i % 2 == 0) {
       const network::Road& road = world_->network()->roads()[i / 2 % world_->network()->roads().size()];
-      p = road.Surface(base::RandomUniform({i, 3}, 0.0, road.length_m()), base::RandomUniform({i, 4}, -3.0, 3.0)).p_W.head<2>();
+      p = road.Surface(base::RandomUniform({i, 3}, 0.0, road.length_m()), base::RandomUniform({i, 4}, -3.0, 3.0))
+              .p_W.head<2>();
     }
     const auto there = remote_->Layers(p.x(), p.y()), here = here_->Layers(p.x(), p.y());
     ASSERT_EQ(there.size(), here.size()) << p.transpose();
-    for (std::size_t k = 0; k < here.size(); ++k) EXPECT_TRUE(Same(there[k], here[k])) << p.transpose() << " layer " << k;
+    for (std::size_t k = 0; k < here.size(); ++k)
+      EXPECT_TRUE(Same(there[k], here[k])) << p.transpose() << " layer " << k;
     several += here.size() > 1;
     none += here.empty();
   }

@@ -1,4 +1,5 @@
-// What a window asks for becomes events of the run: the car stands elsewhere, the weather changes, and a recording has it all.
+// What a window asks for becomes events of the run: the car stands elsewhere, the weather changes, and a recording has
+// it all.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,16 +9,16 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
+#include "common/driving/scenario/request.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
-#include "common/world/road/world.hpp"
-#include "common/driving/scenario/request.hpp"
 #include "common/runtime/replay/recorded_run.hpp"
+#include "common/world/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "launch/rodeira/run/local_nodes.hpp"
 #include "launch/rodeira/replay/verify.hpp"
+#include "launch/rodeira/run/local_nodes.hpp"
 #include "nodes/view/run_connection/ask_place.hpp"
 #include "tests/n222.hpp"
 
@@ -43,13 +44,20 @@ class Requests : public testing::Test {
   // A script's drive on N222; `scenario` is the scenario node's config.
   launch::Launch LaunchOf(const std::string& scenario) const {
     const std::string configs = SourceDir() + "/configs";
-    const std::string text =
-        "rodeira: launch/1\nworld: " + configs + "/worlds/n222.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
-        "  driver: {kind: input, config: {source: script, script: " + configs + "/scenarios/first_drive.csv}}\n"
-        "  ego: {kind: vehicle, config: {vehicle: " + configs + "/vehicles/default.yaml}}\n"
-        "  others: {kind: traffic, config: {vehicles: 5}}\n"
-        "  story: {kind: scenario, config: " + scenario + "}\n"
-        "  recorder: {kind: recorder, config: {file: \"" + File() + "\"}}\n";
+    const std::string text = "rodeira: launch/1\nworld: " + configs +
+                             "/worlds/n222.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
+                             "  driver: {kind: input, config: {source: script, script: " +
+                             configs +
+                             "/scenarios/first_drive.csv}}\n"
+                             "  ego: {kind: vehicle, config: {vehicle: " +
+                             configs +
+                             "/vehicles/default.yaml}}\n"
+                             "  others: {kind: traffic, config: {vehicles: 5}}\n"
+                             "  story: {kind: scenario, config: " +
+                             scenario +
+                             "}\n"
+                             "  recorder: {kind: recorder, config: {file: \"" +
+                             File() + "\"}}\n";
     const auto path = folder_.path() / "requests.yaml";  // the recorder embeds it
     EXPECT_TRUE(base::WriteWhole(path, std::string_view(text)).ok());
     auto launch = launch::Launch::Load(path);
@@ -59,7 +67,8 @@ class Requests : public testing::Test {
   std::string File() const { return (folder_.path() / "run.mcap").string(); }
 
   // `hands` is called with each of the story's samples, on its thread, before its next activation.
-  static Driven Drive(const launch::Launch& launch, Step last, const std::function<void(Step, launch::LiveRequestsSender&)>& hands) {
+  static Driven Drive(const launch::Launch& launch, Step last,
+                      const std::function<void(Step, launch::LiveRequestsSender&)>& hands) {
     launch::RunLogBoard log;
     auto nodes = cli::LocalNodes::Make(launch, {}, &log);
     EXPECT_TRUE(nodes.ok()) << nodes.error().Text();
@@ -103,13 +112,15 @@ double HeadingOf(const msg::VehicleState& car) {
   return std::atan2(2.0 * (q.w() * q.z() + q.x() * q.y()), 1.0 - 2.0 * (q.y() * q.y() + q.z() * q.z()));
 }
 
-// Asked twice with the same number it happens once: at the scenario's next sample, and the car's INI there at that very step.
+// Asked twice with the same number it happens once: at the scenario's next sample, and the car's INI there at that very
+// step.
 TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   const auto world = N222();
   const road::Road& road = N222Road();
   const Eigen::Vector3d place = road.Position(400.0, road.LaneCentre(-1, 400.0));
   const double heading = road.Evaluate(400.0).heading_rad;
-  const auto request = scenario::PlaceRequest({"ego", place.x(), place.y(), place.z()}, heading * 180.0 / 3.14159265358979323846);
+  const auto request =
+      scenario::PlaceRequest({"ego", place.x(), place.y(), place.z()}, heading * 180.0 / 3.14159265358979323846);
   const auto launch = LaunchOf("{requests: true}");
   const Driven run = Drive(launch, 3000, [&](Step step, launch::LiveRequestsSender& window) {
     if (step == 1500 || step == 1510 || step == 1520) window.Say({Wire(1, request)});
@@ -133,7 +144,8 @@ TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   ExpectIdenticalFrom({0, 1200, 1511, 2000});
 }
 
-// What a window asks for whose person wants to begin again (nodes/view/run_connection/ask_place): the pose of the run's first sample.
+// What a window asks for whose person wants to begin again (nodes/view/run_connection/ask_place): the pose of the run's
+// first sample.
 TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   const auto world = N222();
   scene::Moment moment;
@@ -148,7 +160,8 @@ TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   ASSERT_TRUE(run.events.contains(2510));
   const auto &first = run.car.at(0), &before = run.car.at(2510), &after = run.car.at(2511);
   const auto apart_m = [](const msg::VehicleState& a, const msg::VehicleState& b) {
-    return std::hypot(a.position_w_m().x() - b.position_w_m().x(), a.position_w_m().y() - b.position_w_m().y(), a.position_w_m().z() - b.position_w_m().z());
+    return std::hypot(a.position_w_m().x() - b.position_w_m().x(), a.position_w_m().y() - b.position_w_m().y(),
+                      a.position_w_m().z() - b.position_w_m().z());
   };
   EXPECT_GT(apart_m(before, first), 1.0) << "it has driven";
   EXPECT_LT(apart_m(after, first), 1e-3);
@@ -160,17 +173,25 @@ TEST_F(Requests, WhereThereIsNoGroundTheCarStaysAndThatIsSaid) {
   const auto launch = LaunchOf("{requests: true}");
   testing::internal::CaptureStderr();
   const Driven run = Drive(launch, 1200, [&](Step step, launch::LiveRequestsSender& window) {
-    if (step == 1000) window.Say({Wire(1, scenario::PlaceRequest({"ego", 9e5, 0.0, std::nullopt}, 0.0)), Wire(2, scenario::PlaceRequest({"egon", 0.0, 0.0, std::nullopt}, 0.0)),
-                                  Wire(3, {"place", "ego", 0.0, NAN, 0.0}), Wire(4, {"fly", "ego", 0.0, 0.0, 0.0}), Wire(5, scenario::WeatherRequest("hail", 1.0))});
+    if (step == 1000)
+      window.Say({Wire(1, scenario::PlaceRequest({"ego", 9e5, 0.0, std::nullopt}, 0.0)),
+                  Wire(2, scenario::PlaceRequest({"egon", 0.0, 0.0, std::nullopt}, 0.0)),
+                  Wire(3, {"place", "ego", 0.0, NAN, 0.0}), Wire(4, {"fly", "ego", 0.0, 0.0, 0.0}),
+                  Wire(5, scenario::WeatherRequest("hail", 1.0))});
   });
   const std::string said = testing::internal::GetCapturedStderr();
   ASSERT_EQ(run.events.size(), 1u) << "only the first one is an event";
   EXPECT_EQ(run.events.begin()->second.size(), 1u);
   const auto &before = run.car.at(1010), &after = run.car.at(1011);
-  EXPECT_LT(std::hypot(after.position_w_m().x() - before.position_w_m().x(), after.position_w_m().y() - before.position_w_m().y()), 0.1);
+  EXPECT_LT(std::hypot(after.position_w_m().x() - before.position_w_m().x(),
+                       after.position_w_m().y() - before.position_w_m().y()),
+            0.1);
   EXPECT_EQ(after.inside_world(), 1u);
   EXPECT_NE(said.find("node 'ego': it stays where it is: "), std::string::npos) << said;
-  EXPECT_NE(said.find("node 'story': a request is refused: no vehicle 'egon' is wired to this scenario; did you mean 'ego'?"), std::string::npos) << said;
+  EXPECT_NE(
+      said.find("node 'story': a request is refused: no vehicle 'egon' is wired to this scenario; did you mean 'ego'?"),
+      std::string::npos)
+      << said;
   EXPECT_NE(said.find("is no place; "), std::string::npos) << said;
   EXPECT_NE(said.find("'fly' was asked for; place or weather was expected"), std::string::npos) << said;
   EXPECT_NE(said.find("'hail' is no weather"), std::string::npos) << said;
@@ -190,15 +211,22 @@ TEST_F(Requests, TheWeatherChangesFromTheStepOfItsEventOn) {
     EXPECT_NEAR(run.weather.at(step).wetness(), 0.8 * share, 1e-12) << step;
     EXPECT_NEAR(run.weather.at(step).rain_mmph(), 12.0 * share, 1e-12) << step;
   }
-  EXPECT_NEAR(run.car.at(3400).wheels()[0].friction() / run.car.at(100).wheels()[0].friction(), 1.0 - 0.8 * 0.3, 1e-3) << "asphalt keeps 0.7 of its friction";
+  EXPECT_NEAR(run.car.at(3400).wheels()[0].friction() / run.car.at(100).wheels()[0].friction(), 1.0 - 0.8 * 0.3, 1e-3)
+      << "asphalt keeps 0.7 of its friction";
   ExpectIdenticalFrom({0, 1000, 2000});
 }
 
-// The words of a scenario file do the same, without anybody asking; then it is computed again, not taken from the recording.
+// The words of a scenario file do the same, without anybody asking; then it is computed again, not taken from the
+// recording.
 TEST_F(Requests, AScenarioFilePlacesACarToo) {
   const auto path = folder_.path() / "story.yaml";
-  ASSERT_TRUE(base::WriteWhole(path, std::string_view("rodeira: scenario/1\nevents:\n  - {at_s: 1, name: vehicle.place, place: \"ego 30 5\", heading_deg: 90}\n"
-                                                      "  - {at_s: 1.2, name: weather, becomes: fog, over_s: 0}\n")).ok());
+  ASSERT_TRUE(
+      base::WriteWhole(
+          path,
+          std::string_view(
+              "rodeira: scenario/1\nevents:\n  - {at_s: 1, name: vehicle.place, place: \"ego 30 5\", heading_deg: 90}\n"
+              "  - {at_s: 1.2, name: weather, becomes: fog, over_s: 0}\n"))
+          .ok());
   const auto launch = LaunchOf("{scenario: \"" + path.string() + "\"}");
   const Driven run = Drive(launch, 1500, {});
   EXPECT_NEAR(run.car.at(1001).position_w_m().x(), 30.0, 1e-3);
@@ -218,7 +246,8 @@ TEST(LaunchFiles, ThoseThatAPersonWatchesTakeRequests) {
   const auto takes = [](const std::string& name, const launch::Overrides& changes = {}) {
     const auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch" / (name + ".yaml"), changes);
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
-    return launch.ok() && std::any_of(launch.value().nodes().begin(), launch.value().nodes().end(), [](const launch::LaunchNode& node) { return node.takes_requests(); });
+    return launch.ok() && std::any_of(launch.value().nodes().begin(), launch.value().nodes().end(),
+                                      [](const launch::LaunchNode& node) { return node.takes_requests(); });
   };
   for (const char* watched : {"keyboard", "wheel", "haste", "three_screens"}) EXPECT_TRUE(takes(watched)) << watched;
   for (const char* same : {"demo", "first_drive", "lights", "two_pcs"}) {

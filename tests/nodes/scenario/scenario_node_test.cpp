@@ -41,7 +41,8 @@ class Scenario : public testing::Test {
     return path.string();
   }
   // N222 with the autopilot and traffic; `traffic` and `scenario` are further keys of the nodes.
-  static std::string Text(const std::string& scenario_file, const std::string& traffic = "", const std::string& scenario = "") {
+  static std::string Text(const std::string& scenario_file, const std::string& traffic = "",
+                          const std::string& scenario = "") {
     return "rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
            "  driver: {kind: input, config: {source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: "
            "../configs/vehicles/default.yaml}}\n"
@@ -108,16 +109,17 @@ class Scenario : public testing::Test {
       std::filesystem::temp_directory_path() / ("rodeira-scenario-" + std::to_string(::getpid()));
 };
 
-// Valid at exactly 2 s; the traffic's activation at 2 s sees it, and its sample of 2.01 s brakes: v(t) = v0 - a t to rest.
+// Valid at exactly 2 s; the traffic's activation at 2 s sees it, and its sample of 2.01 s brakes: v(t) = v0 - a t to
+// rest.
 TEST_F(Scenario, AnAgentBrakesFromExactlyItsStepToRestAndDrivesOn) {
   const Driven calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"))), 2100);
   ASSERT_TRUE(calm.outcome.ok) << calm.outcome.fault;
   const std::uint32_t id = SomeAgent(calm, 2000);
   const std::string agent = std::to_string(id);
-  const Driven run =
-      Drive(LaunchOf(Text(File("  - {at_s: 2, name: traffic.brake, agent: " + agent +
-                               ", deceleration_mps2: 5}\n  - {at_s: 8, name: traffic.release, agent: " + agent + "}\n"))),
-            12000);
+  const Driven run = Drive(
+      LaunchOf(Text(File("  - {at_s: 2, name: traffic.brake, agent: " + agent +
+                         ", deceleration_mps2: 5}\n  - {at_s: 8, name: traffic.release, agent: " + agent + "}\n"))),
+      12000);
   ASSERT_TRUE(run.outcome.ok) << run.outcome.fault;
   ASSERT_EQ(run.events.size(), 2u);
   ASSERT_TRUE(run.events.contains(2000) && run.events.contains(8000));
@@ -137,7 +139,8 @@ TEST_F(Scenario, AnAgentBrakesFromExactlyItsStepToRestAndDrivesOn) {
 
 // A traffic of 0.1 s behind a scenario of 0.01 s: ten samples between two activations, every event counts, in order.
 TEST_F(Scenario, ASlowConsumerLosesNoEvent) {
-  const Driven calm = Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"), ", period_s: 0.1")), 1100);
+  const Driven calm =
+      Drive(LaunchOf(Text(File("  - {at_s: 0.5, name: mark, text: nothing}\n"), ", period_s: 0.1")), 1100);
   const std::uint32_t id = SomeAgent(calm, 1000);
   const std::string agent = std::to_string(id);
   const auto last_speed = [&](const std::string& events) {
@@ -157,9 +160,9 @@ TEST_F(Scenario, ASlowConsumerLosesNoEvent) {
 }
 
 TEST_F(Scenario, AConditionalEventComesOnePeriodAfterTheCarHasPassed) {
-  const launch::Launch launch =
-      LaunchOf(Text(File("  - {when: {road: n222, passes_m: 45}, name: mark, text: passed}\n  - {when: {passes_m: 5000}, name: "
-                         "mark, text: never}\n")));
+  const launch::Launch launch = LaunchOf(
+      Text(File("  - {when: {road: n222, passes_m: 45}, name: mark, text: passed}\n  - {when: {passes_m: 5000}, name: "
+                "mark, text: never}\n")));
   const Driven run = Drive(launch, 9000);
   ASSERT_TRUE(run.outcome.ok) << run.outcome.fault;
   ASSERT_EQ(run.events.size(), 1u) << "once, and only the one";
@@ -180,20 +183,30 @@ TEST_F(Scenario, AStationIsPassedOnARoadOfVersion1Too) {
   const Driven now = Drive(LaunchOf(text), 7000), before = Drive(LaunchOf(older), 7000);
   ASSERT_TRUE(before.outcome.ok) << before.outcome.fault;
   ASSERT_EQ(before.events.size(), 1u);
-  EXPECT_NEAR(static_cast<double>(before.events.begin()->first), static_cast<double>(now.events.begin()->first), 20.0) << "the autopilot follows another kind of way";
+  EXPECT_NEAR(static_cast<double>(before.events.begin()->first), static_cast<double>(now.events.begin()->first), 20.0)
+      << "the autopilot follows another kind of way";
 }
 
-// A straight road to the east, from x = 0 on, that crosses another one at 60 m and passes below a third at 100 m: its stations go on through the junction.
+// A straight road to the east, from x = 0 on, that crosses another one at 60 m and passes below a third at 100 m: its
+// stations go on through the junction.
 TEST_F(Scenario, StationsGoOnThroughAJunction) {
   const auto world = folder_ / "cross.yaml";
-  ASSERT_TRUE(base::WriteWhole(world, std::string_view("rodeira: world/2\nname: cross\nground: {kind: plane, z_m: 0}\nstart: {road: main, lane: -1, s_m: 12}\nroads:\n"
-                                                       "  - {id: main, axis: [line: {length_m: 300}], z_m: 0, section: {template: rural}}\n"
-                                                       "  - {id: side, place: {road: main, s_m: 60, turn_deg: 90, own_s_m: 80}, axis: [line: {length_m: 160}], section: {template: rural}}\n"
-                                                       "  - {id: over, start: {x_m: 100, y_m: -80, heading_deg: 90}, axis: [line: {length_m: 160}], z_m: 8, section: {template: rural}, "
-                                                       "bridges: [{from_s_m: 60, to_s_m: 100}]}\n"
-                                                       "junctions:\n  - {id: j, roads: [{road: main, s_m: 60}, {road: side, s_m: 80}]}\n")).ok());
-  std::string text = Text(File("  - {when: {road: main, passes_m: 60}, name: mark, text: in}\n  - {when: {road: main, passes_m: 100}, name: mark, text: below}\n"
-                               "  - {when: {road: over, passes_m: 80}, name: mark, text: never}\n"));
+  ASSERT_TRUE(
+      base::WriteWhole(
+          world, std::string_view("rodeira: world/2\nname: cross\nground: {kind: plane, z_m: 0}\nstart: {road: main, "
+                                  "lane: -1, s_m: 12}\nroads:\n"
+                                  "  - {id: main, axis: [line: {length_m: 300}], z_m: 0, section: {template: rural}}\n"
+                                  "  - {id: side, place: {road: main, s_m: 60, turn_deg: 90, own_s_m: 80}, axis: "
+                                  "[line: {length_m: 160}], section: {template: rural}}\n"
+                                  "  - {id: over, start: {x_m: 100, y_m: -80, heading_deg: 90}, axis: [line: "
+                                  "{length_m: 160}], z_m: 8, section: {template: rural}, "
+                                  "bridges: [{from_s_m: 60, to_s_m: 100}]}\n"
+                                  "junctions:\n  - {id: j, roads: [{road: main, s_m: 60}, {road: side, s_m: 80}]}\n"))
+          .ok());
+  std::string text =
+      Text(File("  - {when: {road: main, passes_m: 60}, name: mark, text: in}\n  - {when: {road: main, passes_m: 100}, "
+                "name: mark, text: below}\n"
+                "  - {when: {road: over, passes_m: 80}, name: mark, text: never}\n"));
   text.replace(text.find("../configs/worlds/n222.yaml"), 27, world.string());
   text.replace(text.find("vehicles: 20"), 12, "vehicles: 0");
   const Driven run = Drive(LaunchOf(text), 16000);
@@ -207,10 +220,14 @@ TEST_F(Scenario, StationsGoOnThroughAJunction) {
   }
   text = Text(File("  - {when: {passes_m: 60}, name: mark, text: where}\n"));
   text.replace(text.find("../configs/worlds/n222.yaml"), 27, world.string());
-  EXPECT_NE(Complaint(text).find("'passes_m' is on no road that is named, and the world has 3; 'road' was expected beside it"), std::string::npos) << Complaint(text);
+  EXPECT_NE(Complaint(text).find(
+                "'passes_m' is on no road that is named, and the world has 3; 'road' was expected beside it"),
+            std::string::npos)
+      << Complaint(text);
 }
 
-// Who is in front is found a second time here, by the road's own coordinates: lane -1 lies right of the axis and goes along it.
+// Who is in front is found a second time here, by the road's own coordinates: lane -1 lies right of the axis and goes
+// along it.
 TEST_F(Scenario, TheOneAheadIsTheOneInFrontOfTheDriver) {
   std::string text = Text(File("  - {at_s: 6, name: traffic.brake, agent: ahead, deceleration_mps2: 9}\n"));
   text.replace(text.find("vehicles: 20"), 12, "vehicles: 120");
@@ -238,11 +255,12 @@ TEST_F(Scenario, TheOneAheadIsTheOneInFrontOfTheDriver) {
 }
 
 TEST_F(Scenario, RestoredAnywhereItGoesOnWithTheSameDigest) {
-  const launch::Launch launch =
-      LaunchOf(Text(File("  - {at_s: 1, name: traffic.speed, agent: all, speed_mps: 9}\n  - {when: {passes_m: 40}, name: "
-                         "traffic.brake, agent: 3, deceleration_mps2: 4}\n"
-                         "  - {when: {passes_m: 60}, name: traffic.release, agent: all}\n  - {at_s: 7.77, name: traffic.brake, "
-                         "agent: all, deceleration_mps2: 2}\n  - {at_s: 8, name: traffic.speed, agent: all, at: {road: n222, s_m: 500}, speed_mps: 7}\n")));
+  const launch::Launch launch = LaunchOf(
+      Text(File("  - {at_s: 1, name: traffic.speed, agent: all, speed_mps: 9}\n  - {when: {passes_m: 40}, name: "
+                "traffic.brake, agent: 3, deceleration_mps2: 4}\n"
+                "  - {when: {passes_m: 60}, name: traffic.release, agent: all}\n  - {at_s: 7.77, name: traffic.brake, "
+                "agent: all, deceleration_mps2: 2}\n  - {at_s: 8, name: traffic.speed, agent: all, at: {road: n222, "
+                "s_m: 500}, speed_mps: 7}\n")));
   for (const Step at : {1003, 5555, 7771}) {
     const Driven whole = Drive(launch, 9000, at);
     ASSERT_TRUE(whole.outcome.ok) << whole.outcome.fault;
@@ -271,7 +289,8 @@ TEST_F(Scenario, WhatCannotBeIsRefusedAtTheStart) {
   EXPECT_NE(Complaint(Text(File("  - {when: {passes_m: 99999}, name: mark, text: x}\n"))).find("road 'n222' is "),
             std::string::npos);
   const std::string brake = File("  - {at_s: 1, name: traffic.brake, agent: 1, deceleration_mps2: 3}\n");
-  EXPECT_NE(Complaint(Text(brake, ", inputs: {scenario_events: []}")).find("no node of kind 'traffic' is wired to this scenario"),
+  EXPECT_NE(Complaint(Text(brake, ", inputs: {scenario_events: []}"))
+                .find("no node of kind 'traffic' is wired to this scenario"),
             std::string::npos);
 }
 
@@ -282,8 +301,10 @@ TEST_F(Scenario, AnAgentThatIsNotThereIsRefusedWithItsLine) {
     return nodes.ok() ? "" : nodes.error().Text();
   };
   const std::string place = "node 'others': " + (folder_ / "scenario.yaml").string() + ":3: 'traffic.brake': ";
-  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}"), place + "there is no agent 20; there are 20, from 0 on");
-  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: next, at: {road: n22, s_m: 3}, deceleration_mps2: 3}"), place + "there is no road 'n22'; did you mean 'n222'?");
+  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: 20, deceleration_mps2: 3}"),
+            place + "there is no agent 20; there are 20, from 0 on");
+  EXPECT_EQ(refused("{at_s: 1, name: traffic.brake, agent: next, at: {road: n22, s_m: 3}, deceleration_mps2: 3}"),
+            place + "there is no road 'n22'; did you mean 'n222'?");
 }
 
 }  // namespace

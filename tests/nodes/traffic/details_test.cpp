@@ -17,9 +17,9 @@
 namespace rodeira {
 namespace {
 
-// Ten times a second of each car that the traffic state of that step has, empty between. The engine turns as the wheels and the
-// gears of MOTORS say; nobody brakes and pushes at once; the fuel used is the integral of the flow; the point that he
-// steers for lies before him, 0.7 s ahead of his rear axle.
+// Ten times a second of each car that the traffic state of that step has, empty between. The engine turns as the wheels
+// and the gears of MOTORS say; nobody brakes and pushes at once; the fuel used is the integral of the flow; the point
+// that he steers for lies before him, 0.7 s ahead of his rear axle.
 TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/lights.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
@@ -40,8 +40,10 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   run.last_step = 40'000;
   run.on_sample = [&](const lockstep::Sample& sample) {
     const auto& topic = launch.value().roster().source(sample.source()).topic;
-    if (topic == idl::topics::kTrafficState) states[sample.valid()] = idl::Decode<msg::TrafficState>(*sample.payload).value();
-    if (topic == idl::topics::kTrafficDetails) details[sample.valid()] = idl::Decode<msg::TrafficDetails>(*sample.payload).value();
+    if (topic == idl::topics::kTrafficState)
+      states[sample.valid()] = idl::Decode<msg::TrafficState>(*sample.payload).value();
+    if (topic == idl::topics::kTrafficDetails)
+      details[sample.valid()] = idl::Decode<msg::TrafficDetails>(*sample.payload).value();
   };
   const auto outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), run);
   ASSERT_TRUE(outcome.ok) << outcome.fault;
@@ -60,7 +62,8 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
       ASSERT_EQ(d.id(), a.id());
       ++told;
       if (d.clutch() == 0.0F) {
-        const double turns = a.speed_mps() / (kRolls * static_cast<double>(a.wheel_radius_m())) * gears.at(d.gear()) * kFinal;
+        const double turns =
+            a.speed_mps() / (kRolls * static_cast<double>(a.wheel_radius_m())) * gears.at(d.gear()) * kFinal;
         EXPECT_NEAR(static_cast<double>(d.engine_speed_radps()), turns, 1e-4 * turns) << d.id() << " at " << step;
         EXPECT_GE(turns, 0.999 * kIdle_radps);
         ++geared;
@@ -72,13 +75,18 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
         EXPECT_LT(a.acceleration_mps2(), 0.0F);
       }
       const double heading = static_cast<double>(a.heading_rad());
-      const double ahead_x = static_cast<double>(d.target_x_m()) - a.position_x_m(), ahead_y = static_cast<double>(d.target_y_m()) - a.position_y_m();
-      const double steers = std::max({3.0, static_cast<double>(a.wheelbase_m()), 0.7 * a.speed_mps()}) - 0.5 * static_cast<double>(a.wheelbase_m());
+      const double ahead_x = static_cast<double>(d.target_x_m()) - a.position_x_m(),
+                   ahead_y = static_cast<double>(d.target_y_m()) - a.position_y_m();
+      const double steers = std::max({3.0, static_cast<double>(a.wheelbase_m()), 0.7 * a.speed_mps()}) -
+                            0.5 * static_cast<double>(a.wheelbase_m());
       EXPECT_NEAR(std::hypot(ahead_x, ahead_y), steers, 0.05 * steers + 0.3) << "on bends the chord is shorter";
       EXPECT_GT(std::cos(heading) * ahead_x + std::sin(heading) * ahead_y, 0.0);
       EXPECT_GT(std::cos(static_cast<double>(d.path_heading_rad()) - heading), 0.9) << "the car follows it";
-      const double sees = std::min(200.0, a.speed_mps() * a.speed_mps() / 3.0 + 3.0 * a.speed_mps() + 60.0) + 0.5 * static_cast<double>(a.length_m());
-      EXPECT_LT(std::hypot(static_cast<double>(d.look_ahead_x_m()) - a.position_x_m(), static_cast<double>(d.look_ahead_y_m()) - a.position_y_m()), sees + 0.3);
+      const double sees = std::min(200.0, a.speed_mps() * a.speed_mps() / 3.0 + 3.0 * a.speed_mps() + 60.0) +
+                          0.5 * static_cast<double>(a.length_m());
+      EXPECT_LT(std::hypot(static_cast<double>(d.look_ahead_x_m()) - a.position_x_m(),
+                           static_cast<double>(d.look_ahead_y_m()) - a.position_y_m()),
+                sees + 0.3);
       const auto used = static_cast<double>(d.fuel_used_kg()), rate = static_cast<double>(d.fuel_rate_kgps());
       const auto [at, fresh] = burnt.try_emplace(d.id(), Burnt{a.trip(), used, used, rate, 0.0});
       if (at->second.trip != a.trip()) at->second = {a.trip(), used, used, rate, 0.0};
@@ -89,7 +97,8 @@ TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   }
   for (const auto& [id, fuel] : burnt) {
     if (fuel.sum_kg < 2e-3) continue;
-    EXPECT_NEAR(fuel.last_kg - fuel.first_kg, fuel.sum_kg, 0.03 * fuel.sum_kg) << id << ": a rate that jumps between two looks";
+    EXPECT_NEAR(fuel.last_kg - fuel.first_kg, fuel.sum_kg, 0.03 * fuel.sum_kg)
+        << id << ": a rate that jumps between two looks";
     ++compared;
   }
   EXPECT_GT(told, 4000);

@@ -15,7 +15,8 @@
 namespace rodeira {
 namespace {
 
-// A scenario calls two: they come, wait, cross and are gone, move as fast as they say, and their legs go as far as they do.
+// A scenario calls two: they come, wait, cross and are gone, move as fast as they say, and their legs go as far as they
+// do.
 TEST(OnFoot, WhoIsCalledCrosses) {
   constexpr std::uint32_t kPedestrian = 4, kFirst = 2'000'000;
   const std::string text =
@@ -48,21 +49,27 @@ TEST(OnFoot, WhoIsCalledCrosses) {
       ++last;
       const auto known = before.find(agent.id());
       if (known != before.end()) {
-        const double moved = std::hypot(agent.position_x_m() - known->second.x_m, agent.position_y_m() - known->second.y_m);
+        const double moved =
+            std::hypot(agent.position_x_m() - known->second.x_m, agent.position_y_m() - known->second.y_m);
         ASSERT_NEAR(moved, 0.01 * agent.speed_mps(), 1e-9);
-        const double rolled = std::remainder(static_cast<double>(agent.wheel_spin_rad()) - known->second.spin_rad, 2.0 * M_PI) * static_cast<double>(agent.wheel_radius_m());
+        const double rolled =
+            std::remainder(static_cast<double>(agent.wheel_spin_rad()) - known->second.spin_rad, 2.0 * M_PI) *
+            static_cast<double>(agent.wheel_radius_m());
         ASSERT_NEAR(rolled, moved, 1e-6);
         ASSERT_EQ(static_cast<double>(agent.heading_rad()), known->second.heading_rad);
         gone_m[agent.id()] += moved;
       }
-      before[agent.id()] = {agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()), static_cast<double>(agent.wheel_spin_rad()), sample.valid()};
+      before[agent.id()] = {agent.position_x_m(), agent.position_y_m(), static_cast<double>(agent.heading_rad()),
+                            static_cast<double>(agent.wheel_spin_rad()), sample.valid()};
     }
   };
   const auto outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), run);
   ASSERT_TRUE(outcome.ok) << outcome.fault;
   ASSERT_EQ(gone_m.size(), 2u);
   for (const auto& [id, way] : gone_m) EXPECT_GT(way, 7.0 + 2.0 * 3.0) << id;
-  EXPECT_NEAR(std::fabs(std::remainder(before.begin()->second.heading_rad - before.rbegin()->second.heading_rad, 2.0 * M_PI)), M_PI, 1e-5);
+  EXPECT_NEAR(
+      std::fabs(std::remainder(before.begin()->second.heading_rad - before.rbegin()->second.heading_rad, 2.0 * M_PI)),
+      M_PI, 1e-5);
   EXPECT_EQ(last, 0u);
 }
 

@@ -1,4 +1,5 @@
-// What a scenario asks of single vehicles, and how soon the traffic answers to the driver's car: from the published samples.
+// What a scenario asks of single vehicles, and how soon the traffic answers to the driver's car: from the published
+// samples.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,9 +36,13 @@ class ScriptedTraffic : public testing::Test {
   // On the level straight: the driver's car, the traffic, a scenario of these events.
   base::Result<launch::Launch> LaunchOf(const std::string& traffic, const std::string& events) {
     EXPECT_TRUE(base::WriteWhole(folder_.path() / "story.yaml", "rodeira: scenario/1\nevents:\n" + events).ok());
-    const std::string text = "rodeira: launch/1\nworld: level.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
-        "  driver: {kind: input, config: {source: script, script: standing.csv}}\n  ego: {kind: vehicle, config: {vehicle: ../../configs/vehicles/default.yaml}}\n"
-        "  others: {kind: traffic, config: " + traffic + "}\n  story: {kind: scenario, config: {scenario: \"" + (folder_.path() / "story.yaml").string() + "\"}}\n";
+    const std::string text =
+        "rodeira: launch/1\nworld: level.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
+        "  driver: {kind: input, config: {source: script, script: standing.csv}}\n  ego: {kind: vehicle, config: "
+        "{vehicle: ../../configs/vehicles/default.yaml}}\n"
+        "  others: {kind: traffic, config: " +
+        traffic + "}\n  story: {kind: scenario, config: {scenario: \"" + (folder_.path() / "story.yaml").string() +
+        "\"}}\n";
     return launch::Launch::Parse(text, std::filesystem::path(SourceDir()) / "tests/data/scripted_test.yaml");
   }
   Driven Drive(const std::string& traffic, const std::string& events, Step last) {
@@ -52,7 +57,8 @@ class ScriptedTraffic : public testing::Test {
     settings.last_step = last;
     settings.on_sample = [&](const lockstep::Sample& sample) {
       const auto& topic = launch.value().roster().source(sample.source()).topic;
-      if (topic == topics::kVehicleState) run.car[sample.valid()] = idl::Decode<msg::VehicleState>(*sample.payload).value();
+      if (topic == topics::kVehicleState)
+        run.car[sample.valid()] = idl::Decode<msg::VehicleState>(*sample.payload).value();
       if (topic != topics::kTrafficState) return;
       auto& agents = run.traffic[sample.valid()];
       const auto state = idl::Decode<msg::TrafficState>(*sample.payload).value();
@@ -65,14 +71,17 @@ class ScriptedTraffic : public testing::Test {
   const cli::TemporaryFolder folder_;
 };
 
-// Two appear at their steps, one behind the other; the second is told to overtake and does, back on its lane before the first.
+// Two appear at their steps, one behind the other; the second is told to overtake and does, back on its lane before the
+// first.
 TEST_F(ScriptedTraffic, AppearsAndOvertakesAsTheScenarioSays) {
-  const Driven run = Drive("{vehicles: 0, scripted: [lorry, car], lane_changes: {overtaking: false}}",
-                        "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
-                        "  - {at_s: 1, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 10}\n"
-                        "  - {at_s: 1, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 110}, speed_mps: 10}\n"
-                        "  - {at_s: 1, name: traffic.speed, agent: 0, speed_mps: 10}\n"
-                        "  - {at_s: 3, name: traffic.overtake, agent: 1}\n", 45'000);
+  const Driven run =
+      Drive("{vehicles: 0, scripted: [lorry, car], lane_changes: {overtaking: false}}",
+            "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
+            "  - {at_s: 1, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 10}\n"
+            "  - {at_s: 1, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 110}, speed_mps: 10}\n"
+            "  - {at_s: 1, name: traffic.speed, agent: 0, speed_mps: 10}\n"
+            "  - {at_s: 3, name: traffic.overtake, agent: 1}\n",
+            45'000);
   ASSERT_TRUE(run.ok) << run.fault;
   EXPECT_TRUE(run.traffic.at(1000).empty());
   ASSERT_EQ(run.traffic.at(1010).size(), 2u);  // the event of 1 s acts in the step from then on
@@ -98,7 +107,8 @@ TEST_F(ScriptedTraffic, AppearsAndOvertakesAsTheScenarioSays) {
 
 // The example: all three appear, the car passes the lorry, the bus stands, and the lorry is on the other lane.
 TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
-  auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch/scripted.yaml", {{"nodes.recorder.kind", "none"}});
+  auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch/scripted.yaml",
+                                     {{"nodes.recorder.kind", "none"}});
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
@@ -112,7 +122,8 @@ TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
     for (const msg::TrafficAgent& agent : state.agents()) {
       if (agent.id() < 30) continue;
       last_x[agent.id()] = agent.position_x_m();
-      least_mps[agent.id()] = least_mps.contains(agent.id()) ? std::min(least_mps[agent.id()], agent.speed_mps()) : agent.speed_mps();
+      least_mps[agent.id()] =
+          least_mps.contains(agent.id()) ? std::min(least_mps[agent.id()], agent.speed_mps()) : agent.speed_mps();
     }
     passed = passed || (last_x.contains(30) && last_x[31] > last_x[30] + 10.0);
   };
@@ -125,10 +136,12 @@ TEST_F(ScriptedTraffic, TheExampleDoesWhatItSays) {
   EXPECT_GT(least_mps[30], 10.0);
 }
 
-// What the traffic can never do is wrong input before the first step, with its line in the scenario, however late it would act.
+// What the traffic can never do is wrong input before the first step, with its line in the scenario, however late it
+// would act.
 TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
   const auto refused = [&](const std::string& event) -> std::string {
-    auto launch = LaunchOf("{vehicles: 3, scripted: [car]}", "  - {at_s: 1, name: traffic.release, agent: all}\n  - {" + event + "}\n");
+    auto launch = LaunchOf("{vehicles: 3, scripted: [car]}",
+                           "  - {at_s: 1, name: traffic.release, agent: all}\n  - {" + event + "}\n");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     const auto nodes = cli::LocalNodes::Make(launch.value());
     if (nodes.ok()) return "";
@@ -138,23 +151,37 @@ TEST_F(ScriptedTraffic, WhatCannotBeObeyedIsNamedBeforeTheRun) {
   const std::string line = "node 'others': " + (folder_.path() / "story.yaml").string() + ":4: ";
   EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 1, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"),
             line + "'traffic.appear': agent 1 cannot appear; one of the traffic's 'scripted' was expected, 3 to 3");
-  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-2\", s_m: 500}, speed_mps: 3").find("'main:-2' was found"), std::string::npos);
-  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 5e6}, speed_mps: 3").find("the station 5000000 m is not on the lane 'main:-1'"), std::string::npos);
-  EXPECT_EQ(refused("at_s: 7200, name: traffic.overtake, agent: 9"), line + "'traffic.overtake': there is no agent 9; there are 4, from 0 on");
-  EXPECT_NE(refused("when: {road: main, passes_m: 200}, name: traffic.overtake, agent: 9").find("there is no agent 9"), std::string::npos);
-  EXPECT_NE(refused("at_s: 7200, name: traffic.brake, agent: next, at: {road: mian, s_m: 200}, deceleration_mps2: 3").find("did you mean 'main'?"), std::string::npos);
-  EXPECT_NE(refused("at_s: 7200, name: traffic.pedestrian, crossing: main 200").find("the traffic has no people on foot"), std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-2\", s_m: 500}, speed_mps: 3")
+                .find("'main:-2' was found"),
+            std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 5e6}, speed_mps: 3")
+                .find("the station 5000000 m is not on the lane 'main:-1'"),
+            std::string::npos);
+  EXPECT_EQ(refused("at_s: 7200, name: traffic.overtake, agent: 9"),
+            line + "'traffic.overtake': there is no agent 9; there are 4, from 0 on");
+  EXPECT_NE(refused("when: {road: main, passes_m: 200}, name: traffic.overtake, agent: 9").find("there is no agent 9"),
+            std::string::npos);
+  EXPECT_NE(refused("at_s: 7200, name: traffic.brake, agent: next, at: {road: mian, s_m: 200}, deceleration_mps2: 3")
+                .find("did you mean 'main'?"),
+            std::string::npos);
+  EXPECT_NE(
+      refused("at_s: 7200, name: traffic.pedestrian, crossing: main 200").find("the traffic has no people on foot"),
+      std::string::npos);
   EXPECT_EQ(refused("at_s: 7200, name: traffic.appear, agent: 3, at: {lane: \"main:-1\", s_m: 500}, speed_mps: 3"), "");
 }
 
-// The driver's car is placed before a car of the traffic. That is in the sample of the step behind the event; the traffic sees it when it is next activated, and the
-// sample of one period later says that the car brakes. Until then, to the bit, nothing is other than where it is not placed.
+// The driver's car is placed before a car of the traffic. That is in the sample of the step behind the event; the
+// traffic sees it when it is next activated, and the sample of one period later says that the car brakes. Until then,
+// to the bit, nothing is other than where it is not placed.
 TEST_F(ScriptedTraffic, AnswersToTheDriversCarWithinOnePeriod) {
   constexpr Step kPeriod = 10;
-  const std::string away = "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
-                           "  - {at_s: 0.5, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 17}\n";
+  const std::string away =
+      "  - {at_s: 0.02, name: vehicle.place, place: \"ego 500 300\", heading_deg: 0}\n"
+      "  - {at_s: 0.5, name: traffic.appear, agent: 0, at: {lane: \"main:-1\", s_m: 150}, speed_mps: 17}\n";
   const Driven without = Drive("{vehicles: 0, scripted: [car]}", away, 6000);
-  const Driven with = Drive("{vehicles: 0, scripted: [car]}", away + "  - {at_s: 4, name: vehicle.place, place: \"ego 255 -1.6\", heading_deg: 0}\n", 6000);
+  const Driven with =
+      Drive("{vehicles: 0, scripted: [car]}",
+            away + "  - {at_s: 4, name: vehicle.place, place: \"ego 255 -1.6\", heading_deg: 0}\n", 6000);
   ASSERT_TRUE(without.ok && with.ok) << without.fault << with.fault;
   Step placed = 0;
   for (const auto& [step, car] : with.car) {

@@ -25,7 +25,8 @@ const std::filesystem::path kConfigs = std::filesystem::path(SourceDir()) / "con
 std::string Text(const std::string& world, int vehicles) {
   return "rodeira: launch/1\nworld: ../configs/worlds/" + world +
          ".yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"
-         "  driver: {kind: input, config: {source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: ../configs/vehicles/default.yaml}}\n"
+         "  driver: {kind: input, config: {source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: "
+         "../configs/vehicles/default.yaml}}\n"
          "  ego: {kind: vehicle, config: {vehicle: ../configs/vehicles/default.yaml}}\n"
          "  others: {kind: traffic, config: {vehicles: " +
          std::to_string(vehicles) + "}}\n";
@@ -39,13 +40,15 @@ void Drive(const std::string& text, Step last, const Look& look) {
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
   lockstep::InProcessSettings settings;
   settings.last_step = last;
-  settings.on_sample = [&](const lockstep::Sample& sample) { look(launch.value().roster().source(sample.source()).topic, sample); };
+  settings.on_sample = [&](const lockstep::Sample& sample) {
+    look(launch.value().roster().source(sample.source()).topic, sample);
+  };
   const auto outcome = lockstep::RunThreaded(launch.value().roster(), nodes.value().nodes(), settings);
   EXPECT_TRUE(outcome.ok) << outcome.fault;
 }
 
-// Each sample says what the program of the world file says for its time. The autopilot comes to the line at red, waits before it, and
-// passes at green.
+// Each sample says what the program of the world file says for its time. The autopilot comes to the line at red, waits
+// before it, and passes at green.
 TEST(Signals, AreTheProgramOfTheWorldAndTheAutopilotObeysThem) {
   const auto world = road::World::Load(kConfigs / "worlds/lights.yaml").value();
   const auto controllers = world->network()->controllers();
@@ -83,7 +86,8 @@ TEST(Signals, AreTheProgramOfTheWorldAndTheAutopilotObeysThem) {
       const double front = car.position_w_m().x() + static_cast<double>(car.front_m());
       if (front > line_x && !passed) passed = sample.valid();
       if (sample.valid() == 30'000) front_at_30_s = front;
-      if (sample.valid() > 20'000 && sample.valid() <= 30'000) slowest_mps = std::min(slowest_mps, car.velocity_w_mps().x());
+      if (sample.valid() > 20'000 && sample.valid() <= 30'000)
+        slowest_mps = std::min(slowest_mps, car.velocity_w_mps().x());
     }
   });
   EXPECT_EQ(samples, 4202);  // the last one is valid after the end

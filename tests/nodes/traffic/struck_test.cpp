@@ -20,15 +20,18 @@ namespace {
 using lockstep::Step;
 namespace topics = idl::topics;
 
-// The momentum that it has is the one that the driver's car has lost to it, but for what its sliding wheels take meanwhile; then it slides to
-// rest as far as friction says, and stays.
+// The momentum that it has is the one that the driver's car has lost to it, but for what its sliding wheels take
+// meanwhile; then it slides to rest as far as friction says, and stays.
 TEST(StruckCar, TakesTheImpulseOfTheCollisionAndStays) {
   const std::filesystem::path path = std::filesystem::path(SourceDir()) / "tests/data/crash_traffic.yaml";
   auto launch = launch::Launch::Load(path, {{"nodes.recorder.kind", "none"}});
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   auto nodes = cli::LocalNodes::Make(launch.value());
   ASSERT_TRUE(nodes.ok()) << nodes.error().Text();
-  struct At { Eigen::Vector2d p; double speed; };
+  struct At {
+    Eigen::Vector2d p;
+    double speed;
+  };
   std::map<Step, std::map<std::uint32_t, At>> seen;
   std::map<Step, Eigen::Vector2d> impulses;  // on the first one that is hit
   std::optional<std::uint32_t> hit;
@@ -38,14 +41,16 @@ TEST(StruckCar, TakesTheImpulseOfTheCollisionAndStays) {
     const std::string& topic = launch.value().roster().source(sample.source()).topic;
     if (topic == topics::kTrafficState) {
       const auto state = idl::Decode<msg::TrafficState>(*sample.payload).value();
-      for (const auto& agent : state.agents()) seen[sample.valid()][agent.id()] = {{agent.position_x_m(), agent.position_y_m()}, agent.speed_mps()};
+      for (const auto& agent : state.agents())
+        seen[sample.valid()][agent.id()] = {{agent.position_x_m(), agent.position_y_m()}, agent.speed_mps()};
     } else if (topic == topics::kCollisions) {
       const auto touched = idl::Decode<msg::Collisions>(*sample.payload).value();
       for (const auto& collision : touched.collisions()) {
         if (collision.partner() != 1u) continue;
         if (!hit) hit = collision.partner_id();
         if (collision.partner_id() != *hit) continue;
-        impulses.try_emplace(sample.valid(), Eigen::Vector2d::Zero()).first->second -= Eigen::Vector2d(collision.impulse_x_ns(), collision.impulse_y_ns());
+        impulses.try_emplace(sample.valid(), Eigen::Vector2d::Zero()).first->second -=
+            Eigen::Vector2d(collision.impulse_x_ns(), collision.impulse_y_ns());
       }
     }
   };

@@ -1,4 +1,5 @@
-// What of a world stops a car, against where its file says that it stands; and that who asks near something is told of it.
+// What of a world stops a car, against where its file says that it stands; and that who asks near something is told of
+// it.
 #include "nodes/vehicle/obstacle_map.hpp"
 
 #include <gtest/gtest.h>
@@ -71,10 +72,15 @@ TEST(ObstacleMap, WhatIsInReachIsNear) {
   }
 }
 
-// On a plane that climbs by a tenth to the east, without any road: a house turned by 90 degrees, a tree, a wall of 12 m and a bush, which gives way.
+// On a plane that climbs by a tenth to the east, without any road: a house turned by 90 degrees, a tree, a wall of 12 m
+// and a bush, which gives way.
 TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
-  const auto world = road::World::Parse("rodeira: world/2\nname: w\nground: {kind: plane, z_m: 3, slope_x: 0.1}\nobjects:\n  - {type: house, x_m: 50, y_m: 20, heading_deg: 90, length_m: 10, width_m: 6, height_m: 5}\n"
-                                        "  - {type: tree, x_m: -30, y_m: 0}\n  - {type: wall, along: [[0, -8], [0, 4]], width_m: 0.4}\n  - {type: bush, x_m: 5, y_m: 5}\n", "w.yaml");
+  const auto world = road::World::Parse(
+      "rodeira: world/2\nname: w\nground: {kind: plane, z_m: 3, slope_x: 0.1}\nobjects:\n  - {type: house, x_m: 50, "
+      "y_m: 20, heading_deg: 90, length_m: 10, width_m: 6, height_m: 5}\n"
+      "  - {type: tree, x_m: -30, y_m: 0}\n  - {type: wall, along: [[0, -8], [0, 4]], width_m: 0.4}\n  - {type: bush, "
+      "x_m: 5, y_m: 5}\n",
+      "w.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const ObstacleMap map(*world.value(), kReach_m);
   ASSERT_EQ(map.all().size(), 4u);  // the wall is two pieces
@@ -98,17 +104,25 @@ TEST(ObstacleMap, WhatStandsAtNoRoadStopsACarToo) {
   EXPECT_TRUE(map.Near({500.0, 500.0, 3.0}).empty());
 }
 
-// A crossing and a parking place with the heights that ASAM's own examples give their outlines, a mast with an arm over the road, a hedge that leaves the road's
-// line: only the last two are in the way, and the arm is passed under.
+// A crossing and a parking place with the heights that ASAM's own examples give their outlines, a mast with an arm over
+// the road, a hedge that leaves the road's line: only the last two are in the way, and the arm is passed under.
 TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
-  const std::string corners = R"(<outlines><outline id="0"><cornerRoad s="18" t="3.5" dz="0" height="4" id="0"/><cornerRoad s="18" t="-3.5" dz="0" height="4" id="1"/><cornerRoad s="22" t="-3.5" dz="0" height="4" id="2"/></outline></outlines>)";
-  const std::string text = "<?xml version=\"1.0\"?>\n<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"0.01\"/></geometry></planView>"
-                           "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
-                           "<objects><object id=\"z\" type=\"crosswalk\" s=\"20\" t=\"0\" height=\"4\">" + corners + "</object><object id=\"p\" type=\"parkingSpace\" s=\"30\" t=\"0\" length=\"5\" width=\"2.5\" height=\"4\"/>"
-                           R"(<object id="m" type="pole" s="0" t="-5" height="6" length="0.3" width="5"><skeleton><polyline id="1"><vertexRoad s="0" t="-5" dz="0" radius="0.2"/><vertexRoad s="0" t="-5" dz="6" radius="0.1"/></polyline>
+  const std::string corners =
+      R"(<outlines><outline id="0"><cornerRoad s="18" t="3.5" dz="0" height="4" id="0"/><cornerRoad s="18" t="-3.5" dz="0" height="4" id="1"/><cornerRoad s="22" t="-3.5" dz="0" height="4" id="2"/></outline></outlines>)";
+  const std::string text =
+      "<?xml version=\"1.0\"?>\n<OpenDRIVE><header revMajor=\"1\" revMinor=\"8\"/><road id=\"1\" length=\"100\" "
+      "junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc "
+      "curvature=\"0.01\"/></geometry></planView>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width "
+      "sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
+      "<objects><object id=\"z\" type=\"crosswalk\" s=\"20\" t=\"0\" height=\"4\">" +
+      corners +
+      "</object><object id=\"p\" type=\"parkingSpace\" s=\"30\" t=\"0\" length=\"5\" width=\"2.5\" height=\"4\"/>"
+      R"(<object id="m" type="pole" s="0" t="-5" height="6" length="0.3" width="5"><skeleton><polyline id="1"><vertexRoad s="0" t="-5" dz="0" radius="0.2"/><vertexRoad s="0" t="-5" dz="6" radius="0.1"/></polyline>
       <polyline id="2"><vertexLocal u="0" v="0" z="5" radius="0.1"/><vertexLocal u="0" v="4" z="5.5" radius="0.1"/></polyline></skeleton></object>
       <object id="w" type="barrier" s="40" t="-6" height="1" width="0.3"><repeat s="40" length="40" distance="0" tStart="-6" tEnd="-6" detachFromReferenceLine="true"/></object></objects></road></OpenDRIVE>)";
-  const auto file = std::filesystem::temp_directory_path() / ("rodeira-obstacles-" + std::to_string(::getpid()) + ".xodr");
+  const auto file =
+      std::filesystem::temp_directory_path() / ("rodeira-obstacles-" + std::to_string(::getpid()) + ".xodr");
   ASSERT_TRUE(base::WriteWhole(file, std::string_view(text)).ok());
   const auto world = road::World::Load(file);
   std::filesystem::remove(file);
@@ -116,7 +130,8 @@ TEST(ObstacleMap, WhatLiesOnTheRoadIsNoBodyAndASkeletonIsItsBars) {
   const ObstacleMap map(*world.value(), kReach_m);
   double wall_m = 0.0;
   std::size_t bars = 0;
-  const Eigen::Vector2d begin(106.0 * std::sin(0.4), 100.0 - 106.0 * std::cos(0.4)), end(106.0 * std::sin(0.8), 100.0 - 106.0 * std::cos(0.8)), way = (end - begin).normalized();
+  const Eigen::Vector2d begin(106.0 * std::sin(0.4), 100.0 - 106.0 * std::cos(0.4)),
+      end(106.0 * std::sin(0.8), 100.0 - 106.0 * std::cos(0.8)), way = (end - begin).normalized();
   for (std::size_t i = 0; i < map.all().size(); ++i) {
     const dynamics::Obstacle& box = map.all()[i];
     if (map.NameOf(i) == "w") {

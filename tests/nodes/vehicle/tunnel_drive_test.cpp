@@ -13,8 +13,11 @@ namespace {
 
 // A tunnel that bends 20 m under a plane, with a beginning that is straight.
 std::shared_ptr<const road::World> Bend() {
-  const auto world = road::World::Parse("rodeira: world/2\nname: tunnel bend\nground: {kind: plane, z_m: 20, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 150}, arc: {radius_m: 60, turn_deg: 200}]\n"
-                                        "    z_m: 0\n    section: {template: rural}\n    tunnels: [{from_s_m: 60, to_s_m: 350}]\n", "w.yaml");
+  const auto world = road::World::Parse(
+      "rodeira: world/2\nname: tunnel bend\nground: {kind: plane, z_m: 20, surface: grass}\nroads:\n  - id: a\n    "
+      "start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 150}, arc: {radius_m: 60, turn_deg: 200}]\n"
+      "    z_m: 0\n    section: {template: rural}\n    tunnels: [{from_s_m: 60, to_s_m: 350}]\n",
+      "w.yaml");
   EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().Text());
   return world.ok() ? world.value() : nullptr;
 }
@@ -24,10 +27,12 @@ class InATunnel : public ::testing::TestWithParam<dynamics::ModelCase> {};
 // Steps of 1 ms from a start until the car has come to s = 340 m or the time is over.
 struct Drive {
   int hits = 0;
-  double highest_m = -1e9, farthest_m = 0.0, farthest_wheel_m = 0.0;  // of B over 0, of B and of a wheel from the road's axis
+  double highest_m = -1e9, farthest_m = 0.0,
+         farthest_wheel_m = 0.0;  // of B over 0, of B and of a wheel from the road's axis
 };
 
-Drive Through(const road::World& world, dynamics::VehicleModel& car, const dynamics::InitialCondition& start, double throttle, double seconds) {
+Drive Through(const road::World& world, dynamics::VehicleModel& car, const dynamics::InitialCondition& start,
+              double throttle, double seconds) {
   Drive drive;
   const auto ground = world.MakeGround();
   const ObstacleMap map(world, dynamics::BoxOf(car.dimensions(), {}).reach_m());
@@ -51,38 +56,45 @@ Drive Through(const road::World& world, dynamics::VehicleModel& car, const dynam
     if (!p.allFinite()) ADD_FAILURE() << "at step " << i;
     const auto place = network.Locate(p.x(), p.y(), 0.0);
     if (!place || place->s_m > 340.0) break;
-    drive.highest_m = std::max(drive.highest_m, p.z()), drive.farthest_m = std::max(drive.farthest_m, std::fabs(place->t_m));
+    drive.highest_m = std::max(drive.highest_m, p.z()),
+    drive.farthest_m = std::max(drive.farthest_m, std::fabs(place->t_m));
     for (const dynamics::WheelState& wheel : car.state().wheels) {
-      if (const auto of_wheel = network.Locate(wheel.contact_W.x(), wheel.contact_W.y(), 0.0)) drive.farthest_wheel_m = std::max(drive.farthest_wheel_m, std::fabs(of_wheel->t_m));
+      if (const auto of_wheel = network.Locate(wheel.contact_W.x(), wheel.contact_W.y(), 0.0))
+        drive.farthest_wheel_m = std::max(drive.farthest_wheel_m, std::fabs(of_wheel->t_m));
     }
   }
   return drive;
 }
 
-// At 72 km/h straight on where the road bends to the left, on the throttle: it hits the right wall and scrapes along it, on the floor, through the tube.
+// At 72 km/h straight on where the road bends to the left, on the throttle: it hits the right wall and scrapes along
+// it, on the floor, through the tube.
 TEST_P(InATunnel, WhoGoesStraightOnInABendHitsItsWallAndStaysInside) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
   auto car = dynamics::MakeModel(GetParam());
-  const Drive drive = Through(*world, *car, {.x_m = 130.0, .y_m = -1.75, .z_hint_m = 0.0, .speed_mps = 20.0}, 1.0, 12.0);
+  const Drive drive =
+      Through(*world, *car, {.x_m = 130.0, .y_m = -1.75, .z_hint_m = 0.0, .speed_mps = 20.0}, 1.0, 12.0);
   EXPECT_GT(drive.hits, 20);
   EXPECT_LT(drive.highest_m, 1.0) << "thrown up";
   EXPECT_LT(drive.farthest_m, 6.0) << "through the wall";
 }
 
-// Head-on at 216 km/h: the nose is pressed in so far that the front wheels pass the road's edge. They stand on the floor there, not on the hill.
+// Head-on at 216 km/h: the nose is pressed in so far that the front wheels pass the road's edge. They stand on the
+// floor there, not on the hill.
 TEST_P(InATunnel, WhoIsPressedIntoItsWallStandsOnItsFloor) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
   auto car = dynamics::MakeModel(GetParam());
-  const Drive drive = Through(*world, *car, {.x_m = 110.0, .y_m = 2.0, .z_hint_m = 0.0, .heading_rad = -1.5708, .speed_mps = 60.0}, 0.0, 3.0);
+  const Drive drive = Through(
+      *world, *car, {.x_m = 110.0, .y_m = 2.0, .z_hint_m = 0.0, .heading_rad = -1.5708, .speed_mps = 60.0}, 0.0, 3.0);
   EXPECT_GT(drive.hits, 20);
   EXPECT_GT(drive.farthest_wheel_m, 5.78) << "else it shows nothing";
   EXPECT_LT(drive.highest_m, 4.0) << "thrown up: more than it rears";
   EXPECT_LT(drive.farthest_m, 6.0) << "through the wall";
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, InATunnel, ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody), dynamics::NameOf);
+INSTANTIATE_TEST_SUITE_P(Models, InATunnel, ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody),
+                         dynamics::NameOf);
 
 }  // namespace
 }  // namespace rodeira::nodes

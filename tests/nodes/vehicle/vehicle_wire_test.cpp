@@ -10,11 +10,14 @@
 namespace rodeira::nodes {
 namespace {
 
-// What instruments read is right to 2^-16 and has no noise in its last bits; what a run goes on from is there to the bit.
+// What instruments read is right to 2^-16 and has no noise in its last bits; what a run goes on from is there to the
+// bit.
 TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
   for (std::uint64_t n = 0; n < 2000; ++n) {
     dynamics::VehicleState state;
-    const auto drawn = [n](std::uint64_t which) { return base::RandomUniform({n, which}, -1.0, 1.0) * std::pow(10.0, base::RandomUniform({n, which, 1}, -6.0, 6.0)); };
+    const auto drawn = [n](std::uint64_t which) {
+      return base::RandomUniform({n, which}, -1.0, 1.0) * std::pow(10.0, base::RandomUniform({n, which, 1}, -6.0, 6.0));
+    };
     state.p_WB_W = {drawn(0), drawn(1), drawn(2)};
     state.engine_speed_radps = drawn(3);
     state.a_WB_W = {drawn(4), drawn(5), drawn(6)};
@@ -23,8 +26,10 @@ TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
     const msg::VehicleState said = ToWire(state, {});
     EXPECT_EQ(said.position_w_m().x(), state.p_WB_W.x());
     EXPECT_EQ(said.engine_speed_radps(), state.engine_speed_radps);
-    EXPECT_EQ(said.wheels()[2].spin_rad(), static_cast<float>(state.wheels[2].spin_rad)) << "it grows for as long as one drives";
-    for (const auto& [value, read] : {std::pair(state.a_WB_W.y(), said.acceleration_w_mps2().y()), std::pair(state.wheels[1].lateral_N, said.wheels()[1].lateral_n())}) {
+    EXPECT_EQ(said.wheels()[2].spin_rad(), static_cast<float>(state.wheels[2].spin_rad))
+        << "it grows for as long as one drives";
+    for (const auto& [value, read] : {std::pair(state.a_WB_W.y(), said.acceleration_w_mps2().y()),
+                                      std::pair(state.wheels[1].lateral_N, said.wheels()[1].lateral_n())}) {
       EXPECT_LE(std::fabs(static_cast<double>(read) - value), std::ldexp(std::fabs(value), -16) * (1.0 + 1e-6));
       EXPECT_EQ(std::bit_cast<std::uint32_t>(read) & 0xFFU, 0u);
     }

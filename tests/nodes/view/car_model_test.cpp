@@ -1,4 +1,5 @@
-// A car's model from a file: it is seen where the procedural car would be, and its wheels turn; without it the procedural one stays.
+// A car's model from a file: it is seen where the procedural car would be, and its wheels turn; without it the
+// procedural one stays.
 #include <gtest/gtest.h>
 
 #include <osg/Geode>
@@ -12,8 +13,8 @@
 #include <set>
 #include <utility>
 
-#include "nodes/view/window/screen.hpp"
 #include "nodes/view/frame/surface.hpp"
+#include "nodes/view/window/screen.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
@@ -41,7 +42,8 @@ fs::path WriteModel(const fs::path& folder) {
   }
   // Lamps, white in the file: two for each brake, and one of each other kind, side by side on the tail and the roof.
   osg::ref_ptr<osg::Group> tail = new osg::Group;
-  for (const float y : {-0.6F, 0.6F}) tail->addChild(BoxOf({-2.0F, y, 0.8F}, {0.1F, 0.2F, 0.2F}, {1.0F, 1.0F, 1.0F, 1.0F}));
+  for (const float y : {-0.6F, 0.6F})
+    tail->addChild(BoxOf({-2.0F, y, 0.8F}, {0.1F, 0.2F, 0.2F}, {1.0F, 1.0F, 1.0F, 1.0F}));
   tail->setName("lamp_brake");
   car->addChild(tail);
   float y = -0.45F;
@@ -68,7 +70,9 @@ class CarModel : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
   const scene::CarPose& car() const { return picture_.moment.cars[0]; }
-  Eigen::Vector3d At(double ahead, double left, double up) const { return car().p_WB_W + car().q_WB * Eigen::Vector3d(ahead, left, up); }
+  Eigen::Vector3d At(double ahead, double left, double up) const {
+    return car().p_WB_W + car().q_WB * Eigen::Vector3d(ahead, left, up);
+  }
 
   fs::path folder_;
   std::shared_ptr<const road::World> world_;
@@ -126,14 +130,18 @@ TEST_F(CarModelDrawn, ItsLampsShineAsTheCarSays) {
       const Probe p = ProbeAt(image, camera, At(ahead, left, up));
       return p.red + p.green + p.blue;
     };
-    return Brightness{{"brake right", at(-2.05, -0.6, 0.8)}, {"brake left", at(-2.05, 0.6, 0.8)}, {"left", at(-1.1, -0.45, 1.15)}, {"right", at(-1.1, -0.15, 1.15)}, {"reversing", at(-1.1, 0.15, 1.15)}, {"head", at(-1.1, 0.45, 1.15)}};
+    return Brightness{{"brake right", at(-2.05, -0.6, 0.8)}, {"brake left", at(-2.05, 0.6, 0.8)},
+                      {"left", at(-1.1, -0.45, 1.15)},       {"right", at(-1.1, -0.15, 1.15)},
+                      {"reversing", at(-1.1, 0.15, 1.15)},   {"head", at(-1.1, 0.45, 1.15)}};
   };
   const Brightness dull = shown({});
   const auto lit = [&](const scene::CarLights& lights) {
     std::set<std::string> names;
     for (const auto& [name, now] : shown(lights)) {
-      if (now > dull.at(name) + 40.0) names.insert(name);
-      else EXPECT_NEAR(now, dull.at(name), 2.0) << name;
+      if (now > dull.at(name) + 40.0)
+        names.insert(name);
+      else
+        EXPECT_NEAR(now, dull.at(name), 2.0) << name;
     }
     return names;
   };
@@ -144,7 +152,8 @@ TEST_F(CarModelDrawn, ItsLampsShineAsTheCarSays) {
   EXPECT_GT(shown({.dipped = true}).at("head"), dull.at("head") + 30.0);
 }
 
-// A chosen car pulses in whatever body: towards the pulse's light yellow, 65 of 100 at its most, and back; another one's does not.
+// A chosen car pulses in whatever body: towards the pulse's light yellow, 65 of 100 at its most, and back; another
+// one's does not.
 TEST_F(CarModelDrawn, PulsesWhereTheCarIsChosen) {
   Wear();
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
@@ -153,7 +162,8 @@ TEST_F(CarModelDrawn, PulsesWhereTheCarIsChosen) {
     picture_.chosen = chosen;
     return Drawn();
   };
-  const Image plain = shown(400'000'000, std::nullopt), most = shown(400'000'000, 0), none = shown(800'000'000, 0);  // it takes 0.8 s
+  const Image plain = shown(400'000'000, std::nullopt), most = shown(400'000'000, 0),
+              none = shown(800'000'000, 0);  // it takes 0.8 s
   const Probe was = ProbeAt(plain, camera, At(-2.0, 0.0, 0.6)), is = ProbeAt(most, camera, At(-2.0, 0.0, 0.6));
   EXPECT_TRUE(IsMagenta(was)) << was;
   EXPECT_NEAR(is.red, 0.35 * was.red + 0.65 * 255.0, 3.0) << is;

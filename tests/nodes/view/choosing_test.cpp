@@ -8,9 +8,9 @@
 #include <optional>
 #include <sstream>
 
+#include "common/runtime/launch/launch.hpp"
 #include "common/vehicle/input_devices/key_names.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
-#include "common/runtime/launch/launch.hpp"
 #include "common/view/scene/camera/camera.hpp"
 #include "nodes/view/dynamic_objects/driver_aims.hpp"
 #include "nodes/view/window/screen.hpp"
@@ -42,7 +42,8 @@ class Choosing : public testing::Test {
   std::unique_ptr<Screen> screen_;
 };
 
-// A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click beside it ends that.
+// A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click
+// beside it ends that.
 TEST_F(Choosing, AClickChoosesAVehicle) {
   settings_.instruments = false;
   ASSERT_NO_FATAL_FAILURE(Open(960, 540));
@@ -62,8 +63,10 @@ TEST_F(Choosing, AClickChoosesAVehicle) {
   EXPECT_TRUE(ProbeAt(before, camera, tail_W).IsBlue()) << ProbeAt(before, camera, tail_W);
   EXPECT_TRUE(Click(*camera.Project(tail_W, 960, 540)));
   const Image chosen = shown();
-  EXPECT_GT(ProbeAt(chosen, camera, tail_W).red, ProbeAt(before, camera, tail_W).red + 80.0) << ProbeAt(chosen, camera, tail_W);
-  EXPECT_LT(ProbeAt(chosen, 330, 540 - 40, 3).green, 0.75 * ProbeAt(before, 330, 540 - 40, 3).green) << "the panel's box";
+  EXPECT_GT(ProbeAt(chosen, camera, tail_W).red, ProbeAt(before, camera, tail_W).red + 80.0)
+      << ProbeAt(chosen, camera, tail_W);
+  EXPECT_LT(ProbeAt(chosen, 330, 540 - 40, 3).green, 0.75 * ProbeAt(before, 330, 540 - 40, 3).green)
+      << "the panel's box";
   moment.time_ns = 800'000'000;
   EXPECT_TRUE(ProbeAt(shown(), camera, tail_W).IsBlue()) << "between two pulses";
   moment.time_ns = 400'000'000;
@@ -87,7 +90,8 @@ scene::Moment CarAndTwoOthers() {
   return moment;
 }
 
-// The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the window's own car nobody is chosen.
+// The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the
+// window's own car nobody is chosen.
 TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
   ASSERT_NO_FATAL_FAILURE(Open(640, 360));
   scene::Moment moment = CarAndTwoOthers();
@@ -116,7 +120,8 @@ TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
   EXPECT_EQ(press(KMOD_RSHIFT), expected(1, 1).rgb);
 }
 
-// Where the left button drives the right one chooses, and turns the camera about the car; whatever button the window has, the others are not its own.
+// Where the left button drives the right one chooses, and turns the camera about the car; whatever button the window
+// has, the others are not its own.
 TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
   for (const int own : {kLeftButton, kRightButton, kMiddleButton, kNoButton}) {
     settings_.mouse_button = own;
@@ -124,7 +129,8 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
     const scene::Moment moment = CarAndTwoOthers();
     const auto shown = [&] { return Shown(moment).rgb; };
     const auto before = shown();
-    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world_).Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
+    const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world_)
+                                    .Project(moment.agents[0].p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8), 640, 360);
     for (const int button : {kLeftButton, kRightButton, kMiddleButton}) {
       EXPECT_EQ(Click(at, button), button == own);
       EXPECT_EQ(shown() != before, button == own) << button << " of " << own;
@@ -164,20 +170,24 @@ TEST(WindowHelp, HasEveryKeyOnceAndRoomInAWindow) {
 }
 
 TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
-  EXPECT_NE(WindowHelp(kRightButton).find("\nright mouse button  choose a vehicle"), std::string::npos) << WindowHelp(kRightButton);
+  EXPECT_NE(WindowHelp(kRightButton).find("\nright mouse button  choose a vehicle"), std::string::npos)
+      << WindowHelp(kRightButton);
   EXPECT_EQ(WindowHelp(kNoButton).find("mouse button"), std::string::npos);
   EXPECT_NE(WindowHelp(kNoButton).find("\nmouse wheel  "), std::string::npos);
 }
 
-// What the driver of a chosen car of the traffic goes by: where it points and how fast it is to be, the point that it steers for and the line to it, where its path
-// leads, how far it looks; five things from five numbers, gone with the choice.
+// What the driver of a chosen car of the traffic goes by: where it points and how fast it is to be, the point that it
+// steers for and the line to it, where its path leads, how far it looks; five things from five numbers, gone with the
+// choice.
 TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
   settings_.instruments = false;
   ASSERT_NO_FATAL_FAILURE(Open(960, 540));
   scene::Moment moment;
   moment.time_ns = 800'000'000;  // between two pulses
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
-  const auto from_car = [&](double ahead, double left, double up) -> Eigen::Vector3d { return moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(ahead, left, up); };
+  const auto from_car = [&](double ahead, double left, double up) -> Eigen::Vector3d {
+    return moment.cars[0].p_WB_W + moment.cars[0].q_WB * Eigen::Vector3d(ahead, left, up);
+  };
   scene::AgentPose agent;
   agent.id = 5;
   agent.colour = scene::Colour::Of(0x1040e0);
@@ -194,7 +204,8 @@ TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
   const Image before = shown();
   EXPECT_TRUE(Click(*camera.Project(from_car(12.05, 4.0, 0.8), 960, 540)));
   const Image chosen = shown();
-  const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1), tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
+  const auto post = ProbeAt(chosen, camera, from_car(26.0, 1.0, 1.1), 1),
+             tip = ProbeAt(chosen, camera, from_car(28.7, 4.0, agent.height_m + 0.4), 0);
   EXPECT_TRUE(post.green > post.red + 60.0 && post.blue > post.red + 60.0) << "cyan: " << post;
   EXPECT_TRUE(tip.green > tip.red + 60.0 && tip.green > tip.blue + 60.0) << "green, a second of 15 m/s ahead: " << tip;
   const Eigen::Vector3d on_path_W = from_car(16.0 + 3.0 * std::cos(0.3), 4.0 - 3.0 * std::sin(0.3), 0.5);
@@ -203,7 +214,8 @@ TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
   const double high_m = agent.height_m + 0.9;
   for (const double share : {0.5, 1.0}) {
     const auto target = ProbeAt(chosen, camera, from_car(14.0 + 7.0 * share, 4.0 - 2.0 * share, high_m), 0);
-    EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0) << "magenta: " << target << " at " << share;
+    EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0)
+        << "magenta: " << target << " at " << share;
   }
   // Each goes by a number of its own.
   const Eigen::Vector3d ball_W = from_car(21.0, 2.0, high_m), post_W = from_car(26.0, 1.0, 1.1);
@@ -225,8 +237,9 @@ TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
   EXPECT_EQ(shown().rgb, before.rgb);
 }
 
-// The driver of a driven car goes by the same things where it is the autopilot: on a straight road in the middle of its lane the point that it steers for lies
-// 0.9 s of its way ahead of the rear axle, its path leads straight on, it looks 150 m ahead of the bumper. Published is none of it.
+// The driver of a driven car goes by the same things where it is the autopilot: on a straight road in the middle of its
+// lane the point that it steers for lies 0.9 s of its way ahead of the rear axle, its path leads straight on, it looks
+// 150 m ahead of the bumper. Published is none of it.
 TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   const auto launch = launch::Launch::Load(SourceDir() + "/launch/demo.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
@@ -236,7 +249,9 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   settings_.autopilots[0] = *autopilot;
   ASSERT_NO_FATAL_FAILURE(Open(960, 540, "n222.yaml"));
   const network::Road& road = world_->network()->roads()[0];
-  const auto at = [&](double s_m, double high_m) -> Eigen::Vector3d { return road.Surface(s_m, -1.45).p_W + Eigen::Vector3d(0.0, 0.0, high_m); };
+  const auto at = [&](double s_m, double high_m) -> Eigen::Vector3d {
+    return road.Surface(s_m, -1.45).p_W + Eigen::Vector3d(0.0, 0.0, high_m);
+  };
   scene::Moment moment;
   moment.time_ns = 800'000'000;  // between two pulses
   moment.cars.push_back(CarAt(at(20.0, 0.0), road.axis().Evaluate(20.0).heading_rad));
@@ -249,7 +264,8 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   const auto target = ProbeAt(chosen, camera, at(rear_m + 13.5, high_m), 0);
   EXPECT_TRUE(target.red > target.green + 60.0 && target.blue > target.green + 60.0) << "magenta: " << target;
   const DriverAim aim = *DriverAims(settings_.autopilots, *world_).Of(moment.cars[0]);
-  EXPECT_LT((aim.look_ahead_W - at(20.0 + moment.cars[0].front_m + 150.0, 0.0).head<2>()).norm(), 2.0) << "distances are the lane's, not the axis'";
+  EXPECT_LT((aim.look_ahead_W - at(20.0 + moment.cars[0].front_m + 150.0, 0.0).head<2>()).norm(), 2.0)
+      << "distances are the lane's, not the axis'";
   EXPECT_NEAR(aim.target_B.x(), 13.5 - 0.5 * moment.cars[0].wheelbase_m, 0.2);
   EXPECT_NEAR(aim.target_B.y(), 0.0, 0.2);
   EXPECT_NEAR(aim.path_turn_rad, 0.0, 0.02);
@@ -296,7 +312,8 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
   car.odometer_m = 1000.0;
   Chosen chosen;
   chosen.Choose(moment, 0);
-  EXPECT_NE(chosen.Panel(moment).find("90.0 km/h   gear 4   2900 1/min\nthrottle 40 %   brake 0 %"), std::string::npos) << chosen.Panel(moment);
+  EXPECT_NE(chosen.Panel(moment).find("90.0 km/h   gear 4   2900 1/min\nthrottle 40 %   brake 0 %"), std::string::npos)
+      << chosen.Panel(moment);
   EXPECT_NE(chosen.Panel(moment).find("now 6.0 l/100 km"), std::string::npos) << chosen.Panel(moment);
   moment.time_ns = 80'000'000'000;
   car.odometer_m = 3000.0;
@@ -321,7 +338,9 @@ TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
   EXPECT_EQ(chosen.Panel(moment), "traffic 7\n36.0 km/h\nwheels 0.0 deg") << "of recordings that say no more";
   agent.detail = scene::AgentDetail{0.3, 0.0, 0.0, 2, 2100.0, 2.88, 1.5, 12.5, {0.0, 0.0}, 0.0, {0.0, 0.0}};
   chosen.Choose(moment, 0);
-  EXPECT_EQ(chosen.Panel(moment), "traffic 7   36.0 km/h of 45\ngear 2   2100 1/min\nthrottle 30 %   brake 0 %\nclutch 0 %   wheels 0.0 deg\nnow 8.0 l/100 km\nmean -");
+  EXPECT_EQ(chosen.Panel(moment),
+            "traffic 7   36.0 km/h of 45\ngear 2   2100 1/min\nthrottle 30 %   brake 0 %\nclutch 0 %   wheels 0.0 "
+            "deg\nnow 8.0 l/100 km\nmean -");
   for (int i = 1; i <= 100; ++i) {  // 1 km in 100 s; it burns 0.07 l
     moment.time_ns = i * 1'000'000'000LL;
     agent.p_WB_W.x() = 10.0 * i;

@@ -16,9 +16,13 @@ namespace {
 // Hills without any road, and a plane: what is seen of them is written too, found, and shown as from memory.
 TEST_F(Database, LandWithoutRoadsIsWrittenFoundAndShown) {
   const std::map<std::string, std::string> texts = {
-      {"hills", "rodeira: world/1\nname: hills\nterrain:\n  surface: soil\n  generate: {seed: 3, columns: 150, rows: 100, spacing_m: 10, west_m: 1000, south_m: -500, relief: [{wavelength_m: 300, amplitude_m: 20}]}\n"
-                "start: {x_m: 1500, y_m: 0, heading_deg: 30}\n"},
-      {"plane", "rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 1, slope_x: 0.01}\nstart: {x_m: 0, y_m: 0, heading_deg: 30}\n"}};
+      {"hills",
+       "rodeira: world/1\nname: hills\nterrain:\n  surface: soil\n  generate: {seed: 3, columns: 150, rows: 100, "
+       "spacing_m: 10, west_m: 1000, south_m: -500, relief: [{wavelength_m: 300, amplitude_m: 20}]}\n"
+       "start: {x_m: 1500, y_m: 0, heading_deg: 30}\n"},
+      {"plane",
+       "rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 1, slope_x: 0.01}\nstart: {x_m: 0, y_m: 0, "
+       "heading_deg: 30}\n"}};
   for (const auto& [name, text] : texts) {
     const auto parsed = road::World::Parse(text, name + ".yaml");
     ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
@@ -49,7 +53,8 @@ TEST_F(Database, LandWithoutRoadsIsWrittenFoundAndShown) {
           for (unsigned k = 0; k < 3; ++k) p[k] = osg::Vec3d(points[indices.index(i + k)]) * place;
           const osg::Vec3d middle = (p[0] + p[1] + p[2]) / 3.0;
           worst_m = std::max(worst_m, std::fabs(world.At(middle.x(), middle.y()).z_m - middle.z()));
-          area_m2 += 0.5 * ((p[1].x() - p[0].x()) * (p[2].y() - p[0].y()) - (p[1].y() - p[0].y()) * (p[2].x() - p[0].x()));
+          area_m2 +=
+              0.5 * ((p[1].x() - p[0].x()) * (p[2].y() - p[0].y()) - (p[1].y() - p[0].y()) * (p[2].x() - p[0].x()));
           ++corners;
         }
       }
@@ -74,7 +79,8 @@ TEST_F(Database, LandWithoutRoadsIsWrittenFoundAndShown) {
       Picture picture;
       picture.show_instruments = false;
       const road::StartPose& start = world.start();
-      picture.moment.cars.push_back(CarAt({start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m}, start.heading_rad));
+      picture.moment.cars.push_back(
+          CarAt({start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m}, start.heading_rad));
       return RenderStill(world, picture, 320, 180, built);
     };
     const auto memory = draw({}), built = draw(folder_ / name);
@@ -83,11 +89,15 @@ TEST_F(Database, LandWithoutRoadsIsWrittenFoundAndShown) {
   }
 }
 
-// A tile of bare hills has one file for the levels that are drawn alike, and neighbours of all kinds fit: every level is found where it is said.
+// A tile of bare hills has one file for the levels that are drawn alike, and neighbours of all kinds fit: every level
+// is found where it is said.
 TEST_F(Database, BareLandHasOneFileForLevelsThatAreAlike) {
   const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: hills\nterrain:\n  generate: {seed: 4, columns: 101, rows: 101, spacing_m: 20, west_m: -500, south_m: -500, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    z_m: 0\n    section: {template: rural}\n", "hills.yaml");
+      "rodeira: world/2\nname: hills\nterrain:\n  generate: {seed: 4, columns: 101, rows: 101, spacing_m: 20, west_m: "
+      "-500, south_m: -500, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    "
+      "z_m: 0\n    section: {template: rural}\n",
+      "hills.yaml");
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   const DatabaseReport report = Write(*parsed.value(), "one", 1);
   Write(*parsed.value(), "three", 3);

@@ -16,14 +16,20 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   // A flat quadrangle of 4 x 2 m, 3 m up: its corner (x, y) = (4, 2) is where it is farthest.
   osg::ref_ptr<osg::Geometry> quad = new osg::Geometry;
   osg::ref_ptr<osg::Vec3Array> corners = new osg::Vec3Array;
-  for (const auto& [x, y] : {std::pair(0.0F, 0.0F), std::pair(4.0F, 0.0F), std::pair(4.0F, 2.0F), std::pair(0.0F, 2.0F)}) corners->push_back({x, y, 3.0F});
+  for (const auto& [x, y] :
+       {std::pair(0.0F, 0.0F), std::pair(4.0F, 0.0F), std::pair(4.0F, 2.0F), std::pair(0.0F, 2.0F)})
+    corners->push_back({x, y, 3.0F});
   quad->setVertexArray(corners);
   quad->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_FAN, 0, 4));
   const auto model = folder_ / "shelter.osgt";
   ASSERT_TRUE(osgDB::writeNodeFile(*quad, model.string()));
   const auto world = [&](const fs::path& file) {
-    return road::World::Parse(fmt::format("rodeira: world/2\nname: plane\nground: {{kind: plane, z_m: 1}}\nroads:\n  - id: main\n    start: {{x_m: 10, y_m: 20, heading_deg: 90}}\n"
-                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: {{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15{}}}]\n", file.empty() ? "" : ", model: " + file.string()), "plane.yaml");
+    return road::World::Parse(fmt::format("rodeira: world/2\nname: plane\nground: {{kind: plane, z_m: 1}}\nroads:\n  - "
+                                          "id: main\n    start: {{x_m: 10, y_m: 20, heading_deg: 90}}\n"
+                                          "    axis: [{{line: {{length_m: 60}}}}]\n    z_m: 1\n    section: "
+                                          "{{template: rural}}\n    objects: [{{type: house, s_m: 30, t_m: -15{}}}]\n",
+                                          file.empty() ? "" : ", model: " + file.string()),
+                              "plane.yaml");
   };
   const auto parsed = world(model);
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
@@ -58,7 +64,8 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   options.folder = folder_ / "none";
   const auto report = WriteDatabase(*broken.value(), options);
   ASSERT_FALSE(report.ok());
-  EXPECT_NE(report.error().Text().find("broken.osgt: OpenSceneGraph cannot read this model"), std::string::npos) << report.error().Text();
+  EXPECT_NE(report.error().Text().find("broken.osgt: OpenSceneGraph cannot read this model"), std::string::npos)
+      << report.error().Text();
   // To look at, there stands what would stand without it, and it is said once.
   RODEIRA_NEEDS_PICTURES();
   Picture picture;
@@ -69,7 +76,8 @@ TEST_F(Database, AModelFromAFileStandsAtItsPlace) {
   const auto seen = RenderStill(*broken.value(), picture, 320, 180);
   const std::string said = testing::internal::GetCapturedStderr();
   ASSERT_TRUE(seen.ok()) << seen.error().Text();
-  EXPECT_TRUE(said.ends_with("broken.osgt: OpenSceneGraph cannot read this model; what it is of is drawn without it\n")) << said;
+  EXPECT_TRUE(said.ends_with("broken.osgt: OpenSceneGraph cannot read this model; what it is of is drawn without it\n"))
+      << said;
   EXPECT_EQ(said.find(": OpenSceneGraph"), said.rfind(": OpenSceneGraph"));
   const auto house = RenderStill(*without.value(), picture, 320, 180);
   const auto whole = RenderStill(*parsed.value(), picture, 320, 180);
@@ -110,8 +118,8 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   }
 }
 
-// The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and what is shown is the same. So with a
-// built database, and with ground that is made.
+// The eye goes away, by more than any fine level is seen from, and comes back: what it has left is no longer held, and
+// what is shown is the same. So with a built database, and with ground that is made.
 class Left : public Database, public testing::WithParamInterface<bool> {};
 
 INSTANTIATE_TEST_SUITE_P(BuiltOrMade, Left, testing::Bool());
@@ -165,12 +173,15 @@ TEST_F(Database, OnlyThatOfTheWorldAsItIsIsFound) {
   EXPECT_EQ(FindBuilt(folder_ / "bend" / "world.xodr", *world).folder, folder_ / "bend");  // in one folder with it
   const FoundBuilt other = FindBuilt(file, *moved);
   EXPECT_TRUE(other.folder.empty());
-  EXPECT_EQ(other.remark, (folder_ / "bend" / "visual.txt").string() + ": the built database is not shown: it was built from another world, or by another version of "
-                                                                       "the program; `rodeira world build` renews it");
+  EXPECT_EQ(other.remark,
+            (folder_ / "bend" / "visual.txt").string() +
+                ": the built database is not shown: it was built from another world, or by another version of "
+                "the program; `rodeira world build` renews it");
   std::ofstream(folder_ / "bend" / "tiles" / "0_0_1.osgb", std::ios::app) << "more";
   const FoundBuilt changed = FindBuilt(file, *world);
   EXPECT_TRUE(changed.folder.empty());
-  EXPECT_NE(changed.remark.find("its file 'tiles/0_0_1.osgb' is not as it was written"), std::string::npos) << changed.remark;
+  EXPECT_NE(changed.remark.find("its file 'tiles/0_0_1.osgb' is not as it was written"), std::string::npos)
+      << changed.remark;
 }
 
 }  // namespace

@@ -36,9 +36,12 @@ TEST_F(Database, OnlyWhatChangedIsBuiltAgain) {
   // Two roads far from one another, of which the second is then moved by a metre.
   const auto text = [](double x) {
     const auto road = [](int id, double at) {
-      return fmt::format("<road id=\"{}\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"30\" hdg=\"0.2\" length=\"200\"><line/></geometry></planView>"
-                         "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">"
-                         "<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n", id, at);
+      return fmt::format(
+          "<road id=\"{}\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"30\" hdg=\"0.2\" "
+          "length=\"200\"><line/></geometry></planView>"
+          "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">"
+          "<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n",
+          id, at);
     };
     return road(1, 10.0) + road(2, x);
   };
@@ -92,8 +95,10 @@ roads:
   EXPECT_EQ(first.built, first.tiles);
   EXPECT_EQ(Write(*world(""), "world").built, 0u);
   int number = 0;
-  for (const char* change : {"cut: 1.5 -> cut: 4", "type: stop -> type: give_way", "every_m: 20 -> every_m: 25", "iso_8608: C -> iso_8608: E", "    signs: ->     bridges: [{from_s_m: 50, to_s_m: 90}]\n    signs:",
-                             "  - id: near -> \n  - id: near", "z_m: 4 -> z_m: 5"}) {
+  for (const char* change :
+       {"cut: 1.5 -> cut: 4", "type: stop -> type: give_way", "every_m: 20 -> every_m: 25",
+        "iso_8608: C -> iso_8608: E", "    signs: ->     bridges: [{from_s_m: 50, to_s_m: 90}]\n    signs:",
+        "  - id: near -> \n  - id: near", "z_m: 4 -> z_m: 5"}) {
     const auto changed = world(change);
     const DatabaseReport again = Write(*changed, "world");
     EXPECT_LT(again.built, first.tiles) << change;
@@ -108,7 +113,8 @@ TEST_F(Database, RoadsOfVersion1AreRefused) {
   options.folder = folder_ / "n222";
   const auto report = WriteDatabase(*N222OfVersion1(), options);
   ASSERT_FALSE(report.ok());
-  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world, the roads of a world file of version 2"), std::string::npos);
+  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world, the roads of a world file of version 2"),
+            std::string::npos);
   EXPECT_FALSE(fs::exists(folder_ / "n222"));
 }
 
@@ -128,7 +134,10 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
     void apply(osg::Geometry& geometry) override {
       triangles += geometry.getPrimitiveSet(0)->getNumIndices() / 3;
       const osg::StateSet* state = geometry.getStateSet();
-      const auto* texture = state == nullptr ? nullptr : dynamic_cast<const osg::Texture2D*>(state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
+      const auto* texture =
+          state == nullptr
+              ? nullptr
+              : dynamic_cast<const osg::Texture2D*>(state->getTextureAttribute(0, osg::StateAttribute::TEXTURE));
       if (texture != nullptr && texture->getImage() != nullptr && texture->getImage()->t() == 128) ++pictures;
     }
   };
@@ -137,18 +146,22 @@ TEST_F(Database, OpenSceneGraphReadsIt) {
     for (const scene::Mesh& mesh : tile.levels[level].ground) expected += mesh.triangle_count();
     for (const scene::Mesh& mesh : tile.levels[level].things) expected += mesh.triangle_count();
     EXPECT_EQ(tile.levels[level].repeated.empty(), level > 2) << "trees";
-    for (const scene::Mesh& mesh : scene::Merged(tile.levels[level].repeated)) expected += mesh.triangle_count();  // once, for whatever program reads it
-    const osg::ref_ptr<osg::Node> node = osgDB::readNodeFile((folder_ / "world" / "tiles" / fmt::format("0_0_{}.osgb", level)).string());
+    for (const scene::Mesh& mesh : scene::Merged(tile.levels[level].repeated))
+      expected += mesh.triangle_count();  // once, for whatever program reads it
+    const osg::ref_ptr<osg::Node> node =
+        osgDB::readNodeFile((folder_ / "world" / "tiles" / fmt::format("0_0_{}.osgb", level)).string());
     ASSERT_TRUE(node.valid());
     Count count;
     node->accept(count);
     EXPECT_EQ(count.triangles, expected);
     EXPECT_EQ(count.pictures, level < 2 ? 2u : 0u);  // a limit and a STOP sign
   }
-  for (const osg::PagedLOD* lod : below.tiles) EXPECT_EQ(lod->getNumFileNames(), static_cast<unsigned>(scene::kGroundLevels));
+  for (const osg::PagedLOD* lod : below.tiles)
+    EXPECT_EQ(lod->getNumFileNames(), static_cast<unsigned>(scene::kGroundLevels));
 }
 
-// The smallest files of other programs, or as many as are asked for: every tile is written, read again by OpenSceneGraph, and ground.
+// The smallest files of other programs, or as many as are asked for: every tile is written, read again by
+// OpenSceneGraph, and ground.
 TEST_F(Database, RealFilesAreWrittenAndReadAgain) {
   std::vector<fs::path> files;
   std::error_code problem;
@@ -156,7 +169,9 @@ TEST_F(Database, RealFilesAreWrittenAndReadAgain) {
     if (entry.path().extension() == ".xodr") files.push_back(entry.path());
   }
   if (files.empty()) GTEST_SKIP() << "the files of other programs (../shared/data/road/xodr) are not here";
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) { return std::pair(fs::file_size(a), a) < std::pair(fs::file_size(b), b); });
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return std::pair(fs::file_size(a), a) < std::pair(fs::file_size(b), b);
+  });
   files.resize(std::min<std::size_t>(files.size(), Setting("RODEIRA_BUILT_FILES", 2)));
   struct Reach : osg::NodeVisitor {
     osg::BoundingBox box;
@@ -178,7 +193,8 @@ TEST_F(Database, RealFilesAreWrittenAndReadAgain) {
       node->accept(reach);
       if (!reach.box.valid()) continue;
       ++ground;
-      EXPECT_LT(reach.box.radius(), 2000.0) << entry.path();  // a square of 256 m, with what stands in it and reaches out of it
+      EXPECT_LT(reach.box.radius(), 2000.0)
+          << entry.path();  // a square of 256 m, with what stands in it and reaches out of it
     }
     EXPECT_GT(ground, report.tiles) << name;
     EXPECT_EQ(Write(*world.value(), name).built, 0u) << name;

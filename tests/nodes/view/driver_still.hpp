@@ -7,7 +7,8 @@
 
 namespace rodeira::nodes {
 
-// One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that derives begins with this one's.
+// One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that
+// derives begins with this one's.
 class DriverStill : public ::testing::Test {
  protected:
   DriverStill(const char* world, int width_px, int height_px, Quality quality = Quality::kMedium)

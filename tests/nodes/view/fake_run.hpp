@@ -28,7 +28,9 @@ inline double HeadingAt(double time_s) { return 0.2 * time_s; }
 inline Eigen::Vector3d CarAtTime(double time_s) { return {20.0 * time_s, 3.0 * std::sin(time_s), 0.0}; }
 // 16 m ahead of the car, passing from its left to its right.
 inline Eigen::Vector3d AgentInCar(double time_s) { return {16.0, 3.0 - 4.0 * time_s, 0.0}; }
-inline Eigen::Vector3d AgentAtTime(double time_s) { return CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * AgentInCar(time_s); }
+inline Eigen::Vector3d AgentAtTime(double time_s) {
+  return CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * AgentInCar(time_s);
+}
 
 class FakeSource final : public lockstep::Node {
  public:
@@ -97,8 +99,9 @@ class FakeSource final : public lockstep::Node {
 
 // A launch file of the four, with the view's own keys.
 inline std::string LaunchText(const std::string& view_config, const std::string& vehicle_period_s = "0.001") {
-  return "rodeira: launch/1\nname: fake\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle, period_s: " + vehicle_period_s +
-         "}\n  others: {kind: traffic}\n  picture:\n    kind: view\n    config: " + view_config + "\n";
+  return "rodeira: launch/1\nname: fake\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle, period_s: " +
+         vehicle_period_s + "}\n  others: {kind: traffic}\n  picture:\n    kind: view\n    config: " + view_config +
+         "\n";
 }
 
 }  // namespace rodeira::nodes

@@ -1,8 +1,9 @@
-// Marks lie on the road's own heights and are drawn over it by a polygon offset: from picture to picture none of them may vanish.
+// Marks lie on the road's own heights and are drawn over it by a polygon offset: from picture to picture none of them
+// may vanish.
 #include <gtest/gtest.h>
 
-#include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -20,8 +21,9 @@ class FlickerStill : public DriverStill {
   }
 };
 
-// The right edge line, 10 to 45 m ahead (there it is a pixel and a half wide), in pictures 7 cm apart (30 m/s at 430 pictures a second: far finer than any display): in each it is
-// lighter than the asphalt beside it, wherever the ground does not hide it.
+// The right edge line, 10 to 45 m ahead (there it is a pixel and a half wide), in pictures 7 cm apart (30 m/s at 430
+// pictures a second: far finer than any display): in each it is lighter than the asphalt beside it, wherever the ground
+// does not hide it.
 TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
   const road::Road& road = N222Road();
   int asked = 0, worst_s = 0;
@@ -37,7 +39,8 @@ TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
           const auto at = camera.Project(road.Position(begin_m + ahead_m, t_m), image.width_px, image.height_px);
           if (!at || at->x() < 2.0 || at->x() > image.width_px - 2.0 || at->y() > 0.70 * image.height_px) return -1.0;
           double lightest = 0.0;  // the line may lie on the border of two pixels
-          for (const double aside_px : {-1.0, 0.0, 1.0}) lightest = std::max(lightest, ProbeAt(image, at->x() + aside_px, at->y(), 0).green);
+          for (const double aside_px : {-1.0, 0.0, 1.0})
+            lightest = std::max(lightest, ProbeAt(image, at->x() + aside_px, at->y(), 0).green);
           return lightest;
         };
         const double line = light(-2.96), road_beside = light(-2.2);

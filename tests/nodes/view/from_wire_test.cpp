@@ -9,8 +9,9 @@
 namespace rodeira::nodes {
 namespace {
 
-// A car drives north at 20 m/s. What its driver steers for was said at 0.1 s, when the car was at y = 2: 3 m before it and 1 m to its left. That is where it is
-// drawn until it is said again, while the point up to which he looks stays where it was.
+// A car drives north at 20 m/s. What its driver steers for was said at 0.1 s, when the car was at y = 2: 3 m before it
+// and 1 m to its left. That is where it is drawn until it is said again, while the point up to which he looks stays
+// where it was.
 TEST(FromWire, WhatIsHeldOfADriverGoesOnWithHisCar) {
   const auto launch = launch::Launch::Parse(LaunchText("{window: never}"), "fake.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
@@ -35,8 +36,10 @@ TEST(FromWire, WhatIsHeldOfADriverGoesOnWithHisCar) {
     state.agents().push_back(agent);
     NewestSamples newest;
     for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {
-      if (roster.source(s).topic == idl::topics::kTrafficState) newest[s] = std::make_shared<const base::Bytes>(idl::Encode(state));
-      if (roster.source(s).topic == idl::topics::kTrafficDetails) newest[s] = std::make_shared<const base::Bytes>(idl::Encode(details));
+      if (roster.source(s).topic == idl::topics::kTrafficState)
+        newest[s] = std::make_shared<const base::Bytes>(idl::Encode(state));
+      if (roster.source(s).topic == idl::topics::kTrafficDetails)
+        newest[s] = std::make_shared<const base::Bytes>(idl::Encode(details));
     }
     ASSERT_EQ(newest.size(), 2u);
     const auto moment = MakeMoment(roster, milliseconds, newest);
@@ -44,7 +47,8 @@ TEST(FromWire, WhatIsHeldOfADriverGoesOnWithHisCar) {
     ASSERT_EQ(moment.value().agents.size(), 1u);
     ASSERT_TRUE(moment.value().agents[0].detail);
     const scene::AgentDetail& said = *moment.value().agents[0].detail;
-    EXPECT_LT((said.target_B - Eigen::Vector2d(3.0, 1.0)).norm(), 1e-5) << said.target_B.transpose() << " at " << milliseconds << " ms";
+    EXPECT_LT((said.target_B - Eigen::Vector2d(3.0, 1.0)).norm(), 1e-5)
+        << said.target_B.transpose() << " at " << milliseconds << " ms";
     EXPECT_NEAR(said.path_turn_rad, 1.8 - 1.5707963, 1e-5);
     EXPECT_EQ(said.look_ahead_W, Eigen::Vector2d(4.0, 60.0));
   }

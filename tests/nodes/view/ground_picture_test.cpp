@@ -25,7 +25,8 @@ std::string FourColours() {
     for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
   };
   put(14 + 40 + 16, 4), put(0, 4), put(14 + 40, 4);
-  put(40, 4), put(2, 4), put(2, 4), put(1, 2), put(24, 2), put(0, 4), put(16, 4), put(0, 4), put(0, 4), put(0, 4), put(0, 4);
+  put(40, 4), put(2, 4), put(2, 4), put(1, 2), put(24, 2), put(0, 4), put(16, 4), put(0, 4), put(0, 4), put(0, 4),
+      put(0, 4);
   for (const std::uint32_t rgb : {0xfa0000u, 0x0000fau}) put(rgb, 3);
   put(0, 2);
   for (const std::uint32_t rgb : {0x00fa00u, 0xfafa00u}) put(rgb, 3);
@@ -37,24 +38,30 @@ class GroundPicture : public testing::Test {
  protected:
   void SetUp() override { folder_.Write("four.bmp", FourColours()); }
 
-  std::shared_ptr<const road::World> Plane(const std::string& ground, const std::string& section = "template: rural") const {
+  std::shared_ptr<const road::World> Plane(const std::string& ground,
+                                           const std::string& section = "template: rural") const {
     const auto world = road::World::Parse(
-        fmt::format("rodeira: world/2\nname: pictures\nground: {{kind: plane, surface: grass{}}}\nmaterials: {{four: {{surface: asphalt, texture: four.bmp, texture_m: 8}}}}\nroads:\n"
-                    "  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 0}}\n    axis: [line: {{length_m: 80}}]\n    z_m: 0\n    section: {{{}}}\n    lines: []\n", ground, section),
+        fmt::format("rodeira: world/2\nname: pictures\nground: {{kind: plane, surface: grass{}}}\nmaterials: {{four: "
+                    "{{surface: asphalt, texture: four.bmp, texture_m: 8}}}}\nroads:\n"
+                    "  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 0}}\n    axis: [line: {{length_m: 80}}]\n    "
+                    "z_m: 0\n    section: {{{}}}\n    lines: []\n",
+                    ground, section),
         folder_.path() / "made.yaml");
     EXPECT_TRUE(world.ok()) << world.error().Text();
     return world.ok() ? world.value() : nullptr;
   }
 
   // What is seen from above at places around (40, 0), where the car stands.
-  std::vector<Probe> See(const road::World& world, const std::vector<Eigen::Vector2d>& places, const fs::path& built = {}) const {
+  std::vector<Probe> See(const road::World& world, const std::vector<Eigen::Vector2d>& places,
+                         const fs::path& built = {}) const {
     Picture picture;
     picture.show_instruments = false;
     picture.camera = scene::CameraKind::kTop;
     picture.moment.cars.push_back(CarAt({40.0, 0.0, 0.0}, 0.0));
     const auto image = RenderStill(world, picture, kWidth, kHeight, built);
     EXPECT_TRUE(image.ok()) << image.error().Text();
-    const scene::Camera camera = scene::MakeCamera(picture.camera, *scene::BodyAt(picture.moment, 0), picture.aim, world);
+    const scene::Camera camera =
+        scene::MakeCamera(picture.camera, *scene::BodyAt(picture.moment, 0), picture.aim, world);
     std::vector<Probe> probes;
     for (const Eigen::Vector2d& p : places) probes.push_back(ProbeAt(image.value(), camera, {p.x(), p.y(), 0.0}));
     return probes;
@@ -86,7 +93,8 @@ void ExpectFour(const std::vector<Probe>& p, std::size_t first = 0) {
 
 TEST_F(GroundPicture, ADrapedOneLiesInItsRectangleAndTheGroundBeyond) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = Plane(", texture: {file: four.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}");
+  const auto world =
+      Plane(", texture: {file: four.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}");
   ASSERT_NE(world, nullptr);
   auto places = Fields(28.0, 8.0, 24.0);
   places.push_back({22.0, 15.0});
@@ -102,7 +110,9 @@ TEST_F(GroundPicture, ADrapedOneLiesInItsRectangleAndTheGroundBeyond) {
 TEST_F(GroundPicture, AGeotypicalOneRepeatsAndALaneHasItsOwn) {
   RODEIRA_NEEDS_PICTURES();
   // Lanes of 8 m, of which the right one, from y = -8 to 0, has the picture of 8 m.
-  const auto world = Plane(", texture: {file: four.bmp, repeat_m: 10}", "lanes: [{id: -1, width_m: 8, material: four}, {id: 1, width_m: 6}], crossfall: {kind: crown, fall: 0}, verge: {width_m: 1}");
+  const auto world = Plane(", texture: {file: four.bmp, repeat_m: 10}",
+                           "lanes: [{id: -1, width_m: 8, material: four}, {id: 1, width_m: 6}], crossfall: {kind: "
+                           "crown, fall: 0}, verge: {width_m: 1}");
   ASSERT_NE(world, nullptr);
   auto places = Fields(30.0, 10.0, 10.0);
   for (const Eigen::Vector2d& p : Fields(50.0, -20.0, 10.0)) places.push_back(p);
@@ -117,7 +127,8 @@ TEST_F(GroundPicture, AGeotypicalOneRepeatsAndALaneHasItsOwn) {
 
 TEST_F(GroundPicture, BuiltFilesShowTheSameAndNameThePicture) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = Plane(", texture: {file: four.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}", "lanes: [{id: -1, width_m: 8, material: four}], verge: {width_m: 1}");
+  const auto world = Plane(", texture: {file: four.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}",
+                           "lanes: [{id: -1, width_m: 8, material: four}], verge: {width_m: 1}");
   ASSERT_NE(world, nullptr);
   DatabaseOptions options;
   options.folder = folder_.path() / "made";
@@ -127,7 +138,9 @@ TEST_F(GroundPicture, BuiltFilesShowTheSameAndNameThePicture) {
   for (const auto& entry : fs::directory_iterator(options.folder / "pictures")) {
     ++pictures;
     EXPECT_EQ(base::ReadText(entry.path()).value(), FourColours());
-    EXPECT_NE(base::ReadText(options.folder / "visual.txt").value().find("pictures/" + entry.path().filename().string()), std::string::npos);
+    EXPECT_NE(
+        base::ReadText(options.folder / "visual.txt").value().find("pictures/" + entry.path().filename().string()),
+        std::string::npos);
   }
   EXPECT_EQ(pictures, 1u);  // one file, laid in two ways
   EXPECT_EQ(FindBuilt(folder_.path() / "made.yaml", *world).folder, options.folder);
@@ -151,7 +164,8 @@ TEST_F(GroundPicture, BuiltFilesShowTheSameAndNameThePicture) {
 
 TEST_F(GroundPicture, WithoutTheFileTheViewGoesOnAndSaysSo) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = Plane(", texture: {file: fuor.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}");
+  const auto world =
+      Plane(", texture: {file: fuor.bmp, kind: draped, west_m: 28, south_m: 8, east_m: 52, north_m: 32}");
   ASSERT_NE(world, nullptr);
   testing::internal::CaptureStderr();
   const auto p = See(*world, Fields(28.0, 8.0, 24.0));

@@ -7,8 +7,8 @@
 #include "common/core/base/random.hpp"
 #include "common/view/scene/lighting/air.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
-#include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -28,7 +28,8 @@ struct Pair {
 };
 
 Pair Drawn(const road::World& world, const Picture& picture) {
-  return {RenderStill(world, picture, kWidth, kHeight, {}, Quality::kMedium).value(), RenderStill(world, picture, kWidth, kHeight, {}, Quality::kLow).value()};
+  return {RenderStill(world, picture, kWidth, kHeight, {}, Quality::kMedium).value(),
+          RenderStill(world, picture, kWidth, kHeight, {}, Quality::kLow).value()};
 }
 
 // How far the ray from a place towards the sun passes over the ground at least, m; less than 0: something is before it.
@@ -43,7 +44,8 @@ double RoomUnderRay(const road::World& world, const Eigen::Vector3d& p_W, const 
   return room;
 }
 
-// In a valley of N222 early in the morning: where its ray is cut off, the light of the sun is missing, and elsewhere it is not.
+// In a valley of N222 early in the morning: where its ray is cut off, the light of the sun is missing, and elsewhere it
+// is not.
 TEST(GroundShadow, HillsStandBeforeTheSun) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
@@ -61,7 +63,8 @@ TEST(GroundShadow, HillsStandBeforeTheSun) {
   double left = 0.0, expected = 0.0, left_in_sun = 0.0;
   int shaded = 0, lit = 0;
   for (std::uint64_t i = 0; i < 900; ++i) {
-    const double x = picture.moment.cars[0].p_WB_W.x() + base::RandomUniform({i, 0}, -550.0, 550.0), y = picture.moment.cars[0].p_WB_W.y() + base::RandomUniform({i, 1}, -420.0, 420.0);
+    const double x = picture.moment.cars[0].p_WB_W.x() + base::RandomUniform({i, 0}, -550.0, 550.0),
+                 y = picture.moment.cars[0].p_WB_W.y() + base::RandomUniform({i, 1}, -420.0, 420.0);
     const road::SurfacePoint ground = world->At(x, y);
     if (!ground.inside) continue;
     const Eigen::Vector3d normal = Eigen::Vector3d(-ground.slope_x, -ground.slope_y, 1.0).normalized();
@@ -74,11 +77,13 @@ TEST(GroundShadow, HillsStandBeforeTheSun) {
       ++lit, left_in_sun += left_here;
       continue;
     }
-    const double sky = static_cast<double>(air.base_light.mean()) + (0.5 + 0.5 * normal.z()) * static_cast<double>(air.sky_light.mean());
+    const double sky = static_cast<double>(air.base_light.mean()) +
+                       (0.5 + 0.5 * normal.z()) * static_cast<double>(air.sky_light.mean());
     const double of_light = sky / (sky + sun * static_cast<double>(air.sun_light.mean()));
     // The haze before it stays as bright as it was: of what is seen so much is the ground's own.
     const Eigen::Vector3d p_W(x, y, ground.z_m);
-    const double clear = std::exp(-std::pow((p_W - camera.eye_W).norm() * 1.6e-4, 1.3)), haze = 255.0 * air.horizon.cast<double>().dot(Eigen::Vector3d(0.93, 0.96, 1.0)) / 3.0;
+    const double clear = std::exp(-std::pow((p_W - camera.eye_W).norm() * 1.6e-4, 1.3)),
+                 haze = 255.0 * air.horizon.cast<double>().dot(Eigen::Vector3d(0.93, 0.96, 1.0)) / 3.0;
     const double own = 1.0 - (1.0 - clear) * haze / Brightness(ProbeAt(pair.without, camera, p_W, 1));
     ++shaded, left += left_here, expected += 1.0 - own * (1.0 - of_light);
   }
@@ -95,20 +100,22 @@ TEST(GroundShadow, OfABridgeOnTheRoadBelow) {
   RODEIRA_NEEDS_PICTURES();
   const auto straight = [](int id, double x_m, double y_m, double heading_rad, double z_m) {
     const std::string lane = R"(<width sOffset="0" a="3" b="0" c="0" d="0"/></lane>)";
-    return fmt::format(R"(<road id="{}" length="200" junction="-1"><planView><geometry s="0" x="{}" y="{}" hdg="{}" length="200"><line/></geometry></planView>)"
-                       R"(<elevationProfile><elevation s="0" a="{}" b="0" c="0" d="0"/></elevationProfile>)"
-                       R"(<lanes><laneSection s="0"><left><lane id="1" type="driving">{}</left><center><lane id="0"/></center><right><lane id="-1" type="driving">{}</right></laneSection></lanes></road>)",
-                       id, x_m, y_m, heading_rad, z_m, lane, lane);
+    return fmt::format(
+        R"(<road id="{}" length="200" junction="-1"><planView><geometry s="0" x="{}" y="{}" hdg="{}" length="200"><line/></geometry></planView>)"
+        R"(<elevationProfile><elevation s="0" a="{}" b="0" c="0" d="0"/></elevationProfile>)"
+        R"(<lanes><laneSection s="0"><left><lane id="1" type="driving">{}</left><center><lane id="0"/></center><right><lane id="-1" type="driving">{}</right></laneSection></lanes></road>)",
+        id, x_m, y_m, heading_rad, z_m, lane, lane);
   };
-  const auto world = scene::OpenDriveWorld(straight(1, 0.0, 0.0, 0.0, 0.0) + straight(2, 100.0, -100.0, 1.5707963267948966, 7.0));
+  const auto world =
+      scene::OpenDriveWorld(straight(1, 0.0, 0.0, 0.0, 0.0) + straight(2, 100.0, -100.0, 1.5707963267948966, 7.0));
   ASSERT_NE(world, nullptr);
   Picture picture;
   picture.show_instruments = false;
   picture.moment.weather.clouds = 0.0;
   picture.moment.weather.hour = 10.5;
   const Eigen::Vector3d to_sun = scene::MakeAir(picture.moment.weather).sun_W.cast<double>();
-  // Whether the ray towards the sun goes through the upper surface: the bridge, or the land beside it, which is as high. Coming out from below its side
-  // is not going through it.
+  // Whether the ray towards the sun goes through the upper surface: the bridge, or the land beside it, which is as
+  // high. Coming out from below its side is not going through it.
   const auto covered = [&](double x_m) {
     double before = 0.0;
     for (double way_m = 0.2; way_m < 40.0; way_m += 0.05) {
@@ -124,7 +131,8 @@ TEST(GroundShadow, OfABridgeOnTheRoadBelow) {
   const Pair pair = Drawn(*world, picture);
   const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
   int dark = 0, bright = 0;
-  for (double x_m = eye_m + 4.0; x_m < 100.0; x_m += 0.5) {  // beyond it the land to the south of the bridge is drawn more coarsely than SUELO's
+  for (double x_m = eye_m + 4.0; x_m < 100.0;
+       x_m += 0.5) {  // beyond it the land to the south of the bridge is drawn more coarsely than SUELO's
     const bool is = covered(x_m);
     if (covered(x_m - 1.2) != is || covered(x_m + 1.2) != is) continue;  // its edge
     (is ? dark : bright) += 1;

@@ -1,10 +1,11 @@
-// A statistic over the ground, asked of single pixels: the shader's colours are those of the scale, 70 parts in 100 over what is seen without it.
+// A statistic over the ground, asked of single pixels: the shader's colours are those of the scale, 70 parts in 100
+// over what is seen without it.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -32,17 +33,21 @@ class HeatStill : public DriverStill {
     for (std::size_t row = 0; row < raster.rows; ++row) {
       for (std::size_t column = 0; column < raster.columns; ++column) {
         const Eigen::Vector3d middle = Middle(raster, column, row);
-        const auto height = static_cast<std::uint16_t>(std::lround(65535.0 * (middle.z() + above_m - raster.lowest_m) / raster.range_m));
-        raster.texels.insert(raster.texels.end(), {static_cast<std::uint16_t>(std::lround(65535.0 * share(column, row))), height, 0, 0});
+        const auto height = static_cast<std::uint16_t>(
+            std::lround(65535.0 * (middle.z() + above_m - raster.lowest_m) / raster.range_m));
+        raster.texels.insert(raster.texels.end(),
+                             {static_cast<std::uint16_t>(std::lround(65535.0 * share(column, row))), height, 0, 0});
       }
     }
     picture_.heat = heat;
   }
   Eigen::Vector3d Middle(const scene::HeatRaster& raster, std::size_t column, std::size_t row) const {
-    const double x = raster.west_m + kSquare_m * (static_cast<double>(column) + 0.5), y = raster.south_m + kSquare_m * (static_cast<double>(row) + 0.5);
+    const double x = raster.west_m + kSquare_m * (static_cast<double>(column) + 0.5),
+                 y = raster.south_m + kSquare_m * (static_cast<double>(row) + 0.5);
     return {x, y, world_->At(x, y).z_m};
   }
-  // Whether its eight neighbours look as this pixel does: at the edge of a line or a car how much of a pixel is whose may differ between two shaders of one graphics card.
+  // Whether its eight neighbours look as this pixel does: at the edge of a line or a car how much of a pixel is whose
+  // may differ between two shaders of one graphics card.
   static bool OfOneKind(const Image& image, int column_px, int row_px) {
     const std::uint8_t* here = image.At(column_px, row_px);
     for (int y = row_px - 1; y <= row_px + 1; ++y) {
@@ -63,10 +68,13 @@ class HeatStill : public DriverStill {
       for (std::size_t column = 4; column < 12; ++column) {
         const auto at = camera.Project(Middle(picture_.heat->raster, column, row), before.width_px, before.height_px);
         if (!OfOneKind(before, static_cast<int>(at->x()), static_cast<int>(at->y()))) continue;
-        const std::uint8_t *was = before.At(static_cast<int>(at->x()), static_cast<int>(at->y())), *is = heat.At(static_cast<int>(at->x()), static_cast<int>(at->y()));
+        const std::uint8_t *was = before.At(static_cast<int>(at->x()), static_cast<int>(at->y())),
+                           *is = heat.At(static_cast<int>(at->x()), static_cast<int>(at->y()));
         const scene::Colour colour = scene::HeatColour(share(column, row));
-        const double parts[3] = {static_cast<double>(colour.red), static_cast<double>(colour.green), static_cast<double>(colour.blue)};
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(is[k], kept * was[k] + (1.0 - kept) * parts[k], 2.0) << column << ", " << row << ", part " << k;
+        const double parts[3] = {static_cast<double>(colour.red), static_cast<double>(colour.green),
+                                 static_cast<double>(colour.blue)};
+        for (int k = 0; k < 3; ++k)
+          EXPECT_NEAR(is[k], kept * was[k] + (1.0 - kept) * parts[k], 2.0) << column << ", " << row << ", part " << k;
         ++asked;
       }
     }
@@ -76,7 +84,9 @@ class HeatStill : public DriverStill {
 };
 
 TEST_F(HeatStill, SeventyPartsInAHundredAreTheScalesColourWhateverGroundItIs) {
-  const auto share = [](std::size_t column, std::size_t) { return static_cast<double>(column) / 15.0; };  // red in the west, green in the east
+  const auto share = [](std::size_t column, std::size_t) {
+    return static_cast<double>(column) / 15.0;
+  };  // red in the west, green in the east
   const Image before = Drawn();
   Lay(share);
   ExpectBlended(before, Drawn(), share, 1.0 - scene::kHeatShare);
@@ -104,7 +114,8 @@ TEST_F(HeatStill, OfAnotherSurfaceNothingIsSeen) {
   const Image before = Drawn();
   Lay([](std::size_t, std::size_t) { return 0.0; }, 6.0);
   EXPECT_EQ(Drawn().rgb.size(), before.rgb.size());
-  ExpectBlended(before, Drawn(), [](std::size_t, std::size_t) { return 0.0; }, 1.0);
+  ExpectBlended(
+      before, Drawn(), [](std::size_t, std::size_t) { return 0.0; }, 1.0);
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ class LightsStill : public DriverStill {
     Eigen::AlignedBox3d box;
     for (std::size_t i = 0; i < car.lamps.positions.size(); ++i) {
       const Eigen::Vector3d p = car.lamps.positions[i].cast<double>();
-      if (car.lamps.on_face[i].x() == static_cast<float>(lamp) && (p.x() > 0.0) == front && p.y() * side > 0.0) box.extend(p);
+      if (car.lamps.on_face[i].x() == static_cast<float>(lamp) && (p.x() > 0.0) == front && p.y() * side > 0.0)
+        box.extend(p);
     }
     EXPECT_FALSE(box.isEmpty());
     Eigen::Vector3d face = box.center();
@@ -58,11 +59,15 @@ class LightsStill : public DriverStill {
 void LightsStill::ExpectLampsShine() {
   using scene::Lamp;
   picture_.aim.azimuth_rad = 0.0;
-  const Image dark = With({}), brakes = With({.brake = true}), left = With({.left = true}), right = With({.right = true}), reversing = With({.reversing = true});
+  const Image dark = With({}), brakes = With({.brake = true}), left = With({.left = true}),
+              right = With({.right = true}), reversing = With({.reversing = true});
   for (const double side : {1.0, -1.0}) {
-    EXPECT_GT(LampIn(brakes, Lamp::kBrake, false, side).red, LampIn(dark, Lamp::kBrake, false, side).red + 50.0) << side;
+    EXPECT_GT(LampIn(brakes, Lamp::kBrake, false, side).red, LampIn(dark, Lamp::kBrake, false, side).red + 50.0)
+        << side;
     EXPECT_LT(LampIn(brakes, Lamp::kBrake, false, side).green, 90.0);
-    EXPECT_GT(LampIn(reversing, Lamp::kReversing, false, side).blue, LampIn(dark, Lamp::kReversing, false, side).blue + 40.0) << side;
+    EXPECT_GT(LampIn(reversing, Lamp::kReversing, false, side).blue,
+              LampIn(dark, Lamp::kReversing, false, side).blue + 40.0)
+        << side;
     const Lamp indicator = side > 0.0 ? Lamp::kLeft : Lamp::kRight;
     const Image &mine = side > 0.0 ? left : right, &other = side > 0.0 ? right : left;
     EXPECT_GT(LampIn(mine, indicator, false, side).green, LampIn(dark, indicator, false, side).green + 40.0) << side;
@@ -73,7 +78,8 @@ void LightsStill::ExpectLampsShine() {
   picture_.aim.azimuth_rad = std::numbers::pi;
   const Image ahead = With({}), dipped = With({.dipped = true}), turning = With({.left = true, .right = true});
   for (const double side : {1.0, -1.0}) {
-    EXPECT_GT(LampIn(dipped, Lamp::kHead, true, side).green, LampIn(ahead, Lamp::kHead, true, side).green + 10.0) << side;
+    EXPECT_GT(LampIn(dipped, Lamp::kHead, true, side).green, LampIn(ahead, Lamp::kHead, true, side).green + 10.0)
+        << side;
     const Lamp indicator = side > 0.0 ? Lamp::kLeft : Lamp::kRight;
     EXPECT_GT(LampIn(turning, indicator, true, side).green, LampIn(ahead, indicator, true, side).green + 40.0) << side;
   }
@@ -104,7 +110,8 @@ TEST_F(LightsStill, TheDriverSwitchesHisHeadlightsOn) {
   Car() = CarAt({12.0, 7.0, 0.0}, 0.6);
   const auto green_ahead = [&](const scene::CarLights& lights) {
     Car().lights = lights;
-    return ProbeAt(Drawn(), scene::DriverCamera(Car()), Car().p_WB_W + Car().q_WB * Eigen::Vector3d(14.0, 0.0, 0.0), 2).green;
+    return ProbeAt(Drawn(), scene::DriverCamera(Car()), Car().p_WB_W + Car().q_WB * Eigen::Vector3d(14.0, 0.0, 0.0), 2)
+        .green;
   };
   const double without = green_ahead({});
   EXPECT_GT(green_ahead({.dipped = true}), without + 5.0);

@@ -1,4 +1,5 @@
-// Ground that is made where the eye comes near: what is seen of it is what would be seen of a world that was built before.
+// Ground that is made where the eye comes near: what is seen of it is what would be seen of a world that was built
+// before.
 #include <chrono>
 #include <thread>
 
@@ -18,7 +19,9 @@ class MadeWorld : public testing::Test {
     world_ = scene::OpenDriveWorld(BendWithThings());
     ASSERT_NE(world_, nullptr);
   }
-  std::unique_ptr<Surface> Open(Quality quality) const { return Surface::Open(SurfaceKind::kOffscreen, 480, 270, "test", false, 0, quality).value(); }
+  std::unique_ptr<Surface> Open(Quality quality) const {
+    return Surface::Open(SurfaceKind::kOffscreen, 480, 270, "test", false, 0, quality).value();
+  }
   Picture On(double s_m, scene::CameraKind camera) const {
     const network::Road& road = world_->network()->roads()[0];
     Picture picture;
@@ -30,7 +33,8 @@ class MadeWorld : public testing::Test {
   std::vector<Picture> Tour() const {
     std::vector<Picture> tour;
     for (const double s_m : {25.0, 300.0, 70.0}) {
-      for (const auto camera : {scene::CameraKind::kChase, scene::CameraKind::kDriver, scene::CameraKind::kTop}) tour.push_back(On(s_m, camera));
+      for (const auto camera : {scene::CameraKind::kChase, scene::CameraKind::kDriver, scene::CameraKind::kTop})
+        tour.push_back(On(s_m, camera));
     }
     return tour;
   }
@@ -90,15 +94,20 @@ TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
   const std::size_t tiles = scene::GroundPlan(*world_).tiles().size();
   EXPECT_LT(looked_at, tiles);
   const auto end = std::chrono::steady_clock::now() + 60s;
-  while (painter.value()->HeldLevels() < tiles && std::chrono::steady_clock::now() < end) painter.value()->Draw(picture);
+  while (painter.value()->HeldLevels() < tiles && std::chrono::steady_clock::now() < end)
+    painter.value()->Draw(picture);
   EXPECT_GE(painter.value()->HeldLevels(), tiles);
 }
 
-// Far beyond what is drawn nothing is made, and nothing is made again and again: a straight road of 36 km, looked along.
+// Far beyond what is drawn nothing is made, and nothing is made again and again: a straight road of 36 km, looked
+// along.
 TEST(MadeFarWorld, HoldsWhatIsSeenAndNoMore) {
   RODEIRA_NEEDS_PICTURES();
-  const auto world = road::World::Parse("rodeira: world/2\nname: long\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
-                                        "    axis: [{line: {length_m: 36000}}]\n    z_m: 0\n    section: {template: rural}\n", "long.yaml");
+  const auto world = road::World::Parse(
+      "rodeira: world/2\nname: long\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: 0, "
+      "heading_deg: 0}\n"
+      "    axis: [{line: {length_m: 36000}}]\n    z_m: 0\n    section: {template: rural}\n",
+      "long.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const auto surface = Surface::Open(SurfaceKind::kOffscreen, 160, 90, "test", false, 0, Quality::kLow);
   const auto painter = PainterOf(*surface.value(), *world.value(), {});

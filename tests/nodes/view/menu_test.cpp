@@ -56,7 +56,8 @@ class MenuTest : public ::testing::Test {
     return event;
   }
   bool MoveTo(int x_px, int y_px) { return screen_->TakeMouse(MotionTo(x_px, y_px)); }
-  // Where this entry is: another menu of the same size is gone over by the mouse until it is on it. The left upper corner where there is none.
+  // Where this entry is: another menu of the same size is gone over by the mouse until it is on it. The left upper
+  // corner where there is none.
   Eigen::Vector2d PlaceOf(const std::string& entry) const {
     Menu menu;
     menu.Toggle();
@@ -74,7 +75,8 @@ class MenuTest : public ::testing::Test {
     }
     return {0.0, 0.0};
   }
-  // False where there is no such entry. Down and up come before the next picture, as a fast click does; then the mouse goes away.
+  // False where there is no such entry. Down and up come before the next picture, as a fast click does; then the mouse
+  // goes away.
   bool Click(const std::string& entry) {
     const Eigen::Vector2d at = PlaceOf(entry);
     if (at.x() == 0.0) return false;
@@ -91,7 +93,8 @@ class MenuTest : public ::testing::Test {
   }
   // What is seen now, for people, where they ask for it.
   void Keep(const char* name) {
-    if (const char* pictures = std::getenv("RODEIRA_PICTURES")) (void)WritePng(std::filesystem::path(pictures) / name, Frame());
+    if (const char* pictures = std::getenv("RODEIRA_PICTURES"))
+      (void)WritePng(std::filesystem::path(pictures) / name, Frame());
   }
 
   ViewSettings settings_;
@@ -144,7 +147,8 @@ TEST_F(MenuTest, WhatIsBesideItIsTheWorlds) {
   EXPECT_FALSE(screen_->TakeMouse(ButtonAt({100.0, 300.0}, true, SDL_BUTTON_RIGHT))) << "who drives by it";
   EXPECT_TRUE(MoveTo(kWidth - 60, 60));
   EXPECT_TRUE(screen_->TakeMouse(ButtonAt({kWidth - 60.0, 60.0}, true, SDL_BUTTON_RIGHT)));
-  EXPECT_FALSE(screen_->TakeMouse(ButtonAt({kWidth - 60.0, 60.0}, false, SDL_BUTTON_RIGHT))) << "what was pressed elsewhere is let go of";
+  EXPECT_FALSE(screen_->TakeMouse(ButtonAt({kWidth - 60.0, 60.0}, false, SDL_BUTTON_RIGHT)))
+      << "what was pressed elsewhere is let go of";
 }
 
 TEST_F(MenuTest, SwitchesAndTheVolumeAreThoseOfTheKeys) {

@@ -23,7 +23,9 @@ class MirrorStill : public DriverStill {
     AddBehind(1, 14.0, 3.5, scene::Colour::Of(0xc01010));   // red, to the left
     AddBehind(2, 14.0, -3.5, scene::Colour::Of(0x1030c0));  // blue, to the right
   }
-  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) { return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m); }
+  Eigen::Vector3d Behind(double behind_m, double left_m, double up_m) {
+    return Car().p_WB_W + Car().q_WB * Eigen::Vector3d(-behind_m, left_m, up_m);
+  }
   void AddBehind(std::uint64_t id, double behind_m, double left_m, scene::Colour colour) {
     scene::AgentPose agent;
     agent.id = id;
@@ -35,10 +37,12 @@ class MirrorStill : public DriverStill {
   // On the picture's screen, where it has one.
   scene::MirrorPlace Place(scene::Mirror mirror) const {
     constexpr double kAspect = static_cast<double>(kWidth) / kHeight;
-    return picture_.screen ? scene::PlaceOn(*picture_.screen, scene::Body(picture_.moment.cars[0]), mirror, kAspect) : scene::PlaceOf(mirror, kAspect);
+    return picture_.screen ? scene::PlaceOn(*picture_.screen, scene::Body(picture_.moment.cars[0]), mirror, kAspect)
+                           : scene::PlaceOf(mirror, kAspect);
   }
   // Where a place behind the car is seen in a mirror, in pixels of the picture; `reversed` as mirrors do.
-  Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W, bool reversed) const {
+  Eigen::Vector2d Seen(const scene::CarPose& car, scene::Mirror mirror, const Eigen::Vector3d& p_W,
+                       bool reversed) const {
     const scene::MirrorPlace place = Place(mirror);
     const double wide = (place.right - place.left) * kWidth, high = (place.high - place.low) * kHeight;
     const auto at = scene::MirrorCamera(car, mirror).Project(p_W, 10'000, 10'000);
@@ -49,8 +53,10 @@ class MirrorStill : public DriverStill {
   bool Differ(const Image& a, const Image& b, scene::Mirror mirror, int more_than = 1000) const {
     const scene::MirrorPlace place = Place(mirror);
     int pixels = 0;
-    for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4; y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
-      for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x) pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;
+    for (int y = static_cast<int>((1.0 - place.high) * kHeight) + 4;
+         y < static_cast<int>((1.0 - place.low) * kHeight) - 4; ++y) {
+      for (int x = static_cast<int>(place.left * kWidth) + 4; x < static_cast<int>(place.right * kWidth) - 4; ++x)
+        pixels += std::memcmp(a.At(x, y), b.At(x, y), 3) != 0;
     }
     return pixels > more_than;
   }
@@ -65,7 +71,8 @@ TEST_F(MirrorStill, LeftIsLeft) {
   };
   EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, true).IsRed()) << bonnet(scene::Mirror::kInside, 3.5, true);
   EXPECT_TRUE(bonnet(scene::Mirror::kInside, -3.5, true).IsBlue()) << bonnet(scene::Mirror::kInside, -3.5, true);
-  EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, false).IsBlue()) << "where it would be in a picture that is not reversed the other one is";
+  EXPECT_TRUE(bonnet(scene::Mirror::kInside, 3.5, false).IsBlue())
+      << "where it would be in a picture that is not reversed the other one is";
   EXPECT_TRUE(bonnet(scene::Mirror::kLeft, 3.5, true).IsRed()) << bonnet(scene::Mirror::kLeft, 3.5, true);
   EXPECT_TRUE(bonnet(scene::Mirror::kRight, -3.5, true).IsBlue()) << bonnet(scene::Mirror::kRight, -3.5, true);
   // Each of the outer ones shows the car's own flank on the side where it is.
@@ -90,11 +97,13 @@ TEST_F(MirrorStill, OnlyTheChosenOnesAndOnlyForTheDriver) {
   EXPECT_EQ(chase.rgb, Drawn().rgb);
 }
 
-// On three screens about a seat each mirror is where its driver looks for it, and shows the car that is behind on that side; nothing is said of it in the launch file.
+// On three screens about a seat each mirror is where its driver looks for it, and shows the car that is behind on that
+// side; nothing is said of it in the launch file.
 TEST_F(MirrorStill, EachOfThreeScreensHasItsOwn) {
   const auto launch = launch::Launch::Load(SourceDir() + "/launch/three_screens.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  for (const auto& [name, own] : {std::pair("left", scene::Mirror::kLeft), std::pair("centre", scene::Mirror::kInside), std::pair("right", scene::Mirror::kRight)}) {
+  for (const auto& [name, own] : {std::pair("left", scene::Mirror::kLeft), std::pair("centre", scene::Mirror::kInside),
+                                  std::pair("right", scene::Mirror::kRight)}) {
     const auto settings = ReadWindowSettings(launch.value(), launch.value().roster().Find(name));
     ASSERT_TRUE(settings.ok()) << settings.error().Text();
     picture_.screen = PictureOf(settings.value(), {}).screen;
@@ -102,7 +111,8 @@ TEST_F(MirrorStill, EachOfThreeScreensHasItsOwn) {
     const Image none = Drawn();
     picture_.mirrors = PictureOf(settings.value(), {}).mirrors;
     const Image seen = Drawn();
-    for (const scene::Mirror mirror : scene::kAllMirrors) EXPECT_EQ(Differ(seen, none, mirror), mirror == own) << name << ": " << scene::NameOf(mirror);
+    for (const scene::Mirror mirror : scene::kAllMirrors)
+      EXPECT_EQ(Differ(seen, none, mirror), mirror == own) << name << ": " << scene::NameOf(mirror);
     const auto bonnet = [&](double left_m) {
       const Eigen::Vector2d at = Seen(Car(), own, Behind(12.5, left_m, 0.85), true);
       return ProbeAt(seen, at.x(), at.y());
@@ -136,7 +146,8 @@ class MirrorsInTurn : public MirrorStill {
   }
 };
 
-// At low quality a window's pictures draw one mirror each, in a fixed order; every third picture it is that one's turn again.
+// At low quality a window's pictures draw one mirror each, in a fixed order; every third picture it is that one's turn
+// again.
 TEST_F(MirrorsInTurn, OneOfThreeIsNewInEachPicture) {
   (void)Whole();
   std::array<int, scene::kMirrors> changed{};
@@ -155,7 +166,8 @@ TEST_F(MirrorsInTurn, OneOfThreeIsNewInEachPicture) {
   for (const int times : changed) EXPECT_EQ(times, 2);
 }
 
-// So it stays where pictures of another size and without mirrors come in between, as those of a headset's eyes do: nothing is made anew for them.
+// So it stays where pictures of another size and without mirrors come in between, as those of a headset's eyes do:
+// nothing is made anew for them.
 TEST_F(MirrorsInTurn, AHeadsetsEyesInBetweenChangeNothing) {
   EyeBuffer eye(320, 240, 0, GL_RGBA8);
   ASSERT_TRUE(eye.whole());

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <cmath>
+#include <optional>
 
 #include "common/view/scene/road_furniture/light_heads.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
@@ -32,26 +32,34 @@ TEST(NetworkStill, LanesMarksKerbAndLand) {
   const auto probe = [&](double s_m, double t_m) { return ProbeAt(image.value(), camera, At(road, s_m, t_m)); };
   EXPECT_TRUE(probe(32.0, 1.5).IsAsphalt()) << probe(32.0, 1.5);
   EXPECT_TRUE(probe(40.0, -2.6).IsAsphalt()) << probe(40.0, -2.6);
-  // The solid line at the kerb: half of it lies below, on the road, and half on the pavement; at 3.5 there is the kerb's side.
+  // The solid line at the kerb: half of it lies below, on the road, and half on the pavement; at 3.5 there is the
+  // kerb's side.
   EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 24.0, 3.46), 0).IsWhite()) << probe(24.0, 3.46);
-  EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 26.0, 0.13), 0).IsYellow()) << probe(26.0, 0.13);  // left of the centre's two
+  EXPECT_TRUE(ProbeAt(image.value(), camera, At(road, 26.0, 0.13), 0).IsYellow())
+      << probe(26.0, 0.13);  // left of the centre's two
   const Eigen::Vector3d walk = At(road, 30.0, 4.5);
   EXPECT_GT(ProbeAt(image.value(), camera, walk).red, probe(32.0, 1.5).red + 25.0);  // the pavement is lighter
   const Eigen::Vector3d edge = At(road, 40.0, -4.6), beside = edge + 9.0 * (edge - At(road, 40.0, -3.6)).normalized();
-  EXPECT_TRUE(ProbeAt(image.value(), camera, {beside.x(), beside.y(), world->At(beside.x(), beside.y()).z_m}).IsGrown());
+  EXPECT_TRUE(
+      ProbeAt(image.value(), camera, {beside.x(), beside.y(), world->At(beside.x(), beside.y()).z_m}).IsGrown());
   EXPECT_TRUE(ProbeAt(image.value(), 480, 40).IsSky());
 }
 
 TEST(NetworkStill, ASignIsReadByThoseWhomItIsForAndGreyFromBehind) {
   RODEIRA_NEEDS_PICTURES();
   const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
-  const auto world = scene::OpenDriveWorld(fmt::format(
-      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
-      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane id=\"0\"/></center>"
-      "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes><signals>"
-      "<signal id=\"a\" s=\"22\" t=\"-4\" zOffset=\"1\" orientation=\"+\" dynamic=\"no\" type=\"205\" subtype=\"-1\" country=\"DE\" width=\"1.8\" height=\"1.6\"/>"
-      "<signal id=\"b\" s=\"22\" t=\"4\" zOffset=\"1\" orientation=\"-\" dynamic=\"no\" type=\"205\" subtype=\"-1\" country=\"DE\" width=\"1.8\" height=\"1.6\"/>"
-      "</signals></road>\n", width, width));
+  const auto world = scene::OpenDriveWorld(
+      fmt::format("<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+                  "length=\"100\"><line/></geometry></planView>"
+                  "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane "
+                  "id=\"0\"/></center>"
+                  "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes><signals>"
+                  "<signal id=\"a\" s=\"22\" t=\"-4\" zOffset=\"1\" orientation=\"+\" dynamic=\"no\" type=\"205\" "
+                  "subtype=\"-1\" country=\"DE\" width=\"1.8\" height=\"1.6\"/>"
+                  "<signal id=\"b\" s=\"22\" t=\"4\" zOffset=\"1\" orientation=\"-\" dynamic=\"no\" type=\"205\" "
+                  "subtype=\"-1\" country=\"DE\" width=\"1.8\" height=\"1.6\"/>"
+                  "</signals></road>\n",
+                  width, width));
   ASSERT_NE(world, nullptr);
   Picture picture;
   picture.show_instruments = false;
@@ -68,16 +76,21 @@ TEST(NetworkStill, ASignIsReadByThoseWhomItIsForAndGreyFromBehind) {
   EXPECT_LT(back.red, 200.0) << back;
 }
 
-// Above green, amber and red the same place is dark or shines, as the moment says; who comes from behind sees none of it.
+// Above green, amber and red the same place is dark or shines, as the moment says; who comes from behind sees none of
+// it.
 TEST(NetworkStill, LightsShineAsTheMomentSays) {
   RODEIRA_NEEDS_PICTURES();
   using network::LightColour;
   const auto world = scene::OpenDriveWorld(
-      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
-      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" "
+      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+      "length=\"100\"><line/></geometry></planView>"
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width "
+      "sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" "
       "d=\"0\"/></lane></right></laneSection></lanes><signals>"
-      "<signal id=\"a\" s=\"22\" t=\"-4\" zOffset=\"1\" orientation=\"+\" dynamic=\"yes\" type=\"1000001\" subtype=\"-1\" country=\"OpenDRIVE\" height=\"1.2\"/>"
-      "</signals></road><controller id=\"1\" name=\"only\"><control signalId=\"a\" type=\"0\"/><userData code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>\n");
+      "<signal id=\"a\" s=\"22\" t=\"-4\" zOffset=\"1\" orientation=\"+\" dynamic=\"yes\" type=\"1000001\" "
+      "subtype=\"-1\" country=\"OpenDRIVE\" height=\"1.2\"/>"
+      "</signals></road><controller id=\"1\" name=\"only\"><control signalId=\"a\" type=\"0\"/><userData "
+      "code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>\n");
   ASSERT_NE(world, nullptr);
   const auto heads = scene::LightHeads(*world);
   ASSERT_EQ(heads.size(), 1u);
@@ -95,7 +108,8 @@ TEST(NetworkStill, LightsShineAsTheMomentSays) {
     EXPECT_TRUE(image.ok()) << image.error().Text();
     std::array<Probe, 3> probes;
     for (std::size_t which = 0; which < 3; ++which) {
-      const Eigen::Vector3d at = heads[0].stand.ToWorld({0.17 * 1.2, 0.0, 1.2 * (static_cast<double>(which) + 0.5) / 3.0});
+      const Eigen::Vector3d at =
+          heads[0].stand.ToWorld({0.17 * 1.2, 0.0, 1.2 * (static_cast<double>(which) + 0.5) / 3.0});
       probes[which] = ProbeAt(image.value(), camera, at);
     }
     return probes;
@@ -110,7 +124,8 @@ TEST(NetworkStill, LightsShineAsTheMomentSays) {
   EXPECT_EQ(is_lit(LightColour::kAmber), (std::array<bool, 3>{false, true, false}));
   EXPECT_EQ(is_lit(LightColour::kRed), (std::array<bool, 3>{false, false, true}));
   EXPECT_EQ(is_lit(LightColour::kRedAmber), (std::array<bool, 3>{false, true, true}));
-  const auto red = seen(LightColour::kRed)[2], green = seen(LightColour::kGreen)[0], amber = seen(LightColour::kAmber)[1];
+  const auto red = seen(LightColour::kRed)[2], green = seen(LightColour::kGreen)[0],
+             amber = seen(LightColour::kAmber)[1];
   EXPECT_TRUE(red.IsRed()) << red;
   EXPECT_TRUE(amber.IsYellow()) << amber;
   EXPECT_GT(green.green, 1.5 * green.red) << green;

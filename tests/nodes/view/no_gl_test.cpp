@@ -1,4 +1,5 @@
-// Where nothing can be drawn: a sentence that says what is missing and the status of wrong input; where a person would expect that, it goes on without.
+// Where nothing can be drawn: a sentence that says what is missing and the status of wrong input; where a person would
+// expect that, it goes on without.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,10 +21,14 @@ class NoGl : public ::testing::Test {
     settings_.width_px = 320;
     settings_.height_px = 180;
   }
-  // Opens what draws a run, says what it answers and ends with that status; 0 and "nothing is drawn" where it goes on without.
+  // Opens what draws a run, says what it answers and ends with that status; 0 and "nothing is drawn" where it goes on
+  // without.
   [[noreturn]] void Open() {
     auto stage = Stage::Open(settings_, road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value());
-    std::fprintf(stderr, "%s\n", !stage.ok() ? stage.error().Text().c_str() : stage.value() == nullptr ? "nothing is drawn" : "it draws");
+    std::fprintf(stderr, "%s\n",
+                 !stage.ok()                ? stage.error().Text().c_str()
+                 : stage.value() == nullptr ? "nothing is drawn"
+                                            : "it draws");
     std::_Exit(stage.ok() ? 0 : stage.error().exit_status());
   }
   static void WithoutRenderer() {
@@ -42,7 +47,8 @@ TEST_F(NoGl, PicturesForFilesWantARenderer) {
 
 TEST_F(NoGl, AWindowThatMustBeWantsADisplay) {
   settings_.window = WindowWish::kAlways;
-  EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(2), "a window is wanted, but there is no display; set DISPLAY, or 'window: never'");
+  EXPECT_EXIT((WithoutRenderer(), Open()), testing::ExitedWithCode(2),
+              "a window is wanted, but there is no display; set DISPLAY, or 'window: never'");
 }
 
 TEST_F(NoGl, AWindowThatMayBeIsLeftOut) {
@@ -66,7 +72,8 @@ class DisplayWithoutGl : public NoGl {
 
 TEST_F(DisplayWithoutGl, AWindowThatMustBeIsRefused) {
   settings_.window = WindowWish::kAlways;
-  EXPECT_EXIT(OpenThere(), testing::ExitedWithCode(2), "no OpenGL context can be made \\(.+\\); the package libgl1-mesa-dri was expected");
+  EXPECT_EXIT(OpenThere(), testing::ExitedWithCode(2),
+              "no OpenGL context can be made \\(.+\\); the package libgl1-mesa-dri was expected");
 }
 
 TEST_F(DisplayWithoutGl, AWindowThatMayBeIsLeftOut) {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/camera/camera.hpp"
-#include "nodes/view/renderer/painter.hpp"
+#include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
+#include "nodes/view/renderer/painter.hpp"
 #include "tests/nodes/view/read_png.hpp"
 
 namespace rodeira::nodes {
@@ -31,14 +31,18 @@ struct Probe {
   bool operator==(const Probe&) const = default;
 
   bool IsSky() const { return blue > red + 8.0 && blue > 150.0; }
-  bool IsAsphalt() const { return std::max({red, green, blue}) - std::min({red, green, blue}) < 22.0 && green > 45.0 && green < 160.0; }
+  bool IsAsphalt() const {
+    return std::max({red, green, blue}) - std::min({red, green, blue}) < 22.0 && green > 45.0 && green < 160.0;
+  }
   bool IsWhite() const { return std::min({red, green, blue}) > 165.0; }
   bool IsYellow() const { return red > 150.0 && green > 110.0 && blue < 0.6 * red; }
   bool IsGrown() const { return green > 1.25 * blue && red < 1.2 * green && green > 50.0; }  // meadows, dry ones too
   bool IsRed() const { return red > 60.0 && red > 1.8 * green && red > 1.8 * blue; }
   bool IsBlue() const { return blue > 1.25 * red && blue > 1.1 * green; }
 };
-inline std::ostream& operator<<(std::ostream& out, const Probe& p) { return out << "(" << p.red << ", " << p.green << ", " << p.blue << ")"; }
+inline std::ostream& operator<<(std::ostream& out, const Probe& p) {
+  return out << "(" << p.red << ", " << p.green << ", " << p.blue << ")";
+}
 
 inline Probe ProbeAt(const Image& image, double x_px, double y_px, int around = 1) {
   Probe probe;

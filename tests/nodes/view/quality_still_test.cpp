@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/view/scene/lighting/air.hpp"
-#include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -13,11 +13,14 @@ namespace {
 constexpr int kWidth = 640, kHeight = 480;
 constexpr double kShown_m = 24.0;  // of the map's height
 
-std::shared_ptr<const road::World> World(const char* name) { return road::World::Load(SourceDir() + "/configs/worlds/" + name).value(); }
+std::shared_ptr<const road::World> World(const char* name) {
+  return road::World::Load(SourceDir() + "/configs/worlds/" + name).value();
+}
 
 double Brightness(const Probe& probe) { return (probe.red + probe.green + probe.blue) / 3.0; }
 
-// From above, at that hour of a clear day: the car in the middle, and six metres aside, where it is wanted, one that throws the shadow asked of.
+// From above, at that hour of a clear day: the car in the middle, and six metres aside, where it is wanted, one that
+// throws the shadow asked of.
 Picture FromAbove(double hour, bool with) {
   Picture picture;
   picture.camera = scene::CameraKind::kTop;
@@ -37,16 +40,19 @@ Picture FromAbove(double hour, bool with) {
 class SeenFromAbove {
  public:
   explicit SeenFromAbove(Quality quality)
-      : world_(World("plane.yaml")), surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test", false, 0, quality).value()),
+      : world_(World("plane.yaml")),
+        surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test", false, 0, quality).value()),
         painter_(std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_))) {}
 
-  // How bright the ground is where the shadow of a point over the second car's middle falls, against the same place without that car. From
-  // the hour alone: the sun stands asin(cos 42 cos H) high, and a shadow is as long as the height over the tangent of that.
+  // How bright the ground is where the shadow of a point over the second car's middle falls, against the same place
+  // without that car. From the hour alone: the sun stands asin(cos 42 cos H) high, and a shadow is as long as the
+  // height over the tangent of that.
   double WithAgainstWithout(double hour, double height_m, double clouds = 0.0) {
     Picture with = FromAbove(hour, true), without = FromAbove(hour, false);
     with.moment.weather.clouds = without.moment.weather.clouds = clouds;
     const scene::Camera camera = scene::MakeCamera(with.camera, with.moment.cars[0], with.aim, *world_);
-    const Eigen::Vector3d sun = scene::MakeAir(with.moment.weather).sun_W.cast<double>(), away = -Eigen::Vector3d(sun.x(), sun.y(), 0.0).normalized();
+    const Eigen::Vector3d sun = scene::MakeAir(with.moment.weather).sun_W.cast<double>(),
+                          away = -Eigen::Vector3d(sun.x(), sun.y(), 0.0).normalized();
     const Eigen::Vector3d place = with.moment.cars[1].p_WB_W + height_m / std::tan(scene::SunHeight_rad(hour)) * away;
     const auto shown = [&](const Picture& picture) {
       painter_->Draw(picture);
@@ -95,7 +101,9 @@ TEST(Quality, RoadLinesLandSkyAndCarAreThereAtEachOfThem) {
     EXPECT_TRUE(probe(2.96).IsWhite()) << probe(2.96);
     EXPECT_TRUE(probe(6.5).IsGrown()) << probe(6.5);
     EXPECT_TRUE(ProbeAt(image.value(), kWidth, 10).IsSky());
-    EXPECT_TRUE(ProbeAt(image.value(), camera, picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed());
+    EXPECT_TRUE(ProbeAt(image.value(), camera,
+                        picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80))
+                    .IsRed());
     images.push_back(image.value());
   }
   EXPECT_NE(images[0].rgb, images[1].rgb);
@@ -107,7 +115,8 @@ TEST(Quality, AWindowOfTheProcessorIsLowAndFilesAreMedium) {
   const auto own = Surface::Open(SurfaceKind::kOffscreen, 64, 64, "test");
   ASSERT_TRUE(own.ok());
   EXPECT_EQ(own.value()->quality(), Quality::kMedium);
-  for (const std::string_view name : QualityNames()) EXPECT_EQ(QualityNames()[static_cast<std::size_t>(*QualityOf(name))], name);
+  for (const std::string_view name : QualityNames())
+    EXPECT_EQ(QualityNames()[static_cast<std::size_t>(*QualityOf(name))], name);
   EXPECT_FALSE(QualityOf("best"));
 }
 

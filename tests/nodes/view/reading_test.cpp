@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "common/core/base/temporary_folder.hpp"
-#include "nodes/view/window/loading.hpp"
 #include "nodes/view/playback/replay_window.hpp"
+#include "nodes/view/window/loading.hpp"
 #include "nodes/view/window/stage.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
@@ -30,11 +30,15 @@ class Reading : public testing::Test {
     auto surface = OpenSurface(SurfaceKind::kWindow, settings_, true);
     if (!surface.ok()) GTEST_SKIP() << surface.error().Text();
   }
-  // Where bright pixels are on the display's middle row, which is the window's, from left to right: an XWD file that the server writes as it draws.
+  // Where bright pixels are on the display's middle row, which is the window's, from left to right: an XWD file that
+  // the server writes as it draws.
   std::vector<int> Bright() const {
     std::ifstream file(folder_.path() / "Xvfb_screen0", std::ios::binary);
     const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), {}};
-    const auto word = [&](std::size_t number) { return static_cast<std::size_t>(bytes[4 * number] << 24 | bytes[4 * number + 1] << 16 | bytes[4 * number + 2] << 8 | bytes[4 * number + 3]); };
+    const auto word = [&](std::size_t number) {
+      return static_cast<std::size_t>(bytes[4 * number] << 24 | bytes[4 * number + 1] << 16 |
+                                      bytes[4 * number + 2] << 8 | bytes[4 * number + 3]);
+    };
     constexpr std::size_t kHeaderSize = 0, kPitch = 12, kColours = 19;
     if (bytes.size() < 100) return {};
     const std::size_t row = word(kHeaderSize) + 12 * word(kColours) + 240 * word(kPitch);
@@ -109,7 +113,9 @@ TEST(ReadingNothing, WithoutADisplay) {
   EXPECT_FALSE(asked);
 }
 
-TEST(ReadingTitle, SaysHowLongItHasTaken) { EXPECT_EQ(WorkTitle("Rodeira", 2.9, "the world is read"), "Rodeira, 2 s: the world is read"); }
+TEST(ReadingTitle, SaysHowLongItHasTaken) {
+  EXPECT_EQ(WorkTitle("Rodeira", 2.9, "the world is read"), "Rodeira, 2 s: the world is read");
+}
 
 }  // namespace
 }  // namespace rodeira::nodes

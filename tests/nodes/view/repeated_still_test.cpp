@@ -1,4 +1,5 @@
-// Trees, posts and whatever is repeated: as one model at many places they are seen as they are seen merged, shadows and mirrors included.
+// Trees, posts and whatever is repeated: as one model at many places they are seen as they are seen merged, shadows and
+// mirrors included.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -53,7 +54,8 @@ class RepeatedStill : public ::testing::Test {
   }
 };
 
-// A place is found in single precision by the graphics card and in double by us: an edge may fall on the other side of a pixel's middle.
+// A place is found in single precision by the graphics card and in double by us: an edge may fall on the other side of
+// a pixel's middle.
 constexpr double kEdges = 0.5;
 
 TEST_F(RepeatedStill, AsIfMerged) {
@@ -61,7 +63,8 @@ TEST_F(RepeatedStill, AsIfMerged) {
     const auto world = road::World::Load(SourceDir() + "/configs/worlds/" + name);
     ASSERT_TRUE(world.ok()) << world.error().Text();
     const Picture picture = From(*world.value(), camera);
-    const Seen merged = See(*world.value(), picture, false, Quality::kMedium), repeated = See(*world.value(), picture, true, Quality::kMedium);
+    const Seen merged = See(*world.value(), picture, false, Quality::kMedium),
+               repeated = See(*world.value(), picture, true, Quality::kMedium);
     EXPECT_LT(Differ(merged.image, repeated.image), kEdges) << name;
     EXPECT_LT(repeated.cost.triangles, merged.cost.triangles) << name;
   };

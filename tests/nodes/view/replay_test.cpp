@@ -2,9 +2,9 @@
 #include <SDL.h>
 #include <gtest/gtest.h>
 
+#include "nodes/view/overlays/timeline_bar.hpp"
 #include "nodes/view/playback/replay_keys.hpp"
 #include "nodes/view/playback/replay_window.hpp"
-#include "nodes/view/overlays/timeline_bar.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
@@ -51,8 +51,8 @@ TEST(ReplayKeys, MoveThePlayer) {
 }
 
 TEST(ReplayKeys, AreAllInTheHelp) {
-  for (const char* part : {"space", "left right", "shift", "ctrl", "home end", "page up", "+ -", "1 to 9", "mouse", "\nr  ",
-                           "\nk  camera", "escape  end"}) {
+  for (const char* part : {"space", "left right", "shift", "ctrl", "home end", "page up", "+ -", "1 to 9", "mouse",
+                           "\nr  ", "\nk  camera", "escape  end"}) {
     EXPECT_NE(ReplayHelp().find(part), std::string::npos) << part;
   }
   EXPECT_EQ(ReplayHelp().find("place the car"), std::string::npos) << "what was recorded stays as it is";
@@ -81,7 +81,8 @@ TEST(TimelineOf, SaysWhereOneIs) {
 }
 
 TEST(TimelinePlace, PixelsAndSharesAreEachOthersInverse) {
-  for (const auto& [width, height] : {std::pair(64, 64), std::pair(960, 540), std::pair(1280, 720), std::pair(7680, 4320)}) {
+  for (const auto& [width, height] :
+       {std::pair(64, 64), std::pair(960, 540), std::pair(1280, 720), std::pair(7680, 4320)}) {
     const PanelSize size = PanelsOf(width, height);
     const TimelinePlace place(size);
     for (const double share : {0.0, 0.1, 0.5, 1.0})
@@ -91,9 +92,12 @@ TEST(TimelinePlace, PixelsAndSharesAreEachOthersInverse) {
   }
 }
 
-// Panels have the same share of a picture whatever its size, down to half their size at 1280 x 720, which is still read.
+// Panels have the same share of a picture whatever its size, down to half their size at 1280 x 720, which is still
+// read.
 TEST(PanelSize, GoesWithThePicturesHeight) {
-  const auto units = [](int width, int height) { return std::pair(PanelsOf(width, height).width, PanelsOf(width, height).height); };
+  const auto units = [](int width, int height) {
+    return std::pair(PanelsOf(width, height).width, PanelsOf(width, height).height);
+  };
   EXPECT_EQ(units(1280, 720), std::pair(1280.0F, 720.0F));
   EXPECT_EQ(units(1920, 1080), std::pair(1280.0F, 720.0F));
   EXPECT_EQ(units(3840, 2160), std::pair(1280.0F, 720.0F));
@@ -120,7 +124,8 @@ TEST(TimelineBar, IsSeenOverThePicture) {
   EXPECT_TRUE(at(0.4).IsWhite()) << at(0.4);
   EXPECT_TRUE(at(0.8).IsYellow()) << at(0.8);
   const Probe event = at(0.7);
-  EXPECT_TRUE(event.green > 150.0 && event.green > 1.5 * event.red && event.green > 1.3 * event.blue) << "an event has a colour of its own: " << event;
+  EXPECT_TRUE(event.green > 150.0 && event.green > 1.5 * event.red && event.green > 1.3 * event.blue)
+      << "an event has a colour of its own: " << event;
   EXPECT_FALSE(at(0.6).IsBlue() || at(0.6).IsYellow() || at(0.6).IsWhite()) << at(0.6);
   // Above the bar, the note and the instruments nothing is changed.
   const auto upper = 3 * 960 * 350;
@@ -134,7 +139,12 @@ TEST(ReplayWindow, AnswersWhileItStands) {
   ViewSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;
-  auto window = ReplayWindow::Open(settings, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open(
+      settings,
+      [&] {
+        return ReadWorld{world.value(), {}};
+      },
+      SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   const auto key = [](SDL_Keycode symbol) {
     SDL_Event event{};
@@ -206,7 +216,12 @@ TEST(ReplayWindow, AnswersWhileItStands) {
 TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
-  auto window = ReplayWindow::Open({}, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open(
+      {},
+      [&] {
+        return ReadWorld{world.value(), {}};
+      },
+      SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   scene::Player player(10 * kS, 20 * kMs);
   int shown = 0, asked = 0;
@@ -230,7 +245,12 @@ TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
 TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");
-  auto window = ReplayWindow::Open({}, [&] { return ReadWorld{world.value(), {}}; }, SurfaceKind::kOffscreen);
+  auto window = ReplayWindow::Open(
+      {},
+      [&] {
+        return ReadWorld{world.value(), {}};
+      },
+      SurfaceKind::kOffscreen);
   ASSERT_TRUE(window.ok()) << window.error().Text();
   scene::Player player(10 * kS, 20 * kMs);
   player.Seek(5 * kS);
@@ -252,7 +272,8 @@ TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
     if (asked > 0) SDL_PushEvent(&event);
     return ++asked > 10;
   };
-  const auto status = window.value()->Watch(player, [] { return std::nullopt; }, moment_at, stop);
+  const auto status = window.value()->Watch(
+      player, [] { return std::nullopt; }, moment_at, stop);
   EXPECT_TRUE(held);
   EXPECT_EQ(shown, std::vector<std::int64_t>{9 * kS});
   ASSERT_FALSE(status.ok());

@@ -24,7 +24,8 @@ inline bool Click(Screen& screen, const Eigen::Vector2d& at, int button = SDL_BU
   return screen.TakeMouse(ButtonAt(at, false, button)) && down;
 }
 
-// A nanosecond before it, then the moment: however slow the machine, the window sees time go on, and does not say that it stands.
+// A nanosecond before it, then the moment: however slow the machine, the window sees time go on, and does not say that
+// it stands.
 inline Image Shown(Screen& screen, const scene::Moment& moment) {
   scene::Moment before = moment;
   before.time_ns -= 1;

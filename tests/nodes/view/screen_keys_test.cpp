@@ -27,7 +27,8 @@ class ScreenKeys : public ::testing::Test {
   }
   void Open(bool resizable) {
     screen_.reset();
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, resizable, "first line of help\nand another");
+    auto screen =
+        Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, resizable, "first line of help\nand another");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
@@ -138,7 +139,9 @@ TEST(HeatLegend, SaysWhatTheColoursMean) {
 // The bar goes from red through yellow to green; each statistic has its own legend, and behind the last there is none.
 TEST_F(ScreenKeys, EachStatisticHasItsLegend) {
   const Image bare = Shown();
-  const auto bar = [](const Image& image, int x) { return ProbeAt(image, 0.5 * x, 0.5 * 157, 0); };  // in half the size at which panels are laid out
+  const auto bar = [](const Image& image, int x) {
+    return ProbeAt(image, 0.5 * x, 0.5 * 157, 0);
+  };  // in half the size at which panels are laid out
   std::set<std::vector<std::uint8_t>> legends;
   for (std::size_t i = 0; i < scene::kHeatKinds; ++i) {
     ASSERT_TRUE(Press(SDLK_F8));

@@ -11,9 +11,9 @@
 #include "common/core/base/temporary_folder.hpp"
 #include "nodes/view/run_connection/asker.hpp"
 #include "nodes/view/window/screen.hpp"
+#include "tests/n222.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
-#include "tests/n222.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -46,7 +46,8 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   EXPECT_NE(screen.value()->painter().Read().rgb, seen.rgb) << "the window says where it is";
 }
 
-// Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the next one does not.
+// Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the
+// next one does not.
 TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
@@ -78,7 +79,10 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   EXPECT_EQ(asked[0].name, "place");
   EXPECT_NEAR(asked[0].x_m, there.x(), 0.6) << "a pixel is 0.44 m";
   EXPECT_NEAR(asked[0].y_m, there.y(), 0.6);
-  EXPECT_NEAR(std::remainder(asked[0].value - (road.Evaluate(312.0).heading_rad * 180.0 / 3.14159265358979 + 180.0), 360.0), 0.0, 1.0) << "against the axis, as lane 1 drives";
+  EXPECT_NEAR(
+      std::remainder(asked[0].value - (road.Evaluate(312.0).heading_rad * 180.0 / 3.14159265358979 + 180.0), 360.0),
+      0.0, 1.0)
+      << "against the axis, as lane 1 drives";
   EXPECT_EQ(scenario::ParsePlace("ego 0 0" + asked[0].argument.substr(3)).value().z_m.has_value(), true);
   EXPECT_FALSE(click());
   SDL_SetModState(KMOD_LCTRL);
@@ -128,8 +132,10 @@ TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
   EXPECT_EQ(asked[0].x_m, start.x_m);
   EXPECT_EQ(asked[0].y_m, start.y_m);
   EXPECT_NEAR(asked[0].value, start.heading_rad * kDegrees, 1e-9);
-  EXPECT_EQ(std::tuple(asked[1].argument, asked[1].x_m, asked[1].y_m, asked[1].value), std::tuple(std::string("guest"), 12.5, -3.0, 90.0));
-  EXPECT_EQ(std::tuple(asked[2].argument, asked[2].x_m, asked[2].value), std::tuple(std::string("turned"), start.x_m, 180.0));
+  EXPECT_EQ(std::tuple(asked[1].argument, asked[1].x_m, asked[1].y_m, asked[1].value),
+            std::tuple(std::string("guest"), 12.5, -3.0, 90.0));
+  EXPECT_EQ(std::tuple(asked[2].argument, asked[2].x_m, asked[2].value),
+            std::tuple(std::string("turned"), start.x_m, 180.0));
 }
 
 // The window shows a car in its paint: the same place of its body, blue and yellow.
@@ -162,7 +168,9 @@ TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   scene::Moment moment;
   moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.6));
-  const scene::Ray down{{world->extents().east_m - 0.5, 0.5 * (world->extents().south_m + world->extents().north_m), 5'000.0}, -Eigen::Vector3d::UnitZ()};
+  const scene::Ray down{
+      {world->extents().east_m - 0.5, 0.5 * (world->extents().south_m + world->extents().north_m), 5'000.0},
+      -Eigen::Vector3d::UnitZ()};
   const auto at_the_edge = AskPlace(*world, moment, 0, down, {{0, "ego"}});
   ASSERT_FALSE(at_the_edge.ok()) << "half of the car would stand beyond it";
   EXPECT_EQ(at_the_edge.error().message, "there is no ground of this world: the car stays where it is");
@@ -185,7 +193,8 @@ TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
   Asker asker(std::make_unique<Ear>(heard));
   asker.Tell(0.0);
   EXPECT_TRUE(heard.empty());
-  const scenario::Request place = scenario::PlaceRequest({"ego", 0.1, 0.2, 3.0}, 45.0), rain = scenario::WeatherRequest("rain", 8.0);
+  const scenario::Request place = scenario::PlaceRequest({"ego", 0.1, 0.2, 3.0}, 45.0),
+                          rain = scenario::WeatherRequest("rain", 8.0);
   EXPECT_TRUE(asker.Ask(place));
   EXPECT_TRUE(asker.Ask(rain));
   EXPECT_FALSE(asker.Ask(scenario::WeatherRequest("hail", 8.0)));
@@ -205,7 +214,8 @@ TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(asker.Ask(rain), i < 16);
 }
 
-// Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it was.
+// Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it
+// was.
 TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
@@ -237,7 +247,8 @@ TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
   scene::Aim aim;
   const scene::Camera camera = scene::TopCamera(CarAt({0.0, 0.0, 0.0}, 0.0), aim);
   const Eigen::Vector3d fast(2.0, 22.0, 0.0), slow(-27.5, -22.0, 0.0), beside(20.0, -10.0, 0.0);
-  EXPECT_GT(ProbeAt(heat, camera, fast).green, ProbeAt(before, camera, fast).green + 30.0) << ProbeAt(heat, camera, fast);
+  EXPECT_GT(ProbeAt(heat, camera, fast).green, ProbeAt(before, camera, fast).green + 30.0)
+      << ProbeAt(heat, camera, fast);
   EXPECT_LT(ProbeAt(heat, camera, fast).red, 0.6 * ProbeAt(before, camera, fast).red) << ProbeAt(heat, camera, fast);
   EXPECT_GT(ProbeAt(heat, camera, slow).red, ProbeAt(before, camera, slow).red + 30.0) << ProbeAt(heat, camera, slow);
   EXPECT_LT(ProbeAt(heat, camera, slow).green, ProbeAt(before, camera, slow).green) << ProbeAt(heat, camera, slow);

@@ -58,14 +58,16 @@ TEST(Heard, ADriversHornIsHeardInsideAndByOthers) {
 TEST(Heard, NobodyHearsNothingAndATrafficCarHearsTheOthers) {
   EXPECT_EQ(HeardBy(Among(), 99, 1.0).own.engine_rpm, 0.0);
   EXPECT_EQ(HeardBy({}, 0, 1.0).others.size(), 0u);
-  const sound::Heard heard = HeardBy(Among(), 1, 1.0);  // the first of the traffic: the car to its right, the others to its left
+  const sound::Heard heard =
+      HeardBy(Among(), 1, 1.0);  // the first of the traffic: the car to its right, the others to its left
   EXPECT_GT(heard.own.engine_rpm, 900.0);
   ASSERT_EQ(heard.others.size(), 4u);
   EXPECT_GT(heard.others.rbegin()->second.pan, 0.9) << "the driver's car";
   EXPECT_LT(heard.others.begin()->second.pan, -0.9);
 }
 
-// From the published state: slip beyond the greatest force of a tyre is heard where the car moves, a blow by what no tyre can do.
+// From the published state: slip beyond the greatest force of a tyre is heard where the car moves, a blow by what no
+// tyre can do.
 TEST(Heard, WhatSlidesAndWhatStrikesIsReadFromTheState) {
   msg::VehicleState message;
   message.attitude_wb().w(1.0);

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/core/base/random.hpp"
-#include "tests/nodes/view/pictures.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -56,9 +56,12 @@ TEST(Still, OnAPlane) {
   ASSERT_EQ(image.height_px, kHeight);
   const scene::Camera camera = scene::ChaseCamera(car, *world);
   for (int x = 20; x < kWidth; x += 60) EXPECT_TRUE(ProbeAt(image, x, 12).IsSky()) << x << " " << ProbeAt(image, x, 12);
-  const auto ground = [&](double ahead, double aside) -> Eigen::Vector3d { return car.p_WB_W + car.q_WB * Eigen::Vector3d(ahead, aside, 0.0); };
+  const auto ground = [&](double ahead, double aside) -> Eigen::Vector3d {
+    return car.p_WB_W + car.q_WB * Eigen::Vector3d(ahead, aside, 0.0);
+  };
   for (const double ahead : {15.0, 30.0, 60.0}) {
-    EXPECT_TRUE(ProbeAt(image, camera, ground(ahead, 8.0)).IsAsphalt()) << ahead << " " << ProbeAt(image, camera, ground(ahead, 8.0));
+    EXPECT_TRUE(ProbeAt(image, camera, ground(ahead, 8.0)).IsAsphalt())
+        << ahead << " " << ProbeAt(image, camera, ground(ahead, 8.0));
   }
   // Paint, glass, tyre: the middle of the tailgate, the rear window, the left rear wheel.
   EXPECT_TRUE(ProbeAt(image, camera, car.p_WB_W + car.q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed());
@@ -107,7 +110,10 @@ TEST(Still, OnN222) {
     count(green, 3.7, probe(3.7).IsGrown());
     ++sky.asked;
     sky.right += ProbeAt(image, 0.5 * kWidth, 10).IsSky();
-    EXPECT_TRUE(ProbeAt(image, camera, picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed()) << s;
+    EXPECT_TRUE(ProbeAt(image, camera,
+                        picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80))
+                    .IsRed())
+        << s;
     // The middle line is hidden by the car, but not from its driver.
     picture.camera = scene::CameraKind::kDriver;
     painter.Draw(picture);
@@ -152,7 +158,8 @@ TEST(Still, ThreeScreensAreOnePicture) {
       if (difference(*a, kWidth - 1, *b, 0, shift) < difference(*a, kWidth - 1, *b, 0, best)) best = shift;
     }
     EXPECT_LE(std::abs(best), 1);
-    EXPECT_LT(difference(*a, kWidth - 1, *b, 0, 0), difference(*a, kWidth - 30, *b, 0, 0)) << "what is 30 columns away is more unlike it";
+    EXPECT_LT(difference(*a, kWidth - 1, *b, 0, 0), difference(*a, kWidth - 30, *b, 0, 0))
+        << "what is 30 columns away is more unlike it";
   }
 }
 
@@ -167,7 +174,8 @@ TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
   const Image image = Still(*world, picture);
   const scene::Camera camera = scene::DriverCamera(picture.moment.cars[0]);
   EXPECT_TRUE(ProbeAt(image, camera, road.Position(60.0, -1.45)).IsAsphalt());
-  EXPECT_TRUE(ProbeAt(image, camera, road.Position(50.0, 2.96), 0).IsWhite()) << ProbeAt(image, camera, road.Position(50.0, 2.96), 0);
+  EXPECT_TRUE(ProbeAt(image, camera, road.Position(50.0, 2.96), 0).IsWhite())
+      << ProbeAt(image, camera, road.Position(50.0, 2.96), 0);
   EXPECT_TRUE(ProbeAt(image, 0.5 * kWidth, 10).IsSky());
   EXPECT_TRUE(ProbeAt(image, 0.55 * kWidth, kHeight - 4).IsRed()) << "the bonnet";
 }

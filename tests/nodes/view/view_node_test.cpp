@@ -30,12 +30,16 @@ class ViewNode : public testing::Test {
   }
 
   // Runs hands, ego, others and the view in this process; the digest of all samples.
-  base::Digest Drive(const std::string& times, const std::filesystem::path& folder, lockstep::Step last, std::uint64_t shuffle = 0) {
-    const std::string config = "{width_px: 640, height_px: 360, window: never, instruments: false, frames: {times_s: " + times + ", folder: " + folder.string() + "}}";
+  base::Digest Drive(const std::string& times, const std::filesystem::path& folder, lockstep::Step last,
+                     std::uint64_t shuffle = 0) {
+    const std::string config =
+        "{width_px: 640, height_px: 360, window: never, instruments: false, frames: {times_s: " + times +
+        ", folder: " + folder.string() + "}}";
     auto launch = launch::Launch::Parse(LaunchText(config), "fake.yaml");
     EXPECT_TRUE(launch.ok()) << launch.error().Text();
     const lockstep::Roster& roster = launch.value().roster();
-    FakeSource hands(idl::topics::kControls, 0.001), ego(idl::topics::kVehicleState, 0.001), others(idl::topics::kTrafficState, 0.001);
+    FakeSource hands(idl::topics::kControls, 0.001), ego(idl::topics::kVehicleState, 0.001),
+        others(idl::topics::kTrafficState, 0.001);
     const lockstep::NodeIndex view = roster.Find("picture");
     PlainContext context(launch.value(), view);
     auto node = nodes::MakeViewNode(context);
@@ -48,14 +52,16 @@ class ViewNode : public testing::Test {
     nodes[view] = node.value().get();
     lockstep::InProcessSettings settings;
     settings.last_step = last;
-    const auto outcome = shuffle == 0 ? lockstep::RunThreaded(roster, nodes, settings) : lockstep::RunShuffled(roster, nodes, settings, shuffle);
+    const auto outcome = shuffle == 0 ? lockstep::RunThreaded(roster, nodes, settings)
+                                      : lockstep::RunShuffled(roster, nodes, settings, shuffle);
     EXPECT_TRUE(outcome.ok) << outcome.fault;
     return outcome.digest;
   }
 
   std::set<std::string> Files() const {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.insert(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      names.insert(entry.path().filename().string());
     return names;
   }
 
@@ -99,7 +105,8 @@ TEST_F(ViewNode, AFrameShowsExactlyItsStep) {
   // On an activation of the view (every 20 steps), on none of the traffic's samples, at the very end of the run, and at
   // its beginning.
   Drive("[0, 0.3, 0.333, 0.457]", folder_, 457);
-  EXPECT_EQ(Files(), (std::set<std::string>{"step_000000000.png", "step_000000300.png", "step_000000333.png", "step_000000457.png"}));
+  EXPECT_EQ(Files(), (std::set<std::string>{"step_000000000.png", "step_000000300.png", "step_000000333.png",
+                                            "step_000000457.png"}));
   for (const lockstep::Step step : {0, 300, 333, 457}) {
     char name[32];
     std::snprintf(name, sizeof(name), "step_%09d.png", static_cast<int>(step));
@@ -130,7 +137,10 @@ TEST_F(ViewNode, AFrameShowsTheTrafficWhereItWas) {
     };
     EXPECT_TRUE(tailgate(time_s).IsBlue()) << tailgate(time_s);
     EXPECT_FALSE(tailgate(1.0 - time_s).IsBlue()) << "where it is at the other frame's time";
-    EXPECT_TRUE(ProbeAt(frame, camera, CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * Eigen::Vector3d(-1.8, 0.0, 0.80)).IsRed());
+    EXPECT_TRUE(
+        ProbeAt(frame, camera,
+                CarAtTime(time_s) + scene::Attitude(HeadingAt(time_s), 0.0, 0.0) * Eigen::Vector3d(-1.8, 0.0, 0.80))
+            .IsRed());
   }
 }
 
@@ -151,18 +161,23 @@ TEST_F(ViewNode, FramesBeyondTheEndAreToldOf) {
   testing::internal::CaptureStderr();
   Drive("[0.02, 0.5, 0.6]", folder_, 100);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "rodeira: node 'picture': the run ended at step 100, before 2 of the frames asked for (the first of them is of step 500)\n");
+            "rodeira: node 'picture': the run ended at step 100, before 2 of the frames asked for (the first of them "
+            "is of step 500)\n");
   EXPECT_EQ(Files(), std::set<std::string>{"step_000000020.png"});
 }
 
 // Restored in the middle, the view writes the same frames from there on; it remembers the traffic's last sample.
 TEST_F(ViewNode, ARestoredViewWritesTheSameFrames) {
-  const std::string config = "{width_px: 640, height_px: 360, window: never, instruments: false, frames: {times_s: [0.305], folder: " + folder_.string() + "}}";
+  const std::string config =
+      "{width_px: 640, height_px: 360, window: never, instruments: false, frames: {times_s: [0.305], folder: " +
+      folder_.string() + "}}";
   auto launch = launch::Launch::Parse(LaunchText(config), "fake.yaml");
   ASSERT_TRUE(launch.ok());
   const lockstep::Roster& roster = launch.value().roster();
-  const auto drive = [&](std::vector<lockstep::Snapshot> resume, lockstep::Step first, std::vector<lockstep::Snapshot>* taken) {
-    FakeSource hands(idl::topics::kControls, 0.001), ego(idl::topics::kVehicleState, 0.001), others(idl::topics::kTrafficState, 0.001);
+  const auto drive = [&](std::vector<lockstep::Snapshot> resume, lockstep::Step first,
+                         std::vector<lockstep::Snapshot>* taken) {
+    FakeSource hands(idl::topics::kControls, 0.001), ego(idl::topics::kVehicleState, 0.001),
+        others(idl::topics::kTrafficState, 0.001);
     PlainContext context(launch.value(), roster.Find("picture"));
     auto node = nodes::MakeViewNode(context);
     ASSERT_TRUE(node.ok()) << node.error().Text();

@@ -28,12 +28,14 @@ class VirtualDisplay {
       std::vector<char*> argv;
       for (std::string& word : words) argv.push_back(word.data());
       argv.push_back(nullptr);
-      if (::freopen("/dev/null", "w", stdout) == nullptr || ::freopen("/dev/null", "w", stderr) == nullptr) ::_exit(127);
+      if (::freopen("/dev/null", "w", stdout) == nullptr || ::freopen("/dev/null", "w", stderr) == nullptr)
+        ::_exit(127);
       ::execvp(argv[0], argv.data());
       ::_exit(127);
     }
     ::close(told[1]);
-    for (char c = 0; ::read(told[0], &c, 1) == 1 && c != '\n';) number_ += c;  // it says so when it answers; nothing where it does not start
+    for (char c = 0; ::read(told[0], &c, 1) == 1 && c != '\n';)
+      number_ += c;  // it says so when it answers; nothing where it does not start
     ::close(told[0]);
     if (!number_.empty()) ::setenv("DISPLAY", name().c_str(), 1);
   }

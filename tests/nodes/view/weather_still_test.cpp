@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/nodes/view/driver_still.hpp"
 #include "tests/n222.hpp"
+#include "tests/nodes/view/driver_still.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -49,7 +49,8 @@ TEST_F(WeatherStill, AtNightOnlyTheHeadlightsShowTheRoad) {
   EXPECT_LT(Brightness(ProbeAt(without, 0.5 * kWidth, kHeight - 10)), 0.5 * near);
 }
 
-// By the law of the beam, 1 / (1 + (d / reach)^2), 110 m ahead gets 5 times as much light where it reaches 60 m instead of 24.
+// By the law of the beam, 1 / (1 + (d / reach)^2), 110 m ahead gets 5 times as much light where it reaches 60 m instead
+// of 24.
 TEST_F(WeatherStill, TheMainBeamReachesFartherThanTheDippedOne) {
   weather::Weather night;
   night.hour = 1.0;
@@ -62,7 +63,8 @@ TEST_F(WeatherStill, TheMainBeamReachesFartherThanTheDippedOne) {
   EXPECT_NEAR(Brightness(Road(main_beam, 8.0)) / Brightness(Road(dipped, 8.0)), 1.0, 0.15) << "nearby it is as bright";
 }
 
-// A place d away differs from the fog by exp(-3 d / visibility) of what it would without: asked of two fogs with the same light.
+// A place d away differs from the fog by exp(-3 d / visibility) of what it would without: asked of two fogs with the
+// same light.
 TEST_F(WeatherStill, FogTakesTheContrast) {
   weather::Weather thick, thin;
   thick.visibility_m = 60.0;
@@ -71,7 +73,8 @@ TEST_F(WeatherStill, FogTakesTheContrast) {
   const double fog = Brightness(ProbeAt(in_thick, 0.5 * kWidth, kHeight * 0.47, 2));
   for (const double ahead_m : {10.0, 25.0, 40.0}) {
     const Eigen::Vector3d place = N222Road().Position(60.0 + ahead_m, -1.45);
-    const double distance_m = (place - camera_.eye_W).norm(), expected = std::exp(-3.0 * distance_m / 60.0 + 3.0 * distance_m / 150.0);
+    const double distance_m = (place - camera_.eye_W).norm(),
+                 expected = std::exp(-3.0 * distance_m / 60.0 + 3.0 * distance_m / 150.0);
     const double much = fog - Brightness(Road(in_thin, ahead_m)), little = fog - Brightness(Road(in_thick, ahead_m));
     EXPECT_GT(much, 20.0) << ahead_m;
     EXPECT_NEAR(little, expected * much, 2.0) << ahead_m << " m: " << much << " of 255";

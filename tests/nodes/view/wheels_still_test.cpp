@@ -1,4 +1,5 @@
-// The procedural car's wheels as parts of their own: each turns, steers and moves with its suspension, and nothing else of the car does.
+// The procedural car's wheels as parts of their own: each turns, steers and moves with its suspension, and nothing else
+// of the car does.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -30,8 +31,10 @@ class WheelsStill : public DriverStill {
     const double reach_m = std::hypot(shape.wheel_radius_m, 0.5 * shape.wheel_width_m) + 0.03;
     Eigen::AlignedBox2d box;
     for (int corner = 0; corner < 8; ++corner) {
-      const Eigen::Vector3d away((corner & 1) != 0 ? reach_m : -reach_m, (corner & 2) != 0 ? reach_m : -reach_m, (corner & 4) != 0 ? reach_m : -reach_m);
-      const Eigen::Vector3d p_W = Car().p_WB_W + Car().q_WB * (Car().wheels[wheel].hub_B + Eigen::Vector3d(0.0, shape.tread_out_m, 0.0) + away);
+      const Eigen::Vector3d away((corner & 1) != 0 ? reach_m : -reach_m, (corner & 2) != 0 ? reach_m : -reach_m,
+                                 (corner & 4) != 0 ? reach_m : -reach_m);
+      const Eigen::Vector3d p_W =
+          Car().p_WB_W + Car().q_WB * (Car().wheels[wheel].hub_B + Eigen::Vector3d(0.0, shape.tread_out_m, 0.0) + away);
       box.extend(*painter_->CameraOf(picture_).Project(p_W, kWidth, kHeight));
     }
     return box;
@@ -51,7 +54,9 @@ class WheelsStill : public DriverStill {
     }
     return changed;
   }
-  Probe At(const Image& image, const Eigen::Vector3d& p_B) { return ProbeAt(image, painter_->CameraOf(picture_), Car().p_WB_W + Car().q_WB * p_B, 1); }
+  Probe At(const Image& image, const Eigen::Vector3d& p_B) {
+    return ProbeAt(image, painter_->CameraOf(picture_), Car().p_WB_W + Car().q_WB * p_B, 1);
+  }
   // The outer side of a left wheel, at a place relative to its hub.
   Eigen::Vector3d Flank(std::size_t wheel, double ahead_m, double up_m) {
     const scene::CarShape shape = scene::CarShape::Of(Car());
@@ -65,11 +70,13 @@ TEST_F(WheelsStill, AWheelTurnsByItsAngle) {
   const Image turned = Drawn();
   const Changed changed = Between(still, turned);
   EXPECT_GT(changed.pixels, 100);
-  EXPECT_TRUE(BoxOf(kRearLeft).contains(changed.box)) << "nothing else moved: " << changed.box.min().transpose() << " … " << changed.box.max().transpose();
+  EXPECT_TRUE(BoxOf(kRearLeft).contains(changed.box))
+      << "nothing else moved: " << changed.box.min().transpose() << " … " << changed.box.max().transpose();
   // The gap that was above is a tenth of a turn forward now: wheels roll forward, their upper side ahead.
   const double out = 0.42 * scene::CarShape::Of(Car()).wheel_radius_m, angle = 0.2 * std::numbers::pi;
   EXPECT_LT(At(still, Flank(kRearLeft, 0.0, out)).green, At(turned, Flank(kRearLeft, 0.0, out)).green - 20.0);
-  EXPECT_LT(At(turned, Flank(kRearLeft, out * std::sin(angle), out * std::cos(angle))).green, At(still, Flank(kRearLeft, out * std::sin(angle), out * std::cos(angle))).green - 20.0);
+  EXPECT_LT(At(turned, Flank(kRearLeft, out * std::sin(angle), out * std::cos(angle))).green,
+            At(still, Flank(kRearLeft, out * std::sin(angle), out * std::cos(angle))).green - 20.0);
   // Five gaps: after a fifth of a turn it looks as it did.
   Car().wheels[kRearLeft].spin_rad = 0.4 * std::numbers::pi;
   EXPECT_LT(Between(still, Drawn()).pixels, changed.pixels / 4);

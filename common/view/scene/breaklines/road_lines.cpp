@@ -11,8 +11,9 @@ using network::Road;
 
 constexpr double kLongest_m = 24.0;   // between two stations
 constexpr double kShortest_m = 0.05;  // where a formula has a kink nothing is gained by going on
-constexpr double kAtQuarters = 0.91;  // of how far a cubic lies from its chord at most, this much at least is seen at one of the chord's quarters
-constexpr int kMostParts = 16;        // of a lane, across
+constexpr double kAtQuarters =
+    0.91;  // of how far a cubic lies from its chord at most, this much at least is seen at one of the chord's quarters
+constexpr int kMostParts = 16;  // of a lane, across
 
 // How far q lies from the chord from a to b, in plan and in height.
 std::pair<double, double> FromChord(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& q) {
@@ -58,7 +59,8 @@ class SectionLines {
       for (int k = 1; k <= parts_[i]; ++k) across.push_back(edges[i] + (edges[i + 1] - edges[i]) * k / parts_[i]);
     }
     for (const network::Shape& shape : road_.spec().lateral.shapes) {
-      for (const geometry::Cubic& record : shape.height.records()) across.push_back(std::clamp(record.from, edges.front(), edges.back()));
+      for (const geometry::Cubic& record : shape.height.records())
+        across.push_back(std::clamp(record.from, edges.front(), edges.back()));
     }
     return across;
   }
@@ -89,7 +91,8 @@ class SectionLines {
     };
     const network::RoadSpec& spec = road_.spec();
     for (const geometry::PlanElement& element : road_.axis().elements()) add(element.s_m);
-    for (const geometry::CubicTable* table : {&spec.elevation, &spec.superelevation, &spec.lane_offset}) add_table(*table);
+    for (const geometry::CubicTable* table : {&spec.elevation, &spec.superelevation, &spec.lane_offset})
+      add_table(*table);
     for (const network::Shape& shape : spec.lateral.shapes) add(shape.s_m);
     for (const auto* side : {&section_.left, &section_.right}) {
       for (const network::Lane& lane : *side) {
@@ -107,7 +110,8 @@ class SectionLines {
     std::vector<double> all = {kept.front()};
     for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
       const int count = std::max(1, static_cast<int>(std::ceil((kept[i + 1] - kept[i]) / kLongest_m)));
-      for (int k = 1; k <= count; ++k) all.push_back(k == count ? kept[i + 1] : kept[i] + (kept[i + 1] - kept[i]) * k / count);
+      for (int k = 1; k <= count; ++k)
+        all.push_back(k == count ? kept[i + 1] : kept[i] + (kept[i + 1] - kept[i]) * k / count);
     }
     return all;
   }
@@ -129,7 +133,8 @@ class SectionLines {
     std::size_t first = 0;
     for (std::size_t i = 0; i < lane; ++i) first += static_cast<std::size_t>(parts_[i]);
     for (int k = 0; k < parts_[lane]; ++k) {
-      const double from = across[first + static_cast<std::size_t>(k)], to = across[first + static_cast<std::size_t>(k) + 1];
+      const double from = across[first + static_cast<std::size_t>(k)],
+                   to = across[first + static_cast<std::size_t>(k) + 1];
       const Eigen::Vector3d a = road_.Surface(s, from).p_W, b = road_.Surface(s, to).p_W;
       for (const double part : {0.3, 0.5, 0.7}) {
         const auto [plan, height] = FromChord(a, b, road_.Surface(s, from + part * (to - from)).p_W);
@@ -145,7 +150,9 @@ class SectionLines {
     for (std::size_t k = 0; k < a.size(); ++k) {
       const auto [plan, height] = FromChord(a[k], b[k], between[k]);
       if (plan > kAtQuarters * tolerance_.plan_m || height > kAtQuarters * tolerance_.height_m) return false;
-      if (k > 0 && k < edges && std::fabs(a[k].z() - a[k - 1].z() - b[k].z() + b[k - 1].z()) / 4.0 > tolerance_.height_m) return false;
+      if (k > 0 && k < edges &&
+          std::fabs(a[k].z() - a[k - 1].z() - b[k].z() + b[k - 1].z()) / 4.0 > tolerance_.height_m)
+        return false;
     }
     return true;
   }

@@ -4,7 +4,8 @@ namespace rodeira::scene {
 namespace {
 
 void AddLineAcross(const network::Road& road, double s_m, std::vector<Line3>& lines) {
-  constexpr double kBeyond_m = 0.05;  // the drawn edges are chords: a line that ended at the edge itself might not reach them
+  constexpr double kBeyond_m =
+      0.05;  // the drawn edges are chords: a line that ended at the edge itself might not reach them
   if (s_m <= 0.0 || s_m >= road.length_m()) return;
   double right, left;
   road.SectionAt(s_m).Bounds(road.spec().lane_offset, s_m, s_m, right, left);

@@ -36,11 +36,12 @@ constexpr double kLeastChase_m = 1.0;
 constexpr double kEyeHigh_m = 1.20, kEyeLow_m = 0.6, kHeadroom_m = 0.21, kCabRoof_m = 1.2;
 constexpr double kCabFront_m = 1.3;  // of a lorry's or bus's driver from its front
 
-// How far behind the car its eye is, where so many others may stand between it and the car. In plan, along the car's nose.
+// How far behind the car its eye is, where so many others may stand between it and the car. In plan, along the car's
+// nose.
 double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> others) {
-  constexpr double kBefore_m = 0.5;                       // of another's front
-  constexpr double kClear_m = 1.4, kInTheWay_m = 0.3;     // from the line of sight to its side
-  constexpr double kBelow_m = 0.3, kAbove_m = 0.1;        // of the line of sight: its roof
+  constexpr double kBefore_m = 0.5;                    // of another's front
+  constexpr double kClear_m = 1.4, kInTheWay_m = 0.3;  // from the line of sight to its side
+  constexpr double kBelow_m = 0.3, kAbove_m = 0.1;     // of the line of sight: its roof
   const Vector2d nose = NoseInPlan(car), left(-nose.y(), nose.x());
   const double rear = car.length_m - car.front_m, roof_z_m = car.p_WB_W.z() + car.height_m;
   double distance = kChase_m;
@@ -61,7 +62,8 @@ double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> othe
     const double front = std::min(first, -rear), aside = std::max({low, -high, 0.0});
     const double sight_z_m = roof_z_m + (eye_z_m - roof_z_m) * std::min(-front / kChase_m, 1.0);
     const double wheels_m = other.p_WB_W.z() - sight_z_m;  // over the line of sight: on a bridge
-    const double weight = (1.0 - Smooth(aside, kInTheWay_m, kClear_m)) * Smooth(wheels_m + other.height_m, -kBelow_m, kAbove_m) * (1.0 - Smooth(wheels_m, 0.0, 1.0));
+    const double weight = (1.0 - Smooth(aside, kInTheWay_m, kClear_m)) *
+                          Smooth(wheels_m + other.height_m, -kBelow_m, kAbove_m) * (1.0 - Smooth(wheels_m, 0.0, 1.0));
     const double wanted = std::clamp(-front - kBefore_m, kLeastChase_m, kChase_m);
     distance = std::min(distance, kChase_m - weight * (kChase_m - wanted));
   }
@@ -93,7 +95,9 @@ std::optional<CameraKind> CameraOf(std::string_view name) {
   return found == kNames.end() ? std::nullopt : std::optional(static_cast<CameraKind>(found - kNames.begin()));
 }
 
-CameraKind NextCamera(CameraKind kind) { return static_cast<CameraKind>((static_cast<std::size_t>(kind) + 1) % kNames.size()); }
+CameraKind NextCamera(CameraKind kind) {
+  return static_cast<CameraKind>((static_cast<std::size_t>(kind) + 1) % kNames.size());
+}
 
 std::optional<Vector2d> Camera::Project(const Vector3d& p_W, int width_px, int height_px) const {
   const Vector3d d = p_W - eye_W;
@@ -104,15 +108,27 @@ std::optional<Vector2d> Camera::Project(const Vector3d& p_W, int width_px, int h
     return Vector2d(width_px * (d.dot(right) / depth - window->left) / (window->right - window->left),
                     height_px * (window->high - d.dot(up_W) / depth) / (window->high - window->low));
   }
-  const double scale = parallel_height_m > 0.0 ? height_px / parallel_height_m : 0.5 * height_px / (std::tan(0.5 * vertical_view_rad) * depth);  // pixels a metre
+  const double scale = parallel_height_m > 0.0
+                           ? height_px / parallel_height_m
+                           : 0.5 * height_px / (std::tan(0.5 * vertical_view_rad) * depth);  // pixels a metre
   return Vector2d(0.5 * width_px + scale * d.dot(right), 0.5 * height_px - scale * d.dot(up_W));
 }
 
 Body::Body(const CarPose& car)
-    : p_WB_W(car.p_WB_W), q_WB(car.q_WB), length_m(car.length_m), front_m(car.front_m), width_m(car.width_m), height_m(car.height_m) {}
+    : p_WB_W(car.p_WB_W),
+      q_WB(car.q_WB),
+      length_m(car.length_m),
+      front_m(car.front_m),
+      width_m(car.width_m),
+      height_m(car.height_m) {}
 
 Body::Body(const AgentPose& agent)
-    : p_WB_W(agent.p_WB_W), q_WB(agent.q_WB), length_m(agent.length_m), front_m(0.5 * agent.length_m), width_m(agent.width_m), height_m(agent.height_m) {}
+    : p_WB_W(agent.p_WB_W),
+      q_WB(agent.q_WB),
+      length_m(agent.length_m),
+      front_m(0.5 * agent.length_m),
+      width_m(agent.width_m),
+      height_m(agent.height_m) {}
 
 std::optional<Body> BodyAt(const Moment& moment, std::size_t number) {
   if (number < moment.cars.size()) return Body(moment.cars[number]);
@@ -132,30 +148,38 @@ void Aim::Zoom(double factor) {
 
 Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Body> others) {
   const Vector3d nose = car.q_WB * Vector3d::UnitX();
-  const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3 ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized() : Vector3d::UnitX();
+  const Vector3d ahead = std::hypot(nose.x(), nose.y()) > 1e-3
+                             ? Vector3d(nose.x(), nose.y(), 0.7 * nose.z()).normalized()
+                             : Vector3d::UnitX();
   const double away_m = ChaseDistance(car, car.p_WB_W.z() - kChase_m * ahead.z() + kChaseHigh_m, others);
   const Vector3d eye = AboveGround(car.p_WB_W - away_m * ahead + Vector3d(0.0, 0.0, kChaseHigh_m), world);
-  const double share = (away_m - kLeastChase_m) / (kChase_m - kLeastChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
+  const double share =
+      (away_m - kLeastChase_m) /
+      (kChase_m - kLeastChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
   const Vector3d target = car.p_WB_W + 9.0 * share * ahead + Vector3d(0.0, 0.0, 0.75);
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
 Vector3d DriversEye_B(const Body& car) {
-  const double low = std::max(kEyeLow_m, std::min(kEyeHigh_m, car.height_m - kHeadroom_m)), cab = car.height_m - kCabRoof_m;
+  const double low = std::max(kEyeLow_m, std::min(kEyeHigh_m, car.height_m - kHeadroom_m)),
+               cab = car.height_m - kCabRoof_m;
   return {cab > low ? car.front_m - kCabFront_m : 0.10, 0.22 * car.width_m, std::max(low, cab)};
 }
 
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);
-  return LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+  return LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(),
+                  52.0 * kDegree);
 }
 
 Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
   const Vector3d forward_B(std::cos(screen.angle_rad), std::sin(screen.angle_rad), 0.0);
-  Camera camera = LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  Camera camera =
+      LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 0.0);
   const double half_m = 0.5 * screen.width_m;
-  camera.window = Camera::Window{(screen.aside_m - half_m) / screen.distance_m, (screen.aside_m + half_m) / screen.distance_m,
-                                 -screen.eye_height_m / screen.distance_m, (screen.height_m - screen.eye_height_m) / screen.distance_m};
+  camera.window = Camera::Window{
+      (screen.aside_m - half_m) / screen.distance_m, (screen.aside_m + half_m) / screen.distance_m,
+      -screen.eye_height_m / screen.distance_m, (screen.height_m - screen.eye_height_m) / screen.distance_m};
   camera.vertical_view_rad = std::atan(camera.window->high) - std::atan(camera.window->low);
   return camera;
 }
@@ -171,31 +195,41 @@ Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
   const Vector2d out = -std::cos(aim.azimuth_rad) * nose + std::sin(aim.azimuth_rad) * right;
   const Vector3d middle = car.p_WB_W + Vector3d(0.0, 0.0, 0.5 * car.height_m);
   const double level_m = aim.distance_m * std::cos(aim.elevation_rad);
-  const Vector3d eye = AboveGround(middle + Vector3d(level_m * out.x(), level_m * out.y(), aim.distance_m * std::sin(aim.elevation_rad)), world);
+  const Vector3d eye = AboveGround(
+      middle + Vector3d(level_m * out.x(), level_m * out.y(), aim.distance_m * std::sin(aim.elevation_rad)), world);
   return LookFrom(eye, middle - eye, Vector3d::UnitZ(), 48.0 * kDegree);
 }
 
 Camera TopCamera(const Body& car, const Aim& aim) {
   // As high as the eye of a pinhole camera would be that shows as much: what is left out far away is the same.
   const double above_m = std::max(60.0, 1.2 * aim.map_height_m);
-  Camera camera = LookFrom(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
+  Camera camera =
+      LookFrom(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
   camera.parallel_height_m = aim.map_height_m;
   return camera;
 }
 
-Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world, std::span<const Body> others) {
+Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world,
+                  std::span<const Body> others) {
   switch (kind) {
-    case CameraKind::kChase: return ChaseCamera(car, world, others);
-    case CameraKind::kDriver: return DriverCamera(car);
-    case CameraKind::kBonnet: return BonnetCamera(car);
-    case CameraKind::kOrbit: return OrbitCamera(car, aim, world);
-    case CameraKind::kTop: return TopCamera(car, aim);
-    case CameraKind::kTrackside: return TracksideCamera(car, world);
+    case CameraKind::kChase:
+      return ChaseCamera(car, world, others);
+    case CameraKind::kDriver:
+      return DriverCamera(car);
+    case CameraKind::kBonnet:
+      return BonnetCamera(car);
+    case CameraKind::kOrbit:
+      return OrbitCamera(car, aim, world);
+    case CameraKind::kTop:
+      return TopCamera(car, aim);
+    case CameraKind::kTrackside:
+      return TracksideCamera(car, world);
   }
   return ChaseCamera(car, world, others);
 }
 
-std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim, const road::World& world) {
+std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim,
+                                 const road::World& world) {
   const auto body = BodyAt(moment, number);
   if (!body) return std::nullopt;
   std::vector<Body> others;

@@ -6,28 +6,30 @@
 #include <span>
 #include <string_view>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
 enum class CameraKind { kChase, kDriver, kBonnet, kOrbit, kTop, kTrackside };
 
-// "chase", "driver", "bonnet", "orbit", "top", "trackside": as settings and options name them, in the order of the kinds.
+// "chase", "driver", "bonnet", "orbit", "top", "trackside": as settings and options name them, in the order of the
+// kinds.
 std::span<const std::string_view> CameraNames();
 std::optional<CameraKind> CameraOf(std::string_view name);
 // The kind behind it; behind the last one the first.
 CameraKind NextCamera(CameraKind kind);
 
-// From where and whereto one looks: a pure function of the car's pose (and of the world, and of what a hand on the mouse has
-// set), so that the camera is always in the same moment as the car.
+// From where and whereto one looks: a pure function of the car's pose (and of the world, and of what a hand on the
+// mouse has set), so that the camera is always in the same moment as the car.
 struct Camera {
   Eigen::Vector3d eye_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d forward_W = Eigen::Vector3d::UnitX();  // unit
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();       // unit, square to forward
   double vertical_view_rad = 0.8;
   double parallel_height_m = 0.0;  // > 0: parallel rays, and so much of the world from the lower to the upper edge
-  // Where the picture's edges lie at a unit of depth, right and up positive, for an eye that does not sit before its middle.
+  // Where the picture's edges lie at a unit of depth, right and up positive, for an eye that does not sit before its
+  // middle.
   struct Window {
     double left = -1.0, right = 1.0, low = -1.0, high = 1.0;
   };
@@ -38,7 +40,8 @@ struct Camera {
 };
 
 // From an eye along `forward` (any length), level as `up` says, which must not point the same way.
-Camera LookFrom(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& forward, const Eigen::Vector3d& up, double vertical_view_rad);
+Camera LookFrom(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& forward, const Eigen::Vector3d& up,
+                double vertical_view_rad);
 
 // Whom a camera goes with: a driver's car, or one of the traffic.
 struct Body {
@@ -54,8 +57,8 @@ std::optional<Body> BodyAt(const Moment& moment, std::size_t number);
 
 // What a hand on the mouse sets: where a free eye is about the car, and how much a map shows.
 struct Aim {
-  double azimuth_rad = 0.7;     // of the eye from behind the car, positive over its right side
-  double elevation_rad = 0.3;   // of the eye over the car
+  double azimuth_rad = 0.7;    // of the eye from behind the car, positive over its right side
+  double elevation_rad = 0.3;  // of the eye over the car
   double distance_m = 9.0;
   double map_height_m = 80.0;
 
@@ -75,8 +78,8 @@ struct ScreenPlane {
 
 // The driver's eye, in B: 1.2 m high, below the roof of a lower car; higher in a lorry or a bus, and at its front.
 Eigen::Vector3d DriversEye_B(const Body& car);
-// Behind and above the car, without its roll. `others`: who stands in the way of the eye, as a lorry does that is close behind, has it come nearer, to
-// before its front; evenly, as they come and go.
+// Behind and above the car, without its roll. `others`: who stands in the way of the eye, as a lorry does that is close
+// behind, has it come nearer, to before its front; evenly, as they come and go.
 Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Body> others = {});
 // In the driver's seat, on the left.
 Camera DriverCamera(const Body& car);
@@ -88,11 +91,13 @@ Camera BonnetCamera(const Body& car);
 Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world);
 // From above, north up, parallel rays.
 Camera TopCamera(const Body& car, const Aim& aim);
-// From posts beside the road, 120 m apart and left and right in turn, each for the part of the road around it; where no road is
-// near, from posts on a lattice. The picture is as wide as the car needs.
+// From posts beside the road, 120 m apart and left and right in turn, each for the part of the road around it; where no
+// road is near, from posts on a lattice. The picture is as wide as the car needs.
 Camera TracksideCamera(const Body& car, const road::World& world);
-Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world, std::span<const Body> others = {});
+Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world,
+                  std::span<const Body> others = {});
 // The camera with one of the moment's bodies, among all others of it; nothing where there is nobody of that number.
-std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim, const road::World& world);
+std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim,
+                                 const road::World& world);
 
 }  // namespace rodeira::scene

@@ -4,7 +4,8 @@
 
 namespace rodeira::scene {
 
-// One eye of a headset. Frame S is the driver's seat: its origin where DriversEye_B is, its axes those of the car's body.
+// One eye of a headset. Frame S is the driver's seat: its origin where DriversEye_B is, its axes those of the car's
+// body.
 struct HeadsetEye {
   Eigen::Vector3d p_SE = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_SE = Eigen::Quaterniond::Identity();  // of an eye that looks along its x, with z up

@@ -12,7 +12,8 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = geometry::kPi / 180.0;
 constexpr double kOutward_rad = 8.0 * kDegree;
-constexpr double kOuterLook_rad = 45.0 * kDegree, kInsideLook_rad = -5.0 * kDegree;  // of the driver, positive to the left
+constexpr double kOuterLook_rad = 45.0 * kDegree,
+                 kInsideLook_rad = -5.0 * kDegree;  // of the driver, positive to the left
 constexpr double kInsideView_rad = 38.0 * kDegree, kOuterView_rad = 26.0 * kDegree;
 
 constexpr double kEdge = 0.012;  // between a picture's edge and a mirror, of the picture's width
@@ -22,12 +23,15 @@ double SideOf(Mirror mirror) { return mirror == Mirror::kLeft ? 1.0 : mirror == 
 // Its middle on the car.
 Vector3d MirrorAt_B(const Body& car, Mirror mirror) {
   const bool inside = mirror == Mirror::kInside;
-  return {car.front_m - (inside ? 0.47 : 0.33) * car.length_m, SideOf(mirror) * (0.5 * car.width_m + 0.12), (inside ? 0.90 : 0.69) * car.height_m};
+  return {car.front_m - (inside ? 0.47 : 0.33) * car.length_m, SideOf(mirror) * (0.5 * car.width_m + 0.12),
+          (inside ? 0.90 : 0.69) * car.height_m};
 }
 
 }  // namespace
 
-std::string_view NameOf(Mirror mirror) { return mirror == Mirror::kLeft ? "left" : mirror == Mirror::kRight ? "right" : "inside"; }
+std::string_view NameOf(Mirror mirror) {
+  return mirror == Mirror::kLeft ? "left" : mirror == Mirror::kRight ? "right" : "inside";
+}
 
 std::optional<Mirror> MirrorOf(std::string_view name) {
   for (const Mirror mirror : kAllMirrors) {
@@ -56,7 +60,8 @@ Camera MirrorCamera(const Body& car, Mirror mirror) {
   const double side = SideOf(mirror);
   const bool inside = mirror == Mirror::kInside;
   const Vector3d back_B(-std::cos(kOutward_rad * side), std::sin(kOutward_rad * side), inside ? -0.02 : -0.06);
-  Camera camera = LookFrom(car.p_WB_W + car.q_WB * MirrorAt_B(car, mirror), car.q_WB * back_B, car.q_WB * Vector3d::UnitZ(), 0.0);
+  Camera camera =
+      LookFrom(car.p_WB_W + car.q_WB * MirrorAt_B(car, mirror), car.q_WB * back_B, car.q_WB * Vector3d::UnitZ(), 0.0);
   const double half = std::tan(0.5 * (inside ? kInsideView_rad : kOuterView_rad)), half_high = half / ShapeOf(mirror);
   camera.window = Camera::Window{-half, half, -half_high, half_high};
   camera.vertical_view_rad = 2.0 * std::atan(half_high);
@@ -66,9 +71,12 @@ Camera MirrorCamera(const Body& car, Mirror mirror) {
 MirrorPlace PlaceOf(Mirror mirror, double aspect) {
   const double wide = mirror == Mirror::kInside ? 0.26 : 0.17, high = wide * aspect / ShapeOf(mirror);
   switch (mirror) {
-    case Mirror::kLeft: return {kEdge, 0.30, kEdge + wide, 0.30 + high};
-    case Mirror::kRight: return {1.0 - kEdge - wide, 0.30, 1.0 - kEdge, 0.30 + high};
-    case Mirror::kInside: break;
+    case Mirror::kLeft:
+      return {kEdge, 0.30, kEdge + wide, 0.30 + high};
+    case Mirror::kRight:
+      return {1.0 - kEdge - wide, 0.30, 1.0 - kEdge, 0.30 + high};
+    case Mirror::kInside:
+      break;
   }
   return {0.56, 1.0 - kEdge * aspect - high, 0.56 + wide, 1.0 - kEdge * aspect};
 }

@@ -12,7 +12,8 @@ using Eigen::Vector3d;
 // How far along the ray it enters the box; nothing where it passes or the box lies behind.
 std::optional<double> Enters(const Body& body, const Ray& ray) {
   const Vector3d from = body.q_WB.conjugate() * (ray.from_W - body.p_WB_W), along = body.q_WB.conjugate() * ray.along_W;
-  const Vector3d low(body.front_m - body.length_m, -0.5 * body.width_m, 0.0), high(body.front_m, 0.5 * body.width_m, body.height_m);
+  const Vector3d low(body.front_m - body.length_m, -0.5 * body.width_m, 0.0),
+      high(body.front_m, 0.5 * body.width_m, body.height_m);
   double in = 0.0, out = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     if (std::fabs(along[axis]) < 1e-12) {
@@ -33,12 +34,14 @@ Ray RayAt(const Camera& camera, const Eigen::Vector2d& place_px, int width_px, i
   const double x = place_px.x() / width_px, y = 1.0 - place_px.y() / height_px;  // shares from the lower left corner
   const double aspect = static_cast<double>(width_px) / height_px;
   if (camera.parallel_height_m > 0.0 && !camera.window) {
-    const Vector3d from = camera.eye_W + camera.parallel_height_m * ((x - 0.5) * aspect * right + (y - 0.5) * camera.up_W);
+    const Vector3d from =
+        camera.eye_W + camera.parallel_height_m * ((x - 0.5) * aspect * right + (y - 0.5) * camera.up_W);
     return {from, camera.forward_W};
   }
   const double half = std::tan(0.5 * camera.vertical_view_rad);
   const Camera::Window window = camera.window.value_or(Camera::Window{-half * aspect, half * aspect, -half, half});
-  const Vector3d along = camera.forward_W + (window.left + x * (window.right - window.left)) * right + (window.low + y * (window.high - window.low)) * camera.up_W;
+  const Vector3d along = camera.forward_W + (window.left + x * (window.right - window.left)) * right +
+                         (window.low + y * (window.high - window.low)) * camera.up_W;
   return {camera.eye_W, along.normalized()};
 }
 

@@ -13,11 +13,13 @@ struct Ray {
   Eigen::Vector3d along_W = Eigen::Vector3d::UnitX();  // unit
 };
 
-// All that a camera shows at a place of its picture, in pixels from the left and from the top: Camera::Project backward.
+// All that a camera shows at a place of its picture, in pixels from the left and from the top: Camera::Project
+// backward.
 Ray RayAt(const Camera& camera, const Eigen::Vector2d& place_px, int width_px, int height_px);
 
-// The first car on the ray, by its box from bumper to bumper: one of the moment's cars or, numbered behind them, of its traffic.
-// `without`: the one in which the eye is.
-std::optional<std::size_t> BodyOn(const Moment& moment, const Ray& ray, std::optional<std::size_t> without = std::nullopt);
+// The first car on the ray, by its box from bumper to bumper: one of the moment's cars or, numbered behind them, of its
+// traffic. `without`: the one in which the eye is.
+std::optional<std::size_t> BodyOn(const Moment& moment, const Ray& ray,
+                                  std::optional<std::size_t> without = std::nullopt);
 
 }  // namespace rodeira::scene

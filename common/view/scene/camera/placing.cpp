@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSteepest = 1.5;   // no ground rises faster towards the ray, so that it is not passed through
+constexpr double kSteepest = 1.5;  // no ground rises faster towards the ray, so that it is not passed through
 constexpr double kShortest_m = 0.02;
 constexpr double kOutside_m = 5.0;  // of a way where no ground is known
 constexpr double kMet_m = 1e-4;

@@ -3,13 +3,13 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/camera/pick.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
-// Where a ray from above first meets the ground, on the level that lies there, within 1 cm in height; nothing where it does not within
-// `far_m`, or begins below the ground.
+// Where a ray from above first meets the ground, on the level that lies there, within 1 cm in height; nothing where it
+// does not within `far_m`, or begins below the ground.
 std::optional<Eigen::Vector3d> GroundOn(ground::Ground& ground, const Ray& ray, double far_m = 5'000.0);
 
 // Where a car is to stand.
@@ -20,8 +20,8 @@ struct CarPlace {
   bool on_lane = false;
 };
 
-// At a point of the ground, in the direction of its lane's traffic where it lies on a drivable one (of lanes of both directions: that
-// nearer to `heading_rad`), otherwise as `heading_rad` says.
+// At a point of the ground, in the direction of its lane's traffic where it lies on a drivable one (of lanes of both
+// directions: that nearer to `heading_rad`), otherwise as `heading_rad` says.
 CarPlace PlaceAt(const road::World& world, const Eigen::Vector3d& p_W, double heading_rad);
 
 }  // namespace rodeira::scene

@@ -55,8 +55,9 @@ Camera TracksideCamera(const Body& car, const road::World& world) {
   // A car that drives over the post is looked down upon from the box.
   const Vector3d forward = towards.norm() > 0.1 ? towards : Vector3d(car.q_WB * Vector3d::UnitX());
   const bool steep = std::hypot(forward.x(), forward.y()) < 1e-3 * forward.norm();
-  return LookFrom(eye, forward, steep ? Vector3d::UnitY() : Vector3d::UnitZ(),
-                  std::clamp(2.0 * std::atan(0.5 * kSeen_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad));
+  return LookFrom(
+      eye, forward, steep ? Vector3d::UnitY() : Vector3d::UnitZ(),
+      std::clamp(2.0 * std::atan(0.5 * kSeen_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad));
 }
 
 }  // namespace rodeira::scene

@@ -7,8 +7,8 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kReach_m = 1.0;   // panels are looked for so far around a point
-constexpr double kBeside = 1e4;    // so many metres along the lane count less than one beside it or past a panel's end
+constexpr double kReach_m = 1.0;  // panels are looked for so far around a point
+constexpr double kBeside = 1e4;   // so many metres along the lane count less than one beside it or past a panel's end
 
 }  // namespace
 
@@ -34,13 +34,15 @@ Eigen::Vector2d OnRoad(const network::Network& network, const AlongLane& place, 
   return best;
 }
 
-Eigen::Vector2d OnPicture(const network::Network& network, const AlongLane& place, const terrain::LaidPicture& picture, const Eigen::Vector2d& p_W) {
+Eigen::Vector2d OnPicture(const network::Network& network, const AlongLane& place, const terrain::LaidPicture& picture,
+                          const Eigen::Vector2d& p_W) {
   const network::Lane* lane = network.Find(place.lane);
   const Eigen::Vector2d on_road = OnRoad(network, place, p_W);
   const auto span = network.Span(place.lane, on_road.x());
   const double inner_m = span ? span->inner_t_m : 0.0;
   const double ahead = lane != nullptr && lane->direction < 0 ? -1.0 : 1.0;
-  return ahead * Eigen::Vector2d((inner_m - on_road.y()) / picture.width_m, (on_road.x() - network.Section(place.lane).s_m) / picture.height_m);
+  return ahead * Eigen::Vector2d((inner_m - on_road.y()) / picture.width_m,
+                                 (on_road.x() - network.Section(place.lane).s_m) / picture.height_m);
 }
 
 }  // namespace rodeira::scene

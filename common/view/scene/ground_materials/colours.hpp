@@ -1,7 +1,7 @@
 #pragma once
 
-#include "common/view/scene/mesh/mesh.hpp"
 #include "common/core/ground/ground.hpp"
+#include "common/view/scene/mesh/mesh.hpp"
 
 namespace rodeira::scene {
 

@@ -20,7 +20,8 @@ void Show(const terrain::LaidPicture& picture, Mesh& mesh) {
 void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh) {
   Show(picture, mesh);
   const Eigen::Vector2d size(picture.width_m, picture.height_m);
-  Eigen::Vector2d first = (mesh.origin_W.head<2>() - Eigen::Vector2d(picture.west_m, picture.south_m)).cwiseQuotient(size);
+  Eigen::Vector2d first =
+      (mesh.origin_W.head<2>() - Eigen::Vector2d(picture.west_m, picture.south_m)).cwiseQuotient(size);
   if (picture.repeats) first -= Eigen::Vector2d(std::floor(first.x()), std::floor(first.y()));
   mesh.on_face.clear();
   mesh.on_face.reserve(mesh.positions.size());
@@ -37,7 +38,8 @@ std::optional<terrain::LaidPicture> PictureOf(const network::LaneMaterial& mater
 std::vector<terrain::LaidPicture> PicturesOf(const road::World& world) {
   std::vector<terrain::LaidPicture> pictures;
   const auto add = [&](const std::optional<terrain::LaidPicture>& picture) {
-    if (picture && std::find(pictures.begin(), pictures.end(), *picture) == pictures.end()) pictures.push_back(*picture);
+    if (picture && std::find(pictures.begin(), pictures.end(), *picture) == pictures.end())
+      pictures.push_back(*picture);
   };
   if (world.ground_picture() != nullptr) add(*world.ground_picture());
   if (world.network() == nullptr) return pictures;
@@ -54,8 +56,9 @@ std::vector<terrain::LaidPicture> PicturesOf(const road::World& world) {
 }
 
 base::Digest PictureDigests::Of(const terrain::LaidPicture& picture) {
-  const base::Digest lies = base::Hash(fmt::format("{} {} {} {} {} {}", picture.west_m, picture.south_m, picture.width_m, picture.height_m, picture.repeats,
-                                                   std::filesystem::path(picture.file).extension().string()));
+  const base::Digest lies =
+      base::Hash(fmt::format("{} {} {} {} {} {}", picture.west_m, picture.south_m, picture.width_m, picture.height_m,
+                             picture.repeats, std::filesystem::path(picture.file).extension().string()));
   const auto [file, fresh] = files_.try_emplace(picture.file, 0);
   if (fresh) {
     if (const auto bytes = base::ReadBytes(picture.file)) file->second = base::Hash(std::span(bytes.value()));

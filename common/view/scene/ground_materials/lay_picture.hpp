@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
+#include "common/view/scene/mesh/mesh.hpp"
 #include "common/world/network/lane.hpp"
 #include "common/world/road/world.hpp"
-#include "common/view/scene/mesh/mesh.hpp"
 #include "common/world/terrain/picture_file.hpp"
 
 namespace rodeira::scene {
 
 // Makes of a mesh one of kPicture; where its vertices lie on it is not said.
 void Show(const terrain::LaidPicture& picture, Mesh& mesh);
-// The same, and the picture lies on it as seen from above. What repeats is counted from a whole number of pictures near the
-// mesh's origin, so that far from the world's origin nothing is lost.
+// The same, and the picture lies on it as seen from above. What repeats is counted from a whole number of pictures near
+// the mesh's origin, so that far from the world's origin nothing is lost.
 void LayPicture(const terrain::LaidPicture& picture, Mesh& mesh);
 
 // All that lie on a world's terrain and lanes, each once, in the order of the roads.

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/world/network/network.hpp"
-#include "common/view/scene/ground_materials/colours.hpp"
 #include "common/view/scene/breaklines/laid_lines.hpp"
+#include "common/view/scene/ground_materials/colours.hpp"
 #include "common/view/scene/ground_materials/lay_picture.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -21,19 +21,28 @@ Colour PavedColour(LaneType type, ground::Surface surface) {
   switch (type) {
     case LaneType::kShoulder:
     case LaneType::kStop:
-    case LaneType::kBorder: return Colour::Of(0x6c6c6b);
+    case LaneType::kBorder:
+      return Colour::Of(0x6c6c6b);
     case LaneType::kSidewalk:
-    case LaneType::kWalking: return Colour::Of(0xa7a49c);
-    case LaneType::kCurb: return Colour::Of(0xbab7b0);
-    case LaneType::kBiking: return Colour::Of(0x84524a);
-    case LaneType::kParking: return Colour::Of(0x696a70);
+    case LaneType::kWalking:
+      return Colour::Of(0xa7a49c);
+    case LaneType::kCurb:
+      return Colour::Of(0xbab7b0);
+    case LaneType::kBiking:
+      return Colour::Of(0x84524a);
+    case LaneType::kParking:
+      return Colour::Of(0x696a70);
     case LaneType::kRestricted:
-    case LaneType::kRoadWorks: return Colour::Of(0x70706e);
+    case LaneType::kRoadWorks:
+      return Colour::Of(0x70706e);
     case LaneType::kTram:
-    case LaneType::kRail: return Colour::Of(0x77706a);
+    case LaneType::kRail:
+      return Colour::Of(0x77706a);
     case LaneType::kBus:
-    case LaneType::kTaxi: return Colour::Of(0x62574f);
-    default: return SurfaceColour(surface);
+    case LaneType::kTaxi:
+      return Colour::Of(0x62574f);
+    default:
+      return SurfaceColour(surface);
   }
 }
 
@@ -49,7 +58,8 @@ std::optional<terrain::LaidPicture> PictureAt(const network::Lane& lane, double 
 // Whether a patch lies at a place of a road.
 bool IsPatched(const network::Road& road, double s_m, double t_m) {
   return std::any_of(road.spec().objects.begin(), road.spec().objects.end(), [&](const network::Object& object) {
-    return IsLaid(object) && network::IsPatch(object) && std::fabs(s_m - object.s_m) <= 0.5 * object.length_m && std::fabs(t_m - object.t_m) <= 0.5 * object.width_m;
+    return IsLaid(object) && network::IsPatch(object) && std::fabs(s_m - object.s_m) <= 0.5 * object.length_m &&
+           std::fabs(t_m - object.t_m) <= 0.5 * object.width_m;
   });
 }
 
@@ -65,11 +75,15 @@ void Patch(double friction, Skin& skin) {
 
 Material MaterialOf(ground::Surface surface) {
   switch (surface) {
-    case ground::Surface::kConcrete: return Material::kConcrete;
-    case ground::Surface::kGravel: return Material::kGravel;
+    case ground::Surface::kConcrete:
+      return Material::kConcrete;
+    case ground::Surface::kGravel:
+      return Material::kGravel;
     case ground::Surface::kAsphalt:
-    case ground::Surface::kRoadMark: return Material::kRoad;
-    default: return Material::kGround;
+    case ground::Surface::kRoadMark:
+      return Material::kRoad;
+    default:
+      return Material::kGround;
   }
 }
 
@@ -84,7 +98,8 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
     for (const network::Surfacing& surfacing : surfaces) {
       const network::Lane* lane = world.network()->Find(surfacing.place.lane);
       if (lane == nullptr || lane->id == 0 || std::fabs(surfacing.sample.p_W.z() - level.z_m) > kSame_m) continue;
-      patched = patched || (!world.open_drive() && IsPatched(world.network()->roads()[surfacing.place.lane.road], surfacing.place.s_m, surfacing.place.t_m));
+      patched = patched || (!world.open_drive() && IsPatched(world.network()->roads()[surfacing.place.lane.road],
+                                                             surfacing.place.s_m, surfacing.place.t_m));
       if (!skin.land) continue;  // the look is the first one's; a patch may lie on any road of a junction
       skin.land = false;
       type = lane->type;
@@ -96,8 +111,9 @@ Skin SkinAt(const road::World& world, const Eigen::Vector2d& p_W, const road::Su
   const bool paved = skin.material != Material::kGround;
   skin.grown = !paved;
   if (skin.land && world.ground_picture() != nullptr) skin.picture = *world.ground_picture();
-  skin.colour = paved ? PavedColour(type, skin.surface == ground::Surface::kRoadMark ? ground::Surface::kAsphalt : skin.surface)
-                      : SurfaceColour(skin.surface);
+  skin.colour =
+      paved ? PavedColour(type, skin.surface == ground::Surface::kRoadMark ? ground::Surface::kAsphalt : skin.surface)
+            : SurfaceColour(skin.surface);
   if (patched) Patch(level.friction, skin);
   return skin;
 }

@@ -3,9 +3,9 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/ground_materials/along_lane.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -14,8 +14,8 @@ struct Skin {
   Material material = Material::kGround;
   Colour colour;
   ground::Surface surface = ground::Surface::kGrass;
-  bool land = true;    // beside all roads
-  bool grown = true;   // its colour changes from place to place
+  bool land = true;   // beside all roads
+  bool grown = true;  // its colour changes from place to place
   std::optional<terrain::LaidPicture> picture;
   std::optional<AlongLane> along;  // the picture lies along a lane; none: by east and north
 };

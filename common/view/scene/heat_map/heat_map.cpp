@@ -12,8 +12,9 @@ using Eigen::Vector3d;
 constexpr double kLevel_m = 5.0;
 constexpr double kLongestPiece_m = 0.25 * HeatMap::kSquare_m;
 constexpr double kUnknownLimit_mps = 100.0 / 3.6;
-constexpr std::array<HeatScale, kHeatKinds> kScales{HeatScale{"speed", "% of the limit", 0.0, 100.0}, HeatScale{"flow", "vehicles/h", 0.0, 1800.0},
-                                                    HeatScale{"density", "vehicles/km", 80.0, 0.0}, HeatScale{"fuel", "l/100 km", 20.0, 0.0}};
+constexpr std::array<HeatScale, kHeatKinds> kScales{
+    HeatScale{"speed", "% of the limit", 0.0, 100.0}, HeatScale{"flow", "vehicles/h", 0.0, 1800.0},
+    HeatScale{"density", "vehicles/km", 80.0, 0.0}, HeatScale{"fuel", "l/100 km", 20.0, 0.0}};
 
 std::uint8_t Part(double value) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0))); }
 
@@ -21,9 +22,12 @@ std::uint8_t Part(double value) { return static_cast<std::uint8_t>(std::lround(2
 template <class Pose, class Each>
 void ForSame(const std::vector<Pose>& a, const std::vector<Pose>& b, Each each) {
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i].id == b[j].id) each(a[i++], b[j++]);
-    else if (a[i].id < b[j].id) ++i;
-    else ++j;
+    if (a[i].id == b[j].id)
+      each(a[i++], b[j++]);
+    else if (a[i].id < b[j].id)
+      ++i;
+    else
+      ++j;
   }
 }
 
@@ -79,11 +83,16 @@ void HeatMap::Add(const Moment& moment) {
     watched_s_ += passed_s;
     ForSame(before_->agents, moment.agents, [&](const AgentPose& a, const AgentPose& b) {
       if (b.kind == AgentKind::kPedestrian) return;  // a map of vehicles
-      // What is said of its fuel comes more seldom than moments: its flow, which holds until then, is as even as the way.
-      const auto fuel_l = a.detail && b.detail ? std::optional(0.5 * (a.detail->fuel_lph + b.detail->fuel_lph) * passed_s / 3600.0) : std::nullopt;
+      // What is said of its fuel comes more seldom than moments: its flow, which holds until then, is as even as the
+      // way.
+      const auto fuel_l = a.detail && b.detail
+                              ? std::optional(0.5 * (a.detail->fuel_lph + b.detail->fuel_lph) * passed_s / 3600.0)
+                              : std::nullopt;
       AddWay(a.p_WB_W, b.p_WB_W, passed_s, fuel_l);
     });
-    ForSame(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) { AddWay(a.p_WB_W, b.p_WB_W, passed_s, std::fabs(a.fuel_used_l - b.fuel_used_l)); });
+    ForSame(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) {
+      AddWay(a.p_WB_W, b.p_WB_W, passed_s, std::fabs(a.fuel_used_l - b.fuel_used_l));
+    });
   }
   before_ = moment;
 }
@@ -97,10 +106,14 @@ void HeatMap::Clear() {
 std::optional<double> HeatMap::Value(HeatKind kind, const HeatCell& cell) const {
   if (cell.time_s <= 0.0 || watched_s_ <= 0.0) return std::nullopt;
   switch (kind) {
-    case HeatKind::kSpeed: return 100.0 * cell.distance_m / cell.time_s / (cell.limit_mps > 0.0 ? cell.limit_mps : kUnknownLimit_mps);
-    case HeatKind::kFlow: return 3600.0 * cell.distance_m / (kSquare_m * watched_s_);
-    case HeatKind::kDensity: return 1000.0 * cell.time_s / (kSquare_m * watched_s_);
-    case HeatKind::kFuel: break;
+    case HeatKind::kSpeed:
+      return 100.0 * cell.distance_m / cell.time_s / (cell.limit_mps > 0.0 ? cell.limit_mps : kUnknownLimit_mps);
+    case HeatKind::kFlow:
+      return 3600.0 * cell.distance_m / (kSquare_m * watched_s_);
+    case HeatKind::kDensity:
+      return 1000.0 * cell.time_s / (kSquare_m * watched_s_);
+    case HeatKind::kFuel:
+      break;
   }
   return cell.fuel_distance_m > 0.0 ? std::optional(1e5 * cell.fuel_l / cell.fuel_distance_m) : std::nullopt;
 }

@@ -8,9 +8,9 @@
 #include <span>
 #include <string_view>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/vehicles/moment.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -37,9 +37,9 @@ struct HeatCell {
   double height_ms = 0.0;                      // the integral of the height over the time
 };
 
-// Statistics of all that drives, by squares of the ground, gathered from the moments that are shown: live or of a recording, forward
-// or backward. From moment to moment each vehicle's way, time and fuel are shared out among the squares that it crosses, in pieces of a
-// quarter of a square at most.
+// Statistics of all that drives, by squares of the ground, gathered from the moments that are shown: live or of a
+// recording, forward or backward. From moment to moment each vehicle's way, time and fuel are shared out among the
+// squares that it crosses, in pieces of a quarter of a square at most.
 class HeatMap {
  public:
   static constexpr double kSquare_m = 4.0;
@@ -58,8 +58,9 @@ class HeatMap {
     auto operator<=>(const Key&) const = default;
   };
   const std::map<Key, HeatCell>& cells() const { return cells_; }
-  // In the scale's unit: flow q = distance / (side · time), density k = time / (side · time), mean speed v = distance / time in per cent
-  // of the limit (100 km/h where none is known), consumption. Nothing where nobody was, or nobody whose consumption is known.
+  // In the scale's unit: flow q = distance / (side · time), density k = time / (side · time), mean speed v = distance /
+  // time in per cent of the limit (100 km/h where none is known), consumption. Nothing where nobody was, or nobody
+  // whose consumption is known.
   std::optional<double> Value(HeatKind kind, const HeatCell& cell) const;
 
  private:

@@ -30,16 +30,22 @@ std::vector<Surface> SurfacesOf(const HeatMap& map, const Eigen::Vector3d& about
   const std::int64_t column = number(about_W.x()), row = number(about_W.y());
   std::vector<Surface> surfaces;
   for (const auto& [key, cell] : map.cells()) {
-    if (std::abs(key.column - column) > kHeatReach || std::abs(key.row - row) > kHeatReach || cell.time_s <= 0.0) continue;
+    if (std::abs(key.column - column) > kHeatReach || std::abs(key.row - row) > kHeatReach || cell.time_s <= 0.0)
+      continue;
     const Surface next{key.column, key.row, cell};
-    const bool joins = !surfaces.empty() && next.SharesSquareWith(surfaces.back()) && next.height_m() - surfaces.back().height_m() < kHeatSurface_m;
-    if (joins) Join(surfaces.back().cell, cell);
-    else surfaces.push_back(next);
+    const bool joins = !surfaces.empty() && next.SharesSquareWith(surfaces.back()) &&
+                       next.height_m() - surfaces.back().height_m() < kHeatSurface_m;
+    if (joins)
+      Join(surfaces.back().cell, cell);
+    else
+      surfaces.push_back(next);
   }
   return surfaces;
 }
 
-std::uint16_t Part(double share, double least) { return static_cast<std::uint16_t>(std::lround(std::clamp(65535.0 * share, least, 65535.0))); }
+std::uint16_t Part(double share, double least) {
+  return static_cast<std::uint16_t>(std::lround(std::clamp(65535.0 * share, least, 65535.0)));
+}
 
 }  // namespace
 
@@ -66,7 +72,8 @@ HeatRaster MakeHeatRaster(const HeatMap& map, HeatKind kind, const Eigen::Vector
   for (const Surface& surface : surfaces) {
     const auto value = map.Value(kind, surface.cell);
     if (!value) continue;
-    std::uint16_t* texel = &raster.texels[4 * (static_cast<std::size_t>(surface.row - south) * raster.columns + static_cast<std::size_t>(surface.column - west))];
+    std::uint16_t* texel = &raster.texels[4 * (static_cast<std::size_t>(surface.row - south) * raster.columns +
+                                               static_cast<std::size_t>(surface.column - west))];
     if (texel[1] != 0) texel += 2;  // above the lowest; of more than two the highest stays
     texel[0] = Part((*value - scale.red) / (scale.green - scale.red), 0.0);
     texel[1] = Part((surface.height_m() - lowest_m) / raster.range_m, 1.0);

@@ -22,7 +22,12 @@ struct Row {
   Vector3d base, sky, sun, horizon, zenith;
 };
 const std::array<Row, 5> kRows = {{
-    {-12.0, {0.045, 0.050, 0.065}, {0.030, 0.036, 0.055}, {0.0, 0.0, 0.0}, {0.055, 0.068, 0.105}, {0.012, 0.020, 0.050}},
+    {-12.0,
+     {0.045, 0.050, 0.065},
+     {0.030, 0.036, 0.055},
+     {0.0, 0.0, 0.0},
+     {0.055, 0.068, 0.105},
+     {0.012, 0.020, 0.050}},
     {-4.0, {0.07, 0.08, 0.10}, {0.05, 0.06, 0.10}, {0.0, 0.0, 0.0}, {0.36, 0.28, 0.30}, {0.05, 0.08, 0.18}},
     {0.0, {0.15, 0.15, 0.16}, {0.10, 0.12, 0.17}, {0.10, 0.05, 0.02}, {0.86, 0.60, 0.42}, {0.14, 0.23, 0.42}},
     {12.0, {0.25, 0.26, 0.26}, {0.17, 0.20, 0.26}, {0.66, 0.53, 0.36}, {0.84, 0.80, 0.74}, {0.24, 0.42, 0.68}},
@@ -36,7 +41,8 @@ Row ClearSky(double height_deg) {
     if (height_deg >= b.height_deg) continue;
     const double share = (height_deg - a.height_deg) / (b.height_deg - a.height_deg);
     const auto mix = [share](const Vector3d& from, const Vector3d& to) { return Vector3d(from + share * (to - from)); };
-    return {height_deg, mix(a.base, b.base), mix(a.sky, b.sky), mix(a.sun, b.sun), mix(a.horizon, b.horizon), mix(a.zenith, b.zenith)};
+    return {height_deg,        mix(a.base, b.base),       mix(a.sky, b.sky),
+            mix(a.sun, b.sun), mix(a.horizon, b.horizon), mix(a.zenith, b.zenith)};
   }
   return kRows.back();
 }
@@ -47,7 +53,9 @@ double Smooth(double low, double high, double value) {
 }
 
 // The same brightness without colour.
-Vector3d Grey(const Vector3d& colour) { return Vector3d::Constant(0.30 * colour.x() + 0.59 * colour.y() + 0.11 * colour.z()); }
+Vector3d Grey(const Vector3d& colour) {
+  return Vector3d::Constant(0.30 * colour.x() + 0.59 * colour.y() + 0.11 * colour.z());
+}
 
 }  // namespace
 
@@ -55,7 +63,8 @@ double SunHeight_rad(double hour) { return std::asin(std::cos(kLatitude_rad) * s
 
 Air MakeAir(const weather::Weather& weather) {
   const double angle = HourAngle_rad(weather.hour);
-  const Vector3d sun(-std::sin(angle), -std::sin(kLatitude_rad) * std::cos(angle), std::cos(kLatitude_rad) * std::cos(angle));
+  const Vector3d sun(-std::sin(angle), -std::sin(kLatitude_rad) * std::cos(angle),
+                     std::cos(kLatitude_rad) * std::cos(angle));
   const double height_deg = SunHeight_rad(weather.hour) / kDegree;
   Row sky = ClearSky(height_deg);
   // Up to half of the sky clouds only stand in it; then they close it, take the sun and spread its light.

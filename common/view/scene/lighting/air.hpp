@@ -17,17 +17,18 @@ struct Air {
   float clouds = 0.3F;              // 0 … 1 as the weather says
   float fog_per_m = 0.0F;           // a colour at distance d is exp(-fog d) of itself, beside the haze of a clear day
   float wetness = 0.0F;
-  float rain = 0.0F;                // 0 … 1: none … a cloudburst (50 mm an hour and more)
-  float dusk = 0.0F;                // what headlights add to what is lit: 1 at night, a tenth by day
-  float headlights = 0.0F;          // the same where people have them on, else 0
+  float rain = 0.0F;        // 0 … 1: none … a cloudburst (50 mm an hour and more)
+  float dusk = 0.0F;        // what headlights add to what is lit: 1 at night, a tenth by day
+  float headlights = 0.0F;  // the same where people have them on, else 0
 };
 
 // Height of the sun over the horizon: at 42 degrees north (Galicia) at an equinox,
 //   sin h = cos 42° cos H with H = 15° (hour - 12).
 double SunHeight_rad(double hour);
 
-// A pure function. Without other words (Weather{}) a clear early afternoon. Fog: exp(-3 d / visibility), which leaves a twentieth
-// at the visibility's distance. Headlights are on where the sun is lower than 3 degrees, the visibility below 300 m, or it rains.
+// A pure function. Without other words (Weather{}) a clear early afternoon. Fog: exp(-3 d / visibility), which leaves a
+// twentieth at the visibility's distance. Headlights are on where the sun is lower than 3 degrees, the visibility below
+// 300 m, or it rains.
 Air MakeAir(const weather::Weather& weather);
 
 }  // namespace rodeira::scene

@@ -20,12 +20,15 @@ SunView MakeSunView(const Eigen::Vector3d& to_sun_W, const Eigen::Vector3d& abou
   view.side_m = side_m;
   view.depth_m = kDepth_m;
   view.forward_W = -to_sun_W.normalized();
-  const Eigen::Vector3d aside = std::fabs(view.forward_W.z()) > 0.999 ? Eigen::Vector3d::UnitX() : Eigen::Vector3d(view.forward_W.cross(Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d aside = std::fabs(view.forward_W.z()) > 0.999
+                                    ? Eigen::Vector3d::UnitX()
+                                    : Eigen::Vector3d(view.forward_W.cross(Eigen::Vector3d::UnitZ()));
   view.right_W = aside.normalized();
   view.up_W = view.right_W.cross(view.forward_W);
   const double pixel_m = side_m / side_px;
   const auto snapped = [pixel_m](double place_m) { return pixel_m * std::round(place_m / pixel_m); };
-  view.middle_W = snapped(view.right_W.dot(about_W)) * view.right_W + snapped(view.up_W.dot(about_W)) * view.up_W + view.forward_W.dot(about_W) * view.forward_W;
+  view.middle_W = snapped(view.right_W.dot(about_W)) * view.right_W + snapped(view.up_W.dot(about_W)) * view.up_W +
+                  view.forward_W.dot(about_W) * view.forward_W;
   return view;
 }
 

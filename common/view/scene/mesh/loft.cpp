@@ -43,8 +43,10 @@ Mesh Loft(const std::vector<std::vector<Eigen::Vector3d>>& rings, Material mater
 }
 
 Mesh Disc(double radius_m, double half_width_m, double bevel_m, int sides, Material material, Colour colour) {
-  const std::vector<std::pair<double, double>> profile = {{-half_width_m, radius_m - bevel_m}, {-half_width_m + bevel_m, radius_m},
-                                                          {half_width_m - bevel_m, radius_m}, {half_width_m, radius_m - bevel_m}};
+  const std::vector<std::pair<double, double>> profile = {{-half_width_m, radius_m - bevel_m},
+                                                          {-half_width_m + bevel_m, radius_m},
+                                                          {half_width_m - bevel_m, radius_m},
+                                                          {half_width_m, radius_m - bevel_m}};
   std::vector<std::vector<Eigen::Vector3d>> rings;
   for (const auto& [y, radius] : profile) {
     std::vector<Eigen::Vector3d> ring;

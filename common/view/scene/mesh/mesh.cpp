@@ -18,18 +18,24 @@ bool IsGround(Material material) {
     case Material::kMark:
     case Material::kConcrete:
     case Material::kGravel:
-    case Material::kPicture: return true;
-    default: return false;
+    case Material::kPicture:
+      return true;
+    default:
+      return false;
   }
 }
 
 Colour Mix(Colour a, Colour b, double weight) {
-  const auto mix = [weight](std::uint8_t x, std::uint8_t y) { return static_cast<std::uint8_t>(std::lround(x + weight * (y - x))); };
+  const auto mix = [weight](std::uint8_t x, std::uint8_t y) {
+    return static_cast<std::uint8_t>(std::lround(x + weight * (y - x)));
+  };
   return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
 }
 
 Colour Shade(Colour colour, double factor) {
-  const auto shade = [factor](std::uint8_t x) { return static_cast<std::uint8_t>(std::lround(std::clamp(x * factor, 0.0, 255.0))); };
+  const auto shade = [factor](std::uint8_t x) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(x * factor, 0.0, 255.0)));
+  };
   return {shade(colour.red), shade(colour.green), shade(colour.blue)};
 }
 

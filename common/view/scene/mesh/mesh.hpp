@@ -46,8 +46,9 @@ Colour Mix(Colour a, Colour b, double weight);
 // Every part multiplied by `factor` and held within its bounds.
 Colour Shade(Colour colour, double factor);
 
-// Triangles, counter-clockwise seen from outside (from above). Positions are relative to the origin, which is subtracted
-// in double before anything becomes float, so that a mesh is as exact far from the world's origin as near to it.
+// Triangles, counter-clockwise seen from outside (from above). Positions are relative to the origin, which is
+// subtracted in double before anything becomes float, so that a mesh is as exact far from the world's origin as near to
+// it.
 struct Mesh {
   Material material = Material::kGround;
   Eigen::Vector3d origin_W = Eigen::Vector3d::Zero();
@@ -55,8 +56,8 @@ struct Mesh {
   std::vector<Eigen::Vector3f> normals;  // unit length
   std::vector<Colour> colours;
   std::vector<std::uint32_t> triangles;  // three indices each
-  // Of kSign and kPicture only: which face (scene::DrawFace) or file, and where on it each vertex lies: (0, 0) its lower left
-  // corner, (1, 1) its upper right one. Of kCarLamp: which lamp (scene::Lamp) each vertex belongs to, and 0.
+  // Of kSign and kPicture only: which face (scene::DrawFace) or file, and where on it each vertex lies: (0, 0) its
+  // lower left corner, (1, 1) its upper right one. Of kCarLamp: which lamp (scene::Lamp) each vertex belongs to, and 0.
   std::string face;
   std::vector<Eigen::Vector2f> on_face;
   bool repeats = false;  // the picture, beyond its edges
@@ -75,8 +76,8 @@ inline constexpr double kOriginGrid_m = 64.0;
 // The multiple of kOriginGrid_m nearest to a point, for x, y and z.
 Eigen::Vector3d OriginNear(const Eigen::Vector3d& p_W);
 
-// Gives each vertex the mean normal of the faces around its place, weighted by their areas, as far as they turn from its
-// own face by less than crease_rad. The mesh must have three vertices of its own for each triangle.
+// Gives each vertex the mean normal of the faces around its place, weighted by their areas, as far as they turn from
+// its own face by less than crease_rad. The mesh must have three vertices of its own for each triangle.
 void SmoothNormals(Mesh& mesh, double crease_rad);
 
 }  // namespace rodeira::scene

@@ -13,7 +13,8 @@ void AddAt(const Repeated& repeated, const StandingPlace& place, Mesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const bool leaf = !repeated.light.empty() && repeated.light[i] >= 0.0F;
-    mesh.Add(place.stand.ToWorld(scale.cwiseProduct(model.positions[i].cast<double>())), place.stand.Turned(model.normals[i].cast<double>()),
+    mesh.Add(place.stand.ToWorld(scale.cwiseProduct(model.positions[i].cast<double>())),
+             place.stand.Turned(model.normals[i].cast<double>()),
              leaf ? LeafColour(place.leaves, static_cast<double>(repeated.light[i])) : model.colours[i]);
   }
   for (const std::uint32_t index : model.triangles) mesh.triangles.push_back(first + index);

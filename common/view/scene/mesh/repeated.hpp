@@ -18,7 +18,8 @@ struct StandingPlace {
 // A model that stands at many places: what draws it has the model once, and a list of places.
 struct Repeated {
   Mesh model;  // about its foot: its own origin is zero
-  // Of a model with leaves, by vertex: how light a leaf is, a multiple of a quarter from 0 to 1; negative: the vertex has its own colour. Empty: each has.
+  // Of a model with leaves, by vertex: how light a leaf is, a multiple of a quarter from 0 to 1; negative: the vertex
+  // has its own colour. Empty: each has.
   std::vector<float> light;
   Eigen::Vector3d origin_W = Eigen::Vector3d::Zero();  // to which places are drawn relative
   std::vector<StandingPlace> places;

@@ -37,7 +37,9 @@ std::vector<std::array<std::size_t, 3>> Ears(std::span<const Vector3d> corners) 
   return ears;
 }
 
-Stand Stand::At(const Vector3d& foot_W, double heading_rad) { return {foot_W, {std::cos(heading_rad), std::sin(heading_rad)}}; }
+Stand Stand::At(const Vector3d& foot_W, double heading_rad) {
+  return {foot_W, {std::cos(heading_rad), std::sin(heading_rad)}};
+}
 
 void AddPlaced(const Mesh& model, const Stand& stand, Mesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -75,7 +77,8 @@ Mesh Pole(double low_m, double high_m, double foot_m, double top_m, int sides, C
   return mesh;
 }
 
-void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int sides, const Eigen::Vector2d& across_W, Colour colour) {
+void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int sides, const Eigen::Vector2d& across_W,
+            Colour colour) {
   const Vector3d way = to.p_W - from.p_W;
   if (!(way.norm() > 0.0)) return;
   const Vector3d along = way.normalized();
@@ -108,7 +111,10 @@ void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int si
 Mesh Block(const Vector3d& low, const Vector3d& high, Colour colour) {
   Mesh mesh;
   mesh.material = Material::kMatt;
-  const std::array<Vector3d, 4> base = {Vector3d{low.x(), low.y(), low.z()}, {high.x(), low.y(), low.z()}, {high.x(), high.y(), low.z()}, {low.x(), high.y(), low.z()}};
+  const std::array<Vector3d, 4> base = {Vector3d{low.x(), low.y(), low.z()},
+                                        {high.x(), low.y(), low.z()},
+                                        {high.x(), high.y(), low.z()},
+                                        {low.x(), high.y(), low.z()}};
   const Vector3d up(0.0, 0.0, high.z() - low.z());
   std::array<Vector3d, 4> lid;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -124,7 +130,8 @@ Mesh Gable(const Vector3d& low, const Vector3d& high, Colour slopes, Colour ends
   Mesh mesh;
   mesh.material = Material::kMatt;
   const double middle = 0.5 * (low.y() + high.y());
-  const Vector3d a(low.x(), low.y(), low.z()), b(high.x(), low.y(), low.z()), c(high.x(), high.y(), low.z()), d(low.x(), high.y(), low.z());
+  const Vector3d a(low.x(), low.y(), low.z()), b(high.x(), low.y(), low.z()), c(high.x(), high.y(), low.z()),
+      d(low.x(), high.y(), low.z());
   const Vector3d from(low.x(), middle, high.z()), to(high.x(), middle, high.z());
   AddFlat(mesh, std::array<Vector3d, 4>{a, b, to, from}, slopes);
   AddFlat(mesh, std::array<Vector3d, 4>{c, d, from, to}, slopes);
@@ -133,11 +140,14 @@ Mesh Gable(const Vector3d& low, const Vector3d& high, Colour slopes, Colour ends
   return mesh;
 }
 
-void AddOutline(Mesh& mesh, std::span<const Vector3d> feet_W, std::span<const double> heights_m, bool closed, Colour walls, Colour roof) {
+void AddOutline(Mesh& mesh, std::span<const Vector3d> feet_W, std::span<const double> heights_m, bool closed,
+                Colour walls, Colour roof) {
   const std::size_t count = feet_W.size();
   if (count < 2) return;
   double area = 0.0;
-  for (std::size_t i = 0; i < count; ++i) area += geometry::Cross(Eigen::Vector2d((feet_W[i] - feet_W[0]).head<2>()), Eigen::Vector2d((feet_W[(i + 1) % count] - feet_W[0]).head<2>()));
+  for (std::size_t i = 0; i < count; ++i)
+    area += geometry::Cross(Eigen::Vector2d((feet_W[i] - feet_W[0]).head<2>()),
+                            Eigen::Vector2d((feet_W[(i + 1) % count] - feet_W[0]).head<2>()));
   std::vector<Vector3d> feet(feet_W.begin(), feet_W.end()), tops;
   for (std::size_t i = 0; i < count; ++i) tops.push_back(feet[i] + heights_m[i] * Vector3d::UnitZ());
   if (closed && area < 0.0) std::reverse(feet.begin(), feet.end()), std::reverse(tops.begin(), tops.end());
@@ -148,7 +158,8 @@ void AddOutline(Mesh& mesh, std::span<const Vector3d> feet_W, std::span<const do
     if (!closed) AddFlat(mesh, std::array<Vector3d, 4>{feet[next], feet[i], tops[i], tops[next]}, walls);
   }
   if (!closed) return;
-  for (const auto& ear : Ears(tops)) AddFlat(mesh, std::array<Vector3d, 3>{tops[ear[0]], tops[ear[1]], tops[ear[2]]}, roof);
+  for (const auto& ear : Ears(tops))
+    AddFlat(mesh, std::array<Vector3d, 3>{tops[ear[0]], tops[ear[1]], tops[ear[2]]}, roof);
 }
 
 }  // namespace rodeira::scene

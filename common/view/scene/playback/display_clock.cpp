@@ -9,7 +9,7 @@ namespace {
 constexpr double kRateMemory_s = 1.0;  // on the wall
 constexpr double kPhaseMemory_s = 0.4;
 constexpr double kLate_s = 0.0015;  // so late a sample may come before the picture has to wait for it
-constexpr double kPause_s = 0.5;  // longer without a sample says nothing about the rate
+constexpr double kPause_s = 0.5;    // longer without a sample says nothing about the rate
 
 }  // namespace
 
@@ -38,8 +38,10 @@ double DisplayClock::Now(double wall_s) {
   const double wanted = newest_s_ - behind_s + std::min(rate_ * (wall_s - arrived_wall_s_), behind_s);
   double next = shown_s_ + rate_ * passed;
   next += (1.0 - std::exp(-passed / kPhaseMemory_s)) * (wanted - next);
-  if (std::fabs(wanted - next) > kLost_s * std::max(rate_, 1.0)) next = wanted;
-  else next = std::max(next, shown_s_);
+  if (std::fabs(wanted - next) > kLost_s * std::max(rate_, 1.0))
+    next = wanted;
+  else
+    next = std::max(next, shown_s_);
   shown_s_ = std::min(next, newest_s_);
   return shown_s_;
 }

@@ -2,9 +2,9 @@
 
 namespace rodeira::scene {
 
-// Which time of the simulation to show at a time on the wall: one interval of samples and 1.5 ms on the wall behind the newest one, going on
-// evenly although samples come unevenly. Never ahead of the newest sample, never backward, except that it starts anew
-// where it was left behind by more than kLost_s. All in seconds.
+// Which time of the simulation to show at a time on the wall: one interval of samples and 1.5 ms on the wall behind the
+// newest one, going on evenly although samples come unevenly. Never ahead of the newest sample, never backward, except
+// that it starts anew where it was left behind by more than kLost_s. All in seconds.
 class DisplayClock {
  public:
   static constexpr double kLost_s = 0.5;

@@ -30,8 +30,10 @@ void Player::Seek(std::int64_t time_ns) { now_ns_ = std::clamp<std::int64_t>(tim
 void Player::StepPicture(int direction) {
   paused_ = true;
   const std::int64_t at_ns = now_ns_ / picture_ns_ * picture_ns_;
-  if (direction > 0) Seek(at_ns + picture_ns_);
-  else Seek(at_ns < now_ns_ ? at_ns : at_ns - picture_ns_);
+  if (direction > 0)
+    Seek(at_ns + picture_ns_);
+  else
+    Seek(at_ns < now_ns_ ? at_ns : at_ns - picture_ns_);
 }
 
 void Player::PlayOrPause() {

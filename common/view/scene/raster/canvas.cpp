@@ -23,7 +23,8 @@ void Canvas::Fill(Points outline, Colour colour) {
   const double scale = 0.5 * height_;  // samples a unit
   double low = 1e9, high = -1e9;
   for (const Eigen::Vector2d& p : outline) low = std::min(low, p.y()), high = std::max(high, p.y());
-  const int first = std::max(0, static_cast<int>(std::floor((low + 1.0) * scale))), last = std::min(height_ - 1, static_cast<int>(std::ceil((high + 1.0) * scale)));
+  const int first = std::max(0, static_cast<int>(std::floor((low + 1.0) * scale))),
+            last = std::min(height_ - 1, static_cast<int>(std::ceil((high + 1.0) * scale)));
   std::vector<double> crossings;
   for (int row = first; row <= last; ++row) {
     const double y = (row + 0.5) / scale - 1.0;
@@ -35,7 +36,9 @@ void Canvas::Fill(Points outline, Colour colour) {
     }
     std::sort(crossings.begin(), crossings.end());
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
-      const auto column = [&](double x) { return std::clamp(static_cast<int>(std::ceil((x + half_width_) * scale - 0.5)), 0, width_); };
+      const auto column = [&](double x) {
+        return std::clamp(static_cast<int>(std::ceil((x + half_width_) * scale - 0.5)), 0, width_);
+      };
       auto* at = &samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_)];
       std::fill(at + column(crossings[i]), at + column(crossings[i + 1]), colour);
     }
@@ -72,7 +75,8 @@ Raster Canvas::Paint() const {
     for (int x = 0; x < raster.width_px; ++x) {
       std::array<int, 3> sum{};
       for (int row = kSamples * y; row < kSamples * (y + 1); ++row) {
-        const Colour* at = &samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(kSamples * x)];
+        const Colour* at = &samples_[static_cast<std::size_t>(row) * static_cast<std::size_t>(width_) +
+                                     static_cast<std::size_t>(kSamples * x)];
         for (int k = 0; k < kSamples; ++k) sum[0] += at[k].red, sum[1] += at[k].green, sum[2] += at[k].blue;
       }
       constexpr int kAll = kSamples * kSamples;

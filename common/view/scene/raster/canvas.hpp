@@ -14,7 +14,9 @@ struct Raster {
   int height_px = 0;
   std::vector<Colour> pixels;
 
-  Colour At(int x, int y) const { return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)]; }
+  Colour At(int x, int y) const {
+    return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) + static_cast<std::size_t>(x)];
+  }
 };
 
 // Paints shapes over one another, sixteen samples a pixel. The picture goes from (-half_width, -1) to (half_width, 1).

@@ -33,13 +33,15 @@ Raster DrawDial(const Dial& dial, int size_px) {
     const double angle = NeedleAngle_rad(dial, value);
     canvas.Bar(On(angle, from), On(angle, 0.92), width, kScale);
   };
-  const int ticks = static_cast<int>(std::lround(dial.most / dial.ticks)), labels = static_cast<int>(std::lround(dial.most / dial.labelled));
+  const int ticks = static_cast<int>(std::lround(dial.most / dial.ticks)),
+            labels = static_cast<int>(std::lround(dial.most / dial.labelled));
   for (int i = 0; i <= ticks; ++i) tick(i * dial.ticks, 0.84, 0.014);
   const double height = labels > 8 ? 0.115 : labels > 3 ? 0.17 : 0.26;
   for (int i = 0; i <= labels; ++i) {
     const double value = i * dial.labelled;
     tick(value, 0.78, 0.028);
-    Letter(canvas, fmt::format("{:.0f}", value / dial.divisor), On(NeedleAngle_rad(dial, value), 0.62), height, 0.30, kScale);
+    Letter(canvas, fmt::format("{:.0f}", value / dial.divisor), On(NeedleAngle_rad(dial, value), 0.62), height, 0.30,
+           kScale);
   }
   Letter(canvas, dial.unit, {0.0, -0.42}, labels > 3 ? 0.10 : 0.20, 0.7, kScale);
   return canvas.Paint();

@@ -7,7 +7,8 @@
 
 namespace rodeira::scene {
 
-// A round instrument with a needle: 0 lies at 225 degrees (lower left), and it turns clockwise by 270 degrees up to `most`.
+// A round instrument with a needle: 0 lies at 225 degrees (lower left), and it turns clockwise by 270 degrees up to
+// `most`.
 struct Dial {
   double most = 1.0;
   double labelled = 1.0;  // one number each so much …

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPlate_m = 0.004;  // thickness
+constexpr double kPlate_m = 0.004;   // thickness
 constexpr double kThickBar_m = 0.5;  // is seen from afar
 constexpr double kTwoPosts_m = 1.0;  // plates as wide as this have two
 
@@ -24,7 +24,8 @@ const Colour kSteel = Colour::Of(0x9aa0a3);
 
 // What differs from one tree or house to the next of a row: by its place, to a millimetre.
 std::uint64_t SeedAt(const Vector3d& foot_W, std::uint64_t what) {
-  return base::RandomBits({static_cast<std::uint64_t>(std::llround(foot_W.x() * 1e3)), static_cast<std::uint64_t>(std::llround(foot_W.y() * 1e3)), what});
+  return base::RandomBits({static_cast<std::uint64_t>(std::llround(foot_W.x() * 1e3)),
+                           static_cast<std::uint64_t>(std::llround(foot_W.y() * 1e3)), what});
 }
 
 Tree TreeOf(const Thing& thing) {
@@ -35,7 +36,8 @@ Tree TreeOf(const Thing& thing) {
   tree.crown_m = thing.radius_m;
   tree.bush = thing.kind == ThingKind::kBush;
   tree.conifer = thing.radius_m < 0.24 * thing.height_m;
-  tree.leaves = Shade(Mix(Colour::Of(0x4b6330), tree.conifer ? Colour::Of(0x2f4a2e) : Colour::Of(0x74803f), draw(1)), 0.85 + 0.25 * draw(2));
+  tree.leaves = Shade(Mix(Colour::Of(0x4b6330), tree.conifer ? Colour::Of(0x2f4a2e) : Colour::Of(0x74803f), draw(1)),
+                      0.85 + 0.25 * draw(2));
   return tree;
 }
 
@@ -44,7 +46,12 @@ using ModelKey = std::array<double, 6>;
 enum class Model { kTree, kPost, kLamp, kPlain, kSignPost, kTrafficLight, kRailPost };
 
 ModelKey KeyOf(Model model, const ModelSize& size, double radius_m = 0.0, Colour colour = {}) {
-  return {static_cast<double>(model), size.length_m, size.width_m, size.height_m, radius_m, static_cast<double>(65536 * colour.red + 256 * colour.green + colour.blue)};
+  return {static_cast<double>(model),
+          size.length_m,
+          size.width_m,
+          size.height_m,
+          radius_m,
+          static_cast<double>(65536 * colour.red + 256 * colour.green + colour.blue)};
 }
 
 struct Drawing {
@@ -95,9 +102,11 @@ void AddPosts(const Thing& thing, int level, Drawing& drawing) {
   if (!thing.on_post) return;
   const bool two = thing.kind == ThingKind::kSign && thing.width_m >= kTwoPosts_m;
   const double top_m = thing.above_m + 0.92 * thing.height_m;
-  for (const double y : two ? std::vector<double>{-0.32 * thing.width_m, 0.32 * thing.width_m} : std::vector<double>{0.0}) {
+  for (const double y :
+       two ? std::vector<double>{-0.32 * thing.width_m, 0.32 * thing.width_m} : std::vector<double>{0.0}) {
     const Stand stand{thing.stand.ToWorld({0.0, y, 0.0}), thing.stand.x_W};
-    drawing.RepeatSolid(KeyOf(Model::kSignPost, {0.0, 0.0, top_m}), stand, [&] { return Pole(-0.05, top_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kSteel); });
+    drawing.RepeatSolid(KeyOf(Model::kSignPost, {0.0, 0.0, top_m}), stand,
+                        [&] { return Pole(-0.05, top_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kSteel); });
   }
 }
 
@@ -106,8 +115,12 @@ void AddSign(const Thing& thing, int level, Drawing& drawing) {
   AddPosts(thing, level, drawing);
   for (const double side : {1.0, -1.0}) {
     if (side < 0.0 && !thing.both_sides) break;
-    if (thing.kind == ThingKind::kSign) AddPlate(thing, {thing.stand.foot_W, side * thing.stand.x_W}, drawing);
-    else drawing.RepeatSolid(KeyOf(Model::kTrafficLight, {0.0, 0.0, thing.height_m}), StandOfLight(thing.stand, thing.above_m, thing.height_m, side), [&] { return TrafficLightModel(thing.height_m, level); });
+    if (thing.kind == ThingKind::kSign)
+      AddPlate(thing, {thing.stand.foot_W, side * thing.stand.x_W}, drawing);
+    else
+      drawing.RepeatSolid(KeyOf(Model::kTrafficLight, {0.0, 0.0, thing.height_m}),
+                          StandOfLight(thing.stand, thing.above_m, thing.height_m, side),
+                          [&] { return TrafficLightModel(thing.height_m, level); });
   }
 }
 
@@ -119,47 +132,66 @@ void AddThing(const Thing& thing, int level, Drawing& drawing) {
     case ThingKind::kBush:
       if (level < (thing.kind == ThingKind::kTree ? 3 : 2)) {
         const Tree tree = TreeOf(thing);
-        drawing.Repeat(KeyOf(Model::kTree, {static_cast<double>(KindOf(tree)), 0.0, 0.0}), PlaceOf(tree), [&] { return TreeModel(KindOf(tree), level); });
+        drawing.Repeat(KeyOf(Model::kTree, {static_cast<double>(KindOf(tree)), 0.0, 0.0}), PlaceOf(tree),
+                       [&] { return TreeModel(KindOf(tree), level); });
       }
       return;
-    case ThingKind::kHouse: return AddPlaced(HouseModel(size, SeedAt(thing.stand.foot_W, 3), level), stand, drawing.solid);
-    case ThingKind::kFillingStation: return AddPlaced(FillingStationModel(size, level), stand, drawing.solid);
-    case ThingKind::kPost: return drawing.RepeatSolid(KeyOf(Model::kPost, size), stand, [&] { return PostModel(size, level); });
-    case ThingKind::kLamp: return drawing.RepeatSolid(KeyOf(Model::kLamp, size), stand, [&] { return LampModel(size, level); });
-    case ThingKind::kPlain: return drawing.RepeatSolid(KeyOf(Model::kPlain, size, thing.radius_m, thing.colour), stand, [&] { return PlainModel(size, thing.radius_m, thing.colour, level); });
-    case ThingKind::kOutline: return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour, thing.top.value_or(Shade(thing.colour, 0.85)));
+    case ThingKind::kHouse:
+      return AddPlaced(HouseModel(size, SeedAt(thing.stand.foot_W, 3), level), stand, drawing.solid);
+    case ThingKind::kFillingStation:
+      return AddPlaced(FillingStationModel(size, level), stand, drawing.solid);
+    case ThingKind::kPost:
+      return drawing.RepeatSolid(KeyOf(Model::kPost, size), stand, [&] { return PostModel(size, level); });
+    case ThingKind::kLamp:
+      return drawing.RepeatSolid(KeyOf(Model::kLamp, size), stand, [&] { return LampModel(size, level); });
+    case ThingKind::kPlain:
+      return drawing.RepeatSolid(KeyOf(Model::kPlain, size, thing.radius_m, thing.colour), stand,
+                                 [&] { return PlainModel(size, thing.radius_m, thing.colour, level); });
+    case ThingKind::kOutline:
+      return AddOutline(drawing.solid, thing.feet_W, thing.heights_m, thing.closed, thing.colour,
+                        thing.top.value_or(Shade(thing.colour, 0.85)));
     case ThingKind::kBar: {
-      const std::array<BarEnd, 2> ends = {BarEnd{thing.feet_W[0], thing.heights_m[0], thing.heights_m[1]}, BarEnd{thing.feet_W[1], thing.heights_m[2], thing.heights_m[3]}};
+      const std::array<BarEnd, 2> ends = {BarEnd{thing.feet_W[0], thing.heights_m[0], thing.heights_m[1]},
+                                          BarEnd{thing.feet_W[1], thing.heights_m[2], thing.heights_m[3]}};
       const Vector2d left(-thing.stand.x_W.y(), thing.stand.x_W.x());
-      if (level < 2 || std::max(ends[0].wide_m, ends[1].wide_m) > kThickBar_m) AddBar(drawing.solid, ends[0], ends[1], thing.closed, level == 0 ? 10 : 5, left, thing.colour);
+      if (level < 2 || std::max(ends[0].wide_m, ends[1].wide_m) > kThickBar_m)
+        AddBar(drawing.solid, ends[0], ends[1], thing.closed, level == 0 ? 10 : 5, left, thing.colour);
       return;
     }
     case ThingKind::kSign:
-    case ThingKind::kTrafficLight: return AddSign(thing, level, drawing);
-    case ThingKind::kModel: return;
+    case ThingKind::kTrafficLight:
+      return AddSign(thing, level, drawing);
+    case ThingKind::kModel:
+      return;
   }
 }
 
 // A band between two lines along a piece, from its end `0` to its end `1`; seen from the left of the piece.
-void AddBand(Mesh& mesh, const RailPiece& piece, const std::array<Vector2d, 2>& low, const std::array<Vector2d, 2>& high, Colour colour) {
+void AddBand(Mesh& mesh, const RailPiece& piece, const std::array<Vector2d, 2>& low,
+             const std::array<Vector2d, 2>& high, Colour colour) {
   std::array<Vector3d, 4> corners;  // each pair: (left of the line, height)
   for (std::size_t k = 0; k < 2; ++k) {
-    const auto at = [&](const Vector2d& p) { return Vector3d(piece.foot_W[k] + Vector3d(p.x() * piece.left_W[k].x(), p.x() * piece.left_W[k].y(), p.y())); };
+    const auto at = [&](const Vector2d& p) {
+      return Vector3d(piece.foot_W[k] + Vector3d(p.x() * piece.left_W[k].x(), p.x() * piece.left_W[k].y(), p.y()));
+    };
     corners[k == 0 ? 1 : 0] = at(low[k]);
     corners[k == 0 ? 2 : 3] = at(high[k]);
   }
   AddFlat(mesh, corners, colour);
 }
 
-void AddBothSides(Mesh& mesh, const RailPiece& piece, double half_low, double half_high, double low_share, double high_share, Colour colour) {
+void AddBothSides(Mesh& mesh, const RailPiece& piece, double half_low, double half_high, double low_share,
+                  double high_share, Colour colour) {
   for (const double side : {1.0, -1.0}) {
     std::array<Vector2d, 2> low, high;
     for (std::size_t k = 0; k < 2; ++k) {
       low[k] = {side * half_low * piece.width_m[k], low_share * piece.height_m[k]};
       high[k] = {side * half_high * piece.width_m[k], high_share * piece.height_m[k]};
     }
-    if (side > 0.0) AddBand(mesh, piece, low, high, colour);
-    else AddBand(mesh, piece, high, low, colour);
+    if (side > 0.0)
+      AddBand(mesh, piece, low, high, colour);
+    else
+      AddBand(mesh, piece, high, low, colour);
   }
 }
 
@@ -171,7 +203,8 @@ void AddRail(const RailPiece& piece, int level, Drawing& drawing) {
     const Colour concrete = Colour::Of(0xb0ada5);
     AddBothSides(mesh, piece, 0.5, 0.5, -0.2, 1.0, concrete);
     std::array<Vector2d, 2> right, left;
-    for (std::size_t k = 0; k < 2; ++k) right[k] = {-0.5 * piece.width_m[k], piece.height_m[k]}, left[k] = {0.5 * piece.width_m[k], piece.height_m[k]};
+    for (std::size_t k = 0; k < 2; ++k)
+      right[k] = {-0.5 * piece.width_m[k], piece.height_m[k]}, left[k] = {0.5 * piece.width_m[k], piece.height_m[k]};
     AddBand(mesh, piece, left, right, concrete);
     return;
   }
@@ -182,8 +215,10 @@ void AddRail(const RailPiece& piece, int level, Drawing& drawing) {
   AddBothSides(mesh, piece, 0.28, 0.42, 0.79, 0.86, fold);
   AddBothSides(mesh, piece, 0.42, 0.42, 0.86, 1.0, zinc);
   const double top_m = 0.95 * piece.height_m[0];
-  drawing.RepeatSolid(KeyOf(Model::kRailPost, {0.0, 0.0, top_m}), {piece.foot_W[0], Vector2d(piece.left_W[0].y(), -piece.left_W[0].x())},
-                      [&] { return Block({-0.04, -0.05, -0.02}, {0.04, 0.05, top_m}, fold); });
+  drawing.RepeatSolid(KeyOf(Model::kRailPost, {0.0, 0.0, top_m}),
+                      {piece.foot_W[0], Vector2d(piece.left_W[0].y(), -piece.left_W[0].x())}, [&] {
+                        return Block({-0.04, -0.05, -0.02}, {0.04, 0.05, top_m}, fold);
+                      });
 }
 
 }  // namespace
@@ -191,14 +226,18 @@ void AddRail(const RailPiece& piece, int level, Drawing& drawing) {
 std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
   std::vector<PlacedModel> models;
   for (const Thing& thing : tile.things) {
-    if (thing.kind == ThingKind::kModel && level < 3) models.push_back({thing.file, {thing.stand.ToWorld({0.0, 0.0, thing.above_m}), thing.stand.x_W}});
+    if (thing.kind == ThingKind::kModel && level < 3)
+      models.push_back({thing.file, {thing.stand.ToWorld({0.0, 0.0, thing.above_m}), thing.stand.x_W}});
   }
   return models;
 }
 
 DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);
-  const double z = !tile.things.empty() ? tile.things.front().stand.foot_W.z() : !tile.rails.empty() ? tile.rails.front().foot_W[0].z() : !tile.tubes.empty() ? tile.tubes.front().right_W[0].z() : 0.0;
+  const double z = !tile.things.empty()  ? tile.things.front().stand.foot_W.z()
+                   : !tile.rails.empty() ? tile.rails.front().foot_W[0].z()
+                   : !tile.tubes.empty() ? tile.tubes.front().right_W[0].z()
+                                         : 0.0;
   Drawing drawing;
   drawing.origin_W = drawing.solid.origin_W = OriginNear({middle.x(), middle.y(), z});
   drawing.solid.material = Material::kMatt;
@@ -210,11 +249,14 @@ DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) 
   DrawnThings drawn;
   std::vector<Repeated> few;
   for (auto& [model, repeated] : drawing.repeated) {
-    if (!repeated.model.triangles.empty()) (repeated.places.size() < kFewestPlaces ? few : drawn.repeated).push_back(std::move(repeated));
+    if (!repeated.model.triangles.empty())
+      (repeated.places.size() < kFewestPlaces ? few : drawn.repeated).push_back(std::move(repeated));
   }
   for (Mesh& mesh : Merged(few)) {
-    if (mesh.material == Material::kMatt) drawing.solid.Append(mesh);
-    else drawn.meshes.push_back(std::move(mesh));
+    if (mesh.material == Material::kMatt)
+      drawing.solid.Append(mesh);
+    else
+      drawn.meshes.push_back(std::move(mesh));
   }
   if (!drawing.solid.triangles.empty()) drawn.meshes.insert(drawn.meshes.begin(), std::move(drawing.solid));
   if (!lamps.triangles.empty()) drawn.meshes.push_back(std::move(lamps));

@@ -44,7 +44,9 @@ std::vector<LightHead> LightHeads(const road::World& world) {
       const auto found = controllers.find(thing.signal);
       if (thing.kind != ThingKind::kTrafficLight || found == controllers.end()) continue;
       heads.push_back({found->second, StandOfLight(thing.stand, thing.above_m, thing.height_m, 1.0), thing.height_m});
-      if (thing.both_sides) heads.push_back({found->second, StandOfLight(thing.stand, thing.above_m, thing.height_m, -1.0), thing.height_m});
+      if (thing.both_sides)
+        heads.push_back(
+            {found->second, StandOfLight(thing.stand, thing.above_m, thing.height_m, -1.0), thing.height_m});
     }
   }
   return heads;

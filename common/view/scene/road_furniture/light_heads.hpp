@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/mesh/solids.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -18,8 +18,8 @@ struct LightHead {
 // Where the model of a traffic light stands, before its post; `side` -1: its other face.
 Stand StandOfLight(const Stand& post, double above_m, double height_m, double side);
 
-// All lights of a world that controllers with times control, each side for itself, by the tiles in which they stand. Those for
-// people on foot are dark.
+// All lights of a world that controllers with times control, each side for itself, by the tiles in which they stand.
+// Those for people on foot are dark.
 std::vector<LightHead> LightHeads(const road::World& world);
 
 }  // namespace rodeira::scene

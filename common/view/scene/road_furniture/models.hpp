@@ -4,11 +4,11 @@
 
 #include "common/view/scene/mesh/mesh.hpp"
 
-// What stands at roads, made of few triangles, each in its own frame: x along the road, the road to the left (y), z up from
-// the ground. `level`: of detail, 0 the finest; from 3 on only what is as large as a house is there.
+// What stands at roads, made of few triangles, each in its own frame: x along the road, the road to the left (y), z up
+// from the ground. `level`: of detail, 0 the finest; from 3 on only what is as large as a house is there.
 namespace rodeira::scene {
 
-constexpr double kPost_m = 0.038;        // radius of a sign's post
+constexpr double kPost_m = 0.038;       // radius of a sign's post
 constexpr double kLightHousing = 0.17;  // half the width of a traffic light, of its height
 
 struct ModelSize {

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "common/core/geometry/angle.hpp"
-#include "common/world/network/sign_kinds.hpp"
 #include "common/view/scene/road_furniture/sign_symbols.hpp"
+#include "common/world/network/sign_kinds.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -19,10 +19,12 @@ Shape ShapeOf(std::string_view kind) {
   if (kind == "stop") return Shape::kOctagon;
   if (kind == "give_way") return Shape::kTriangleDown;
   if (kind == "priority_road" || kind == "end_of_priority_road") return Shape::kDiamond;
-  for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking", "chevron_left", "chevron_right", "plate", "board", "display"}) {
+  for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking",
+                                        "chevron_left", "chevron_right", "plate", "board", "display"}) {
     if (kind == square) return Shape::kRectangle;
   }
-  for (const std::string_view round : {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking", "end_of_speed_limit", "end_of_no_overtaking", "end_of_restrictions"}) {
+  for (const std::string_view round : {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking",
+                                       "end_of_speed_limit", "end_of_no_overtaking", "end_of_restrictions"}) {
     if (kind == round) return Shape::kRound;
   }
   return Shape::kTriangle;
@@ -34,7 +36,8 @@ std::vector<Eigen::Vector2d> RoundTriangle(bool down) {
   const std::array<Eigen::Vector2d, 3> tips = {Eigen::Vector2d(0.0, 0.0), {1.0, 0.0}, {0.5, 1.0}};
   std::vector<Eigen::Vector2d> outline;
   for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector2d &tip = tips[k], before = (tips[(k + 2) % 3] - tip).normalized(), after = (tips[(k + 1) % 3] - tip).normalized();
+    const Eigen::Vector2d &tip = tips[k], before = (tips[(k + 2) % 3] - tip).normalized(),
+                          after = (tips[(k + 1) % 3] - tip).normalized();
     for (const double share : {0.0, 0.5, 1.0}) {  // along the parabola that touches both sides
       const Eigen::Vector2d p = tip + kRadius * ((1.0 - share) * (1.0 - share) * before + share * share * after);
       outline.emplace_back(p.x(), p.y());
@@ -59,7 +62,8 @@ std::string FaceOf(const network::Signal& signal, bool bends_left) {
   const auto kind = network::SignKindOf(signal);
   if (!kind) return "plate";
   if (*kind == "chevron") return bends_left ? "chevron_left" : "chevron_right";
-  if (*kind == "town" || *kind == "end_of_town") return signal.text.empty() ? std::string(*kind) : fmt::format("{} {}", *kind, signal.text);
+  if (*kind == "town" || *kind == "end_of_town")
+    return signal.text.empty() ? std::string(*kind) : fmt::format("{} {}", *kind, signal.text);
   if (*kind == "speed_limit" || *kind == "end_of_speed_limit" || *kind == "downhill" || *kind == "uphill") {
     const std::string number = network::SignNumberOf(signal);
     if (number.empty()) return *kind == "speed_limit" ? "plate" : std::string(*kind);
@@ -85,10 +89,18 @@ Raster DrawFace(std::string_view face) {
   const bool wide = kind == "town" || kind == "end_of_town";
   Canvas canvas(wide ? 192 : 128, 128, Colour::Of(0x9a9d9f));
   switch (ShapeOf(kind)) {
-    case Shape::kRound: DrawRound(canvas, kind, text); break;
-    case Shape::kTriangle: DrawTriangle(canvas, kind, text); break;
-    case Shape::kRectangle: DrawRectangle(canvas, kind, text); break;
-    default: DrawPriority(canvas, kind); break;
+    case Shape::kRound:
+      DrawRound(canvas, kind, text);
+      break;
+    case Shape::kTriangle:
+      DrawTriangle(canvas, kind, text);
+      break;
+    case Shape::kRectangle:
+      DrawRectangle(canvas, kind, text);
+      break;
+    default:
+      DrawPriority(canvas, kind);
+      break;
   }
   return canvas.Paint();
 }
@@ -103,12 +115,18 @@ std::vector<Eigen::Vector2d> PlateOutline(std::string_view face) {
     return outline;
   };
   switch (ShapeOf(Split(face).first)) {
-    case Shape::kRound: return ring(20, 0.0, 0.5);
-    case Shape::kOctagon: return ring(8, 0.5, 0.5 / std::cos(geometry::kPi / 8.0));
-    case Shape::kDiamond: return ring(4, 0.0, 0.5);
-    case Shape::kTriangle: return RoundTriangle(false);
-    case Shape::kTriangleDown: return RoundTriangle(true);
-    case Shape::kRectangle: break;
+    case Shape::kRound:
+      return ring(20, 0.0, 0.5);
+    case Shape::kOctagon:
+      return ring(8, 0.5, 0.5 / std::cos(geometry::kPi / 8.0));
+    case Shape::kDiamond:
+      return ring(4, 0.0, 0.5);
+    case Shape::kTriangle:
+      return RoundTriangle(false);
+    case Shape::kTriangleDown:
+      return RoundTriangle(true);
+    case Shape::kRectangle:
+      break;
   }
   return {{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}};
 }
@@ -117,12 +135,15 @@ Eigen::Vector2d UsualPlate_m(std::string_view face) {
   const std::string kind = Split(face).first;
   switch (ShapeOf(kind)) {
     case Shape::kTriangle:
-    case Shape::kTriangleDown: return {0.9, 0.78};
-    case Shape::kOctagon: return {0.9, 0.9};
+    case Shape::kTriangleDown:
+      return {0.9, 0.78};
+    case Shape::kOctagon:
+      return {0.9, 0.9};
     case Shape::kRectangle:
       if (kind == "town" || kind == "end_of_town") return {1.0, 0.65};
       break;
-    default: break;
+    default:
+      break;
   }
   return {0.6, 0.6};
 }

@@ -13,8 +13,8 @@ namespace {
 using P = Eigen::Vector2d;
 using Line = std::vector<P>;
 
-const Colour kWhite = Colour::Of(0xf4f4f1), kRed = Colour::Of(0xc2151d), kBlue = Colour::Of(0x17509b), kYellow = Colour::Of(0xf6b915), kBlack = Colour::Of(0x131313),
-             kGrey = Colour::Of(0x8f9294);
+const Colour kWhite = Colour::Of(0xf4f4f1), kRed = Colour::Of(0xc2151d), kBlue = Colour::Of(0x17509b),
+             kYellow = Colour::Of(0xf6b915), kBlack = Colour::Of(0x131313), kGrey = Colour::Of(0x8f9294);
 
 // The shape made smaller about a point by a factor.
 Line Smaller(const Line& line, const P& about, double factor) {
@@ -37,33 +37,44 @@ void Arrow(Canvas& canvas, const Line& line, double width, Colour colour) {
   const P &end = line.back(), way = (end - line[line.size() - 2]).normalized(), aside(-way.y(), way.x());
   for (std::size_t i = 1; i < line.size(); ++i) canvas.Bar(line[i - 1], line[i], width, colour);
   for (std::size_t i = 1; i + 1 < line.size(); ++i) canvas.Disc(line[i], 0.5 * width, colour);
-  canvas.Fill(Line{end + 2.0 * width * way, end + 1.5 * width * aside - 0.2 * width * way, end - 1.5 * width * aside - 0.2 * width * way}, colour);
+  canvas.Fill(Line{end + 2.0 * width * way, end + 1.5 * width * aside - 0.2 * width * way,
+                   end - 1.5 * width * aside - 0.2 * width * way},
+              colour);
 }
 
 // A car from behind.
 void Car(Canvas& canvas, const P& at, double size, Colour colour) {
   const auto box = [&](double x0, double y0, double x1, double y1, double slant) {
-    canvas.Fill(Line{at + size * P(x0, y0), at + size * P(x1, y0), at + size * P(x1 - slant, y1), at + size * P(x0 + slant, y1)}, colour);
+    canvas.Fill(Line{at + size * P(x0, y0), at + size * P(x1, y0), at + size * P(x1 - slant, y1),
+                     at + size * P(x0 + slant, y1)},
+                colour);
   };
   box(-1.0, -0.45, 1.0, 0.2, 0.05);
   box(-0.85, 0.2, 0.85, 0.85, 0.25);
-  canvas.Fill(Line{at + size * P(-0.62, 0.27), at + size * P(0.62, 0.27), at + size * P(0.5, 0.68), at + size * P(-0.5, 0.68)}, kWhite);
+  canvas.Fill(
+      Line{at + size * P(-0.62, 0.27), at + size * P(0.62, 0.27), at + size * P(0.5, 0.68), at + size * P(-0.5, 0.68)},
+      kWhite);
   box(-0.9, -0.85, -0.5, -0.4, 0.0);
   box(0.5, -0.85, 0.9, -0.4, 0.0);
 }
 
 void Stripes(Canvas& canvas) {  // the end of what is forbidden
   const P way(std::sqrt(0.5), std::sqrt(0.5)), aside(-way.y(), way.x());
-  for (const double off : {-0.2, -0.1, 0.0, 0.1, 0.2}) canvas.Bar(off * aside - 0.9 * way, off * aside + 0.9 * way, 0.045, kBlack);
+  for (const double off : {-0.2, -0.1, 0.0, 0.1, 0.2})
+    canvas.Bar(off * aside - 0.9 * way, off * aside + 0.9 * way, 0.045, kBlack);
 }
 
 void Bend(Canvas& canvas, bool left, bool twice) {
   const double side = left ? -1.0 : 1.0;
   if (twice) {
-    Arrow(canvas, {P(side * -0.12, -0.72), P(side * -0.12, -0.5), P(side * 0.16, -0.25), P(side * -0.12, -0.02), P(side * -0.12, 0.06)}, 0.13, kBlack);
+    Arrow(canvas,
+          {P(side * -0.12, -0.72), P(side * -0.12, -0.5), P(side * 0.16, -0.25), P(side * -0.12, -0.02),
+           P(side * -0.12, 0.06)},
+          0.13, kBlack);
     return;
   }
-  Arrow(canvas, {P(side * -0.14, -0.72), P(side * -0.14, -0.3), P(side * -0.06, -0.16), P(side * 0.1, -0.06)}, 0.14, kBlack);
+  Arrow(canvas, {P(side * -0.14, -0.72), P(side * -0.14, -0.3), P(side * -0.06, -0.16), P(side * 0.1, -0.06)}, 0.14,
+        kBlack);
 }
 
 // The road falls from left to right, or rises.
@@ -74,7 +85,8 @@ void Slope(Canvas& canvas, bool down, const std::string& text) {
 }
 
 void Motorway(Canvas& canvas) {
-  for (const double side : {-1.0, 1.0}) canvas.Fill(Line{P(side * 0.08, -0.7), P(side * 0.55, -0.7), P(side * 0.2, 0.55), P(side * 0.06, 0.55)}, kWhite);
+  for (const double side : {-1.0, 1.0})
+    canvas.Fill(Line{P(side * 0.08, -0.7), P(side * 0.55, -0.7), P(side * 0.2, 0.55), P(side * 0.06, 0.55)}, kWhite);
   canvas.Bar({-0.7, 0.16}, {0.7, 0.16}, 0.3, kBlue);
   canvas.Bar({-0.7, 0.16}, {0.7, 0.16}, 0.14, kWhite);
 }
@@ -109,7 +121,8 @@ void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text)
   canvas.Disc(middle, 1.1, ends ? kWhite : kRed);
   if (ends) canvas.Disc(middle, 0.98, kBlack);
   canvas.Disc(middle, ends ? 0.94 : 0.76, kWhite);
-  if (kind == "speed_limit" || kind == "end_of_speed_limit") Letter(canvas, text, middle, text.size() > 2 ? 0.66 : 0.8, 1.2, ends ? kGrey : kBlack);
+  if (kind == "speed_limit" || kind == "end_of_speed_limit")
+    Letter(canvas, text, middle, text.size() > 2 ? 0.66 : 0.8, 1.2, ends ? kGrey : kBlack);
   if (kind == "no_overtaking" || kind == "end_of_no_overtaking") {
     Car(canvas, {-0.35, 0.0}, 0.29, ends ? kGrey : kRed);
     Car(canvas, {0.35, 0.0}, 0.29, ends ? kGrey : kBlack);
@@ -139,7 +152,8 @@ void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& te
     }
   } else if (kind == "slippery_road") {
     Car(canvas, {0.0, -0.16}, 0.22, kBlack);
-    for (const double x : {-0.16, 0.16}) canvas.Stroke(Line{P(x, -0.4), P(x - 0.1, -0.47), P(x + 0.1, -0.58), P(x, -0.66)}, 0.06, kBlack);
+    for (const double x : {-0.16, 0.16})
+      canvas.Stroke(Line{P(x, -0.4), P(x - 0.1, -0.47), P(x + 0.1, -0.58), P(x, -0.66)}, 0.06, kBlack);
   } else if (kind == "priority") {
     canvas.Bar({-0.3, -0.42}, {0.3, -0.42}, 0.1, kBlack);
     Arrow(canvas, {P(0.0, -0.76), P(0.0, -0.12)}, 0.16, kBlack);
@@ -153,7 +167,9 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
   const double w = canvas.half_width();
   const auto ground = [&](Colour edge, Colour inside, double border) {
     canvas.Fill(Line{P(-w, -1.0), P(w, -1.0), P(w, 1.0), P(-w, 1.0)}, edge);
-    canvas.Fill(Line{P(border - w, border - 1.0), P(w - border, border - 1.0), P(w - border, 1.0 - border), P(border - w, 1.0 - border)}, inside);
+    canvas.Fill(Line{P(border - w, border - 1.0), P(w - border, border - 1.0), P(w - border, 1.0 - border),
+                     P(border - w, 1.0 - border)},
+                inside);
   };
   if (kind == "town" || kind == "end_of_town") {
     ground(kBlack, kYellow, 0.06);
@@ -165,7 +181,9 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     ground(kRed, kRed, 0.0);
     const double side = kind == "chevron_left" ? -1.0 : 1.0;
     for (const double x : {-0.75, 0.1}) {
-      canvas.Fill(Line{P(side * x, -1.0), P(side * (x + 0.4), -1.0), P(side * (x + 0.85), 0.0), P(side * (x + 0.4), 1.0), P(side * x, 1.0), P(side * (x + 0.45), 0.0)}, kWhite);
+      canvas.Fill(Line{P(side * x, -1.0), P(side * (x + 0.4), -1.0), P(side * (x + 0.85), 0.0),
+                       P(side * (x + 0.4), 1.0), P(side * x, 1.0), P(side * (x + 0.45), 0.0)},
+                  kWhite);
     }
     return;
   }
@@ -200,7 +218,8 @@ void DrawPriority(Canvas& canvas, const std::string& kind) {
   canvas.Fill(Line{P(-0.62, 0.0), P(0.0, -0.62), P(0.62, 0.0), P(0.0, 0.62)}, kYellow);
   if (kind == "end_of_priority_road") {
     const P way(std::sqrt(0.5), std::sqrt(0.5)), aside(-way.y(), way.x());
-    for (const double off : {-0.12, -0.04, 0.04, 0.12}) canvas.Bar(off * aside - 0.63 * way, off * aside + 0.63 * way, 0.035, kBlack);
+    for (const double off : {-0.12, -0.04, 0.04, 0.12})
+      canvas.Bar(off * aside - 0.63 * way, off * aside + 0.63 * way, 0.035, kBlack);
   }
 }
 

@@ -20,7 +20,8 @@ Vector3d OnGround(const road::World& world, const Vector2d& p_W) {
 // At right angles to the line at a corner of it, halfway between its two pieces.
 Vector2d LeftAt(const std::vector<Vector2d>& line, std::size_t corner) {
   const Vector2d before = corner > 0 ? Vector2d((line[corner] - line[corner - 1]).normalized()) : Vector2d::Zero();
-  const Vector2d after = corner + 1 < line.size() ? Vector2d((line[corner + 1] - line[corner]).normalized()) : Vector2d::Zero();
+  const Vector2d after =
+      corner + 1 < line.size() ? Vector2d((line[corner + 1] - line[corner]).normalized()) : Vector2d::Zero();
   const Vector2d along = before + after;  // where the line turns back it is nothing
   const Vector2d way = along.norm() > 1e-6 ? along.normalized() : before;
   return {-way.y(), way.x()};

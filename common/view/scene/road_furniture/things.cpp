@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
-#include "common/world/network/network.hpp"
 #include "common/view/scene/tessellation/levels_at.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -44,7 +44,8 @@ Things::Things(const road::World& world, ModelIsThere is_there) : is_there_(std:
   for (const network::Placed& placed : furniture.things) AddThing(world, placed);
   for (const network::PlacedRun& run : furniture.runs) AddRun(world, run);
   for (const network::TubePiece& piece : network::PlaceTubes(*world.network())) {
-    tiles_[TileAt(0.25 * (piece.right_W[0] + piece.right_W[1] + piece.left_W[0] + piece.left_W[1]).head<2>())].tubes.push_back(piece);
+    tiles_[TileAt(0.25 * (piece.right_W[0] + piece.right_W[1] + piece.left_W[0] + piece.left_W[1]).head<2>())]
+        .tubes.push_back(piece);
   }
   if (world.standing() != nullptr) AddStanding(world, *world.standing());
 }
@@ -54,13 +55,16 @@ void Things::Keep(Thing thing) {
   tiles_[key].things.push_back(std::move(thing));
 }
 
-void Things::KeepRail(const RailPiece& piece) { tiles_[TileAt(0.5 * (piece.foot_W[0] + piece.foot_W[1]).head<2>())].rails.push_back(piece); }
+void Things::KeepRail(const RailPiece& piece) {
+  tiles_[TileAt(0.5 * (piece.foot_W[0] + piece.foot_W[1]).head<2>())].rails.push_back(piece);
+}
 
 Thing Things::ThingAt(const network::Placed& placed, const Vector3d& foot_W) {
   Thing thing;
   thing.stand = Stand::At(foot_W, placed.heading_rad);
   thing.above_m = placed.z_offset_m;
-  thing.length_m = placed.length_m, thing.width_m = placed.width_m, thing.height_m = placed.height_m, thing.radius_m = placed.radius_m;
+  thing.length_m = placed.length_m, thing.width_m = placed.width_m, thing.height_m = placed.height_m,
+  thing.radius_m = placed.radius_m;
   return thing;
 }
 
@@ -69,9 +73,12 @@ void Things::AddThing(const road::World& world, const network::Placed& placed) {
   Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)});
   if (placed.z_W_m) thing.above_m = *placed.z_W_m - thing.stand.foot_W.z();
   // x looks to the reader, whose left lies on the side of -y; the sign lies a little before its board.
-  if (placed.signal != nullptr && !placed.signal->board.empty()) thing.stand.foot_W = thing.stand.ToWorld({kBeforeBoard_m, -placed.signal->board_left_m, 0.0});
-  if (placed.signal != nullptr) AddSignal(road, placed, std::move(thing));
-  else AddObject(&road, placed, std::move(thing));
+  if (placed.signal != nullptr && !placed.signal->board.empty())
+    thing.stand.foot_W = thing.stand.ToWorld({kBeforeBoard_m, -placed.signal->board_left_m, 0.0});
+  if (placed.signal != nullptr)
+    AddSignal(road, placed, std::move(thing));
+  else
+    AddObject(&road, placed, std::move(thing));
 }
 
 void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
@@ -79,14 +86,16 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
   const double length = run.to_s_m - run.from_s_m;
   const network::Object& object = *run.object;
   if (network::IsFlat(object)) return;
-  const bool rail = object.subtype == "guard_rail" || object.subtype == "guardRail" || object.subtype == "railing" || object.type == "railing";
+  const bool rail = object.subtype == "guard_rail" || object.subtype == "guardRail" || object.subtype == "railing" ||
+                    object.type == "railing";
   const int pieces = std::max(1, static_cast<int>(std::ceil(length / run.Step(road, kPiece_m, kChord_m) - 1e-9)));
   RailPiece piece;
   piece.wall = !rail;
   for (int i = 0; i <= pieces; ++i) {
     const double share = static_cast<double>(i) / pieces;
     const auto mix = [share](double a, double b) { return a + share * (b - a); };
-    piece.foot_W[0] = piece.foot_W[1], piece.left_W[0] = piece.left_W[1], piece.height_m[0] = piece.height_m[1], piece.width_m[0] = piece.width_m[1];
+    piece.foot_W[0] = piece.foot_W[1], piece.left_W[0] = piece.left_W[1], piece.height_m[0] = piece.height_m[1],
+    piece.width_m[0] = piece.width_m[1];
     const auto [on_road, left_W] = run.At(road, share);
     piece.foot_W[1] = {on_road.x(), on_road.y(), GroundAt(world, on_road) + mix(run.z_start_m, run.z_end_m)};
     piece.left_W[1] = left_W;

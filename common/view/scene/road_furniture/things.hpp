@@ -8,37 +8,51 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
-#include "common/world/network/placing.hpp"
-#include "common/world/network/tubes.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/mesh/repeated.hpp"
 #include "common/view/scene/mesh/solids.hpp"
 #include "common/view/scene/tiles/tile_grid.hpp"
+#include "common/world/network/placing.hpp"
+#include "common/world/network/tubes.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
 // What is lower lies: it is not drawn as a thing.
 inline constexpr double kFlatThing_m = 0.02;
 
-enum class ThingKind { kTree, kBush, kHouse, kFillingStation, kPost, kLamp, kPlain, kOutline, kSign, kTrafficLight, kModel, kBar };
+enum class ThingKind {
+  kTree,
+  kBush,
+  kHouse,
+  kFillingStation,
+  kPost,
+  kLamp,
+  kPlain,
+  kOutline,
+  kSign,
+  kTrafficLight,
+  kModel,
+  kBar
+};
 
 // Something that stands, as it is to be drawn.
 struct Thing {
   ThingKind kind = ThingKind::kPlain;
-  Stand stand;  // on the ground, and the way it looks (models.hpp says of each)
+  Stand stand;           // on the ground, and the way it looks (models.hpp says of each)
   double above_m = 0.0;  // over the ground: of a plate its lower edge
   double length_m = 0.0, width_m = 0.0, height_m = 0.0, radius_m = 0.0;
-  std::string face;            // of a sign
-  std::string file;            // of a model: a graphics library reads it
-  std::string signal;          // of a traffic light: the signal's id
+  std::string face;    // of a sign
+  std::string file;    // of a model: a graphics library reads it
+  std::string signal;  // of a traffic light: the signal's id
   bool both_sides = false;
-  bool on_post = false;        // of signs and traffic lights; what hangs over a lane has none
-  Colour colour;               // of plain ones and outlines
+  bool on_post = false;                 // of signs and traffic lights; what hangs over a lane has none
+  Colour colour;                        // of plain ones and outlines
   std::vector<Eigen::Vector3d> feet_W;  // of an outline; of a bar its two ends
-  std::vector<double> heights_m;        // of a bar the halves of what BarEnd calls wide and high, at its beginning and at its end
-  bool closed = true;                   // of a bar: it is round
-  std::optional<Colour> top;            // of an outline; nothing: as its walls, a little darker
+  std::vector<double>
+      heights_m;              // of a bar the halves of what BarEnd calls wide and high, at its beginning and at its end
+  bool closed = true;         // of a bar: it is round
+  std::optional<Colour> top;  // of an outline; nothing: as its walls, a little darker
 };
 
 // A piece of a rail or wall. Neighbours meet in the same points.
@@ -52,10 +66,10 @@ struct RailPiece {
 // Whether the file of a model can be read; without one: each can.
 using ModelIsThere = std::function<bool(const std::string& file)>;
 
-// What stands at a network's roads and around them in tunnels, and at none, by the tiles in which it stands. Pure functions of the world.
-// Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which counts itself where SUELO
-// knows no ground: what stands is seen to stand on what is drawn. Objects without any height (markings, parking places) and
-// signals that are only paint are left out.
+// What stands at a network's roads and around them in tunnels, and at none, by the tiles in which it stands. Pure
+// functions of the world. Feet are on SUELO's ground, on the level nearest to the road's own surface at (s, t), which
+// counts itself where SUELO knows no ground: what stands is seen to stand on what is drawn. Objects without any height
+// (markings, parking places) and signals that are only paint are left out.
 class Things {
  public:
   // world.network() must not be null; the network must outlive this.

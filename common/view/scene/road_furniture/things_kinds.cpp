@@ -3,11 +3,11 @@
 #include <cmath>
 #include <filesystem>
 
-#include "common/world/network/network.hpp"
-#include "common/view/scene/road_markings/object_shapes.hpp"
-#include "common/view/scene/road_markings/road_paint.hpp"
 #include "common/view/scene/road_furniture/sign_face.hpp"
 #include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_markings/object_shapes.hpp"
+#include "common/view/scene/road_markings/road_paint.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -33,7 +33,8 @@ bool BendsLeft(const network::Road& road, const network::Placed& placed) {
   const double way = placed.signal->orientation == "-" ? -1.0 : 1.0;
   const double end = std::clamp(placed.s_m + way * kAhead_m, 0.0, road.length_m());
   double turn = 0.0;
-  for (int i = 0; i <= 8; ++i) turn += way * road.axis().Evaluate(placed.s_m + (end - placed.s_m) * i / 8.0).curvature_1pm;
+  for (int i = 0; i <= 8; ++i)
+    turn += way * road.axis().Evaluate(placed.s_m + (end - placed.s_m) * i / 8.0).curvature_1pm;
   return turn > 0.0;
 }
 
@@ -41,7 +42,9 @@ template <class Word>
 bool IsOneOf(const Word& word, std::initializer_list<Word> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) { return IsOneOf<std::string_view>(word, words); }
+bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> words) {
+  return IsOneOf<std::string_view>(word, words);
+}
 
 Colour ColourOf(std::string_view type) {
   if (type == "building") return Colour::Of(0xb9b2a6);
@@ -56,7 +59,8 @@ Colour ColourOf(std::string_view type) {
 bool IsModelFile(const std::string& name) {
   const std::filesystem::path path(name);
   const std::string ending = path.extension().string();
-  return path.is_absolute() && IsOneOf(ending, {".osgb", ".osgt", ".osg", ".ive", ".obj", ".3ds", ".dae", ".stl", ".ac", ".lwo", ".flt", ".dxf"});
+  return path.is_absolute() && IsOneOf(ending, {".osgb", ".osgt", ".osg", ".ive", ".obj", ".3ds", ".dae", ".stl", ".ac",
+                                                ".lwo", ".flt", ".dxf"});
 }
 
 ThingKind KindOf(const network::Object& object) {
@@ -75,7 +79,8 @@ ThingKind KindOf(const network::Object& object) {
 
 void Things::AddSignal(const network::Road& road, const network::Placed& placed, Thing thing) {
   thing.both_sides = placed.both_sides;
-  thing.on_post = placed.signal->board.empty() && (placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m));
+  thing.on_post =
+      placed.signal->board.empty() && (placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m));
   if (placed.signal->dynamic && !network::IsBoard(*placed.signal)) {
     thing.kind = ThingKind::kTrafficLight;
     thing.signal = placed.signal->id;
@@ -108,7 +113,8 @@ void Things::AddOutlines(const network::Road* road, const network::Placed& place
     std::vector<Vector2d> corners;
     for (const network::Corner& corner : outline.corners) {
       Vector3d foot = thing.stand.ToWorld({corner.first_m, corner.second_m, placed.z_offset_m + corner.dz_m});
-      if (!corner.local && road != nullptr) foot = road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
+      if (!corner.local && road != nullptr)
+        foot = road->Surface(corner.first_m, corner.second_m).p_W + corner.dz_m * Vector3d::UnitZ();
       part.feet_W.push_back(foot);
       part.heights_m.push_back(corner.height_m);
       corners.emplace_back(foot.head<2>());
@@ -138,7 +144,8 @@ void Things::AddOutlines(const network::Road* road, const network::Placed& place
 void Things::AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing) {
   for (const network::SkeletonLine& line : placed.object->skeleton) {
     const auto at = [&](const network::SkeletonPoint& point) -> Vector3d {
-      if (point.local || road == nullptr) return thing.stand.ToWorld({point.first_m, point.second_m, placed.z_offset_m + point.dz_m});
+      if (point.local || road == nullptr)
+        return thing.stand.ToWorld({point.first_m, point.second_m, placed.z_offset_m + point.dz_m});
       return road->Surface(point.first_m, point.second_m).p_W + point.dz_m * Vector3d::UnitZ();
     };
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -165,9 +172,12 @@ void Things::AddObject(const network::Road* road, const network::Placed& placed,
     return Keep(std::move(thing));
   }
   if (network::IsFlat(object)) return;
-  const bool skeleton = !object.skeleton.empty() && IsOneOf(thing.kind, {ThingKind::kPlain, ThingKind::kPost, ThingKind::kLamp});
-  if (skeleton) AddSkeleton(road, placed, thing);
-  else AddOutlines(road, placed, thing);
+  const bool skeleton =
+      !object.skeleton.empty() && IsOneOf(thing.kind, {ThingKind::kPlain, ThingKind::kPost, ThingKind::kLamp});
+  if (skeleton)
+    AddSkeleton(road, placed, thing);
+  else
+    AddOutlines(road, placed, thing);
   if (skeleton || !object.outlines.empty()) return;
   const auto usual = [&](double length, double width, double height) {
     if (!(thing.height_m > kFlatThing_m)) thing.height_m = height;
@@ -177,16 +187,31 @@ void Things::AddObject(const network::Road* road, const network::Placed& placed,
   // These turn to the road, which lies on the left of what stands to the right of it.
   const bool turned = placed.t_m > 0.0;
   switch (thing.kind) {
-    case ThingKind::kTree: usual(0.0, 0.0, 8.0); break;
-    case ThingKind::kBush: usual(0.0, 0.0, 1.5); break;
-    case ThingKind::kHouse: usual(12.0, 9.0, 7.0); break;
-    case ThingKind::kFillingStation: usual(24.0, 14.0, 6.0); break;
-    case ThingKind::kPost: usual(0.12, 0.12, 1.0); break;
-    case ThingKind::kLamp: usual(0.2, 0.2, 8.0); break;
+    case ThingKind::kTree:
+      usual(0.0, 0.0, 8.0);
+      break;
+    case ThingKind::kBush:
+      usual(0.0, 0.0, 1.5);
+      break;
+    case ThingKind::kHouse:
+      usual(12.0, 9.0, 7.0);
+      break;
+    case ThingKind::kFillingStation:
+      usual(24.0, 14.0, 6.0);
+      break;
+    case ThingKind::kPost:
+      usual(0.12, 0.12, 1.0);
+      break;
+    case ThingKind::kLamp:
+      usual(0.2, 0.2, 8.0);
+      break;
     default:
-      if (!(thing.height_m > kFlatThing_m) && !IsOneOf(object.type, {"pole", "rail-pole", "barrier", "building", "obstacle"})) return;
+      if (!(thing.height_m > kFlatThing_m) &&
+          !IsOneOf(object.type, {"pole", "rail-pole", "barrier", "building", "obstacle"}))
+        return;
       usual(0.12, 0.12, object.type == "building" ? 6.0 : 1.0);
-      if (object.type == "pole" && !(thing.radius_m > 0.0) && placed.length_m == 0.0) thing.radius_m = 0.5 * thing.width_m;
+      if (object.type == "pole" && !(thing.radius_m > 0.0) && placed.length_m == 0.0)
+        thing.radius_m = 0.5 * thing.width_m;
       return Keep(std::move(thing));
   }
   if (!(thing.radius_m > 0.0)) thing.radius_m = 0.3 * thing.height_m;

@@ -12,10 +12,10 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kPlot_m = 12.0;     // at most one tree a plot
+constexpr double kPlot_m = 12.0;  // at most one tree a plot
 constexpr int kPlotsAField = 16;
 constexpr double kFarthest_m = 420.0;  // from a road
-constexpr double kClear_m = 3.5;     // between a trunk and the paved edge
+constexpr double kClear_m = 3.5;       // between a trunk and the paved edge
 
 // The distance to the nearest road's axis, less that road's half width.
 double RoomBeside(const road::World& world, double x_m, double y_m) {
@@ -29,20 +29,28 @@ double RoomBeside(const road::World& world, double x_m, double y_m) {
 }
 
 Tree Grow(std::uint64_t seed, std::uint64_t column, std::uint64_t row) {
-  const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, column, row, what}, low, high); };
+  const auto draw = [&](std::uint64_t what, double low, double high) {
+    return base::RandomUniform({seed, column, row, what}, low, high);
+  };
   Tree tree;
   tree.conifer = draw(3, 0.0, 1.0) < 0.3;
   tree.height_m = tree.conifer ? draw(4, 5.0, 10.0) : draw(4, 3.2, 6.5);
   tree.crown_m = tree.conifer ? tree.height_m * draw(5, 0.16, 0.22) : tree.height_m * draw(5, 0.32, 0.46);
-  tree.leaves = Shade(Mix(Colour::Of(0x4b6330), tree.conifer ? Colour::Of(0x2f4a2e) : Colour::Of(0x74803f), draw(6, 0.0, 1.0)), draw(7, 0.85, 1.1));
+  tree.leaves =
+      Shade(Mix(Colour::Of(0x4b6330), tree.conifer ? Colour::Of(0x2f4a2e) : Colour::Of(0x74803f), draw(6, 0.0, 1.0)),
+            draw(7, 0.85, 1.1));
   return tree;
 }
 
-void PlantField(const road::World& world, std::uint64_t seed, std::int64_t field_column, std::int64_t field_row, bool near_road, std::vector<Tree>& trees) {
+void PlantField(const road::World& world, std::uint64_t seed, std::int64_t field_column, std::int64_t field_row,
+                bool near_road, std::vector<Tree>& trees) {
   for (int c = 0; c < kPlotsAField; ++c) {
     for (int r = 0; r < kPlotsAField; ++r) {
-      const auto column = static_cast<std::uint64_t>(field_column * kPlotsAField + c), row = static_cast<std::uint64_t>(field_row * kPlotsAField + r);
-      const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, column, row, what}, low, high); };
+      const auto column = static_cast<std::uint64_t>(field_column * kPlotsAField + c),
+                 row = static_cast<std::uint64_t>(field_row * kPlotsAField + r);
+      const auto draw = [&](std::uint64_t what, double low, double high) {
+        return base::RandomUniform({seed, column, row, what}, low, high);
+      };
       const double x = (static_cast<double>(static_cast<std::int64_t>(column)) + draw(0, 0.05, 0.95)) * kPlot_m;
       const double y = (static_cast<double>(static_cast<std::int64_t>(row)) + draw(1, 0.05, 0.95)) * kPlot_m;
       const double wood = SmoothNoise(x, y, 190.0, seed) + 0.5 * SmoothNoise(x, y, 60.0, seed + 1);
@@ -99,7 +107,8 @@ std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
   const auto field = [field_m](double x) { return static_cast<std::int64_t>(std::floor(x / field_m)); };
   for (std::int64_t column = field(extents.west_m); column <= field(extents.east_m); ++column) {
     for (std::int64_t row = field(extents.south_m); row <= field(extents.north_m); ++row) {
-      const double room = RoomBeside(world, (static_cast<double>(column) + 0.5) * field_m, (static_cast<double>(row) + 0.5) * field_m);
+      const double room =
+          RoomBeside(world, (static_cast<double>(column) + 0.5) * field_m, (static_cast<double>(row) + 0.5) * field_m);
       if (room > kFarthest_m) continue;
       PlantField(world, seed, column, row, room < across_m + 12.0, trees);
     }
@@ -107,24 +116,35 @@ std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
   return trees;
 }
 
-TreeKind KindOf(const Tree& tree) { return tree.bush ? TreeKind::kBush : tree.conifer ? TreeKind::kCone : TreeKind::kRound; }
+TreeKind KindOf(const Tree& tree) {
+  return tree.bush ? TreeKind::kBush : tree.conifer ? TreeKind::kCone : TreeKind::kRound;
+}
 
 Repeated TreeModel(TreeKind kind, int level) {
   // The number of rings less one divides four: light is a multiple of a quarter.
-  static const std::array<Profile, 3> kFine = {Profile{{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}},
-                                               Profile{{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}},
-                                               Profile{{-0.08, 0.6}, {0.3, 1.0}, {0.6, 0.9}, {0.85, 0.55}, {1.0, 0.06}}};
-  static const std::array<Profile, 3> kPlain = {Profile{{0.2, 0.3}, {0.55, 1.0}, {1.0, 0.15}}, Profile{{0.14, 0.3}, {0.22, 1.0}, {1.0, 0.02}}, Profile{{-0.08, 0.6}, {0.45, 1.0}, {1.0, 0.1}}};
+  static const std::array<Profile, 3> kFine = {
+      Profile{{0.22, 0.15}, {0.36, 0.85}, {0.58, 1.0}, {0.82, 0.72}, {1.0, 0.08}},
+      Profile{{0.14, 0.3}, {0.2, 1.0}, {0.5, 0.62}, {0.78, 0.32}, {1.0, 0.02}},
+      Profile{{-0.08, 0.6}, {0.3, 1.0}, {0.6, 0.9}, {0.85, 0.55}, {1.0, 0.06}}};
+  static const std::array<Profile, 3> kPlain = {Profile{{0.2, 0.3}, {0.55, 1.0}, {1.0, 0.15}},
+                                                Profile{{0.14, 0.3}, {0.22, 1.0}, {1.0, 0.02}},
+                                                Profile{{-0.08, 0.6}, {0.45, 1.0}, {1.0, 0.1}}};
   static const Profile kTrunk = {{-0.08, 0.13}, {0.3, 0.09}};
   static constexpr Colour kBark = Colour::Of(0x5b4936);
   Repeated tree;
   tree.model.material = Material::kFoliage;
   if (kind != TreeKind::kBush && level < 2) AddRings(kTrunk, level == 0 ? 5 : 3, &kBark, tree);
-  AddRings((level == 0 ? kFine : kPlain)[static_cast<std::size_t>(kind)], level == 0 ? 7 : level == 1 ? 6 : 4, nullptr, tree);
+  AddRings((level == 0 ? kFine : kPlain)[static_cast<std::size_t>(kind)],
+           level == 0   ? 7
+           : level == 1 ? 6
+                        : 4,
+           nullptr, tree);
   return tree;
 }
 
-StandingPlace PlaceOf(const Tree& tree) { return {{tree.foot_W, Eigen::Vector2d::UnitX()}, tree.crown_m, tree.height_m, tree.leaves}; }
+StandingPlace PlaceOf(const Tree& tree) {
+  return {{tree.foot_W, Eigen::Vector2d::UnitX()}, tree.crown_m, tree.height_m, tree.leaves};
+}
 
 std::vector<std::vector<Repeated>> BuildTrees(const std::vector<Tree>& trees) {
   const double field_m = kPlot_m * kPlotsAField;
@@ -134,7 +154,8 @@ std::vector<std::vector<Repeated>> BuildTrees(const std::vector<Tree>& trees) {
   };
   std::map<std::pair<std::int64_t, std::int64_t>, Field> fields;
   for (const Tree& tree : trees) {
-    const std::pair key(static_cast<std::int64_t>(std::floor(tree.foot_W.x() / field_m)), static_cast<std::int64_t>(std::floor(tree.foot_W.y() / field_m)));
+    const std::pair key(static_cast<std::int64_t>(std::floor(tree.foot_W.x() / field_m)),
+                        static_cast<std::int64_t>(std::floor(tree.foot_W.y() / field_m)));
     auto [field, fresh] = fields.try_emplace(key);
     if (fresh) field->second.origin_W = OriginNear(tree.foot_W);
     auto [kind, first] = field->second.kinds.try_emplace(KindOf(tree));

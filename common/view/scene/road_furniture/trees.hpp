@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "common/world/road/world.hpp"
-#include "common/view/scene/terrain/lattice.hpp"
 #include "common/view/scene/mesh/repeated.hpp"
+#include "common/view/scene/terrain/lattice.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -18,14 +18,15 @@ struct Tree {
   Colour leaves;
 };
 
-// Trees on grass within sight of the roads, in patches: a pure function of the world and the seed. None stands on a road,
-// its shoulders or verges.
+// Trees on grass within sight of the roads, in patches: a pure function of the world and the seed. None stands on a
+// road, its shoulders or verges.
 std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed);
 
 // How a tree grows: what differs from one to the next of a kind is its place.
 enum class TreeKind { kRound, kCone, kBush };
 TreeKind KindOf(const Tree& tree);
-// One of a kind, 1 m high and with a crown of 1 m radius: about 70 triangles at level 0, 30 at level 1, 16 from level 2 on. It stands nowhere yet.
+// One of a kind, 1 m high and with a crown of 1 m radius: about 70 triangles at level 0, 30 at level 1, 16 from level 2
+// on. It stands nowhere yet.
 Repeated TreeModel(TreeKind kind, int level);
 StandingPlace PlaceOf(const Tree& tree);
 

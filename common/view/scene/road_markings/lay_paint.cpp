@@ -32,7 +32,8 @@ void Clip(Polygon2& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b,
 
 double Area2(const Polygon2& polygon) {
   double area = 0.0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) area += 0.5 * Cross2(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    area += 0.5 * Cross2(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
   return area;
 }
 
@@ -68,7 +69,8 @@ class Buckets {
   };
   Eigen::Vector2i Cell(const Eigen::Vector2d& p_W) const {
     const Eigen::Vector2d at = (p_W - south_west_W_) / kBucket_m;
-    return {std::clamp(static_cast<int>(std::floor(at.x())), 0, kBuckets - 1), std::clamp(static_cast<int>(std::floor(at.y())), 0, kBuckets - 1)};
+    return {std::clamp(static_cast<int>(std::floor(at.x())), 0, kBuckets - 1),
+            std::clamp(static_cast<int>(std::floor(at.y())), 0, kBuckets - 1)};
   }
 
   Eigen::Vector2d south_west_W_;
@@ -88,19 +90,26 @@ Mesh LayPaint(std::span<const PaintPiece> pieces, const TileKey& tile, std::span
   for (const PaintPiece& piece : pieces) {
     Eigen::Vector2d low = piece.p_W[0].head<2>(), high = low;
     double z = 0.0;
-    for (const Eigen::Vector3d& p : piece.p_W) low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>()), z += 0.25 * p.z();
+    for (const Eigen::Vector3d& p : piece.p_W)
+      low = low.cwiseMin(p.head<2>()), high = high.cwiseMax(p.head<2>()), z += 0.25 * p.z();
     near.clear();
-    buckets.ForEach(low, high, [&](const std::vector<std::uint32_t>& cell) { std::copy_if(cell.begin(), cell.end(), std::back_inserter(near), [&](std::uint32_t i) { return buckets.MayTouch(i, low, high); }); });
+    buckets.ForEach(low, high, [&](const std::vector<std::uint32_t>& cell) {
+      std::copy_if(cell.begin(), cell.end(), std::back_inserter(near),
+                   [&](std::uint32_t i) { return buckets.MayTouch(i, low, high); });
+    });
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::uint32_t i : near) {
       const auto& corner = ground[i].p_W;
       polygon.clear();
       for (const Eigen::Vector3d& p : piece.p_W) polygon.push_back(p.head<2>());
-      for (std::size_t k = 0; k < 3 && polygon.size() > 2; ++k) Clip(polygon, corner[k].head<2>(), corner[(k + 1) % 3].head<2>(), spare);
+      for (std::size_t k = 0; k < 3 && polygon.size() > 2; ++k)
+        Clip(polygon, corner[k].head<2>(), corner[(k + 1) % 3].head<2>(), spare);
       if (polygon.size() < 3 || Area2(polygon) < kLeast_m2) continue;
       const Eigen::Vector3d& n = ground[i].normal_W;
-      const auto height = [&](const Eigen::Vector2d& p) { return corner[0].z() - n.head<2>().dot(p - corner[0].head<2>()) / n.z(); };
+      const auto height = [&](const Eigen::Vector2d& p) {
+        return corner[0].z() - n.head<2>().dot(p - corner[0].head<2>()) / n.z();
+      };
       if (std::fabs(height(polygon[0]) - z) > kSameLevel_m + 0.1 * (high - low).norm()) continue;
       std::vector<std::uint32_t> index;
       for (const Eigen::Vector2d& p : polygon) index.push_back(mesh.Add({p.x(), p.y(), height(p)}, n, piece.colour));

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/world/network/marking.hpp"
 #include "common/view/scene/ground_materials/colours.hpp"
+#include "common/world/network/marking.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -48,7 +48,8 @@ class Painter {
         const Edges at = At(from + part * (to - from));
         for (std::size_t k = 0; k < 2 && fits; ++k) {
           const Eigen::Vector2d along = (after[k] - before[k]).head<2>(), off = (at[k] - before[k]).head<2>();
-          const double share = along.squaredNorm() > 0.0 ? std::clamp(off.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
+          const double share =
+              along.squaredNorm() > 0.0 ? std::clamp(off.dot(along) / along.squaredNorm(), 0.0, 1.0) : 0.0;
           fits = (off - share * along).norm() <= chord_m_;
         }
       }

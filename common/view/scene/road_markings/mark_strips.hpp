@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "common/world/network/network.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
-#include "common/view/scene/tiles/tile_grid.hpp"
 #include "common/view/scene/tessellation/tile_weave.hpp"
+#include "common/view/scene/tiles/tile_grid.hpp"
+#include "common/world/network/network.hpp"
 
 namespace rodeira::scene {
 
@@ -28,8 +28,8 @@ void PaintRoad(const network::Road& road, double chord_m, TilePaint& paint);
 
 Colour PaintColour(std::string_view name);
 
-// The paint laid on a tile's ground, cut along its triangles: it lies in their planes exactly, whatever their size. Paint
-// only lies on ground within a metre of the height of its own road.
+// The paint laid on a tile's ground, cut along its triangles: it lies in their planes exactly, whatever their size.
+// Paint only lies on ground within a metre of the height of its own road.
 Mesh LayPaint(std::span<const PaintPiece> pieces, const TileKey& tile, std::span<const GroundTriangle> ground);
 
 }  // namespace rodeira::scene

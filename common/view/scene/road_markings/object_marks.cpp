@@ -13,7 +13,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMostStrokes = 1e4;
-constexpr double kLongest_m = 1e4, kWidest_m = 10.0;  // what is more is no line of paint, and would lie in tiles without end
+constexpr double kLongest_m = 1e4,
+                 kWidest_m = 10.0;  // what is more is no line of paint, and would lie in tiles without end
 
 const network::Corner& CornerOf(const network::Object& object, const std::string& id) {
   const auto& corners = object.outlines.front().corners;
@@ -21,11 +22,13 @@ const network::Corner& CornerOf(const network::Object& object, const std::string
 }
 
 // From its beginning to its end, in the object's own plane.
-std::vector<Vector2d> LineOf(const network::Road& road, const network::Object& object, const network::Placed& placed, const network::ObjectMark& mark, const Spot& own) {
+std::vector<Vector2d> LineOf(const network::Road& road, const network::Object& object, const network::Placed& placed,
+                             const network::ObjectMark& mark, const Spot& own) {
   std::vector<Vector2d> line;
   for (const std::string& id : mark.corners) {
     const network::Corner& corner = CornerOf(object, id);
-    line.push_back(corner.local ? Vector2d(corner.first_m, corner.second_m) : own.ToLocal(road.Surface(corner.first_m, corner.second_m).p_W.head<2>()));
+    line.push_back(corner.local ? Vector2d(corner.first_m, corner.second_m)
+                                : own.ToLocal(road.Surface(corner.first_m, corner.second_m).p_W.head<2>()));
   }
   if (!line.empty()) return line;
   const double ahead = 0.5 * placed.length_m, left = 0.5 * placed.width_m;
@@ -36,7 +39,8 @@ std::vector<Vector2d> LineOf(const network::Road& road, const network::Object& o
 }
 
 // What of the line lies between two ways along it.
-void PaintStroke(const std::vector<Vector2d>& line, double from_m, double to_m, double width_m, Colour colour, const Spot& own, TilePaint& paint) {
+void PaintStroke(const std::vector<Vector2d>& line, double from_m, double to_m, double width_m, Colour colour,
+                 const Spot& own, TilePaint& paint) {
   double begin = 0.0;
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vector2d way = line[i] - line[i - 1];
@@ -45,7 +49,8 @@ void PaintStroke(const std::vector<Vector2d>& line, double from_m, double to_m, 
     if (!(high > low)) continue;
     const Vector2d along = way / length, half = 0.5 * width_m * Vector2d(-along.y(), along.x());
     const Vector2d a = line[i - 1] + low * along, b = line[i - 1] + high * along;
-    AddPaint({{own.ToWorld(a - half), own.ToWorld(b - half), own.ToWorld(b + half), own.ToWorld(a + half)}, colour}, paint);
+    AddPaint({{own.ToWorld(a - half), own.ToWorld(b - half), own.ToWorld(b + half), own.ToWorld(a + half)}, colour},
+             paint);
   }
 }
 

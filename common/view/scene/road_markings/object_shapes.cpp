@@ -42,13 +42,17 @@ std::optional<Colour> FillColour(std::string_view fill) {
   return std::nullopt;
 }
 
-Colour BorderColour(std::string_view type) { return type == "curb" ? Colour::Of(0xbab7b0) : SurfaceColour(ground::Surface::kConcrete); }
+Colour BorderColour(std::string_view type) {
+  return type == "curb" ? Colour::Of(0xbab7b0) : SurfaceColour(ground::Surface::kConcrete);
+}
 
-std::vector<FramePiece> FrameOf(std::span<const Vector2d> outline, bool closed, std::span<const std::size_t> along, double width_m) {
+std::vector<FramePiece> FrameOf(std::span<const Vector2d> outline, bool closed, std::span<const std::size_t> along,
+                                double width_m) {
   const std::size_t count = outline.size();
   if (count < 2) return {};
   double area = 0.0;
-  for (std::size_t i = 0; i < count; ++i) area += geometry::Cross(Vector2d(outline[i] - outline[0]), Vector2d(outline[(i + 1) % count] - outline[0]));
+  for (std::size_t i = 0; i < count; ++i)
+    area += geometry::Cross(Vector2d(outline[i] - outline[0]), Vector2d(outline[(i + 1) % count] - outline[0]));
   std::vector<std::size_t> path(along.begin(), along.end());
   const bool ring = path.empty() && closed && count > 2;
   if (path.empty()) {
@@ -72,7 +76,10 @@ std::vector<FramePiece> FrameOf(std::span<const Vector2d> outline, bool closed, 
     const std::size_t from = path[k], to = path[(k + 1) % path.size()];
     if ((outline[to] - outline[from]).squaredNorm() == 0.0) continue;
     const Vector2d at_from = mitre(k), at_to = mitre(k + 1);
-    FramePiece piece{{outline[from] + outer_m * at_from, outline[to] + outer_m * at_to, outline[to] + inner_m * at_to, outline[from] + inner_m * at_from}, from, to};
+    FramePiece piece{{outline[from] + outer_m * at_from, outline[to] + outer_m * at_to, outline[to] + inner_m * at_to,
+                      outline[from] + inner_m * at_from},
+                     from,
+                     to};
     if (inward < 0.0) {
       std::swap(piece.corners[0], piece.corners[1]), std::swap(piece.corners[2], piece.corners[3]);
       std::swap(piece.from, piece.to);
@@ -86,7 +93,8 @@ std::vector<std::size_t> CornersOf(const network::Object& object, const network:
   const auto& corners = object.outlines[border.outline].corners;
   std::vector<std::size_t> found;
   for (const std::string& id : border.corners) {
-    const auto at = std::find_if(corners.begin(), corners.end(), [&](const network::Corner& corner) { return corner.id == id; });
+    const auto at =
+        std::find_if(corners.begin(), corners.end(), [&](const network::Corner& corner) { return corner.id == id; });
     if (at != corners.end()) found.push_back(static_cast<std::size_t>(at - corners.begin()));
   }
   return found;

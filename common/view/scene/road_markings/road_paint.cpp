@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "common/core/geometry/angle.hpp"
+#include "common/view/scene/mesh/solids.hpp"
+#include "common/view/scene/road_furniture/things.hpp"
 #include "common/view/scene/road_markings/object_marks.hpp"
 #include "common/view/scene/road_markings/object_shapes.hpp"
-#include "common/view/scene/mesh/solids.hpp"
 #include "common/view/scene/road_markings/spot.hpp"
 #include "common/view/scene/road_markings/stencils.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -27,7 +27,10 @@ void Lay(const std::vector<Polygon2>& shape, const Spot& spot, TilePaint& paint,
     // In quadrangles from its first corner; the last may be a triangle, whose third corner stands twice.
     for (std::size_t i = 1; i + 1 < polygon.size(); i += 2) {
       const std::size_t last = std::min(i + 2, polygon.size() - 1);
-      AddPaint({{spot.ToWorld(polygon[0]), spot.ToWorld(polygon[i]), spot.ToWorld(polygon[i + 1]), spot.ToWorld(polygon[last])}, colour}, paint);
+      AddPaint({{spot.ToWorld(polygon[0]), spot.ToWorld(polygon[i]), spot.ToWorld(polygon[i + 1]),
+                 spot.ToWorld(polygon[last])},
+                colour},
+               paint);
     }
   }
 }
@@ -44,7 +47,8 @@ std::vector<std::pair<double, double>> Driven(const network::Road& road, double 
     for (const network::Lane& lane : *side) {
       if (!network::IsDrivable(lane.type) || lane.id * sign < 0) continue;
       const auto span = road.SpanAt(road.SectionIndex(s_m), lane.id, s_m);
-      if (span) spans.emplace_back(std::min(span->inner_t_m, span->outer_t_m), std::max(span->inner_t_m, span->outer_t_m));
+      if (span)
+        spans.emplace_back(std::min(span->inner_t_m, span->outer_t_m), std::max(span->inner_t_m, span->outer_t_m));
     }
   }
   return spans;
@@ -52,14 +56,18 @@ std::vector<std::pair<double, double>> Driven(const network::Road& road, double 
 
 void PaintCrossing(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
   const network::Signal& signal = *placed.signal;
-  const double length = std::min(signal.value.value_or(kCrossing_m) > 0.0 ? signal.value.value_or(kCrossing_m) : kCrossing_m, road.length_m());
+  const double length = std::min(
+      signal.value.value_or(kCrossing_m) > 0.0 ? signal.value.value_or(kCrossing_m) : kCrossing_m, road.length_m());
   const double s = std::clamp(placed.s_m, 0.5 * length, road.length_m() - 0.5 * length);
   double right = 1e9, left = -1e9;
   for (const auto& [low, high] : Driven(road, s, 0)) right = std::min(right, low), left = std::max(left, high);
-  if (signal.width_m > 0.0) right = std::max(right, placed.t_m - 0.5 * signal.width_m), left = std::min(left, placed.t_m + 0.5 * signal.width_m);
+  if (signal.width_m > 0.0)
+    right = std::max(right, placed.t_m - 0.5 * signal.width_m),
+    left = std::min(left, placed.t_m + 0.5 * signal.width_m);
   if (!(left > right)) return;
   const double middle = 0.5 * (left + right), half = 0.5 * (left - right);
-  Lay(ZebraShape(Rectangle(length, -half, half)), Spot::At(road, s, middle, road.axis().Evaluate(s).heading_rad), paint);
+  Lay(ZebraShape(Rectangle(length, -half, half)), Spot::At(road, s, middle, road.axis().Evaluate(s).heading_rad),
+      paint);
 }
 
 bool IsLineAcross(const network::Signal& signal) { return signal.type == "294" || signal.type == "341"; }
@@ -85,13 +93,16 @@ void PaintLineAcross(const network::Road& road, const network::Placed& placed, T
   }
   if (!(to > from)) return;
   const double middle = 0.5 * (from + to);
-  const auto shape = signal.type == "294" ? StopLineShape(from - middle, to - middle) : GiveWayShape(from - middle, to - middle);
+  const auto shape =
+      signal.type == "294" ? StopLineShape(from - middle, to - middle) : GiveWayShape(from - middle, to - middle);
   Lay(shape, Spot::At(road, placed.s_m, middle, road.axis().Evaluate(placed.s_m).heading_rad), paint);
 }
 
-void PaintArrow(const network::Road& road, const network::Placed& placed, const ArrowWays& ways, double heading_rad, double length_m, TilePaint& paint, Colour colour = PaintColour("white")) {
+void PaintArrow(const network::Road& road, const network::Placed& placed, const ArrowWays& ways, double heading_rad,
+                double length_m, TilePaint& paint, Colour colour = PaintColour("white")) {
   const double usual = ways.left || ways.right ? 1.0 : 0.45;
-  Lay(ArrowShape(ways, length_m > 0.0 ? length_m : kArrow_m, placed.width_m > 0.0 ? placed.width_m : usual), Spot::At(road, placed.s_m, placed.t_m, heading_rad), paint, colour);
+  Lay(ArrowShape(ways, length_m > 0.0 ? length_m : kArrow_m, placed.width_m > 0.0 ? placed.width_m : usual),
+      Spot::At(road, placed.s_m, placed.t_m, heading_rad), paint, colour);
 }
 
 // Where a signal that is an arrow points.
@@ -114,7 +125,8 @@ void PaintSignal(const network::Road& road, const network::Placed& placed, TileP
 }
 
 // The corners of an outline of an object, or of the rectangle that it says where there is none, as seen from `along`.
-Polygon2 CornersOf(const network::Road& road, const network::Placed& placed, const network::Outline* outline, const Spot& along) {
+Polygon2 CornersOf(const network::Road& road, const network::Placed& placed, const network::Outline* outline,
+                   const Spot& along) {
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
   Polygon2 corners;
   const auto add = [&](const Vector2d& local) { corners.push_back(along.ToLocal(own.ToWorld(local).head<2>())); };
@@ -123,8 +135,10 @@ Polygon2 CornersOf(const network::Road& road, const network::Placed& placed, con
     return corners;
   }
   for (const network::Corner& corner : outline->corners) {
-    if (corner.local) add({corner.first_m, corner.second_m});
-    else corners.push_back(along.ToLocal(road.Surface(corner.first_m, corner.second_m).p_W.head<2>()));
+    if (corner.local)
+      add({corner.first_m, corner.second_m});
+    else
+      corners.push_back(along.ToLocal(road.Surface(corner.first_m, corner.second_m).p_W.head<2>()));
   }
   return corners;
 }
@@ -141,8 +155,10 @@ double Around(const Polygon2& corners) {
   return length;
 }
 
-void LayFrame(const Polygon2& corners, bool closed, std::span<const std::size_t> along, double width_m, Colour colour, const Spot& spot, TilePaint& paint) {
-  for (const FramePiece& piece : FrameOf(corners, closed, along, width_m)) Lay({Polygon2(piece.corners.begin(), piece.corners.end())}, spot, paint, colour);
+void LayFrame(const Polygon2& corners, bool closed, std::span<const std::size_t> along, double width_m, Colour colour,
+              const Spot& spot, TilePaint& paint) {
+  for (const FramePiece& piece : FrameOf(corners, closed, along, width_m))
+    Lay({Polygon2(piece.corners.begin(), piece.corners.end())}, spot, paint, colour);
 }
 
 // White lines along the edges of a parking place whose file says no marks of it.
@@ -152,7 +168,9 @@ void PaintParkingPlace(const network::Road& road, const network::Placed& placed,
   const network::Outline* outline = object.outlines.empty() ? nullptr : &object.outlines.front();
   if (outline == nullptr && !(placed.length_m > 0.0 && placed.width_m > 0.0)) return;
   const Polygon2 corners = CornersOf(road, placed, outline, own);
-  if (Around(corners) <= kLongest_m) LayFrame(corners, outline == nullptr || outline->closed, {}, kParkingLine_m, PaintColour(object.material.colour), own, paint);
+  if (Around(corners) <= kLongest_m)
+    LayFrame(corners, outline == nullptr || outline->closed, {}, kParkingLine_m, PaintColour(object.material.colour),
+             own, paint);
 }
 
 // What fills an outline that lies flat, and the frames within it.
@@ -161,7 +179,10 @@ void PaintFlatOutlines(const network::Road& road, const network::Placed& placed,
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
   for (std::size_t i = 0; i < object.outlines.size(); ++i) {
     const network::Outline& outline = object.outlines[i];
-    const bool stands = !network::IsFlat(object) && (placed.height_m > kFlatThing_m || std::any_of(outline.corners.begin(), outline.corners.end(), [](const network::Corner& corner) { return corner.height_m > kFlatThing_m; }));
+    const bool stands = !network::IsFlat(object) &&
+                        (placed.height_m > kFlatThing_m ||
+                         std::any_of(outline.corners.begin(), outline.corners.end(),
+                                     [](const network::Corner& corner) { return corner.height_m > kFlatThing_m; }));
     Polygon2 corners = CornersOf(road, placed, &outline, own);
     if (stands || !(Around(corners) <= kLongest_m)) continue;
     bool framed = false;
@@ -173,7 +194,8 @@ void PaintFlatOutlines(const network::Road& road, const network::Placed& placed,
       if (!framed) continue;
       // What it fills ends at its frame.
       Polygon2 inner;
-      for (const FramePiece& piece : FrameOf(corners, outline.closed, {}, border.width_m)) inner.push_back(piece.corners[3]);
+      for (const FramePiece& piece : FrameOf(corners, outline.closed, {}, border.width_m))
+        inner.push_back(piece.corners[3]);
       if (outline.closed) corners = inner;
     }
     const auto fill = FillColour(outline.fill);
@@ -183,7 +205,8 @@ void PaintFlatOutlines(const network::Road& road, const network::Placed& placed,
     double area = 0.0;
     for (std::size_t k = 1; k + 1 < flat.size(); ++k) area += (flat[k] - flat[0]).cross(flat[k + 1] - flat[0]).z();
     if (area < 0.0) std::reverse(flat.begin(), flat.end());
-    for (const auto& ear : Ears(flat)) Lay({Polygon2{flat[ear[0]].head<2>(), flat[ear[1]].head<2>(), flat[ear[2]].head<2>()}}, own, paint, *fill);
+    for (const auto& ear : Ears(flat))
+      Lay({Polygon2{flat[ear[0]].head<2>(), flat[ear[1]].head<2>(), flat[ear[2]].head<2>()}}, own, paint, *fill);
   }
 }
 
@@ -200,7 +223,9 @@ void PaintObject(const network::Road& road, const network::Placed& placed, TileP
   } else if (object.type == "roadMark") {
     const ArrowWays ways = WaysOf(object.subtype.empty() ? object.name : object.subtype);
     const bool turned = object.hdg_rad == 0.0 && object.orientation == "-";
-    if (ways.any()) PaintArrow(road, placed, ways, placed.heading_rad + (turned ? geometry::kPi : 0.0), placed.length_m, paint, colour);
+    if (ways.any())
+      PaintArrow(road, placed, ways, placed.heading_rad + (turned ? geometry::kPi : 0.0), placed.length_m, paint,
+                 colour);
   } else if (object.type == "parkingSpace" && object.marks.empty()) {
     PaintParkingPlace(road, placed, paint);
   }
@@ -208,14 +233,18 @@ void PaintObject(const network::Road& road, const network::Placed& placed, TileP
 
 }  // namespace
 
-bool IsPaint(const network::Signal& signal) { return !signal.dynamic && (IsCrossing(signal) || IsLineAcross(signal) || ArrowOf(signal).any()); }
+bool IsPaint(const network::Signal& signal) {
+  return !signal.dynamic && (IsCrossing(signal) || IsLineAcross(signal) || ArrowOf(signal).any());
+}
 
 bool IsPaint(const network::Object& object) { return object.type == "crosswalk" || object.type == "roadMark"; }
 
 void PaintThing(const network::Network& network, const network::Placed& placed, TilePaint& paint) {
   const network::Road& road = network.roads()[placed.road];
-  if (placed.signal != nullptr) PaintSignal(road, placed, paint);
-  else PaintObject(road, placed, paint);
+  if (placed.signal != nullptr)
+    PaintSignal(road, placed, paint);
+  else
+    PaintObject(road, placed, paint);
 }
 
 }  // namespace rodeira::scene

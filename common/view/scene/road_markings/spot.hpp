@@ -8,7 +8,8 @@
 
 namespace rodeira::scene {
 
-// A place on a road from which shapes are laid out: x ahead, y to the left of it, in the plane of the road's surface there.
+// A place on a road from which shapes are laid out: x ahead, y to the left of it, in the plane of the road's surface
+// there.
 struct Spot {
   Eigen::Vector3d p_W;
   Eigen::Vector3d normal_W;

@@ -45,16 +45,21 @@ std::vector<Polygon2> ArrowShape(const ArrowWays& ways, double length_m, double 
   const auto x = [&](double share) { return back + share * length_m; };
   const bool turns = ways.left || ways.right;
   // The stem ends at its head, or where its last branch leaves it.
-  shape.push_back({{back, -stem}, {x(ways.straight ? 0.7 : 0.5), -stem}, {x(ways.straight ? 0.7 : 0.5), stem}, {back, stem}});
+  shape.push_back(
+      {{back, -stem}, {x(ways.straight ? 0.7 : 0.5), -stem}, {x(ways.straight ? 0.7 : 0.5), stem}, {back, stem}});
   if (ways.straight) {
     const double half = std::max(stem, turns ? std::min(0.5 * width_m, 0.5 * kStraightHead_m) : 0.5 * width_m);
     shape.push_back({{x(0.7), -half}, {x(1.0), 0.0}, {x(0.7), half}});
   }
   // A branch runs ahead and to its side, and ends in a head that points to the side; alone it reaches the front.
-  const double far = ways.straight ? 0.65 : 1.0, reach = std::max(0.5 * width_m, 3.0 * stem), neck = 0.5 * (stem + reach);
+  const double far = ways.straight ? 0.65 : 1.0, reach = std::max(0.5 * width_m, 3.0 * stem),
+               neck = 0.5 * (stem + reach);
   for (const double side : {1.0, -1.0}) {
     if (!(side > 0.0 ? ways.left : ways.right)) continue;
-    Polygon2 branch = {{x(0.4), side * stem}, {x(0.5), side * stem}, {x(0.5 + 0.5 * (far - 0.4)), side * neck}, {x(0.5 * (far + 0.4)), side * neck}};
+    Polygon2 branch = {{x(0.4), side * stem},
+                       {x(0.5), side * stem},
+                       {x(0.5 + 0.5 * (far - 0.4)), side * neck},
+                       {x(0.5 * (far + 0.4)), side * neck}};
     Polygon2 head = {{x(0.4), side * neck}, {x(far), side * neck}, {x(0.5 * (far + 0.4)), side * reach}};
     if (side < 0.0) std::reverse(branch.begin(), branch.end()), std::reverse(head.begin(), head.end());
     shape.push_back(std::move(branch));
@@ -73,7 +78,8 @@ std::vector<Polygon2> GiveWayShape(double right_m, double left_m) {
   std::vector<Polygon2> strokes;
   if (!(left_m > right_m)) return strokes;
   constexpr double kHalf = 0.5 * kGiveWayLine_m, kPeriod_m = kGiveWayStroke_m + kGiveWayGap_m;
-  const double count = std::clamp(std::floor((left_m - right_m + kGiveWayGap_m) / kPeriod_m + 1e-9), 1.0, 1000.0), stroke = std::min(kGiveWayStroke_m, left_m - right_m);
+  const double count = std::clamp(std::floor((left_m - right_m + kGiveWayGap_m) / kPeriod_m + 1e-9), 1.0, 1000.0),
+               stroke = std::min(kGiveWayStroke_m, left_m - right_m);
   const double first = 0.5 * (right_m + left_m) - 0.5 * ((count - 1.0) * kPeriod_m + stroke);
   for (double i = 0.0; i < count; i += 1.0) {
     const double right = first + i * kPeriod_m;
@@ -100,13 +106,15 @@ std::vector<Polygon2> ZebraShape(const Polygon2& outline) {
 
 Polygon2 HullOf(std::span<const Vector2d> points) {
   Polygon2 sorted(points.begin(), points.end());
-  std::sort(sorted.begin(), sorted.end(), [](const Vector2d& a, const Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  std::sort(sorted.begin(), sorted.end(),
+            [](const Vector2d& a, const Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
   Polygon2 hull;
   // Andrew's monotone chains: the lower one, then the upper one back.
   const auto chain = [&hull](const auto& from, const auto& to) {
     const std::size_t begin = hull.size();
     for (auto p = from; p != to; ++p) {
-      while (hull.size() >= begin + 2 && geometry::Cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0.0) hull.pop_back();
+      while (hull.size() >= begin + 2 && geometry::Cross(hull.back() - hull[hull.size() - 2], *p - hull.back()) <= 0.0)
+        hull.pop_back();
       hull.push_back(*p);
     }
     hull.pop_back();

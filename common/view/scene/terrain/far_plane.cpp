@@ -17,8 +17,11 @@ Mesh BuildFarPlane(const road::World& world, std::span<const TileKey> tiles) {
     low = {std::min(low.column, key.column), std::min(low.row, key.row)};
     high = {std::max(high.column, key.column), std::max(high.row, key.row)};
   }
-  const Eigen::Vector2d west_south = low.south_west_W(), east_north = TileKey{high.column + 1, high.row + 1}.south_west_W();
-  const auto at = [&](double x_m, double y_m) { return Eigen::Vector3d(x_m, y_m, world.plane()->z_m + world.plane()->slope_x * x_m + world.plane()->slope_y * y_m); };
+  const Eigen::Vector2d west_south = low.south_west_W(),
+                        east_north = TileKey{high.column + 1, high.row + 1}.south_west_W();
+  const auto at = [&](double x_m, double y_m) {
+    return Eigen::Vector3d(x_m, y_m, world.plane()->z_m + world.plane()->slope_x * x_m + world.plane()->slope_y * y_m);
+  };
   const Eigen::Vector3d normal = Eigen::Vector3d(-world.plane()->slope_x, -world.plane()->slope_y, 1.0).normalized();
   const Eigen::Vector2d far = Eigen::Vector2d::Constant(kFarPlane_m);
   const Skin skin = SkinAt(world, west_south - far, world.TerrainAt(west_south.x(), west_south.y()));
@@ -28,7 +31,8 @@ Mesh BuildFarPlane(const road::World& world, std::span<const TileKey> tiles) {
     std::uint32_t corners[4];
     std::size_t i = 0;
     for (const Eigen::Vector2d& p : {a, Eigen::Vector2d(b.x(), a.y()), b, Eigen::Vector2d(a.x(), b.y())}) {
-      corners[i++] = mesh.Add(at(p.x(), p.y()), normal, skin.grown ? GroundColour(skin.surface, p.x(), p.y(), normal) : skin.colour);
+      corners[i++] = mesh.Add(at(p.x(), p.y()), normal,
+                              skin.grown ? GroundColour(skin.surface, p.x(), p.y(), normal) : skin.colour);
     }
     mesh.AddTriangle(corners[0], corners[1], corners[2]);
     mesh.AddTriangle(corners[0], corners[2], corners[3]);

@@ -28,7 +28,8 @@ Lattice::Lattice(const road::World& world) : world_(world) {
     high = high.cwiseMax(road.plan().high_W());
   }
   const auto whole = [](double x) { return std::floor(x / kPlaneSpacing_m); };
-  south_west_W_ = {whole(low.x() - kPlaneMargin_m) * kPlaneSpacing_m, whole(low.y() - kPlaneMargin_m) * kPlaneSpacing_m};
+  south_west_W_ = {whole(low.x() - kPlaneMargin_m) * kPlaneSpacing_m,
+                   whole(low.y() - kPlaneMargin_m) * kPlaneSpacing_m};
   columns_ = static_cast<int>(whole(high.x() + kPlaneMargin_m - south_west_W_.x())) + 2;
   rows_ = static_cast<int>(whole(high.y() + kPlaneMargin_m - south_west_W_.y())) + 2;
   spacing_m_ = {kPlaneSpacing_m, kPlaneSpacing_m};
@@ -57,7 +58,8 @@ Lattice::Sample Lattice::Post(int column, int row) const {
   const int south = row > 0 && IsKnown(column, row - 1) ? row - 1 : row;
   const int north = row + 1 < rows_ && IsKnown(column, row + 1) ? row + 1 : row;
   const double slope_x = east > west ? (Height(east, row) - Height(west, row)) / ((east - west) * spacing_m_.x()) : 0.0;
-  const double slope_y = north > south ? (Height(column, north) - Height(column, south)) / ((north - south) * spacing_m_.y()) : 0.0;
+  const double slope_y =
+      north > south ? (Height(column, north) - Height(column, south)) / ((north - south) * spacing_m_.y()) : 0.0;
   sample.normal_W = Eigen::Vector3d(-slope_x, -slope_y, 1.0).normalized();
   sample.colour = GroundColour(world_.terrain_surface(), sample.p_W.x(), sample.p_W.y(), sample.normal_W);
   return sample;
@@ -69,7 +71,9 @@ Eigen::Vector2d Lattice::InPosts(double x_m, double y_m) const {
 
 Eigen::Vector2i Lattice::CellAt(double x_m, double y_m) const {
   const Eigen::Vector2d at = InPosts(x_m, y_m);
-  const auto hold = [](double value, int posts) { return static_cast<int>(std::clamp(std::floor(value), 0.0, posts - 2.0)); };
+  const auto hold = [](double value, int posts) {
+    return static_cast<int>(std::clamp(std::floor(value), 0.0, posts - 2.0));
+  };
   return {hold(at.x(), columns_), hold(at.y(), rows_)};
 }
 
@@ -88,7 +92,8 @@ Lattice::Sample Lattice::At(double x_m, double y_m) const {
   const double along_y = south_west ? v : 1.0 - u;
   const double rest = 1.0 - along_x - along_y;
   sample.p_W = {x_m, y_m, rest * corner.p_W.z() + along_x * south_east.p_W.z() + along_y * north_west.p_W.z()};
-  sample.normal_W = (rest * corner.normal_W + along_x * south_east.normal_W + along_y * north_west.normal_W).normalized();
+  sample.normal_W =
+      (rest * corner.normal_W + along_x * south_east.normal_W + along_y * north_west.normal_W).normalized();
   const auto part = [&](std::uint8_t a, std::uint8_t b, std::uint8_t c) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(rest * a + along_x * b + along_y * c, 0.0, 255.0)));
   };

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/world/road/world.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 

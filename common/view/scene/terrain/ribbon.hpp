@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "common/world/road/world.hpp"
-#include "common/view/scene/terrain/lattice.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/terrain/lattice.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -42,12 +42,14 @@ Ribbon LayRibbon(const road::Road& road, const RoadTolerance& tolerance);
 
 // A piece of a road as it is seen.
 struct RoadTile {
-  std::vector<Mesh> ground;  // carriageway, shoulders, verges, blend; one mesh a material, nothing above or below another
-  Mesh marks;                // lies exactly on the ground at its vertices: to be drawn after it, with an offset
+  std::vector<Mesh>
+      ground;  // carriageway, shoulders, verges, blend; one mesh a material, nothing above or below another
+  Mesh marks;  // lies exactly on the ground at its vertices: to be drawn after it, with an offset
 };
 
-// Pieces of about tile_m along the road. Every vertex lies on SUELO. The outer edge meets the lattice's triangles without
-// a gap: there are vertices wherever it passes from one of them to another.
-std::vector<RoadTile> BuildRoad(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice, double tile_m = 128.0);
+// Pieces of about tile_m along the road. Every vertex lies on SUELO. The outer edge meets the lattice's triangles
+// without a gap: there are vertices wherever it passes from one of them to another.
+std::vector<RoadTile> BuildRoad(const road::World& world, const road::Road& road, const Ribbon& ribbon,
+                                const Lattice& lattice, double tile_m = 128.0);
 
 }  // namespace rodeira::scene

@@ -53,7 +53,8 @@ std::vector<Polygon> Subtract(const Polygon& polygon, const std::array<Eigen::Ve
 }
 
 RibbonCover::RibbonCover(const Lattice& lattice, const std::vector<Ribbon>& ribbons)
-    : rows_(lattice.rows()), touched_(static_cast<std::size_t>(lattice.columns()) * static_cast<std::size_t>(lattice.rows())) {
+    : rows_(lattice.rows()),
+      touched_(static_cast<std::size_t>(lattice.columns()) * static_cast<std::size_t>(lattice.rows())) {
   for (const Ribbon& ribbon : ribbons) {
     for (std::size_t i = 0; i + 1 < ribbon.lines.size(); ++i) {
       const auto quad = ribbon.Quad(i);
@@ -65,7 +66,8 @@ RibbonCover::RibbonCover(const Lattice& lattice, const std::vector<Ribbon>& ribb
       const Eigen::Vector2i first = lattice.CellAt(low.x(), low.y()), last = lattice.CellAt(high.x(), high.y());
       for (int column = first.x(); column <= last.x(); ++column) {
         for (int row = first.y(); row <= last.y(); ++row) {
-          cells_.emplace_back(static_cast<std::int64_t>(column) * rows_ + row, static_cast<std::uint32_t>(quads_.size()));
+          cells_.emplace_back(static_cast<std::int64_t>(column) * rows_ + row,
+                              static_cast<std::uint32_t>(quads_.size()));
         }
       }
       quads_.push_back(quad);
@@ -92,8 +94,10 @@ std::vector<Polygon> RibbonCover::Remainder(int column, int row, const Polygon& 
       double inside = Area(piece);
       std::vector<Polygon> outside = Subtract(piece, hole);
       for (const Polygon& part : outside) inside -= Area(part);
-      if (inside <= kLeastArea_m2) left.push_back(piece);  // they do not overlap: the piece stays uncut
-      else left.insert(left.end(), std::make_move_iterator(outside.begin()), std::make_move_iterator(outside.end()));
+      if (inside <= kLeastArea_m2)
+        left.push_back(piece);  // they do not overlap: the piece stays uncut
+      else
+        left.insert(left.end(), std::make_move_iterator(outside.begin()), std::make_move_iterator(outside.end()));
     }
     pieces = std::move(left);
   }

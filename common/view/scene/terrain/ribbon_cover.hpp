@@ -22,7 +22,9 @@ class RibbonCover {
  public:
   RibbonCover(const Lattice& lattice, const std::vector<Ribbon>& ribbons);
 
-  bool Touches(int column, int row) const { return touched_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row)]; }
+  bool Touches(int column, int row) const {
+    return touched_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) + static_cast<std::size_t>(row)];
+  }
   // What the ribbons leave of a triangle of the cell.
   std::vector<Polygon> Remainder(int column, int row, const Polygon& triangle) const;
 

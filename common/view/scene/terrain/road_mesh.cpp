@@ -4,8 +4,8 @@
 #include <map>
 
 #include "common/view/scene/ground_materials/colours.hpp"
-#include "common/view/scene/terrain/ribbon.hpp"
 #include "common/view/scene/ground_materials/skin.hpp"
+#include "common/view/scene/terrain/ribbon.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -17,7 +17,7 @@ struct Strip {
   double from_t_m;
   double to_t_m;
   Material material;
-  ground::Surface surface;  // of the road's band, or of the verge that the blend begins with
+  ground::Surface surface;   // of the road's band, or of the verge that the blend begins with
   bool outer_right = false;  // its right edge is the ribbon's
   bool outer_left = false;
 };
@@ -30,14 +30,16 @@ std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
   const ground::Surface verge = section.spec().verge.surface;
   std::vector<Strip> strips;
   for (int k = kCount; k > 0; --k) {
-    strips.push_back({section.verge_right_m() - blend * kBlendParts[k], section.verge_right_m() - blend * kBlendParts[k - 1], ground, verge});
+    strips.push_back({section.verge_right_m() - blend * kBlendParts[k],
+                      section.verge_right_m() - blend * kBlendParts[k - 1], ground, verge});
   }
   for (const road::Band& band : section.bands()) {
     const Material own = MaterialOf(band.surface);
     strips.push_back({band.from_t_m, band.to_t_m, own == Material::kGround ? ground : own, band.surface});
   }
   for (int k = 0; k < kCount; ++k) {
-    strips.push_back({section.verge_left_m() + blend * kBlendParts[k], section.verge_left_m() + blend * kBlendParts[k + 1], ground, verge});
+    strips.push_back({section.verge_left_m() + blend * kBlendParts[k],
+                      section.verge_left_m() + blend * kBlendParts[k + 1], ground, verge});
   }
   strips.front().from_t_m = section.blend_right_m();
   strips.front().outer_right = true;
@@ -49,7 +51,8 @@ std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
 // Makes the triangles of one tile.
 class Weaver {
  public:
-  Weaver(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice, const Eigen::Vector3d& origin_W)
+  Weaver(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice,
+         const Eigen::Vector3d& origin_W)
       : world_(world), section_(road.section()), ribbon_(ribbon), lattice_(lattice), origin_W_(origin_W) {}
 
   // The strip between the lines of numbers from and to.
@@ -57,10 +60,13 @@ class Weaver {
     Mesh& mesh = MeshOf(strip.material);
     std::vector<Vertex> right, left;
     for (std::size_t i = from; i <= to; ++i) {
-      right.push_back(Place(mesh, strip, ribbon_.lines[i], ribbon_.lines[i].At(strip.from_t_m), strip.from_t_m, strip.outer_right || IsEnd(i)));
-      left.push_back(Place(mesh, strip, ribbon_.lines[i], ribbon_.lines[i].At(strip.to_t_m), strip.to_t_m, strip.outer_left || IsEnd(i)));
+      right.push_back(Place(mesh, strip, ribbon_.lines[i], ribbon_.lines[i].At(strip.from_t_m), strip.from_t_m,
+                            strip.outer_right || IsEnd(i)));
+      left.push_back(Place(mesh, strip, ribbon_.lines[i], ribbon_.lines[i].At(strip.to_t_m), strip.to_t_m,
+                           strip.outer_left || IsEnd(i)));
     }
-    for (std::size_t i = from; i < to; ++i) Quad(mesh, strip, i, right[i - from], right[i + 1 - from], left[i + 1 - from], left[i - from]);
+    for (std::size_t i = from; i < to; ++i)
+      Quad(mesh, strip, i, right[i - from], right[i + 1 - from], left[i + 1 - from], left[i - from]);
   }
 
   std::vector<Mesh> Take() {
@@ -97,7 +103,8 @@ class Weaver {
   }
 
   // A vertex at p_W. On the ribbon's edge the terrain's triangle gives it everything, so that no seam is seen.
-  Vertex Place(Mesh& mesh, const Strip& strip, const CrossLine& line, const Eigen::Vector2d& p_W, double t_m, bool on_edge) const {
+  Vertex Place(Mesh& mesh, const Strip& strip, const CrossLine& line, const Eigen::Vector2d& p_W, double t_m,
+               bool on_edge) const {
     Vertex vertex{0, true, p_W, t_m};
     const Lattice::Sample wild = lattice_.At(p_W.x(), p_W.y());
     if (on_edge && wild.inside) {
@@ -115,7 +122,8 @@ class Weaver {
       const double wildness = Wildness(t_m, line.beyond_m);
       Colour verge = GroundColour(strip.surface, p_W.x(), p_W.y(), Eigen::Vector3d::UnitZ());
       const double beside = std::max(t_m - section_.paved_left_m(), section_.paved_right_m() - t_m);
-      if (beside < 0.5) verge = Mix(verge, SurfaceColour(ground::Surface::kGravel), 0.6);  // little grows right beside the road
+      if (beside < 0.5)
+        verge = Mix(verge, SurfaceColour(ground::Surface::kGravel), 0.6);  // little grows right beside the road
       colour = Mix(verge, wild.colour, std::max(wildness, line.beyond_m != 0.0 ? 0.5 : 0.0));
       normal = ((1.0 - wildness) * normal + wildness * wild.normal_W).normalized();
     }
@@ -123,7 +131,8 @@ class Weaver {
     return vertex;
   }
 
-  // Vertices on the ribbon's edge between two of its corners, where it passes from one of the terrain's triangles to another.
+  // Vertices on the ribbon's edge between two of its corners, where it passes from one of the terrain's triangles to
+  // another.
   std::vector<std::uint32_t> Between(Mesh& mesh, const Vertex& a, const Vertex& b) const {
     std::vector<std::uint32_t> indices;
     for (const double part : lattice_.Crossings(a.p_W, b.p_W)) {
@@ -135,10 +144,12 @@ class Weaver {
   }
 
   // Corners counter-clockwise: right and left on line i, right and left on line i + 1.
-  void Quad(Mesh& mesh, const Strip& strip, std::size_t i, const Vertex& right, const Vertex& next_right, const Vertex& next_left, const Vertex& left) const {
+  void Quad(Mesh& mesh, const Strip& strip, std::size_t i, const Vertex& right, const Vertex& next_right,
+            const Vertex& next_left, const Vertex& left) const {
     if (!right.inside || !next_right.inside || !next_left.inside || !left.inside) return;
     const std::array<const Vertex*, 4> corners = {&right, &next_right, &next_left, &left};
-    const std::array<bool, 4> on_edge = {strip.outer_right, IsEnd(i + 1), strip.outer_left, IsEnd(i)};  // of the side after each
+    const std::array<bool, 4> on_edge = {strip.outer_right, IsEnd(i + 1), strip.outer_left,
+                                         IsEnd(i)};  // of the side after each
     // The fan starts at a corner neither of whose sides is on the ribbon's edge, where there is one.
     std::size_t apex = 0;
     for (std::size_t k = 0; k < 4; ++k) {
@@ -152,7 +163,8 @@ class Weaver {
       const std::size_t corner = (apex + k) % 4;
       ring.push_back(corners[corner]->index);
       if (!on_edge[corner]) continue;
-      for (const std::uint32_t index : Between(mesh, *corners[corner], *corners[(corner + 1) % 4])) ring.push_back(index);
+      for (const std::uint32_t index : Between(mesh, *corners[corner], *corners[(corner + 1) % 4]))
+        ring.push_back(index);
     }
     for (std::size_t k = 1; k + 1 < ring.size(); ++k) mesh.AddTriangle(ring[0], ring[k], ring[k + 1]);
   }
@@ -177,14 +189,16 @@ std::vector<double> CutsOf(const road::Mark& mark, const road::Section& section)
 }
 
 // One painted piece between two s, cut at the road's own lines between them.
-void Paint(const road::World& world, const road::Road& road, const Ribbon& ribbon, const road::Mark& mark, double from_s, double to_s, Mesh& mesh) {
+void Paint(const road::World& world, const road::Road& road, const Ribbon& ribbon, const road::Mark& mark,
+           double from_s, double to_s, Mesh& mesh) {
   std::vector<double> stations = {from_s};
   for (std::size_t i = ribbon.first; i <= ribbon.last; ++i) {
     const double s = ribbon.lines[i].s_m;
     if (s > from_s + 1e-6 && s < to_s - 1e-6) stations.push_back(s);
   }
   stations.push_back(to_s);
-  const Colour colour = mark.colour == road::MarkColour::kYellow ? Colour::Of(0xe5b52e) : SurfaceColour(ground::Surface::kRoadMark);
+  const Colour colour =
+      mark.colour == road::MarkColour::kYellow ? Colour::Of(0xe5b52e) : SurfaceColour(ground::Surface::kRoadMark);
   const std::vector<double> cuts = CutsOf(mark, road.section());
   std::vector<std::uint32_t> row, before;
   for (const double s : stations) {
@@ -193,7 +207,8 @@ void Paint(const road::World& world, const road::Road& road, const Ribbon& ribbo
     for (const double t : cuts) {
       const Eigen::Vector2d p = at.p_W + t * at.left_W();
       const road::SurfacePoint ground = world.At(p.x(), p.y());
-      row.push_back(mesh.Add({p.x(), p.y(), ground.z_m}, Eigen::Vector3d(-ground.slope_x, -ground.slope_y, 1.0).normalized(), colour));
+      row.push_back(mesh.Add({p.x(), p.y(), ground.z_m},
+                             Eigen::Vector3d(-ground.slope_x, -ground.slope_y, 1.0).normalized(), colour));
     }
     for (std::size_t k = 0; k + 1 < row.size() && !before.empty(); ++k) {
       mesh.AddTriangle(before[k], row[k], row[k + 1]);
@@ -205,7 +220,8 @@ void Paint(const road::World& world, const road::Road& road, const Ribbon& ribbo
 
 }  // namespace
 
-std::vector<RoadTile> BuildRoad(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice, double tile_m) {
+std::vector<RoadTile> BuildRoad(const road::World& world, const road::Road& road, const Ribbon& ribbon,
+                                const Lattice& lattice, double tile_m) {
   const std::vector<Strip> strips = StripsOf(road.section(), lattice.material());
   std::vector<Strip> wild = strips;  // past the ends nothing is paved
   for (Strip& strip : wild) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kTileCells = 32;
 constexpr std::array<float, kTerrainLevels> kSeen_m = {450.0F, 1'300.0F, 1e9F};  // from the tile's edge
-constexpr std::array<int, kTerrainLevels> kStrides = {1, 2, 8};  // cells a block, level by level
+constexpr std::array<int, kTerrainLevels> kStrides = {1, 2, 8};                  // cells a block, level by level
 
 struct Span {  // of cells: [from, to)
   int from;
@@ -20,7 +20,12 @@ struct Span {  // of cells: [from, to)
 class TileWeaver {
  public:
   TileWeaver(const Lattice& lattice, const RibbonCover& cover, Span columns, Span rows, int stride, Mesh& mesh)
-      : lattice_(lattice), cover_(cover), columns_(columns), rows_(rows), stride_(stride), mesh_(mesh),
+      : lattice_(lattice),
+        cover_(cover),
+        columns_(columns),
+        rows_(rows),
+        stride_(stride),
+        mesh_(mesh),
         indices_(static_cast<std::size_t>((columns.to - columns.from + 1) * (rows.to - rows.from + 1)), kNone) {}
 
   void Weave() {
@@ -33,7 +38,8 @@ class TileWeaver {
   static constexpr std::uint32_t kNone = 0xffffffffU;
 
   bool IsKnown(int column, int row) const {
-    return lattice_.IsKnown(column, row) && lattice_.IsKnown(column + 1, row) && lattice_.IsKnown(column, row + 1) && lattice_.IsKnown(column + 1, row + 1);
+    return lattice_.IsKnown(column, row) && lattice_.IsKnown(column + 1, row) && lattice_.IsKnown(column, row + 1) &&
+           lattice_.IsKnown(column + 1, row + 1);
   }
 
   // A block drawn cell by cell: it is small, or a road or a void is near.
@@ -48,12 +54,14 @@ class TileWeaver {
   }
   // Whether a coarse block must show every post on its side towards the block at (column, row).
   bool NeedsPosts(int column, int row) const {
-    if (column < columns_.from || column >= columns_.to || row < rows_.from || row >= rows_.to) return true;  // the tile's edge
+    if (column < columns_.from || column >= columns_.to || row < rows_.from || row >= rows_.to)
+      return true;  // the tile's edge
     return IsFine(column, row);
   }
 
   std::uint32_t Post(int column, int row) {
-    std::uint32_t& index = indices_[static_cast<std::size_t>((column - columns_.from) * (rows_.to - rows_.from + 1) + row - rows_.from)];
+    std::uint32_t& index =
+        indices_[static_cast<std::size_t>((column - columns_.from) * (rows_.to - rows_.from + 1) + row - rows_.from)];
     if (index == kNone) {
       const Lattice::Sample post = lattice_.Post(column, row);
       index = mesh_.Add(post.p_W, post.normal_W, post.colour);
@@ -92,8 +100,11 @@ class TileWeaver {
       bool known = true;
       for (const Eigen::Vector2i& post : half) known = known && lattice_.IsKnown(post.x(), post.y());
       if (!known) continue;
-      if (touched) CutTriangle(column, row, half);
-      else mesh_.AddTriangle(Post(half[0].x(), half[0].y()), Post(half[1].x(), half[1].y()), Post(half[2].x(), half[2].y()));
+      if (touched)
+        CutTriangle(column, row, half);
+      else
+        mesh_.AddTriangle(Post(half[0].x(), half[0].y()), Post(half[1].x(), half[1].y()),
+                          Post(half[2].x(), half[2].y()));
     }
   }
 
@@ -111,8 +122,12 @@ class TileWeaver {
         const double b = Area({triangle[0], p, triangle[2]}) / whole, c = Area({triangle[0], triangle[1], p}) / whole;
         const double a = 1.0 - b - c;
         const double z = a * corners[0].p_W.z() + b * corners[1].p_W.z() + c * corners[2].p_W.z();
-        const Eigen::Vector3d normal = (a * corners[0].normal_W + b * corners[1].normal_W + c * corners[2].normal_W).normalized();
-        const Colour colour = b + c > 1e-9 ? Mix(corners[0].colour, Mix(corners[1].colour, corners[2].colour, c / (b + c)), std::min(b + c, 1.0)) : corners[0].colour;
+        const Eigen::Vector3d normal =
+            (a * corners[0].normal_W + b * corners[1].normal_W + c * corners[2].normal_W).normalized();
+        const Colour colour =
+            b + c > 1e-9
+                ? Mix(corners[0].colour, Mix(corners[1].colour, corners[2].colour, c / (b + c)), std::min(b + c, 1.0))
+                : corners[0].colour;
         ring.push_back(mesh_.Add({p.x(), p.y(), z}, normal, colour));
       }
       for (std::size_t k = 1; k + 1 < ring.size(); ++k) mesh_.AddTriangle(ring[0], ring[k], ring[k + 1]);
@@ -129,7 +144,9 @@ class TileWeaver {
 
 }  // namespace
 
-float TerrainSeen_m(const TerrainTile& tile, std::size_t level) { return kSeen_m[level] + static_cast<float>(tile.radius_m); }
+float TerrainSeen_m(const TerrainTile& tile, std::size_t level) {
+  return kSeen_m[level] + static_cast<float>(tile.radius_m);
+}
 
 std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons) {
   const RibbonCover cover(lattice, ribbons);
@@ -140,7 +157,8 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<
       const Span rows{row, std::min(row + kTileCells, lattice.rows() - 1)};
       TerrainTile tile;
       tile.column = column / kTileCells, tile.row = row / kTileCells;
-      const Eigen::Vector3d low = lattice.Post(columns.from, rows.from).p_W, high = lattice.Post(columns.to, rows.to).p_W;
+      const Eigen::Vector3d low = lattice.Post(columns.from, rows.from).p_W,
+                            high = lattice.Post(columns.to, rows.to).p_W;
       const Eigen::Vector3d origin = OriginNear(0.5 * (low + high));
       for (std::size_t level = 0; level < kTerrainLevels; ++level) {
         Mesh& mesh = tile.levels[level];
@@ -148,7 +166,8 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<
         mesh.origin_W = origin;
         TileWeaver(lattice, cover, columns, rows, kStrides[level], mesh).Weave();
         // Where a road winds through the tile, larger blocks may spare nothing.
-        if (level > 0 && mesh.triangle_count() >= tile.levels[level - 1].triangle_count()) mesh = tile.levels[level - 1];
+        if (level > 0 && mesh.triangle_count() >= tile.levels[level - 1].triangle_count())
+          mesh = tile.levels[level - 1];
       }
       const Mesh& finest = tile.levels[0];
       if (finest.triangles.empty()) continue;

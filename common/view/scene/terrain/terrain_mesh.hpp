@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "common/view/scene/terrain/lattice.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/terrain/lattice.hpp"
 #include "common/view/scene/terrain/ribbon.hpp"
 
 namespace rodeira::scene {

@@ -11,8 +11,9 @@ constexpr double kSameSlope = 1e-6;
 
 }  // namespace
 
-std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d& a_W, double a_z_m, const Eigen::Vector2d& b_W, double b_z_m,
-                                  const BendRange& range, bool straight_ends) {
+std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d& a_W, double a_z_m,
+                                  const Eigen::Vector2d& b_W, double b_z_m, const BendRange& range,
+                                  bool straight_ends) {
   const double length_m = (b_W - a_W).norm();
   if (length_m < 4.0 * range.margin_m) return std::nullopt;
   const auto at = [&](double part) { return ground(a_W + part * (b_W - a_W)); };
@@ -37,7 +38,8 @@ std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d&
   const Eigen::Vector2d along = (b_W - a_W) / length_m;
   const double inside = kInside_m / length_m;
   const road::SurfacePoint first = at(inside), last = at(1.0 - inside);
-  const double rise_a = along.dot(Eigen::Vector2d(first.slope_x, first.slope_y)), rise_b = along.dot(Eigen::Vector2d(last.slope_x, last.slope_y));
+  const double rise_a = along.dot(Eigen::Vector2d(first.slope_x, first.slope_y)),
+               rise_b = along.dot(Eigen::Vector2d(last.slope_x, last.slope_y));
   const double margin = range.margin_m / length_m;
   if (std::fabs(rise_a - rise_b) > kSameSlope) {
     const double part = (b_z_m - a_z_m - rise_b * length_m) / (rise_a - rise_b) / length_m;

@@ -18,7 +18,8 @@ constexpr BendRange kEdge = {0.003, 0.02, 2.0};
 
 }  // namespace
 
-void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge, const std::array<bool, 4>& decks) {
+void RefineEdges(const road::World& world, const TileKey& tile, std::vector<GridPoint>& edge,
+                 const std::array<bool, 4>& decks) {
   const auto size = static_cast<std::int32_t>(kTileSteps);
   std::set<GridPoint> points(edge.begin(), edge.end());
   std::vector<road::SurfacePoint> levels;
@@ -33,7 +34,8 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
         if (point_at(k) == p) places.push_back(k);
       }
     }
-    // Each of the ground's levels between two places, also of those that are only below a deck: between the places where lines cross the edge, it is one level.
+    // Each of the ground's levels between two places, also of those that are only below a deck: between the places
+    // where lines cross the edge, it is one level.
     const auto refine = [&](std::size_t level) {
       const GroundAt ground = [&, level](const Eigen::Vector2d& p_W) {
         if (level == 0) return world.At(p_W.x(), p_W.y());
@@ -47,8 +49,10 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
         return seen.empty() ? 0.0 : seen[std::min(level, seen.size() - 1)].z_m;
       };
       std::vector<std::int32_t> more;
-      const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b, double at_a, double at_b) {
-        const auto part = BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
+      const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b,
+                                                                                         double at_a, double at_b) {
+        const auto part =
+            BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
         if (!part) return;
         const auto bend = static_cast<std::int32_t>(a + std::lround(*part * (b - a)));
         const double at_bend = ground(ToWorld(tile, point_at(bend))).z_m;

@@ -10,17 +10,17 @@
 namespace rodeira::scene {
 namespace {
 
-// SUELO below a height is asked with hints that lie deeper and deeper: the nearest road to a hint just below a bridge is
-// the bridge itself.
+// SUELO below a height is asked with hints that lie deeper and deeper: the nearest road to a hint just below a bridge
+// is the bridge itself.
 constexpr double kDeeper_m[] = {2.6, 4.6, 8.0};
-constexpr double kWithin_m = 0.02;  // so far from a corner a face is asked
-constexpr double kFarthest_m = 0.5; // or, where it must be, so far
-constexpr double kSteepest = 4.0;   // slopes beyond this are a step's, not the ground's
-constexpr double kOnDeck_m = 0.3;   // so much may be laid on a deck
+constexpr double kWithin_m = 0.02;   // so far from a corner a face is asked
+constexpr double kFarthest_m = 0.5;  // or, where it must be, so far
+constexpr double kSteepest = 4.0;    // slopes beyond this are a step's, not the ground's
+constexpr double kOnDeck_m = 0.3;    // so much may be laid on a deck
 constexpr double kSameLevel_m = 1e-6;
 
-// Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no road is, or where
-// the one that stands on the ground is what it answers from.
+// Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no
+// road is, or where the one that stands on the ground is what it answers from.
 bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
   if (world.network() == nullptr || world.open_drive() || !world.roads().empty()) return false;
   thread_local std::vector<network::Surfacing> surfaces;
@@ -32,7 +32,8 @@ bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
   return surfaces.size() == 1 && answers && road.junction.empty() && !road::IsExempt(road, place.s_m);
 }
 
-// Whether a height is a deck's: there the land below comes up to it where the bridge begins, and is a level of its own however near it is.
+// Whether a height is a deck's: there the land below comes up to it where the bridge begins, and is a level of its own
+// however near it is.
 bool IsDeck(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
   if (world.network() == nullptr) return false;
   thread_local std::vector<network::Surfacing> surfaces;
@@ -47,7 +48,8 @@ bool IsDeck(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
 
 }  // namespace
 
-void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t most, std::vector<road::SurfacePoint>& levels) {
+void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t most,
+              std::vector<road::SurfacePoint>& levels) {
   levels.clear();
   road::SurfacePoint top = world.At(p_W.x(), p_W.y());
   if (!top.inside) {
@@ -80,14 +82,15 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
   }
 }
 
-void LevelsWithin(const road::World& world, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t most,
-                  std::vector<road::SurfacePoint>& levels, std::size_t least) {
+void LevelsWithin(const road::World& world, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W,
+                  std::size_t most, std::vector<road::SurfacePoint>& levels, std::size_t least) {
   const Eigen::Vector2d way = towards_W - p_W;
   const double length = way.norm();
   double off_m = std::min(kWithin_m, 0.3 * length);
   Eigen::Vector2d off = length > 0.0 ? Eigen::Vector2d(off_m / length * way) : Eigen::Vector2d::Zero();
   LevelsAt(world, p_W + off, most, levels);
-  while (off_m > 0.0 && !levels.empty() && levels.size() < std::min(least, most) && 2.0 * off_m <= std::min(length, kFarthest_m)) {
+  while (off_m > 0.0 && !levels.empty() && levels.size() < std::min(least, most) &&
+         2.0 * off_m <= std::min(length, kFarthest_m)) {
     off_m *= 2.0, off *= 2.0;
     LevelsAt(world, p_W + off, most, levels);
   }

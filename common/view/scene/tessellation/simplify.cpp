@@ -98,7 +98,8 @@ tessellation::GridLine TileChains::Thin(const Chain& chain, const Tolerance& tol
   return line;
 }
 
-void TileChains::Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance, std::vector<bool>& kept) {
+void TileChains::Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance,
+                      std::vector<bool>& kept) {
   const Eigen::Vector3d& a = chain[from].at_W;
   const Eigen::Vector3d along = chain[to].at_W - a;
   const double length2 = along.head<2>().squaredNorm();

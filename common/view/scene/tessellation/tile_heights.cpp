@@ -9,8 +9,12 @@
 namespace rodeira::scene {
 namespace {
 
-bool IsCorner(const tessellation::GridPoint& p) { return (p.x == 0 || p.x == kTileSteps) && (p.y == 0 || p.y == kTileSteps); }
-bool Before(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); }
+bool IsCorner(const tessellation::GridPoint& p) {
+  return (p.x == 0 || p.x == kTileSteps) && (p.y == 0 || p.y == kTileSteps);
+}
+bool Before(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+}
 
 }  // namespace
 
@@ -21,8 +25,10 @@ TileHeights::TileHeights(const road::World& world, const TilePlan& plan) : world
   FindSides();
   FindAims();
   for (std::uint32_t point = 0; point < count; ++point) {
-    if (edge_of_[point] != 0) AskOnEdge(point);
-    else AskInside(point);
+    if (edge_of_[point] != 0)
+      AskOnEdge(point);
+    else
+      AskInside(point);
   }
 }
 
@@ -101,8 +107,8 @@ void TileHeights::FindAims() {
   }
 }
 
-// Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the point has more levels, a face's
-// own are those nearest to its triangle there.
+// Beside the end of a road in the air a corner's question may be answered from the deck: where another face at the
+// point has more levels, a face's own are those nearest to its triangle there.
 void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most) {
   if (corner.count == most) return Ask(p_W, corner.towards_W, corner.count, heights_, corner.count);
   thread_local std::vector<CornerHeight> all;
@@ -116,7 +122,9 @@ void TileHeights::AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, st
       const road::SurfacePoint& own = within[std::min(i, within.size() - 1)];
       z_m = own.z_m + Eigen::Vector2d(own.slope_x, own.slope_y).dot(p_W - corner.towards_W);
     }
-    heights_.push_back(*std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) { return std::fabs(a.z_m - z_m) < std::fabs(b.z_m - z_m); }));
+    heights_.push_back(*std::min_element(all.begin(), all.end(), [&](const CornerHeight& a, const CornerHeight& b) {
+      return std::fabs(a.z_m - z_m) < std::fabs(b.z_m - z_m);
+    }));
   }
 }
 
@@ -127,7 +135,8 @@ std::size_t TileHeights::MostLevels(std::uint32_t point) {
 }
 
 // Adds `count` heights; where there are fewer than `least` levels the next place within is asked.
-void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights, std::size_t least) const {
+void TileHeights::Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
+                      std::vector<CornerHeight>& heights, std::size_t least) const {
   thread_local std::vector<road::SurfacePoint> levels;
   LevelsWithin(world_, p_W, towards_W, count, levels, least);
   for (std::size_t i = 0; i < count; ++i) {

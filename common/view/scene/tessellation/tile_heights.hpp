@@ -26,8 +26,8 @@ class TileHeights {
 
   // From the highest to the lowest, as many as the face has levels.
   std::span<const CornerHeight> At(std::uint32_t point, std::uint32_t face) const;
-  // The way from one height to another straight up or down at a point, over all heights that any face has there between them:
-  // walls that meet at a point have the same vertices.
+  // The way from one height to another straight up or down at a point, over all heights that any face has there between
+  // them: walls that meet at a point have the same vertices.
   std::vector<double> Way(std::uint32_t point, double from_m, double to_m) const;
 
  private:
@@ -47,7 +47,8 @@ class TileHeights {
   // Calls use(corner) for each face at a point.
   template <class Use>
   void ForEachCorner(std::uint32_t point, const Use& use) {
-    for (std::uint32_t i = first_[point]; i != tessellation::Triangulation::kNone; i = corners_[i].next) use(corners_[i]);
+    for (std::uint32_t i = first_[point]; i != tessellation::Triangulation::kNone; i = corners_[i].next)
+      use(corners_[i]);
   }
   Corner& CornerOf(std::uint32_t point, std::uint32_t face);
   OnEdge& EdgeOf(std::uint32_t point);
@@ -55,16 +56,19 @@ class TileHeights {
   void FindAims();
   void AskOfFace(const Eigen::Vector2d& p_W, const Corner& corner, std::size_t most);
   std::size_t MostLevels(std::uint32_t point);  // of the faces there
-  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count, std::vector<CornerHeight>& heights, std::size_t least = 1) const;
-  std::span<CornerHeight> HeightsOf(const Corner& corner) { return std::span(heights_).subspan(corner.first, corner.count); }
+  void Ask(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t count,
+           std::vector<CornerHeight>& heights, std::size_t least = 1) const;
+  std::span<CornerHeight> HeightsOf(const Corner& corner) {
+    return std::span(heights_).subspan(corner.first, corner.count);
+  }
   void AskInside(std::uint32_t point);
   void AskOnEdge(std::uint32_t point);
 
   const road::World& world_;
   const TilePlan& plan_;
   std::vector<Corner> corners_;
-  std::vector<std::uint32_t> first_;          // by point: of corners_
-  std::vector<std::uint32_t> edge_of_;        // by point: where in edges_, one more; 0: not on the tile's edge
+  std::vector<std::uint32_t> first_;    // by point: of corners_
+  std::vector<std::uint32_t> edge_of_;  // by point: where in edges_, one more; 0: not on the tile's edge
   std::vector<OnEdge> edges_;
   std::vector<CornerHeight> heights_;
 };

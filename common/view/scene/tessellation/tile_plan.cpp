@@ -13,11 +13,13 @@ using tessellation::GridPoint;
 using tessellation::Triangulation;
 
 constexpr std::uint32_t kNone = Triangulation::kNone;
-constexpr double kTerrainsRoom_m = 0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
+constexpr double kTerrainsRoom_m =
+    0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 
 class Planner {
  public:
-  Planner(const road::World& world, const Land& land, const TileKey& key, int level) : world_(world), land_(land), level_(static_cast<std::size_t>(level)) {
+  Planner(const road::World& world, const Land& land, const TileKey& key, int level)
+      : world_(world), land_(land), level_(static_cast<std::size_t>(level)) {
     plan_.key = key;
   }
 
@@ -26,7 +28,8 @@ class Planner {
     for (const GridPoint& p : edge) t.Insert(p);
     const bool decks = land_.decks.contains(plan_.key);
     for (const tessellation::GridSegment& segment : segments) {
-      const std::vector<GridPoint> line = decks ? LineOverGround(world_, plan_.key, segment, static_cast<int>(level_)) : std::vector<GridPoint>{segment.a, segment.b};
+      const std::vector<GridPoint> line = decks ? LineOverGround(world_, plan_.key, segment, static_cast<int>(level_))
+                                                : std::vector<GridPoint>{segment.a, segment.b};
       for (std::size_t i = 0; i + 1 < line.size(); ++i) {
         const std::uint32_t a = t.Insert(line[i]), b = t.Insert(line[i + 1]);
         fixed_.push_back({a, b});
@@ -48,7 +51,8 @@ class Planner {
   // A face is what SUELO says in the middle of its thickest triangle.
   void Classify() {
     const auto triangles = plan_.triangles.triangles();
-    const std::size_t count = plan_.face_of.empty() ? 0 : *std::max_element(plan_.face_of.begin(), plan_.face_of.end()) + 1;
+    const std::size_t count =
+        plan_.face_of.empty() ? 0 : *std::max_element(plan_.face_of.begin(), plan_.face_of.end()) + 1;
     std::vector<double> thickest(count, -1.0);
     std::vector<std::uint32_t> chosen(count, 0);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -59,7 +63,8 @@ class Planner {
     for (std::size_t face = 0; face < count; ++face) {
       const Eigen::Vector2d p_W = ToWorld(plan_.key, MiddleOf(plan_.triangles, triangles[chosen[face]]));
       LevelsAt(world_, p_W, kMostLevels, plan_.faces[face].levels);
-      for (const road::SurfacePoint& level : plan_.faces[face].levels) plan_.faces[face].skins.push_back(SkinAt(world_, p_W, level));
+      for (const road::SurfacePoint& level : plan_.faces[face].levels)
+        plan_.faces[face].skins.push_back(SkinAt(world_, p_W, level));
       plan_.faces[face].land = plan_.faces[face].skins.empty() || plan_.faces[face].skins.front().land;
     }
   }
@@ -74,7 +79,8 @@ class Planner {
   bool OwnLines() const { return land_.posts.Holds(plan_.key) && EveryPost() == 1; }
   LandLines LinesOverLand() const {
     LandLines lines;
-    if (land_.posts.Holds(plan_.key)) return {land_.posts.Columns(plan_.key, EveryPost()), land_.posts.Rows(plan_.key, EveryPost()), 1.0 / kStep_m};
+    if (land_.posts.Holds(plan_.key))
+      return {land_.posts.Columns(plan_.key, EveryPost()), land_.posts.Rows(plan_.key, EveryPost()), 1.0 / kStep_m};
     const auto every = static_cast<std::int32_t>(std::lround(kLandSpacings_m[level_] / kStep_m));
     for (std::int32_t k = every; k < kTileSteps; k += every) lines.x.push_back(k), lines.y.push_back(k);
     lines.room = 0.4 * every;
@@ -125,7 +131,7 @@ class Planner {
   const road::World& world_;
   const Land& land_;
   std::size_t level_;
-  bool kept_ = false;            // beyond slopes the land is the terrain's own triangles
+  bool kept_ = false;  // beyond slopes the land is the terrain's own triangles
   bool follows_slopes_ = false;
   TilePlan plan_;
   std::vector<std::array<std::uint32_t, 2>> fixed_;
@@ -140,11 +146,12 @@ double ThicknessOf(const Triangulation& triangles, const Triangulation::Triangle
     const GridPoint &a = p[triangle.corner[k]], &b = p[triangle.corner[(k + 1) % 3]];
     longest = std::max(longest, Squared(a, b));
   }
-  return static_cast<double>(tessellation::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) / std::sqrt(longest);
+  return static_cast<double>(tessellation::Turn(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]])) /
+         std::sqrt(longest);
 }
 
-TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const tessellation::GridSegment> segments,
-                  std::span<const GridPoint> edge, int level) {
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key,
+                  std::span<const tessellation::GridSegment> segments, std::span<const GridPoint> edge, int level) {
   return Planner(world, land, key, level).Plan(segments, edge);
 }
 

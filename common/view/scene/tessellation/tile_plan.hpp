@@ -8,19 +8,21 @@
 #include <vector>
 
 #include "common/core/tessellation/triangulation.hpp"
-#include "common/world/road/world.hpp"
-#include "common/view/scene/tiles/post_lines.hpp"
 #include "common/view/scene/breaklines/road_lines.hpp"
 #include "common/view/scene/ground_materials/skin.hpp"
+#include "common/view/scene/tiles/post_lines.hpp"
 #include "common/view/scene/tiles/slope_squares.hpp"
 #include "common/view/scene/tiles/tile_grid.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
 inline constexpr int kGroundLevels = 4;
 inline constexpr std::size_t kMostLevels = 4;  // of roads over one another
-// How closely the ground is followed, level by level: on roads with their verges, cuts and fills, and on the land beyond.
-inline constexpr std::array<Tolerance, kGroundLevels> kRoadTolerances = {{{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
+// How closely the ground is followed, level by level: on roads with their verges, cuts and fills, and on the land
+// beyond.
+inline constexpr std::array<Tolerance, kGroundLevels> kRoadTolerances = {
+    {{0.001, 0.003}, {0.02, 0.02}, {0.10, 0.10}, {0.50, 0.50}}};
 inline constexpr std::array<double, kGroundLevels> kLandTolerances_m = {0.03, 0.15, 0.6, 2.0};
 inline constexpr std::array<double, kGroundLevels> kLandSpacings_m = {16.0, 16.0, 32.0, 64.0};
 
@@ -54,16 +56,19 @@ struct Land {
   // Whether a tile, or its neighbour at an edge, may have a bridge: west, south, east, north.
   std::array<bool, 4> DecksAtEdges(const TileKey& tile) const {
     const bool own = decks.contains(tile);
-    return {own || decks.contains({tile.column - 1, tile.row}), own || decks.contains({tile.column, tile.row - 1}), own || decks.contains({tile.column + 1, tile.row}),
-            own || decks.contains({tile.column, tile.row + 1})};
+    return {own || decks.contains({tile.column - 1, tile.row}), own || decks.contains({tile.column, tile.row - 1}),
+            own || decks.contains({tile.column + 1, tile.row}), own || decks.contains({tile.column, tile.row + 1})};
   }
   // Of how many posts the land has one at a level.
-  int EveryPost(int level) const { return std::max(1, static_cast<int>(kLandSpacings_m[static_cast<std::size_t>(level)] / posts.spacing_m())); }
+  int EveryPost(int level) const {
+    return std::max(1, static_cast<int>(kLandSpacings_m[static_cast<std::size_t>(level)] / posts.spacing_m()));
+  }
 };
 
 // segments: noded, of the finest level. edge: all points on the tile's edges.
-TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key, std::span<const tessellation::GridSegment> segments,
-                  std::span<const tessellation::GridPoint> edge, int level);
+TilePlan PlanTile(const road::World& world, const Land& land, const TileKey& key,
+                  std::span<const tessellation::GridSegment> segments, std::span<const tessellation::GridPoint> edge,
+                  int level);
 
 // A tile's lines, to be drawn with fewer points at coarser levels.
 class TileChains {
@@ -71,8 +76,8 @@ class TileChains {
   // segments: noded.
   TileChains(std::span<const tessellation::GridSegment> segments, const TileKey& key, const road::World& world);
 
-  // The same lines, noded, with fewer points, none farther from what it leaves out than the tolerance; ends, crossings and points on
-  // the tile's edge stay.
+  // The same lines, noded, with fewer points, none farther from what it leaves out than the tolerance; ends, crossings
+  // and points on the tile's edge stay.
   std::vector<tessellation::GridSegment> Simplified(const Tolerance& tolerance) const;
 
  private:
@@ -82,7 +87,8 @@ class TileChains {
   };
   using Chain = std::vector<Point>;
   static tessellation::GridLine Thin(const Chain& chain, const Tolerance& tolerance);
-  static void Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance, std::vector<bool>& kept);
+  static void Keep(const Chain& chain, std::size_t from, std::size_t to, const Tolerance& tolerance,
+                   std::vector<bool>& kept);
 
   std::vector<Chain> chains_;  // from a knot to the next one, or around
 };

@@ -14,39 +14,50 @@ namespace {
 using tessellation::GridPoint;
 using tessellation::Triangulation;
 
-constexpr double kLongSide = 8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
+constexpr double kLongSide =
+    8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
 constexpr std::uint32_t kNone = Triangulation::kNone;
-// Of points put in where the ground is not met: what bends along many triangles is met from one to the next, and each goes on until nothing is off. At most 76 on real
-// files, and where cuts and fills are followed 83 in the project's worlds.
+// Of points put in where the ground is not met: what bends along many triangles is met from one to the next, and each
+// goes on until nothing is off. At most 76 on real files, and where cuts and fills are followed 83 in the project's
+// worlds.
 constexpr int kRounds = 100;
 constexpr int kSlopeRounds = 100;
-// A tile with so many points is not met any closer: an end where the ground of a file that is possible, and nowhere on earth, is steep over the whole tile. 217 000 were found where a real file banks its lanes by 45 degrees.
+// A tile with so many points is not met any closer: an end where the ground of a file that is possible, and nowhere on
+// earth, is steep over the whole tile. 217 000 were found where a real file banks its lanes by 45 degrees.
 constexpr std::size_t kMostPoints = 1'000'000;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
-constexpr std::array<BendRange, kGroundLevels> kSlopes = {{{0.0019, 0.01, 2.0, 0.25, 0.02}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
-// The land beside OpenDRIVE's roads, in the same way: it is steep where edges of different heights touch, and a step is drawn no steeper than over a
-// side that is left as it is, four margins long.
-constexpr std::array<BendRange, kGroundLevels> kVerges = {{{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
+constexpr std::array<BendRange, kGroundLevels> kSlopes = {
+    {{0.0019, 0.01, 2.0, 0.25, 0.02}, {0.015, 0.02, 2.0}, {0.075, 0.1, 2.0}, {0.375, 0.5, 2.0}}};
+// The land beside OpenDRIVE's roads, in the same way: it is steep where edges of different heights touch, and a step is
+// drawn no steeper than over a side that is left as it is, four margins long.
+constexpr std::array<BendRange, kGroundLevels> kVerges = {
+    {{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kWithin_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
 constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
-constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0}, kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
+constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0},
+                                            kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
 
 // Points on a tile's edge are its neighbour's too, and settled before.
 bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
-BendRange BelowRange(std::size_t level) { return {kSlopes[level].tolerance_m, kSlopes[level].margin_m, kBelowStep_m, kSlopes[level].short_m}; }
+BendRange BelowRange(std::size_t level) {
+  return {kSlopes[level].tolerance_m, kSlopes[level].margin_m, kBelowStep_m, kSlopes[level].short_m};
+}
 
-road::SurfacePoint LevelAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t level, std::vector<road::SurfacePoint>& levels) {
+road::SurfacePoint LevelAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t level,
+                           std::vector<road::SurfacePoint>& levels) {
   LevelsAt(world, p_W, level + 1, levels);
   return levels.empty() ? road::SurfacePoint{} : levels[std::min(level, levels.size() - 1)];
 }
 
 GridPoint PartOf(const GridPoint& p, const GridPoint& q, double part) {
-  const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + part * (to - from))); };
+  const auto between = [&](std::int32_t from, std::int32_t to) {
+    return static_cast<std::int32_t>(std::lround(from + part * (to - from)));
+  };
   return {between(p.x, q.x), between(p.y, q.y)};
 }
 
@@ -76,9 +87,12 @@ class Rounds {
     GridPoint p;
     std::uint32_t near;
   };
-  std::uint32_t NumberOf(const Triangulation::Triangle& t) const { return static_cast<std::uint32_t>(&t - plan_.triangles.triangles().data()); }
+  std::uint32_t NumberOf(const Triangulation::Triangle& t) const {
+    return static_cast<std::uint32_t>(&t - plan_.triangles.triangles().data());
+  }
 
-  // But those on the tile's edge, where a quarter of a side may lie by rounding: the neighbour does not have them. False where nothing is put in.
+  // But those on the tile's edge, where a quarter of a side may lie by rounding: the neighbour does not have them.
+  // False where nothing is put in.
   bool PutIn(std::vector<Fresh>& fresh) {
     std::erase_if(fresh, [](const Fresh& one) { return OnEdge(one.p); });
     for (const Fresh& one : fresh) plan_.triangles.Insert(one.p, one.near);
@@ -95,15 +109,19 @@ class Rounds {
     double z_m = 0.0;
     Eigen::Vector2d slope = Eigen::Vector2d::Zero();
   };
-  Ground GroundWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t level = 0, std::size_t least = 1) {
+  Ground GroundWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t level = 0,
+                      std::size_t least = 1) {
     LevelsWithin(world_, p_W, towards_W, std::max(level + 1, least), levels_, least);
     if (levels_.empty()) return {};
     const road::SurfacePoint& at = levels_[std::min(level, levels_.size() - 1)];
     return {at.z_m, {at.slope_x, at.slope_y}};
   }
-  double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) { return GroundWithin(p_W, towards_W).z_m; }
+  double HeightWithin(const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W) {
+    return GroundWithin(p_W, towards_W).z_m;
+  }
 
-  // Puts points where a triangle, in its middle or at a quarter of a side, is too far from the ground. False where none is.
+  // Puts points where a triangle, in its middle or at a quarter of a side, is too far from the ground. False where none
+  // is.
   bool MeetGround() {
     std::vector<Fresh> fresh;
     const auto triangles = plan_.triangles.triangles();
@@ -113,9 +131,12 @@ class Rounds {
       tried_[i] = triangles[i].corner;
       const bool land = plan_.faces[plan_.face_of[i]].land;
       if (land && kept_ && !SlopesTouch(triangles[i])) continue;  // it is SUELO's own
-      const bool thin = ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
+      const bool thin =
+          ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < (land ? kThinnestLand_m : kThinnestRoad_m)[level_];
       std::optional<Corners> corners;  // asked where they are needed
-      const auto know = [&]() -> const Corners& { return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin)); };
+      const auto know = [&]() -> const Corners& {
+        return corners ? *corners : corners.emplace(CornersOf(triangles[i], plan_.face_of[i], thin));
+      };
       if (!land) CheckSides(triangles[i], thin ? kLongSide * kThinnestRoad_m[level_] : 0.0, know, fresh);
       if (!thin) CheckMiddle(triangles[i], land ? kLandTolerances_m[level_] : kMiddle * RoadTolerance(), know(), fresh);
     }
@@ -136,15 +157,18 @@ class Rounds {
     corners.middle_W = ToWorld(plan_.key, Middle(t));
     for (std::size_t k = 0; k < 3; ++k) {
       corners.at[k] = ToWorld(plan_.key, plan_.triangles.points()[t.corner[k]]);
-      const Ground ground = thin ? GroundWithin(corners.at[k], corners.middle_W, level) : CornerGround(t.corner[k], face, corners.at[k], corners.middle_W, level);
+      const Ground ground = thin ? GroundWithin(corners.at[k], corners.middle_W, level)
+                                 : CornerGround(t.corner[k], face, corners.at[k], corners.middle_W, level);
       corners.z[k] = ground.z_m, corners.slope[k] = ground.slope;
     }
     return corners;
   }
 
   // Of a face at one of its points, asked from within the first triangle there.
-  Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W, const Eigen::Vector2d& towards_W, std::size_t level) {
-    if (first_known_.size() < plan_.triangles.points().size()) first_known_.resize(plan_.triangles.points().size(), kNone);
+  Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W,
+                      const Eigen::Vector2d& towards_W, std::size_t level) {
+    if (first_known_.size() < plan_.triangles.points().size())
+      first_known_.resize(plan_.triangles.points().size(), kNone);
     for (std::uint32_t i = first_known_[point]; i != kNone; i = known_[i].next) {
       if (known_[i].face == face && known_[i].level == level) return known_[i].ground;
     }
@@ -154,13 +178,16 @@ class Rounds {
     return ground;
   }
 
-  static bool IsOff(double middle_z_m, const Corners& c, double tolerance_m) { return std::fabs(middle_z_m - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance_m; }
+  static bool IsOff(double middle_z_m, const Corners& c, double tolerance_m) {
+    return std::fabs(middle_z_m - (c.z[0] + c.z[1] + c.z[2]) / 3.0) > tolerance_m;
+  }
   void CheckMiddle(const Triangulation::Triangle& t, double tolerance_m, const Corners& c, std::vector<Fresh>& fresh) {
     if (IsOff(Height(c.middle_W), c, tolerance_m)) fresh.push_back({Middle(t), NumberOf(t)});
   }
 
-  // Land is followed as roads are, along every side between two of its triangles: toes of slopes and a terrain's own edges run
-  // anywhere. On a terrain at the finest level all of it, at coarser ones and on a plane where slopes may be. False where nothing was put in.
+  // Land is followed as roads are, along every side between two of its triangles: toes of slopes and a terrain's own
+  // edges run anywhere. On a terrain at the finest level all of it, at coarser ones and on a plane where slopes may be.
+  // False where nothing was put in.
   bool MeetSlopes() {
     const BendRange& slope = Slope();
     const bool within_slopes = !world_.open_drive() && (level_ > 0 || kept_ || world_.grid() == nullptr);
@@ -177,7 +204,9 @@ class Rounds {
       const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false);
       FollowSides(triangles[i], plan_.face_of[i], corners, fresh);
       // What bends within a triangle and crosses none of its sides.
-      if (fresh.size() + on_kept_.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m) continue;
+      if (fresh.size() + on_kept_.size() > before ||
+          ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < slope.margin_m)
+        continue;
       const road::SurfacePoint middle = world_.At(corners.middle_W.x(), corners.middle_W.y());
       if (middle.inside && IsOff(middle.z_m, corners, slope.tolerance_m)) fresh.push_back({Middle(triangles[i]), i});
     }
@@ -205,7 +234,8 @@ class Rounds {
     }
   }
 
-  // What lies below decks is followed as slopes are: where a bridge begins, land comes up to it. False where nothing was put in.
+  // What lies below decks is followed as slopes are: where a bridge begins, land comes up to it. False where nothing
+  // was put in.
   bool MeetBelow() {
     std::vector<Fresh> fresh;
     const auto triangles = plan_.triangles.triangles();
@@ -218,8 +248,10 @@ class Rounds {
         const std::size_t before = fresh.size();
         const Corners corners = CornersOf(triangles[i], plan_.face_of[i], false, level);
         FollowBelow(triangles[i], corners, level, fresh);
-        if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlopes[level_].margin_m) continue;
-        if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m)) fresh.push_back({Middle(triangles[i]), i});
+        if (fresh.size() > before || ThicknessOf(plan_.triangles, triangles[i]) * kStep_m < kSlopes[level_].margin_m)
+          continue;
+        if (IsOff(LevelAt(corners.middle_W, level).z_m, corners, kSlopes[level_].tolerance_m))
+          fresh.push_back({Middle(triangles[i]), i});
       }
     }
     return PutIn(fresh);
@@ -227,14 +259,17 @@ class Rounds {
 
   const BendRange& Slope() const { return world_.open_drive() ? kVerges[level_] : kSlopes[level_]; }
   BendRange Below() const { return BelowRange(level_); }
-  road::SurfacePoint LevelAt(const Eigen::Vector2d& p_W, std::size_t level) { return scene::LevelAt(world_, p_W, level, levels_); }
+  road::SurfacePoint LevelAt(const Eigen::Vector2d& p_W, std::size_t level) {
+    return scene::LevelAt(world_, p_W, level, levels_);
+  }
 
   void FollowBelow(const Triangulation::Triangle& t, const Corners& c, std::size_t level, std::vector<Fresh>& fresh) {
     const auto points = plan_.triangles.points();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
       if (t.fixed[k] || t.across[k] == kNone || t.corner[k] > t.corner[n]) continue;  // lines have their points
-      const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k], c.at[n], c.z[n], Below());
+      const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k],
+                                    c.at[n], c.z[n], Below());
       if (!part) continue;
       const GridPoint bend = PartOf(points[t.corner[k]], points[t.corner[n]], *part);
       fresh.push_back({bend, NumberOf(t)});
@@ -265,7 +300,8 @@ class Rounds {
       }
       const Eigen::Vector2d way = c.at[n] - c.at[k];
       const double rise_m = c.z[n] - c.z[k];
-      const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= Slope().tolerance_m && std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
+      const bool straight_ends = std::fabs(c.slope[k].dot(way) - rise_m) <= Slope().tolerance_m &&
+                                 std::fabs(c.slope[n].dot(way) - rise_m) <= Slope().tolerance_m;
       if (!ends && KnownStraight(t.corner[k], t.corner[n])) continue;
       BendRange range = Slope();
       if (!beside_road_[t.corner[k]] && !beside_road_[t.corner[n]]) range.ends_m = 0.0;
@@ -273,11 +309,15 @@ class Rounds {
       if (!part && !ends) SetStraight(t.corner[k], t.corner[n]);
       if (!part) continue;
       const GridPoint p = plan_.triangles.points()[t.corner[k]], q = plan_.triangles.points()[t.corner[n]];
-      const auto between = [&](std::int32_t from, std::int32_t to) { return static_cast<std::int32_t>(std::lround(from + *part * (to - from))); };
+      const auto between = [&](std::int32_t from, std::int32_t to) {
+        return static_cast<std::int32_t>(std::lround(from + *part * (to - from)));
+      };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
       if (OnEdge(bend)) continue;  // nor is its kept side cut
-      if (kept) on_kept_.push_back({bend, t.corner[k], t.corner[n], NumberOf(t)});
-      else fresh.push_back({bend, NumberOf(t)});
+      if (kept)
+        on_kept_.push_back({bend, t.corner[k], t.corner[n], NumberOf(t)});
+      else
+        fresh.push_back({bend, NumberOf(t)});
     }
   }
 
@@ -289,7 +329,8 @@ class Rounds {
     return false;
   }
   void SetStraight(std::uint32_t a, std::uint32_t b) {
-    if (first_straight_.size() < plan_.triangles.points().size()) first_straight_.resize(plan_.triangles.points().size(), kNone);
+    if (first_straight_.size() < plan_.triangles.points().size())
+      first_straight_.resize(plan_.triangles.points().size(), kNone);
     straight_.push_back({b, first_straight_[a]});
     first_straight_[a] = static_cast<std::uint32_t>(straight_.size() - 1);
   }
@@ -336,8 +377,8 @@ class Rounds {
   };
   std::vector<Known> known_;
   std::vector<std::uint32_t> first_known_;  // by point
-  struct Straight {  // a side of the land along which nothing bends
-    std::uint32_t to, next;  // its other end; of the same point
+  struct Straight {                         // a side of the land along which nothing bends
+    std::uint32_t to, next;                 // its other end; of the same point
   };
   std::vector<Straight> straight_;
   std::vector<std::uint32_t> first_straight_;  // by point
@@ -356,14 +397,16 @@ GridPoint MiddleOf(const Triangulation& triangles, const Triangulation::Triangle
 }
 
 void CarryFaces(TilePlan& plan) {
-  for (std::size_t i = plan.face_of.size(); i < plan.triangles.triangles().size(); ++i) plan.face_of.push_back(plan.face_of[plan.triangles.CutFrom(static_cast<std::uint32_t>(i))]);
+  for (std::size_t i = plan.face_of.size(); i < plan.triangles.triangles().size(); ++i)
+    plan.face_of.push_back(plan.face_of[plan.triangles.CutFrom(static_cast<std::uint32_t>(i))]);
 }
 
 void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan) {
   Rounds(world, land, level, followed, plan).Run(followed);
 }
 
-std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& key, const tessellation::GridSegment& segment, int level) {
+std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& key,
+                                      const tessellation::GridSegment& segment, int level) {
   const BendRange below = BelowRange(static_cast<std::size_t>(level));
   std::vector<road::SurfacePoint> levels;
   std::vector<GridPoint> line = {segment.a, segment.b};
@@ -378,8 +421,10 @@ std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& k
         const Eigen::Vector2d a_W = ToWorld(key, line[i]), b_W = ToWorld(key, line[i + 1]);
         const auto part = BendBetween(ground, a_W, ground(a_W).z_m, b_W, ground(b_W).z_m, below);
         const GridPoint bend = part ? PartOf(line[i], line[i + 1], *part) : line[i];
-        if (!part || bend == line[i] || bend == line[i + 1] || OnEdge(bend)) ++i;
-        else line.insert(line.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);
+        if (!part || bend == line[i] || bend == line[i + 1] || OnEdge(bend))
+          ++i;
+        else
+          line.insert(line.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);
       }
     }
   }

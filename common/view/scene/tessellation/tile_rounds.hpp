@@ -15,14 +15,17 @@ struct Followed {
   bool decks = false;   // what lies below bridges
 };
 
-// Puts points into a plan, whose faces are known, where its triangles are farther from SUELO's ground than the level allows.
+// Puts points into a plan, whose faces are known, where its triangles are farther from SUELO's ground than the level
+// allows.
 void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
 
 // A line on a deck or at its edge, with points where what lies below bends.
-std::vector<tessellation::GridPoint> LineOverGround(const road::World& world, const TileKey& key, const tessellation::GridSegment& segment, int level);
+std::vector<tessellation::GridPoint> LineOverGround(const road::World& world, const TileKey& key,
+                                                    const tessellation::GridSegment& segment, int level);
 
 // A triangle's middle, to whole steps.
-tessellation::GridPoint MiddleOf(const tessellation::Triangulation& triangles, const tessellation::Triangulation::Triangle& triangle);
+tessellation::GridPoint MiddleOf(const tessellation::Triangulation& triangles,
+                                 const tessellation::Triangulation::Triangle& triangle);
 
 // New triangles belong to the face that they were cut from.
 void CarryFaces(TilePlan& plan);

@@ -16,17 +16,22 @@ namespace {
 
 using tessellation::Triangulation;
 
-constexpr double kApron_m = 0.9;    // of a bridge's side, and as deep its underside lies
-constexpr double kKerb_m = 0.35;    // lower steps are stone, higher ones earth
+constexpr double kApron_m = 0.9;  // of a bridge's side, and as deep its underside lies
+constexpr double kKerb_m = 0.35;  // lower steps are stone, higher ones earth
 constexpr std::size_t kNobody = 99;
-// A picture's samples may lie outside the triangle whose light they take: thinner than a pixel, it would be lit as the ground at the far end of a change that
-// goes on and on. Where normals change by more than this a metre a triangle has one normal: its own, or where it is too thin to have a good one, the mean.
+// A picture's samples may lie outside the triangle whose light they take: thinner than a pixel, it would be lit as the
+// ground at the far end of a change that goes on and on. Where normals change by more than this a metre a triangle has
+// one normal: its own, or where it is too thin to have a good one, the mean.
 constexpr double kBend_1pm = 0.6;
 constexpr double kThin_m = 0.05;  // ten times what heights may be off
 
 class Weaver {
  public:
-  Weaver(const road::World& world, const TilePlan& plan) : world_(world), plan_(plan), heights_(world, plan), first_(plan.triangles.points().size(), Triangulation::kNone) {
+  Weaver(const road::World& world, const TilePlan& plan)
+      : world_(world),
+        plan_(plan),
+        heights_(world, plan),
+        first_(plan.triangles.points().size(), Triangulation::kNone) {
     const Face& first = plan.faces.front();
     origin_W_ = TileOrigin(plan.key, first.levels.empty() ? 0.0 : first.levels.front().z_m);
     wall_.material = Material::kRoad;
@@ -62,16 +67,20 @@ class Weaver {
   }
 
   // The point's on that face whose normal is so near to the given one, or a new one with it.
-  std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level, const Eigen::Vector3d& normal_W, double near) {
+  std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level,
+                       const Eigen::Vector3d& normal_W, double near) {
     for (std::uint32_t i = first_[point]; i != Triangulation::kNone; i = vertices_[i].next) {
       const Known& known = vertices_[i];
-      if (known.face == face && known.level == level && (known.normal_W - normal_W).squaredNorm() <= near * near) return known.vertex;
+      if (known.face == face && known.level == level && (known.normal_W - normal_W).squaredNorm() <= near * near)
+        return known.vertex;
     }
     const Skin& skin = plan_.faces[face].skins[level];
     const Eigen::Vector3d p_W = Place(point, heights_.At(point, face)[level].z_m);
     const Colour colour = skin.grown ? GroundColour(skin.surface, p_W.x(), p_W.y(), normal_W) : skin.colour;
-    if (skin.along) mesh.on_face.push_back(OnPicture(*world_.network(), *skin.along, *skin.picture, p_W.head<2>()).cast<float>());
-    vertices_.push_back({face, static_cast<std::uint32_t>(level), mesh.Add(p_W, normal_W, colour), first_[point], normal_W});
+    if (skin.along)
+      mesh.on_face.push_back(OnPicture(*world_.network(), *skin.along, *skin.picture, p_W.head<2>()).cast<float>());
+    vertices_.push_back(
+        {face, static_cast<std::uint32_t>(level), mesh.Add(p_W, normal_W, colour), first_[point], normal_W});
     first_[point] = static_cast<std::uint32_t>(vertices_.size() - 1);
     return vertices_.back().vertex;
   }
@@ -79,7 +88,9 @@ class Weaver {
   // One for each material, and for each way that a picture lies.
   Mesh& MeshOf(const Skin& skin) {
     const bool pictured = skin.picture.has_value();
-    const auto kind = pictured ? std::tuple(Material::kPicture, skin.picture->file, skin.picture->width_m, skin.along.has_value()) : std::tuple(skin.material, std::string(), 0.0, false);
+    const auto kind =
+        pictured ? std::tuple(Material::kPicture, skin.picture->file, skin.picture->width_m, skin.along.has_value())
+                 : std::tuple(skin.material, std::string(), 0.0, false);
     auto [found, fresh] = meshes_.try_emplace(kind);
     if (fresh) {
       found->second.mesh.material = skin.material;
@@ -110,16 +121,21 @@ class Weaver {
     }
     const double thickness_m = twice_area_W.norm() / longest_m;
     const bool bent = widest > kBend_1pm * thickness_m;
-    const Eigen::Vector3d one_W = thickness_m > kThin_m ? ground.normal_W : Eigen::Vector3d((normals_W[0] + normals_W[1] + normals_W[2]).normalized());
+    const Eigen::Vector3d one_W = thickness_m > kThin_m
+                                      ? ground.normal_W
+                                      : Eigen::Vector3d((normals_W[0] + normals_W[1] + normals_W[2]).normalized());
     std::array<std::uint32_t, 3> index{};
     for (std::size_t k = 0; k < 3; ++k) {
-      index[k] = bent ? Vertex(mesh, corner[k], face, level, one_W, 0.5 * kBend_1pm * thickness_m) : Vertex(mesh, corner[k], face, level, normals_W[k], 0.0);
+      index[k] = bent ? Vertex(mesh, corner[k], face, level, one_W, 0.5 * kBend_1pm * thickness_m)
+                      : Vertex(mesh, corner[k], face, level, normals_W[k], 0.0);
     }
     mesh.AddTriangle(index[0], index[1], index[2]);
     woven_.triangles.push_back(ground);
   }
 
-  static bool HasUnderside(const Face& face, std::size_t level) { return level + 1 < face.levels.size() && !face.skins[level].land; }
+  static bool HasUnderside(const Face& face, std::size_t level) {
+    return level + 1 < face.levels.size() && !face.skins[level].land;
+  }
 
   // Of a deck, as deep as its sides: seen from the road below it.
   void Underside(std::uint32_t triangle, std::size_t level) {
@@ -127,7 +143,8 @@ class Weaver {
     const Colour concrete = SurfaceColour(ground::Surface::kConcrete);
     std::array<std::uint32_t, 3> index{};
     for (std::size_t k = 0; k < 3; ++k) {
-      index[k] = wall_.Add(Place(corner[k], heights_.At(corner[k], plan_.face_of[triangle])[level].z_m - kApron_m), -Eigen::Vector3d::UnitZ(), concrete);
+      index[k] = wall_.Add(Place(corner[k], heights_.At(corner[k], plan_.face_of[triangle])[level].z_m - kApron_m),
+                           -Eigen::Vector3d::UnitZ(), concrete);
     }
     wall_.AddTriangle(index[0], index[2], index[1]);
   }
@@ -137,7 +154,8 @@ class Weaver {
   }
 
   // Which of the other face's levels is nearest to this one.
-  std::size_t Nearest(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
+  std::size_t Nearest(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level,
+                      std::uint32_t other) const {
     const std::size_t count = plan_.faces[other].levels.size();
     if (count == 1 && plan_.faces[face].levels.size() == 1) return 0;
     const double z = MeanHeight(side, face, level);
@@ -150,8 +168,10 @@ class Weaver {
     return best;
   }
 
-  // Which of the other face's levels goes on from this one: each is the other's nearest. At most two sheets of ground meet in a line.
-  std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level, std::uint32_t other) const {
+  // Which of the other face's levels goes on from this one: each is the other's nearest. At most two sheets of ground
+  // meet in a line.
+  std::size_t Partner(const std::array<std::uint32_t, 2>& side, std::uint32_t face, std::size_t level,
+                      std::uint32_t other) const {
     const std::size_t nearest = Nearest(side, face, level, other);
     return nearest != kNobody && Nearest(side, other, nearest, face) == level ? nearest : kNobody;
   }
@@ -167,7 +187,8 @@ class Weaver {
       std::array<double, 2> foot = {z(0) - kApron_m, z(1) - kApron_m};
       const Face& own = plan_.faces[face];
       // The ground below a deck that goes on beyond its end stops at the abutment, up to the deck's underside.
-      const bool abuts = partner == kNobody && level > 0 && !HasUnderside(own, level) && HasUnderside(own, level - 1) && Partner(side, face, level - 1, other) != kNobody;
+      const bool abuts = partner == kNobody && level > 0 && !HasUnderside(own, level) && HasUnderside(own, level - 1) &&
+                         Partner(side, face, level - 1, other) != kNobody;
       if (abuts) {
         for (const std::size_t c : {0, 1}) foot[c] = heights_.At(side[c], face)[level - 1].z_m - kApron_m;
         if (z(0) == foot[0] && z(1) == foot[1]) continue;
@@ -182,7 +203,8 @@ class Weaver {
       const Skin& skin = plan_.faces[face].skins[level];
       Colour colour = SurfaceColour(ground::Surface::kSoil);
       if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
-      if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour) colour = skin.colour;
+      if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour)
+        colour = skin.colour;
       Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }
   }
@@ -190,7 +212,8 @@ class Weaver {
   // Between two points, each with its way down, or up.
   void Wall(const std::array<std::uint32_t, 2>& side, const std::array<std::vector<double>, 2>& ways_m, Colour colour) {
     const Eigen::Vector3d along = Place(side[1], 0.0) - Place(side[0], 0.0);
-    const bool up = ways_m[0].back() + ways_m[1].back() > ways_m[0].front() + ways_m[1].front();  // then it is seen from the other side
+    const bool up = ways_m[0].back() + ways_m[1].back() >
+                    ways_m[0].front() + ways_m[1].front();  // then it is seen from the other side
     const Eigen::Vector3d normal = (up ? -1.0 : 1.0) * Eigen::Vector3d(along.y(), -along.x(), 0.0).normalized();
     std::array<std::vector<std::uint32_t>, 2> down;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -22,8 +22,9 @@ struct WovenTile {
 // The middle of a tile in plan, and a height near its ground that is a multiple of the patterns' length.
 Eigen::Vector3d TileOrigin(const TileKey& key, double z_m);
 
-// The plan's triangles at SUELO's heights. Where SUELO steps between two faces there is a wall, and where a level ends in
-// the air (a bridge's side) an apron hangs from it; a deck over another level has an underside, whose normals look down. Nothing where no ground is known.
+// The plan's triangles at SUELO's heights. Where SUELO steps between two faces there is a wall, and where a level ends
+// in the air (a bridge's side) an apron hangs from it; a deck over another level has an underside, whose normals look
+// down. Nothing where no ground is known.
 WovenTile WeaveTile(const road::World& world, const TilePlan& plan);
 
 }  // namespace rodeira::scene

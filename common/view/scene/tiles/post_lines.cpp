@@ -26,8 +26,10 @@ bool PostLines::Holds(const TileKey& tile) const {
 
 bool PostLines::HoldsAll(const TileKey& tile) const {
   if (!Holds(tile)) return false;
-  const Eigen::Array2d low = (tile.south_west_W() - south_west_W_).array() / spacing_m_.array(), high = low + kTile_m / spacing_m_.array();
-  const int last_column = std::min(static_cast<int>(std::ceil(high.x())), grid_->frame().columns - 1), last_row = std::min(static_cast<int>(std::ceil(high.y())), grid_->frame().rows - 1);
+  const Eigen::Array2d low = (tile.south_west_W() - south_west_W_).array() / spacing_m_.array(),
+                       high = low + kTile_m / spacing_m_.array();
+  const int last_column = std::min(static_cast<int>(std::ceil(high.x())), grid_->frame().columns - 1),
+            last_row = std::min(static_cast<int>(std::ceil(high.y())), grid_->frame().rows - 1);
   for (int column = static_cast<int>(low.x()); column <= last_column; ++column) {
     for (int row = static_cast<int>(low.y()); row <= last_row; ++row) {
       if (grid_->Post(column, row) == terrain::ElevationGrid::kVoid) return false;
@@ -38,7 +40,8 @@ bool PostLines::HoldsAll(const TileKey& tile) const {
 
 std::vector<std::int32_t> PostLines::Places(double first_m, double spacing_m, double begin_m, double shift, int every) {
   std::vector<std::int32_t> places;
-  const double from = std::ceil((begin_m - first_m) / spacing_m - shift), to = std::floor((begin_m + kTile_m - first_m) / spacing_m - shift);
+  const double from = std::ceil((begin_m - first_m) / spacing_m - shift),
+               to = std::floor((begin_m + kTile_m - first_m) / spacing_m - shift);
   for (double k = from; k <= to; k += 1.0) {
     if (std::fmod(k, every) != 0.0) continue;
     const auto place = std::llround((first_m + (k + shift) * spacing_m - begin_m) / kStep_m);
@@ -82,7 +85,8 @@ std::vector<std::array<tessellation::GridPoint, 2>> PostLines::Sides(const TileK
   const auto add = [&sides](const std::vector<GridPoint>& line) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) sides.push_back({line[i], line[i + 1]});
   };
-  const auto along = [&](const std::vector<std::int32_t>& across, const std::vector<std::int32_t>& places, const auto& point) {
+  const auto along = [&](const std::vector<std::int32_t>& across, const std::vector<std::int32_t>& places,
+                         const auto& point) {
     for (const std::int32_t at : across) {
       std::vector<GridPoint> line = {point(at, 0)};
       for (const std::int32_t place : places) line.push_back(point(at, place));
@@ -93,15 +97,19 @@ std::vector<std::array<tessellation::GridPoint, 2>> PostLines::Sides(const TileK
   along(columns, rows, [](std::int32_t at, std::int32_t place) { return GridPoint{at, place}; });
   along(rows, columns, [](std::int32_t at, std::int32_t place) { return GridPoint{place, at}; });
 
-  // Diagonals: u + v = k, counted in cells from the first post. Where they meet the edge the places are those of the edge's owner.
+  // Diagonals: u + v = k, counted in cells from the first post. Where they meet the edge the places are those of the
+  // edge's owner.
   const Eigen::Vector2d low = ((tile.south_west_W() - south_west_W_).array() / spacing_m_.array()).matrix();
   const Eigen::Vector2d high = low + (Eigen::Vector2d::Constant(kTile_m).array() / spacing_m_.array()).matrix();
-  const auto west = OnWest(tile), east = OnWest({tile.column + 1, tile.row}), south = OnSouth(tile), north = OnSouth({tile.column, tile.row + 1});
+  const auto west = OnWest(tile), east = OnWest({tile.column + 1, tile.row}), south = OnSouth(tile),
+             north = OnSouth({tile.column, tile.row + 1});
   constexpr std::int32_t kRounding = 2;  // steps
-  const auto first_column = static_cast<std::int64_t>(std::floor(low.x())) + 1, first_row = static_cast<std::int64_t>(std::floor(low.y())) + 1;
+  const auto first_column = static_cast<std::int64_t>(std::floor(low.x())) + 1,
+             first_row = static_cast<std::int64_t>(std::floor(low.y())) + 1;
   for (double k = std::ceil(low.sum()); k <= high.sum(); k += 1.0) {
     std::vector<GridPoint> line;
-    const auto meet = [&](double part, const std::vector<std::int32_t>& places, const auto& point) {  // of the edge's length
+    const auto meet = [&](double part, const std::vector<std::int32_t>& places,
+                          const auto& point) {  // of the edge's length
       const double wanted = part * size;
       for (const std::int32_t place : places) {
         if (std::fabs(place - wanted) <= kRounding) {
@@ -120,7 +128,8 @@ std::vector<std::array<tessellation::GridPoint, 2>> PostLines::Sides(const TileK
     meet((k - high.y() - low.x()) / cells.x(), north, [size](std::int32_t at) { return GridPoint{at, size}; });
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::int64_t j = static_cast<std::int64_t>(k) - (first_column + static_cast<std::int64_t>(i)) - first_row;
-      if (j >= 0 && j < static_cast<std::int64_t>(rows.size())) line.push_back({columns[i], rows[static_cast<std::size_t>(j)]});
+      if (j >= 0 && j < static_cast<std::int64_t>(rows.size()))
+        line.push_back({columns[i], rows[static_cast<std::size_t>(j)]});
     }
     std::sort(line.begin(), line.end());
     line.erase(std::unique(line.begin(), line.end()), line.end());

@@ -11,7 +11,8 @@
 
 namespace rodeira::scene {
 
-// Where roads with their cuts and fills may be: squares of 16 m within reach of roads' lines. Elsewhere the land is the bare terrain.
+// Where roads with their cuts and fills may be: squares of 16 m within reach of roads' lines. Elsewhere the land is the
+// bare terrain.
 class SlopeSquares {
  public:
   // Every square that is nowhere farther than `reach_m`, in x and in y, from a piece of a line, and some beside them.

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "common/core/base/bytes.hpp"
+#include "common/view/scene/breaklines/laid_lines.hpp"
 #include "common/world/network/junction_ground.hpp"
 #include "common/world/network/network.hpp"
-#include "common/view/scene/breaklines/laid_lines.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -34,7 +34,8 @@ class Stretch {
   }
 
   bool Overlaps(double from_s_m, double to_s_m) const { return from_s_m <= to_ && to_s_m >= from_; }
-  // The items of which each is in force from its own station on, and the first before it; of those that are in between others also the next ones.
+  // The items of which each is in force from its own station on, and the first before it; of those that are in between
+  // others also the next ones.
   template <class Items, class StationOf>
   auto InForce(const Items& items, const StationOf& station_of, bool with_next = false) const {
     std::size_t first = 0, last = 0;
@@ -67,14 +68,16 @@ class Stretch {
 void PutAxis(Stretch& out, const network::Road& road) {
   for (const geometry::PlanElement& element : road.axis().elements()) {
     if (!out.Overlaps(element.s_m, element.s_m + element.length_m)) continue;
-    out.PutAll(element.s_m, element.length_m, element.start_W, element.heading_rad, static_cast<int>(element.kind), element.curvature_start_1pm, element.curvature_end_1pm, element.p_end);
+    out.PutAll(element.s_m, element.length_m, element.start_W, element.heading_rad, static_cast<int>(element.kind),
+               element.curvature_start_1pm, element.curvature_end_1pm, element.p_end);
     for (std::size_t i = 0; i < 4; ++i) out.PutAll(element.u[i], element.v[i]);
   }
 }
 
 void PutLateral(Stretch& out, const network::LateralProfile& lateral) {
   out.PutAll(lateral.crossfall_left, lateral.crossfall_right);
-  for (const network::Shape& shape : out.InForce(lateral.shapes, [](const network::Shape& at) { return at.s_m; }, true)) {
+  for (const network::Shape& shape : out.InForce(
+           lateral.shapes, [](const network::Shape& at) { return at.s_m; }, true)) {
     out.Put(shape.s_m);
     out.PutWhole(shape.height);
   }
@@ -90,7 +93,9 @@ void PutLateral(Stretch& out, const network::LateralProfile& lateral) {
 
 void PutLane(Stretch& out, const network::Lane& lane) {
   out.PutAll(lane.id, static_cast<int>(lane.type), lane.level, lane.width, lane.border);
-  for (const network::LaneHeight& height : out.InForce(lane.heights, [](const network::LaneHeight& at) { return at.s_m; }, true)) out.PutAll(height.s_m, height.inner_m, height.outer_m);
+  for (const network::LaneHeight& height : out.InForce(
+           lane.heights, [](const network::LaneHeight& at) { return at.s_m; }, true))
+    out.PutAll(height.s_m, height.inner_m, height.outer_m);
 }
 
 void PutSections(Stretch& out, const network::Road& road) {
@@ -108,13 +113,16 @@ void PutSections(Stretch& out, const network::Road& road) {
 
 void PutEarthworks(Stretch& out, const RoadSpec& spec) {
   for (const network::Structure& structure : spec.structures) {
-    if (out.Overlaps(structure.s_m, structure.s_m + structure.length_m)) out.PutAll(structure.bridge, structure.s_m, structure.length_m);
+    if (out.Overlaps(structure.s_m, structure.s_m + structure.length_m))
+      out.PutAll(structure.bridge, structure.s_m, structure.length_m);
   }
   out.Put(spec.earthwork.has_value());
-  if (spec.earthwork) out.PutAll(spec.earthwork->blend_m, spec.earthwork->cut, spec.earthwork->fill, spec.earthwork->reach_m);
+  if (spec.earthwork)
+    out.PutAll(spec.earthwork->blend_m, spec.earthwork->cut, spec.earthwork->fill, spec.earthwork->reach_m);
 }
 
-// Whether something goes on at an end. Roads of an OpenDRIVE file are one ground where they have to do with one junction: there names count.
+// Whether something goes on at an end. Roads of an OpenDRIVE file are one ground where they have to do with one
+// junction: there names count.
 void PutEnd(Stretch& out, const road::World& world, const std::optional<network::RoadLink>& link) {
   out.PutAll(link.has_value(), link && link->junction);
   if (link && world.open_drive()) out.PutAll(link->id, static_cast<int>(link->contact));
@@ -143,7 +151,8 @@ base::Digest StretchDigest(const road::World& world, std::uint32_t road_index, d
   return out.Digest();
 }
 
-base::Digest LookDigest(const road::World& world, std::uint32_t road, double from_s_m, double to_s_m, PictureDigests& pictures) {
+base::Digest LookDigest(const road::World& world, std::uint32_t road, double from_s_m, double to_s_m,
+                        PictureDigests& pictures) {
   const RoadSpec& spec = world.network()->roads()[road].spec();
   Stretch out(from_s_m, to_s_m);
   for (const network::LaneSection& section : spec.sections) {
@@ -160,7 +169,8 @@ base::Digest LookDigest(const road::World& world, std::uint32_t road, double fro
     }
   }
   for (const network::Object& object : spec.objects) {
-    if (!IsLaid(object) || !out.Overlaps(object.s_m - 0.5 * object.length_m, object.s_m + 0.5 * object.length_m)) continue;
+    if (!IsLaid(object) || !out.Overlaps(object.s_m - 0.5 * object.length_m, object.s_m + 0.5 * object.length_m))
+      continue;
     out.PutAll(object.type, object.subtype, object.s_m, object.t_m, object.length_m, object.width_m);
   }
   out.Put(static_cast<std::size_t>(world.DetailDigest(road, from_s_m, to_s_m)));

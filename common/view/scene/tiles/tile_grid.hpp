@@ -7,8 +7,9 @@
 
 #include "common/core/tessellation/grid_point.hpp"
 
-// The world in squares, and their places in whole steps. A step is so fine that nothing is seen of it and so coarse that a
-// float holds every place of a tile exactly: two tiles have the very same points on their common edge, anywhere on earth.
+// The world in squares, and their places in whole steps. A step is so fine that nothing is seen of it and so coarse
+// that a float holds every place of a tile exactly: two tiles have the very same points on their common edge, anywhere
+// on earth.
 namespace rodeira::scene {
 
 inline constexpr double kStep_m = 1.0 / 8192.0;
@@ -20,7 +21,9 @@ struct TileKey {
   std::int64_t row = 0;
 
   auto operator<=>(const TileKey&) const = default;
-  Eigen::Vector2d south_west_W() const { return {static_cast<double>(column) * kTile_m, static_cast<double>(row) * kTile_m}; }
+  Eigen::Vector2d south_west_W() const {
+    return {static_cast<double>(column) * kTile_m, static_cast<double>(row) * kTile_m};
+  }
 };
 
 // A place in the world, in steps.
@@ -31,16 +34,22 @@ struct WorldStep {
   auto operator<=>(const WorldStep&) const = default;
 };
 
-inline WorldStep ToSteps(const Eigen::Vector2d& p_W) { return {std::llround(p_W.x() / kStep_m), std::llround(p_W.y() / kStep_m)}; }
+inline WorldStep ToSteps(const Eigen::Vector2d& p_W) {
+  return {std::llround(p_W.x() / kStep_m), std::llround(p_W.y() / kStep_m)};
+}
 inline double RoundToStep(double z_m) { return std::round(z_m / kStep_m) * kStep_m; }
 
 inline tessellation::GridPoint InTile(const TileKey& tile, const WorldStep& p) {
-  return {static_cast<std::int32_t>(p.x - tile.column * kTileSteps), static_cast<std::int32_t>(p.y - tile.row * kTileSteps)};
+  return {static_cast<std::int32_t>(p.x - tile.column * kTileSteps),
+          static_cast<std::int32_t>(p.y - tile.row * kTileSteps)};
 }
 inline Eigen::Vector2d ToWorld(const TileKey& tile, const tessellation::GridPoint& p) {
-  return {static_cast<double>(tile.column * kTileSteps + p.x) * kStep_m, static_cast<double>(tile.row * kTileSteps + p.y) * kStep_m};
+  return {static_cast<double>(tile.column * kTileSteps + p.x) * kStep_m,
+          static_cast<double>(tile.row * kTileSteps + p.y) * kStep_m};
 }
 // The tile's number along an axis; of a place on an edge the one that begins there.
-inline std::int64_t TileOf(std::int64_t step) { return step >= 0 ? step / kTileSteps : -((-step + kTileSteps - 1) / kTileSteps); }
+inline std::int64_t TileOf(std::int64_t step) {
+  return step >= 0 ? step / kTileSteps : -((-step + kTileSteps - 1) / kTileSteps);
+}
 
 }  // namespace rodeira::scene

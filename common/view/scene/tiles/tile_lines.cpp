@@ -76,7 +76,7 @@ class Cutter {
 
   TileLines& tiles_;
   std::vector<std::pair<WorldStep, WorldStep>> left_;  // to be cut, the first piece of the way last
-  std::map<TileKey, std::size_t> open_;  // the line that is being gone along
+  std::map<TileKey, std::size_t> open_;                // the line that is being gone along
 };
 
 }  // namespace

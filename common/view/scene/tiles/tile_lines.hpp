@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/core/tessellation/grid_point.hpp"
-#include "common/view/scene/tiles/post_lines.hpp"
 #include "common/view/scene/breaklines/road_lines.hpp"
+#include "common/view/scene/tiles/post_lines.hpp"
 #include "common/view/scene/tiles/tile_grid.hpp"
 
 namespace rodeira::scene {
@@ -18,10 +18,12 @@ using TileLines = std::map<TileKey, std::vector<tessellation::GridLine>>;
 // common edge is in both tiles.
 void AddToTiles(std::span<const Line3> lines, TileLines& tiles);
 
-// The points on tiles' edges, of both neighbours together: a tile triangulates all of its edges' points, at every level.
+// The points on tiles' edges, of both neighbours together: a tile triangulates all of its edges' points, at every
+// level.
 class TileEdges {
  public:
-  // There is always one this often; where land is made of the terrain's posts, these and its diagonals take their place.
+  // There is always one this often; where land is made of the terrain's posts, these and its diagonals take their
+  // place.
   static constexpr std::int32_t kEvery = static_cast<std::int32_t>(kTileSteps / 16);
 
   TileEdges() = default;
@@ -33,7 +35,7 @@ class TileEdges {
 
  private:
   struct Edge {
-    TileKey tile;          // whose west or south edge it is
+    TileKey tile;  // whose west or south edge it is
     bool west = false;
 
     auto operator<=>(const Edge&) const = default;

@@ -5,12 +5,12 @@
 #include <cmath>
 
 #include "common/core/base/bytes.hpp"
+#include "common/view/scene/tiles/stretch_digest.hpp"
 #include "common/world/network/junction_ground.hpp"
 #include "common/world/network/network.hpp"
 #include "common/world/road/earthworks.hpp"
 #include "common/world/road/network_land.hpp"
 #include "common/world/road/road_edge.hpp"
-#include "common/view/scene/tiles/stretch_digest.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -19,8 +19,8 @@ using Eigen::Vector2d;
 
 constexpr double kJunctionBeyond_m = 20.0;  // so far a junction's edge may lie from the ways through it
 constexpr double kStretch_m = 48.0;         // of a road, about
-constexpr double kBeyond_m = 2.0;           // a stretch ends where the next one begins: what lies just behind counts too
-constexpr double kMargin_m = 5.0;           // around everything: ground is asked a little beside a place, too
+constexpr double kBeyond_m = 2.0;  // a stretch ends where the next one begins: what lies just behind counts too
+constexpr double kMargin_m = 5.0;  // around everything: ground is asked a little beside a place, too
 constexpr std::size_t kPoints = 64;
 
 // A square, and how far its farthest place lies from a point.
@@ -35,7 +35,8 @@ struct Cell {
   // No point of the box has its farthest place of the square nearer than this.
   double LeastFarthest(const Vector2d& box_low, const Vector2d& box_high) const {
     double least = 0.0;
-    for (const Vector2d& corner : {Vector2d(0.0, 0.0), Vector2d(side_m, 0.0), Vector2d(0.0, side_m), Vector2d(side_m, side_m)}) {
+    for (const Vector2d& corner :
+         {Vector2d(0.0, 0.0), Vector2d(side_m, 0.0), Vector2d(0.0, side_m), Vector2d(side_m, side_m)}) {
       const Vector2d p = low_W + corner;
       least = std::max(least, (box_low - p).cwiseMax(p - box_high).cwiseMax(0.0).norm());
     }
@@ -48,7 +49,8 @@ struct Cell {
 
 Cell CellOf(const TileKey& tile, std::size_t number, int cells) {
   const double side_m = kTile_m / cells;
-  const auto column = static_cast<double>(number / static_cast<std::size_t>(cells)), row = static_cast<double>(number % static_cast<std::size_t>(cells));
+  const auto column = static_cast<double>(number / static_cast<std::size_t>(cells)),
+             row = static_cast<double>(number % static_cast<std::size_t>(cells));
   return {tile.south_west_W() + side_m * Vector2d(column, row), side_m};
 }
 
@@ -77,7 +79,8 @@ base::Digest DigestOf(const design::JunctionSurface& junction) {
 base::Digest DecksDigest(const road::World& world, std::uint32_t road) {
   if (world.land() == nullptr) return 0;
   base::ByteWriter out;
-  for (const road::Stretch& deck : world.land()->decks()[road]) out.Put(deck.from_s_m + 0.0), out.Put(deck.to_s_m + 0.0);
+  for (const road::Stretch& deck : world.land()->decks()[road])
+    out.Put(deck.from_s_m + 0.0), out.Put(deck.to_s_m + 0.0);
   return base::Hash(out.bytes());
 }
 
@@ -89,7 +92,9 @@ double LandReachOf(const road::World& world, const network::Road& road) {
   if (spec.earthwork) reach_m = std::max(spec.earthwork->reach_m, spec.earthwork->blend_m);
   if (!spec.junction.empty()) reach_m = std::max(reach_m, network::Earthwork().reach_m + kJunctionBeyond_m);
   if (world.land() != nullptr) reach_m = road::kHolds_m;
-  if (world.grid() != nullptr) reach_m = std::max(reach_m, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m()) - 1.0);  // cells that the road itself cuts, too
+  if (world.grid() != nullptr)
+    reach_m = std::max(reach_m, 1.5 * std::max(world.grid()->spacing_x_m(), world.grid()->spacing_y_m()) -
+                                    1.0);  // cells that the road itself cuts, too
   return reach_m;
 }
 
@@ -112,7 +117,8 @@ TileSources::TileSources(const road::World& world, std::span<const std::vector<L
   }
 }
 
-// Panels of the axis are short where it bends; straight ones and arcs are cut. An OpenDRIVE file's road is one part: there is no end to where it may be the nearest.
+// Panels of the axis are short where it bends; straight ones and arcs are cut. An OpenDRIVE file's road is one part:
+// there is no end to where it may be the nearest.
 void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& pictures) {
   const network::Road& road = world_->network()->roads()[road_index];
   const geometry::PlanAxis& axis = road.axis();
@@ -123,7 +129,8 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
   const auto end = [&] {
     if (!begun) return;
     part.reach_m = reach_m, part.beside = true;
-    part.digest = base::Combine(StretchDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m), DecksDigest(*world_, road_index));
+    part.digest = base::Combine(StretchDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m),
+                                DecksDigest(*world_, road_index));
     parts_.push_back(part);
     part.reach_m = 0.0, part.beside = false;
     part.digest = LookDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m, pictures);
@@ -135,7 +142,8 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
     const double beside_m = road::EdgesBeside(road, panel).beside_m;
     const int pieces = std::max(1, static_cast<int>(std::ceil(2.0 * panel.half_m / kStretch_m)));
     for (int i = 0; i < pieces; ++i) {
-      const std::array<double, 2> u_m = {panel.half_m * (2.0 * i / pieces - 1.0), panel.half_m * (2.0 * (i + 1) / pieces - 1.0)};
+      const std::array<double, 2> u_m = {panel.half_m * (2.0 * i / pieces - 1.0),
+                                         panel.half_m * (2.0 * (i + 1) / pieces - 1.0)};
       if (!begun) from_s_m = panel.middle_s_m + u_m[0];
       to_s_m = panel.middle_s_m + u_m[1];
       for (const double u : u_m) {
@@ -151,9 +159,12 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
 }
 
 void TileSources::AddJunctions() {
-  for (const auto& junction : world_->junctions()) parts_.push_back({junction->low_W(), junction->high_W(), network::Earthwork().reach_m, false, scene::DigestOf(*junction)});
+  for (const auto& junction : world_->junctions())
+    parts_.push_back(
+        {junction->low_W(), junction->high_W(), network::Earthwork().reach_m, false, scene::DigestOf(*junction)});
   for (const network::Junction& junction : world_->network()->junctions()) {
-    if (junction.ground != nullptr) parts_.push_back({junction.ground->low_W(), junction.ground->high_W(), 0.0, false, junction.ground->Digest()});
+    if (junction.ground != nullptr)
+      parts_.push_back({junction.ground->low_W(), junction.ground->high_W(), 0.0, false, junction.ground->Digest()});
   }
 }
 
@@ -163,15 +174,19 @@ base::Digest TileSources::Posts(const TileKey& tile, bool& solid) const {
   if (grid == nullptr) return 0;
   const auto& frame = grid->frame();
   const Vector2d first(frame.west_m, frame.south_m), spacing(grid->spacing_x_m(), grid->spacing_y_m());
-  const Vector2d low = (tile.south_west_W() - first).cwiseQuotient(spacing), high = low + Vector2d::Constant(kTile_m).cwiseQuotient(spacing);
+  const Vector2d low = (tile.south_west_W() - first).cwiseQuotient(spacing),
+                 high = low + Vector2d::Constant(kTile_m).cwiseQuotient(spacing);
   solid = low.minCoeff() >= 0.0 && high.x() <= frame.columns - 1 && high.y() <= frame.rows - 1;
   const auto held = [](double at, int count) { return static_cast<int>(std::clamp(at, 0.0, count - 1.0)); };
-  const int from_column = held(std::floor(low.x()) - 1.0, frame.columns), to_column = held(std::ceil(high.x()) + 1.0, frame.columns);
-  const int from_row = held(std::floor(low.y()) - 1.0, frame.rows), to_row = held(std::ceil(high.y()) + 1.0, frame.rows);
+  const int from_column = held(std::floor(low.x()) - 1.0, frame.columns),
+            to_column = held(std::ceil(high.x()) + 1.0, frame.columns);
+  const int from_row = held(std::floor(low.y()) - 1.0, frame.rows),
+            to_row = held(std::ceil(high.y()) + 1.0, frame.rows);
   base::Digest digest = 0;
   for (int column = from_column; column <= to_column; ++column) {
-    const auto posts = grid->heights_m().subspan(static_cast<std::size_t>(column) * static_cast<std::size_t>(frame.rows) + static_cast<std::size_t>(from_row),
-                                                 static_cast<std::size_t>(to_row - from_row) + 1);
+    const auto posts = grid->heights_m().subspan(
+        static_cast<std::size_t>(column) * static_cast<std::size_t>(frame.rows) + static_cast<std::size_t>(from_row),
+        static_cast<std::size_t>(to_row - from_row) + 1);
     solid = solid && std::find(posts.begin(), posts.end(), terrain::ElevationGrid::kVoid) == posts.end();
     digest = base::Combine(digest, base::Hash(std::as_bytes(posts)));
   }
@@ -179,8 +194,10 @@ base::Digest TileSources::Posts(const TileKey& tile, bool& solid) const {
 }
 
 // A square's places are looked at for its quarters only where they are near enough to it.
-void TileSources::NearestIn(const TileKey& tile, const CellBlock& block, double within_m, std::span<const Points* const> may_be, Nearest& nearest) const {
-  const Cell cell{tile.south_west_W() + kTile_m / kCells * Vector2d(block.column, block.row), kTile_m / kCells * block.cells};
+void TileSources::NearestIn(const TileKey& tile, const CellBlock& block, double within_m,
+                            std::span<const Points* const> may_be, Nearest& nearest) const {
+  const Cell cell{tile.south_west_W() + kTile_m / kCells * Vector2d(block.column, block.row),
+                  kTile_m / kCells * block.cells};
   for (const Points* points : may_be) {  // some place of theirs is no farther from any of the square
     if (cell.LeastFarthest(points->low_W, points->high_W) > within_m) continue;
     for (const Vector2d& p : points->at_W) within_m = std::min(within_m, cell.Farthest(p));
@@ -195,7 +212,8 @@ void TileSources::NearestIn(const TileKey& tile, const CellBlock& block, double 
   }
   const int half = block.cells / 2;
   for (const int column : {0, half}) {
-    for (const int row : {0, half}) NearestIn(tile, {block.column + column, block.row + row, half}, within_m, near, nearest);
+    for (const int row : {0, half})
+      NearestIn(tile, {block.column + column, block.row + row, half}, within_m, near, nearest);
   }
 }
 

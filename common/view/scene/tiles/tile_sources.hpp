@@ -5,26 +5,29 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
-#include "common/world/road/world.hpp"
-#include "common/view/scene/ground_materials/lay_picture.hpp"
 #include "common/view/scene/breaklines/road_lines.hpp"
+#include "common/view/scene/ground_materials/lay_picture.hpp"
 #include "common/view/scene/tiles/tile_grid.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
-// How far from a road's lines its cuts and fills, its junction's, or the terrain's cells that it cuts through, may make the land another one than the bare terrain.
+// How far from a road's lines its cuts and fills, its junction's, or the terrain's cells that it cuts through, may make
+// the land another one than the bare terrain.
 double LandReachOf(const road::World& world, const network::Road& road);
 
-// Of what SUELO's answers within a tile are made: stretches of roads that reach it, junctions' surfaces, the terrain's posts in it and around it. A change anywhere else
-// leaves a tile's digest as it is.
+// Of what SUELO's answers within a tile are made: stretches of roads that reach it, junctions' surfaces, the terrain's
+// posts in it and around it. A change anywhere else leaves a tile's digest as it is.
 class TileSources {
  public:
   TileSources() = default;
-  // world: as it is seen, with a network; it must outlive this. lines: by road, RoadLinesOf and what else is cut into tiles.
+  // world: as it is seen, with a network; it must outlive this. lines: by road, RoadLinesOf and what else is cut into
+  // tiles.
   TileSources(const road::World& world, std::span<const std::vector<Line3>> lines);
 
-  // Of all that can change what SUELO says anywhere in the tile. Where it knows no ground (beyond a terrain, or beside OpenDRIVE's roads) the nearest
-  // road says how high nothing is: there every road that may be nearest to a place of the tile counts.
+  // Of all that can change what SUELO says anywhere in the tile. Where it knows no ground (beyond a terrain, or beside
+  // OpenDRIVE's roads) the nearest road says how high nothing is: there every road that may be nearest to a place of
+  // the tile counts.
   base::Digest DigestOf(const TileKey& tile) const;
 
  private:
@@ -51,8 +54,10 @@ class TileSources {
   };
   // For each cell of the tile: none of its places is farther from its nearest road.
   Nearest NearestWithin(const TileKey& tile) const;
-  // Of the block's cells. within_m: no place of the block is farther from its nearest road; may_be: all that may be the nearest to one.
-  void NearestIn(const TileKey& tile, const CellBlock& block, double within_m, std::span<const Points* const> may_be, Nearest& nearest) const;
+  // Of the block's cells. within_m: no place of the block is farther from its nearest road; may_be: all that may be the
+  // nearest to one.
+  void NearestIn(const TileKey& tile, const CellBlock& block, double within_m, std::span<const Points* const> may_be,
+                 Nearest& nearest) const;
 
   const road::World* world_ = nullptr;
   std::vector<Part> parts_;  // in the order of the roads, then of the junctions

@@ -15,7 +15,8 @@ constexpr double kInstruments_m = 0.52;  // ahead of the eye
 constexpr double kInstrumentsLean_rad = 18.0 * kDegree;
 constexpr double kTube_m = 0.013;  // radius of the rim's section
 constexpr double kMark_rad = 5.0 * kDegree;
-constexpr Colour kDash = Colour::Of(0x24262a), kHousing = Colour::Of(0x191b1e), kRim = Colour::Of(0x15161a), kMark = Colour::Of(0xf0f0f0);
+constexpr Colour kDash = Colour::Of(0x24262a), kHousing = Colour::Of(0x191b1e), kRim = Colour::Of(0x15161a),
+                 kMark = Colour::Of(0xf0f0f0);
 
 CabinDial DialAt(const Dial& dial, double left_m, double down_m, double radius_m) {
   return {dial, {{kInstruments_m, left_m, -down_m}, kInstrumentsLean_rad}, radius_m};
@@ -30,7 +31,8 @@ Vector3d Facing::ToE(const Vector3d& p) const {
 }
 
 const std::array<CabinDial, 3>& CabinDials() {
-  static const std::array<CabinDial, 3> kDials = {DialAt(kSpeedDial, -0.080, 0.198, 0.052), DialAt(kEngineDial, 0.080, 0.198, 0.052),
+  static const std::array<CabinDial, 3> kDials = {DialAt(kSpeedDial, -0.080, 0.198, 0.052),
+                                                  DialAt(kEngineDial, 0.080, 0.198, 0.052),
                                                   DialAt(kFuelDial, 0.0, 0.222, 0.026)};
   return kDials;
 }
@@ -55,14 +57,16 @@ Mesh BuildSteeringWheel() {
   constexpr int kAround = 144, kSection = 10;  // 2.5 degrees each: the mark ends between two
   const auto add = [&](int i, int k, Colour colour) {
     const double angle = 2.0 * geometry::kPi * i / kAround, turn = 2.0 * geometry::kPi * k / kSection;
-    const Vector3d out(std::cos(angle), std::sin(angle), 0.0), normal = std::cos(turn) * out + std::sin(turn) * Vector3d::UnitZ();
+    const Vector3d out(std::cos(angle), std::sin(angle), 0.0),
+        normal = std::cos(turn) * out + std::sin(turn) * Vector3d::UnitZ();
     return mesh.Add(kWheelRadius_m * out + kTube_m * normal, normal, colour);
   };
   for (int i = 0; i < kAround; ++i) {
     const double middle = 2.0 * geometry::kPi * (i + 0.5) / kAround;
     const Colour colour = std::fabs(geometry::WrapAngle(middle - 0.5 * geometry::kPi)) < kMark_rad ? kMark : kRim;
     for (int k = 0; k < kSection; ++k) {
-      const std::uint32_t a = add(i, k, colour), b = add(i + 1, k, colour), c = add(i + 1, k + 1, colour), d = add(i, k + 1, colour);
+      const std::uint32_t a = add(i, k, colour), b = add(i + 1, k, colour), c = add(i + 1, k + 1, colour),
+                          d = add(i, k + 1, colour);
       mesh.AddTriangle(a, b, c);
       mesh.AddTriangle(a, c, d);
     }
@@ -74,19 +78,24 @@ Mesh BuildSteeringWheel() {
 }
 
 Mesh BuildDashboard(double car_width_m, double eye_left_m) {
-  const double half_m = 0.5 * car_width_m - 0.05, left = half_m - eye_left_m, right = -half_m - eye_left_m;  // from door to door
+  const double half_m = 0.5 * car_width_m - 0.05, left = half_m - eye_left_m,
+               right = -half_m - eye_left_m;  // from door to door
   const auto slice = [&](double ahead_m, double top) {
-    return std::vector<Vector3d>{{ahead_m, right, -0.80}, {ahead_m, left, -0.80}, {ahead_m, left, top}, {ahead_m, right, top}};
+    return std::vector<Vector3d>{
+        {ahead_m, right, -0.80}, {ahead_m, left, -0.80}, {ahead_m, left, top}, {ahead_m, right, top}};
   };
-  Mesh mesh = Loft({slice(0.55, -0.345), slice(0.585, -0.312), slice(0.72, -0.292), slice(0.86, -0.302)}, Material::kMatt, kDash, 0.2);
+  Mesh mesh = Loft({slice(0.55, -0.345), slice(0.585, -0.312), slice(0.72, -0.292), slice(0.86, -0.302)},
+                   Material::kMatt, kDash, 0.2);
   // The housing around the dials; behind its edge it falls away, so that no more is seen of it.
   const auto ring = [](double ahead_m, double grown_m, double top) {
     const auto corner = [&](double y, double z) { return Vector3d(ahead_m, y, z); };
     const double wide_left = 0.145 + grown_m, wide_right = -0.145 - grown_m, low = -0.32;
-    return std::vector<Vector3d>{corner(wide_right, low), corner(wide_left, low), corner(wide_left, top - 0.03), corner(wide_left - 0.03, top), corner(wide_right + 0.03, top),
-                                 corner(wide_right, top - 0.03)};
+    return std::vector<Vector3d>{corner(wide_right, low),        corner(wide_left, low),
+                                 corner(wide_left, top - 0.03),  corner(wide_left - 0.03, top),
+                                 corner(wide_right + 0.03, top), corner(wide_right, top - 0.03)};
   };
-  mesh.Append(Loft({ring(kInstruments_m + 0.045, 0.0, -0.128), ring(0.78, 0.01, -0.19)}, Material::kMatt, kHousing, 0.4));
+  mesh.Append(
+      Loft({ring(kInstruments_m + 0.045, 0.0, -0.128), ring(0.78, 0.01, -0.19)}, Material::kMatt, kHousing, 0.4));
   return mesh;
 }
 

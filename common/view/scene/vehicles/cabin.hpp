@@ -3,11 +3,11 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "common/view/scene/raster/dial.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/raster/dial.hpp"
 
-// What a driver has before him: dashboard, instruments, steering wheel. Frame E: origin in the driver's eye, axes of the car's body
-// (x forward, y left, z up).
+// What a driver has before him: dashboard, instruments, steering wheel. Frame E: origin in the driver's eye, axes of
+// the car's body (x forward, y left, z up).
 namespace rodeira::scene {
 
 // A flat thing that faces the driver. Its own frame: x to the driver's right, y up, z towards him.

@@ -2,12 +2,12 @@
 
 #include "common/view/scene/mesh/mesh.hpp"
 
-// What is about a driver in a car, but for what he reads and holds (cabin.hpp): doors, posts, roof, seats. In frame E: origin in the driver's eye, axes of the car's
-// body (x forward, y left, z up).
+// What is about a driver in a car, but for what he reads and holds (cabin.hpp): doors, posts, roof, seats. In frame E:
+// origin in the driver's eye, axes of the car's body (x forward, y left, z up).
 namespace rodeira::scene {
 
 struct CabinShape {
-  double width_m = 1.65, height_m = 1.42;  // of the car, outside
+  double width_m = 1.65, height_m = 1.42;         // of the car, outside
   double eye_left_m = 0.36, eye_height_m = 1.20;  // of the eye, from its middle and its ground
 
   double half_m() const { return 0.5 * width_m; }

@@ -19,8 +19,8 @@ inline constexpr std::size_t kLamps = 5;
 
 // Of a lamp that does not shine, by day.
 Colour ColourOf(Lamp lamp);
-// How bright each lamp is, as a share of its colour, at a time of the simulation; 0: it does not shine. Indicators flash 1.5 times a second, all in
-// step, the brighter half first. `dark`: people have their headlights on.
+// How bright each lamp is, as a share of its colour, at a time of the simulation; 0: it does not shine. Indicators
+// flash 1.5 times a second, all in step, the brighter half first. `dark`: people have their headlights on.
 std::array<float, kLamps> GlowsOf(const CarLights& lights, bool dark, std::int64_t time_ns);
 
 }  // namespace rodeira::scene

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "common/view/scene/vehicles/coachwork.hpp"
 #include "common/view/scene/mesh/loft.hpp"
+#include "common/view/scene/vehicles/coachwork.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -26,9 +26,12 @@ class Body {
 
   // One cross-section of the lower body, counter-clockwise seen from the front.
   Ring Section(double along, double low, double top, double wide) const {
-    static constexpr double kSide[][2] = {{0.86, 0.0}, {0.965, 0.10}, {1.0, 0.42}, {0.985, 0.72}, {0.94, 0.90}, {0.82, 0.99}};  // out, up
+    static constexpr double kSide[][2] = {{0.86, 0.0},   {0.965, 0.10}, {1.0, 0.42},
+                                          {0.985, 0.72}, {0.94, 0.90},  {0.82, 0.99}};  // out, up
     Ring ring;
-    const auto point = [&](double out, double up) { ring.emplace_back(X(along), Y(wide * out), Z(low + (top - low) * up)); };
+    const auto point = [&](double out, double up) {
+      ring.emplace_back(X(along), Y(wide * out), Z(low + (top - low) * up));
+    };
     for (const auto& [out, up] : kSide) point(out, up);
     point(0.0, 1.03);
     for (std::size_t k = std::size(kSide); k-- > 0;) point(-kSide[k][0], kSide[k][1]);
@@ -38,18 +41,23 @@ class Body {
   // An oblong at one height with cut corners, counter-clockwise seen from above.
   Ring Oblong(double rear, double front, double wide, double cut_m, double up) const {
     const double x0 = X(rear), x1 = X(front), y = Y(wide), c = cut_m, z = Z(up);
-    return {{x0 + c, -y, z}, {x1 - 1.6 * c, -y, z}, {x1, -y + 1.6 * c, z}, {x1, y - 1.6 * c, z}, {x1 - 1.6 * c, y, z}, {x0 + c, y, z}, {x0, y - c, z}, {x0, -y + c, z}};
+    return {{x0 + c, -y, z},      {x1 - 1.6 * c, -y, z}, {x1, -y + 1.6 * c, z}, {x1, y - 1.6 * c, z},
+            {x1 - 1.6 * c, y, z}, {x0 + c, y, z},        {x0, y - c, z},        {x0, -y + c, z}};
   }
 
-  Mesh BoxAt(double from, double to, double y_from, double y_to, double low, double top, Material material, Colour colour) const {
-    return Box({X(from), std::min(Y(y_from), Y(y_to)), Z(low)}, {X(to), std::max(Y(y_from), Y(y_to)), Z(top)}, material, colour);
+  Mesh BoxAt(double from, double to, double y_from, double y_to, double low, double top, Material material,
+             Colour colour) const {
+    return Box({X(from), std::min(Y(y_from), Y(y_to)), Z(low)}, {X(to), std::max(Y(y_from), Y(y_to)), Z(top)}, material,
+               colour);
   }
 
   // A post from the waist to the roof.
-  Mesh Pillar(double along_low, double wide_low, double along_top, double wide_top, double size_m, Colour colour) const {
+  Mesh Pillar(double along_low, double wide_low, double along_top, double wide_top, double size_m,
+              Colour colour) const {
     std::vector<Ring> rings;
     const double h = 0.5 * size_m;
-    for (const auto& [along, wide, up] : {std::tuple(along_low, wide_low, 0.64), std::tuple(along_top, wide_top, 0.965)}) {
+    for (const auto& [along, wide, up] :
+         {std::tuple(along_low, wide_low, 0.64), std::tuple(along_top, wide_top, 0.965)}) {
       const double x = X(along), y = Y(wide), z = Z(up);
       rings.push_back({{x - h, y - h, z}, {x + h, y - h, z}, {x + h, y + h, z}, {x - h, y + h, z}});
     }
@@ -62,34 +70,39 @@ class Body {
 };
 
 void AddPaint(const Body& body, Colour paint, CarMeshes& car) {
-  static constexpr double kSections[][4] = {// along, low, top, wide
-                                            {0.000, 0.36, 0.60, 0.82}, {0.010, 0.30, 0.66, 0.90}, {0.04, 0.23, 0.71, 0.96}, {0.13, 0.17, 0.715, 1.0},
-                                            {0.35, 0.16, 0.69, 1.0},   {0.60, 0.16, 0.66, 1.0},   {0.73, 0.16, 0.635, 0.99}, {0.84, 0.17, 0.59, 0.97},
-                                            {0.93, 0.20, 0.535, 0.92},  {0.975, 0.25, 0.49, 0.84}, {0.993, 0.30, 0.45, 0.76}, {1.0, 0.34, 0.42, 0.70}};
+  static constexpr double kSections[][4] = {
+      // along, low, top, wide
+      {0.000, 0.36, 0.60, 0.82}, {0.010, 0.30, 0.66, 0.90}, {0.04, 0.23, 0.71, 0.96},  {0.13, 0.17, 0.715, 1.0},
+      {0.35, 0.16, 0.69, 1.0},   {0.60, 0.16, 0.66, 1.0},   {0.73, 0.16, 0.635, 0.99}, {0.84, 0.17, 0.59, 0.97},
+      {0.93, 0.20, 0.535, 0.92}, {0.975, 0.25, 0.49, 0.84}, {0.993, 0.30, 0.45, 0.76}, {1.0, 0.34, 0.42, 0.70}};
   std::vector<Ring> rings;
   for (const auto& [along, low, top, wide] : kSections) rings.push_back(body.Section(along, low, top, wide));
   car.body.push_back(Loft(rings, Material::kCarPaint, paint, kCrease_rad));
-  const std::vector<Ring> roof = {body.Oblong(0.125, 0.545, 0.745, 0.07, 0.945), body.Oblong(0.13, 0.54, 0.735, 0.08, 0.968),
+  const std::vector<Ring> roof = {body.Oblong(0.125, 0.545, 0.745, 0.07, 0.945),
+                                  body.Oblong(0.13, 0.54, 0.735, 0.08, 0.968),
                                   body.Oblong(0.16, 0.51, 0.66, 0.10, 0.992), body.Oblong(0.22, 0.45, 0.45, 0.12, 1.0)};
   car.body.push_back(Loft(roof, Material::kCarPaint, paint, kCrease_rad));
   for (const double side : {-1.0, 1.0}) {
     car.frame.push_back(body.Pillar(0.705, side * 0.865, 0.512, side * 0.70, 0.055, paint));
     car.frame.push_back(body.Pillar(0.385, side * 0.905, 0.36, side * 0.725, 0.06, kTrimColour));
     car.frame.push_back(body.Pillar(0.055, side * 0.85, 0.155, side * 0.68, 0.10, paint));
-    car.frame.push_back(body.BoxAt(0.655, 0.695, side * 0.97, side * 1.11, 0.655, 0.725, Material::kCarPaint, paint));  // mirror
+    car.frame.push_back(
+        body.BoxAt(0.655, 0.695, side * 0.97, side * 1.11, 0.655, 0.725, Material::kCarPaint, paint));  // mirror
   }
 }
 
 void AddGlass(const Body& body, CarMeshes& car) {
-  const std::vector<Ring> cabin = {body.Oblong(0.035, 0.75, 0.90, 0.07, 0.62), body.Oblong(0.075, 0.665, 0.845, 0.08, 0.76),
+  const std::vector<Ring> cabin = {body.Oblong(0.035, 0.75, 0.90, 0.07, 0.62),
+                                   body.Oblong(0.075, 0.665, 0.845, 0.08, 0.76),
                                    body.Oblong(0.135, 0.54, 0.725, 0.09, 0.955)};
   car.body.push_back(Loft(cabin, Material::kGlass, kGlassColour, 0.45));
 }
 
 void AddTrim(const Body& body, const CarShape& shape, CarMeshes& car) {
-  car.body.push_back(body.BoxAt(0.985, 1.002, -0.5, 0.5, 0.33, 0.385, Material::kMatt, kTrimColour));        // grille
-  car.body.push_back(body.BoxAt(-0.004, 0.02, -0.72, 0.72, 0.30, 0.375, Material::kMatt, kTrimColour));       // rear bumper
-  car.body.push_back(body.BoxAt(-0.006, 0.01, -0.31, 0.31, 0.455, 0.525, Material::kMatt, Colour::Of(0xe6e6e0)));  // plate
+  car.body.push_back(body.BoxAt(0.985, 1.002, -0.5, 0.5, 0.33, 0.385, Material::kMatt, kTrimColour));    // grille
+  car.body.push_back(body.BoxAt(-0.004, 0.02, -0.72, 0.72, 0.30, 0.375, Material::kMatt, kTrimColour));  // rear bumper
+  car.body.push_back(
+      body.BoxAt(-0.006, 0.01, -0.31, 0.31, 0.455, 0.525, Material::kMatt, Colour::Of(0xe6e6e0)));  // plate
   for (const double side : {-1.0, 1.0}) {
     const auto lamp = [&](Lamp which, double from, double to, double y_from, double y_to, double low, double top) {
       car.AddLamp(which, body.BoxAt(from, to, side * y_from, side * y_to, low, top, Material::kCarLamp, {}));
@@ -117,14 +130,16 @@ CarShape CarShape::Of(const CarPose& car) {
   shape.length_m = car.length_m;
   shape.width_m = car.width_m;
   shape.height_m = car.height_m;
-  // B's origin stands on the ground at rest, so a hub is as high as the tyre is thick. Where the wheels are now says nothing of how
-  // the car is built: pictures would depend on which one came first.
+  // B's origin stands on the ground at rest, so a hub is as high as the tyre is thick. Where the wheels are now says
+  // nothing of how the car is built: pictures would depend on which one came first.
   shape.wheel_radius_m = std::clamp(car.wheel_radius_m, 0.2, 0.6);
   for (std::size_t i = 0; i < 4; ++i) {
-    shape.hubs_B[i] = {(i < 2 ? 0.5 : -0.5) * car.wheelbase_m, (i % 2 == 0 ? 0.5 : -0.5) * car.track_m[i / 2], shape.wheel_radius_m};
+    shape.hubs_B[i] = {(i < 2 ? 0.5 : -0.5) * car.wheelbase_m, (i % 2 == 0 ? 0.5 : -0.5) * car.track_m[i / 2],
+                       shape.wheel_radius_m};
   }
   shape.wheel_width_m = 0.6 * shape.wheel_radius_m;
-  shape.tread_out_m = std::max(0.0, 0.5 * shape.width_m + 0.012 - 0.5 * shape.wheel_width_m - std::abs(shape.hubs_B[0].y()));
+  shape.tread_out_m =
+      std::max(0.0, 0.5 * shape.width_m + 0.012 - 0.5 * shape.wheel_width_m - std::abs(shape.hubs_B[0].y()));
   return shape;
 }
 
@@ -155,11 +170,15 @@ CarMeshes BuildCar(const CarShape& shape, Colour paint) {
 
 CarMeshes BuildVehicle(AgentKind kind, const CarShape& shape, Colour paint) {
   switch (kind) {
-    case AgentKind::kVan: return BuildVan(shape, paint);
-    case AgentKind::kLorry: return BuildLorry(shape, paint);
-    case AgentKind::kBus: return BuildBus(shape, paint);
+    case AgentKind::kVan:
+      return BuildVan(shape, paint);
+    case AgentKind::kLorry:
+      return BuildLorry(shape, paint);
+    case AgentKind::kBus:
+      return BuildBus(shape, paint);
     case AgentKind::kCar:
-    case AgentKind::kPedestrian: break;
+    case AgentKind::kPedestrian:
+      break;
   }
   return BuildCar(shape, paint);
 }

@@ -18,7 +18,7 @@ struct CarShape {
   double wheel_radius_m = 0.2915;
   double wheel_width_m = 0.175;
   std::array<Eigen::Vector3d, 4> hubs_B;  // front left, front right, rear left, rear right, at rest
-  double tread_out_m = 0.0;               // how far a wheel is drawn farther out than it is, to stand flush with the body
+  double tread_out_m = 0.0;  // how far a wheel is drawn farther out than it is, to stand flush with the body
 
   // The driver's car as it stands on its wheels.
   static CarShape Of(const CarPose& car);

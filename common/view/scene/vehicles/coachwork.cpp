@@ -32,27 +32,34 @@ class Frame {
 
   // A cross-section with cut edges, counter-clockwise seen from the front.
   Ring Section(double along, double low, double top, double wide) const {
-    const double cut_m = 0.06, y = 0.5 * shape_.width_m * wide, z0 = shape_.height_m * low, z1 = shape_.height_m * top, x = At(along, 0.0, 0.0).x();
-    return {{x, y - cut_m, z0}, {x, y, z0 + cut_m}, {x, y, z1 - cut_m}, {x, y - cut_m, z1}, {x, -y + cut_m, z1}, {x, -y, z1 - cut_m}, {x, -y, z0 + cut_m}, {x, -y + cut_m, z0}};
+    const double cut_m = 0.06, y = 0.5 * shape_.width_m * wide, z0 = shape_.height_m * low, z1 = shape_.height_m * top,
+                 x = At(along, 0.0, 0.0).x();
+    return {{x, y - cut_m, z0},  {x, y, z0 + cut_m},  {x, y, z1 - cut_m},  {x, y - cut_m, z1},
+            {x, -y + cut_m, z1}, {x, -y, z1 - cut_m}, {x, -y, z0 + cut_m}, {x, -y + cut_m, z0}};
   }
-  Mesh Hull(const std::vector<std::array<double, 4>>& sections, Colour colour, Material material = Material::kCarPaint) const {
+  Mesh Hull(const std::vector<std::array<double, 4>>& sections, Colour colour,
+            Material material = Material::kCarPaint) const {
     std::vector<Ring> rings;
     for (const auto& [along, low, top, wide] : sections) rings.push_back(Section(along, low, top, wide));
     return Loft(rings, material, colour, 0.3);
   }
-  Mesh BoxAt(double from, double to, double y_from, double y_to, double low, double top, Material material, Colour colour) const {
+  Mesh BoxAt(double from, double to, double y_from, double y_to, double low, double top, Material material,
+             Colour colour) const {
     return Box(At(from, std::min(y_from, y_to), low), At(to, std::max(y_from, y_to), top), material, colour);
   }
   // A pane on one side: between two places along, and two heights.
   void AddSidePanes(double from, double to, double low, double top, double wide, CarMeshes& car) const {
     const double out = kProud_m / (0.5 * shape_.width_m);
-    for (const double side : {-1.0, 1.0}) car.body.push_back(BoxAt(from, to, side * (wide - 0.05), side * (wide + out), low, top, Material::kGlass, kPane));
+    for (const double side : {-1.0, 1.0})
+      car.body.push_back(BoxAt(from, to, side * (wide - 0.05), side * (wide + out), low, top, Material::kGlass, kPane));
   }
   // A pane across the front: from its lower edge to its upper one, which may lie farther back.
   Mesh Windscreen(double along_low, double low, double along_top, double top, double wide) const {
-    const Vector3d a = At(along_low, -wide, low), b = At(along_low, wide, low), c = At(along_top, wide, top), d = At(along_top, -wide, top);
+    const Vector3d a = At(along_low, -wide, low), b = At(along_low, wide, low), c = At(along_top, wide, top),
+                   d = At(along_top, -wide, top);
     const Vector3d out = kProud_m * (b - a).cross(d - a).normalized();
-    return Loft({{a - 2.0 * out, b - 2.0 * out, c - 2.0 * out, d - 2.0 * out}, {a + out, b + out, c + out, d + out}}, Material::kGlass, kPane, 0.2);
+    return Loft({{a - 2.0 * out, b - 2.0 * out, c - 2.0 * out, d - 2.0 * out}, {a + out, b + out, c + out, d + out}},
+                Material::kGlass, kPane, 0.2);
   }
 
  private:
@@ -67,8 +74,14 @@ struct LampPlaces {
 void AddLamps(const Frame& frame, const LampPlaces& at, CarMeshes& car) {
   const double in = frame.Share(0.05), out = frame.Share(0.015);
   for (const double side : {-1.0, 1.0}) {
-    const auto rear = [&](Lamp lamp, double from, double to) { car.AddLamp(lamp, frame.BoxAt(-out, in, side * from, side * to, at.rear_low, at.rear_top, Material::kCarLamp, {})); };
-    const auto front = [&](Lamp lamp, double from, double to) { car.AddLamp(lamp, frame.BoxAt(1.0 - in, 1.0 + out, side * from, side * to, at.front_low, at.front_top, Material::kCarLamp, {})); };
+    const auto rear = [&](Lamp lamp, double from, double to) {
+      car.AddLamp(lamp,
+                  frame.BoxAt(-out, in, side * from, side * to, at.rear_low, at.rear_top, Material::kCarLamp, {}));
+    };
+    const auto front = [&](Lamp lamp, double from, double to) {
+      car.AddLamp(lamp, frame.BoxAt(1.0 - in, 1.0 + out, side * from, side * to, at.front_low, at.front_top,
+                                    Material::kCarLamp, {}));
+    };
     const Lamp indicator = side > 0.0 ? Lamp::kLeft : Lamp::kRight;
     rear(Lamp::kReversing, 0.50, 0.60);
     rear(Lamp::kBrake, 0.62, 0.78);
@@ -97,7 +110,8 @@ void AddWheel(const CarShape& shape, CarMeshes& car) {
   for (int spoke = 0; spoke < 5; ++spoke) {  // gaps between spokes show that it turns
     const double angle = 2.0 * geometry::kPi * spoke / 5.0;
     Mesh gap = Disc(0.13 * radius, half + 0.009, 0.004, 8, Material::kMatt, Colour::Of(0x2a2b2d));
-    for (Eigen::Vector3f& p : gap.positions) p += (0.42 * radius * Vector3d(std::sin(angle), 0.0, std::cos(angle))).cast<float>();
+    for (Eigen::Vector3f& p : gap.positions)
+      p += (0.42 * radius * Vector3d(std::sin(angle), 0.0, std::cos(angle))).cast<float>();
     car.wheel.push_back(std::move(gap));
   }
 }
@@ -105,8 +119,15 @@ void AddWheel(const CarShape& shape, CarMeshes& car) {
 CarMeshes BuildVan(const CarShape& shape, Colour paint) {
   CarMeshes car;
   const Frame frame(shape);
-  car.body.push_back(frame.Hull({{0.0, 0.14, 0.97, 0.94}, {0.02, 0.11, 0.99, 0.97}, {0.10, 0.10, 1.0, 1.0}, {0.66, 0.10, 1.0, 1.0}, {0.745, 0.10, 0.965, 0.99},
-                                 {0.865, 0.10, 0.60, 0.97}, {0.97, 0.12, 0.50, 0.93}, {1.0, 0.17, 0.42, 0.84}}, paint));
+  car.body.push_back(frame.Hull({{0.0, 0.14, 0.97, 0.94},
+                                 {0.02, 0.11, 0.99, 0.97},
+                                 {0.10, 0.10, 1.0, 1.0},
+                                 {0.66, 0.10, 1.0, 1.0},
+                                 {0.745, 0.10, 0.965, 0.99},
+                                 {0.865, 0.10, 0.60, 0.97},
+                                 {0.97, 0.12, 0.50, 0.93},
+                                 {1.0, 0.17, 0.42, 0.84}},
+                                paint));
   car.body.push_back(frame.Windscreen(0.862, 0.62, 0.762, 0.93, 0.84));
   frame.AddSidePanes(0.66, 0.775, 0.60, 0.86, 0.985, car);
   for (const double side : {-1.0, 1.0}) {
@@ -125,14 +146,22 @@ CarMeshes BuildLorry(const CarShape& shape, Colour paint) {
   CarMeshes car;
   const Frame frame(shape);
   const double cab = 1.0 - frame.Share(1.75), gap = frame.Share(0.12);
-  car.body.push_back(frame.Hull({{cab, 0.22, 0.86, 0.96}, {cab + gap, 0.20, 0.88, 0.98}, {1.0 - frame.Share(0.25), 0.12, 0.87, 0.98}, {1.0 - frame.Share(0.03), 0.10, 0.56, 0.97}, {1.0, 0.11, 0.52, 0.94}}, paint));
+  car.body.push_back(frame.Hull({{cab, 0.22, 0.86, 0.96},
+                                 {cab + gap, 0.20, 0.88, 0.98},
+                                 {1.0 - frame.Share(0.25), 0.12, 0.87, 0.98},
+                                 {1.0 - frame.Share(0.03), 0.10, 0.56, 0.97},
+                                 {1.0, 0.11, 0.52, 0.94}},
+                                paint));
   car.body.push_back(frame.Windscreen(1.0 - frame.Share(0.035), 0.54, 1.0 - frame.Share(0.20), 0.80, 0.88));
   frame.AddSidePanes(cab + frame.Share(0.75), 1.0 - frame.Share(0.34), 0.55, 0.76, 0.975, car);
-  car.body.push_back(frame.BoxAt(0.0, cab - gap, -1.0, 1.0, 0.31, 1.0, Material::kMatt, Mix(paint, Colour::Of(0xe8e8e4), 0.75)));  // the box with the load
+  car.body.push_back(frame.BoxAt(0.0, cab - gap, -1.0, 1.0, 0.31, 1.0, Material::kMatt,
+                                 Mix(paint, Colour::Of(0xe8e8e4), 0.75)));  // the box with the load
   car.body.push_back(frame.BoxAt(0.01, cab, -0.42, 0.42, 0.17, 0.31, Material::kMatt, kSteel));
-  car.body.push_back(frame.BoxAt(0.003, 0.02, -0.92, 0.92, 0.13, 0.17, Material::kMatt, kSteel));  // what keeps cars from going below
+  car.body.push_back(
+      frame.BoxAt(0.003, 0.02, -0.92, 0.92, 0.13, 0.17, Material::kMatt, kSteel));  // what keeps cars from going below
   car.body.push_back(frame.BoxAt(0.99, 1.003, -0.70, 0.70, 0.24, 0.40, Material::kMatt, kTrim));
-  for (const double side : {-1.0, 1.0}) car.frame.push_back(frame.BoxAt(0.985, 0.998, side * 0.99, side * 1.14, 0.52, 0.72, Material::kMatt, kTrim));
+  for (const double side : {-1.0, 1.0})
+    car.frame.push_back(frame.BoxAt(0.985, 0.998, side * 0.99, side * 1.14, 0.52, 0.72, Material::kMatt, kTrim));
   AddLamps(frame, {0.18, 0.235, 0.15, 0.21}, car);
   AddWheel(shape, car);
   return car;
@@ -141,7 +170,13 @@ CarMeshes BuildLorry(const CarShape& shape, Colour paint) {
 CarMeshes BuildBus(const CarShape& shape, Colour paint) {
   CarMeshes car;
   const Frame frame(shape);
-  car.body.push_back(frame.Hull({{0.0, 0.13, 0.96, 0.97}, {0.008, 0.10, 0.985, 0.99}, {0.03, 0.09, 1.0, 1.0}, {0.965, 0.09, 1.0, 1.0}, {0.99, 0.10, 0.97, 0.98}, {1.0, 0.13, 0.92, 0.96}}, paint));
+  car.body.push_back(frame.Hull({{0.0, 0.13, 0.96, 0.97},
+                                 {0.008, 0.10, 0.985, 0.99},
+                                 {0.03, 0.09, 1.0, 1.0},
+                                 {0.965, 0.09, 1.0, 1.0},
+                                 {0.99, 0.10, 0.97, 0.98},
+                                 {1.0, 0.13, 0.92, 0.96}},
+                                paint));
   car.body.push_back(frame.Windscreen(1.0, 0.42, 1.0, 0.86, 0.88));
   car.body.push_back(frame.BoxAt(-0.002, 0.004, -0.8, 0.8, 0.52, 0.80, Material::kGlass, kPane));
   const int panes = std::max(3, static_cast<int>(std::lround(shape.length_m / 1.6)));
@@ -149,8 +184,12 @@ CarMeshes BuildBus(const CarShape& shape, Colour paint) {
     const double from = 0.035 + 0.93 * pane / panes, to = 0.035 + 0.93 * (pane + 0.94) / panes;
     frame.AddSidePanes(from, to, 0.46, 0.80, 1.0, car);
   }
-  for (const double along : {0.30, 0.86}) car.body.push_back(frame.BoxAt(along, along + frame.Share(1.2), -1.004, -0.95, 0.12, 0.80, Material::kGlass, kPane));  // doors
-  for (const double side : {-1.0, 1.0}) car.frame.push_back(frame.BoxAt(0.99, 1.0 + frame.Share(0.1), side * 0.97, side * 1.12, 0.62, 0.80, Material::kMatt, kTrim));
+  for (const double along : {0.30, 0.86})
+    car.body.push_back(
+        frame.BoxAt(along, along + frame.Share(1.2), -1.004, -0.95, 0.12, 0.80, Material::kGlass, kPane));  // doors
+  for (const double side : {-1.0, 1.0})
+    car.frame.push_back(
+        frame.BoxAt(0.99, 1.0 + frame.Share(0.1), side * 0.97, side * 1.12, 0.62, 0.80, Material::kMatt, kTrim));
   AddLamps(frame, {0.20, 0.30, 0.20, 0.26}, car);
   AddArches(shape, car);
   AddWheel(shape, car);

@@ -42,7 +42,8 @@ CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double int
   car.engine_rpm = Between(a.engine_rpm, b.engine_rpm, alpha);
   car.fuel_used_l = Between(a.fuel_used_l, b.fuel_used_l, alpha);
   car.steering_wheel_rad = Between(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
-  for (std::size_t i = 0; i < car.wheels.size(); ++i) car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
+  for (std::size_t i = 0; i < car.wheels.size(); ++i)
+    car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
   return car;
 }
 
@@ -52,7 +53,8 @@ AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha, do
   agent.q_WB = a.q_WB.slerp(alpha, b.q_WB);
   agent.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
   agent.steer_rad = Between(a.steer_rad, b.steer_rad, alpha);
-  agent.wheel_spin_rad = BetweenSpins(a.wheel_spin_rad, b.wheel_spin_rad, 0.5 * (a.speed_mps + b.speed_mps) / a.wheel_radius_m * interval_s, alpha);
+  agent.wheel_spin_rad = BetweenSpins(a.wheel_spin_rad, b.wheel_spin_rad,
+                                      0.5 * (a.speed_mps + b.speed_mps) / a.wheel_radius_m * interval_s, alpha);
   return agent;
 }
 
@@ -60,17 +62,20 @@ AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha, do
 template <class Part, class Each>
 void ForPairs(const std::vector<Part>& a, const std::vector<Part>& b, Each each) {
   for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i].id == b[j].id) each(a[i++], b[j++]);
-    else if (a[i].id < b[j].id) ++i;
-    else ++j;
+    if (a[i].id == b[j].id)
+      each(a[i++], b[j++]);
+    else if (a[i].id < b[j].id)
+      ++i;
+    else
+      ++j;
   }
 }
 
 }  // namespace
 
 Eigen::Quaterniond Attitude(double heading_rad, double pitch_rad, double roll_rad) {
-  return Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) *
-         Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
+  return Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll_rad, Eigen::Vector3d::UnitX());
 }
 
 Moment Interpolate(const Moment& a, const Moment& b, double alpha) {
@@ -80,8 +85,11 @@ Moment Interpolate(const Moment& a, const Moment& b, double alpha) {
   Moment moment;
   moment.time_ns = a.time_ns + std::llround(alpha * static_cast<double>(b.time_ns - a.time_ns));
   const double interval_s = static_cast<double>(b.time_ns - a.time_ns) * 1e-9;
-  ForPairs(a.cars, b.cars, [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
-  ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) { moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s)); });
+  ForPairs(a.cars, b.cars,
+           [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
+  ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) {
+    moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s));
+  });
   moment.lights = alpha < 0.5 ? a.lights : b.lights;
   moment.weather = alpha < 0.5 ? a.weather : b.weather;
   return moment;
@@ -103,7 +111,8 @@ Moment PoseHistory::At(double time_ns) const {
   if (time_ns <= static_cast<double>(moments_.front().time_ns)) return moments_.front();
   for (std::size_t i = 1; i < moments_.size(); ++i) {
     const auto from = static_cast<double>(moments_[i - 1].time_ns), to = static_cast<double>(moments_[i].time_ns);
-    if (time_ns <= to) return Interpolate(moments_[i - 1], moments_[i], std::clamp((time_ns - from) / (to - from), 0.0, 1.0));
+    if (time_ns <= to)
+      return Interpolate(moments_[i - 1], moments_[i], std::clamp((time_ns - from) / (to - from), 0.0, 1.0));
   }
   return moments_.back();
 }

@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/world/network/lights.hpp"
-#include "common/view/scene/vehicles/car_lights.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
+#include "common/view/scene/vehicles/car_lights.hpp"
+#include "common/world/network/lights.hpp"
 #include "common/world/weather/weather.hpp"
 
 namespace rodeira::scene {
@@ -38,10 +38,10 @@ struct CarPose {
   double steering_wheel_rad = 0.0;  // positive to the left
   double throttle = 0.0;            // 0 … 1
   bool horn = false;
-  double sliding = 0.0, blow = 0.0;  // of its tyres, and against its body: 0 none … 1
+  double sliding = 0.0, blow = 0.0;                        // of its tyres, and against its body: 0 none … 1
   double length_m = 3.85, front_m = 2.01, width_m = 1.65;  // front bumper from B's origin
-  double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;       // at rest
-  std::array<double, 2> track_m = {1.42, 1.42};             // front, rear
+  double height_m = 1.42, wheelbase_m = 2.46, wheel_radius_m = 0.2915;  // at rest
+  std::array<double, 2> track_m = {1.42, 1.42};                         // front, rear
 };
 
 enum class AgentKind { kCar, kVan, kLorry, kBus, kPedestrian };
@@ -53,14 +53,15 @@ struct AgentDetail {
   double engine_rpm = 0.0, fuel_lph = 0.0;
   double fuel_used_l = 0.0;       // since it entered
   double target_speed_mps = 0.0;  // what its driver plans for here and now
-  // The point that it steers for, ahead and to the left of B, and where its path leads beside it, from the car's heading, positive to the left:
-  // both go with the car, as what was said of it is held for a tenth of a second.
+  // The point that it steers for, ahead and to the left of B, and where its path leads beside it, from the car's
+  // heading, positive to the left: both go with the car, as what was said of it is held for a tenth of a second.
   Eigen::Vector2d target_B = Eigen::Vector2d::Zero();
   double path_turn_rad = 0.0;
   Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where it looks for what slows it
 };
 
-// A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the ground.
+// A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the
+// ground.
 struct AgentPose {
   std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
   AgentKind kind = AgentKind::kCar;
@@ -68,7 +69,7 @@ struct AgentPose {
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   double speed_mps = 0.0;
-  double steer_rad = 0.0;  // of the front wheels
+  double steer_rad = 0.0;       // of the front wheels
   double wheel_spin_rad = 0.0;  // of somebody on foot: a turn in two steps
   CarLights lights;
   double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
@@ -87,16 +88,16 @@ struct LightShown {
 // All that moves and changes, at one time of the simulation.
 struct Moment {
   std::int64_t time_ns = 0;
-  std::vector<CarPose> cars;      // ascending ids
-  std::vector<AgentPose> agents;  // ascending ids
+  std::vector<CarPose> cars;       // ascending ids
+  std::vector<AgentPose> agents;   // ascending ids
   std::vector<LightShown> lights;  // ascending controllers; the others are dark
   weather::Weather weather;
 };
 
-// (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b. Attitudes
-// turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5, and so is a car that was placed
-// elsewhere in between. Who is only in one of the two is not in the result, unless
-// alpha is 0 or 1.
+// (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b.
+// Attitudes turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5, and so
+// is a car that was placed elsewhere in between. Who is only in one of the two is not in the result, unless alpha is 0
+// or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 
 // The last few moments, to draw those between them.

@@ -22,8 +22,8 @@ struct PersonMeshes {
 // Of that height, clothed in that colour. Every part is a closed surface; feet reach down to the ground.
 PersonMeshes BuildPerson(double height_m, Colour clothes);
 
-// How far a leg swings forward (positive, by turning about -y) where the feet have gone so far: a wheel of that radius, as the traffic
-// publishes it, turns once in two steps.
+// How far a leg swings forward (positive, by turning about -y) where the feet have gone so far: a wheel of that radius,
+// as the traffic publishes it, turns once in two steps.
 double LegSwing_rad(double wheel_spin_rad, double wheel_radius_m, double leg_m);
 // The legs' length of somebody of that height.
 inline double LegLength_m(double height_m) { return 0.47 * height_m; }

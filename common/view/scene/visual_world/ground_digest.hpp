@@ -3,8 +3,8 @@
 #include <span>
 
 #include "common/core/base/hash.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/road_markings/mark_strips.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -13,8 +13,8 @@ inline constexpr const char* kGroundVersion = "ground 20";
 
 base::Digest PaintDigest(std::span<const PaintPiece> paint);
 base::Digest PaintDigest(const TilePaint& paint);
-// Of what is the same for all of a world's land: what it is made of, where the terrain's posts stand (not how high), the picture that lies on it, and the
-// drawing's own version.
+// Of what is the same for all of a world's land: what it is made of, where the terrain's posts stand (not how high),
+// the picture that lies on it, and the drawing's own version.
 base::Digest LandDigest(const road::World& world);
 
 }  // namespace rodeira::scene

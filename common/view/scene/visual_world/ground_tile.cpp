@@ -8,13 +8,13 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/tessellation/noding.hpp"
-#include "common/world/road/network_land.hpp"
-#include "common/view/scene/tessellation/edge_points.hpp"
-#include "common/view/scene/visual_world/ground_digest.hpp"
 #include "common/view/scene/breaklines/laid_lines.hpp"
-#include "common/view/scene/tessellation/levels_at.hpp"
-#include "common/view/scene/road_markings/road_paint.hpp"
 #include "common/view/scene/breaklines/structure_lines.hpp"
+#include "common/view/scene/road_markings/road_paint.hpp"
+#include "common/view/scene/tessellation/edge_points.hpp"
+#include "common/view/scene/tessellation/levels_at.hpp"
+#include "common/view/scene/visual_world/ground_digest.hpp"
+#include "common/world/road/network_land.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -36,7 +36,8 @@ void AddReach(const Line3& line, std::set<TileKey>& tiles) {
 void AddDeck(const network::Road& road, double from_s_m, double to_s_m, std::set<TileKey>& tiles) {
   constexpr double kApart_m = 16.0, kWidest_m = 48.0;
   for (double s_m = from_s_m; s_m < to_s_m + kApart_m; s_m += kApart_m) {
-    const Eigen::Vector2d p_W = road.Surface(std::min(s_m, to_s_m), 0.0).p_W.head<2>(), reach = Eigen::Vector2d::Constant(kWidest_m);
+    const Eigen::Vector2d p_W = road.Surface(std::min(s_m, to_s_m), 0.0).p_W.head<2>(),
+                          reach = Eigen::Vector2d::Constant(kWidest_m);
     const WorldStep low = ToSteps(p_W - reach), high = ToSteps(p_W + reach);
     for (std::int64_t column = TileOf(low.x); column <= TileOf(high.x); ++column) {
       for (std::int64_t row = TileOf(low.y); row <= TileOf(high.y); ++row) tiles.insert({column, row});
@@ -51,7 +52,8 @@ void AddDecks(const road::World& world, std::uint32_t index, std::set<TileKey>& 
     return;
   }
   for (const network::Structure& structure : road.spec().structures) {
-    if (structure.bridge) AddDeck(road, std::max(structure.s_m, 0.0), std::min(structure.s_m + structure.length_m, road.length_m()), tiles);
+    if (structure.bridge)
+      AddDeck(road, std::max(structure.s_m, 0.0), std::min(structure.s_m + structure.length_m, road.length_m()), tiles);
   }
 }
 
@@ -62,7 +64,8 @@ void AddRectangle(const road::Extents& extents, std::set<TileKey>& tiles) {
   }
 }
 
-// Where things stand at no road, and where the car starts: on a plane, which has no edge, the ground about them is seen.
+// Where things stand at no road, and where the car starts: on a plane, which has no edge, the ground about them is
+// seen.
 Line3 PlacesOf(const road::World& world) {
   Line3 places{{world.start().x_m, world.start().y_m, 0.0}};
   for (const auto& thing : world.standing()->things) places.emplace_back(thing.at_W.x(), thing.at_W.y(), 0.0);
@@ -74,12 +77,17 @@ Line3 PlacesOf(const road::World& world) {
 
 // Here SUELO ends: what is drawn beyond is a face of its own.
 Line3 BorderOf(const road::Extents& e) {
-  return {{e.west_m, e.south_m, 0.0}, {e.east_m, e.south_m, 0.0}, {e.east_m, e.north_m, 0.0}, {e.west_m, e.north_m, 0.0}, {e.west_m, e.south_m, 0.0}};
+  return {{e.west_m, e.south_m, 0.0},
+          {e.east_m, e.south_m, 0.0},
+          {e.east_m, e.north_m, 0.0},
+          {e.west_m, e.north_m, 0.0},
+          {e.west_m, e.south_m, 0.0}};
 }
 
 }  // namespace
 
-void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work, const std::function<void(std::size_t)>& told) {
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work,
+                   const std::function<void(std::size_t)>& told) {
   if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
   std::atomic<std::size_t> next{0}, done{0};
   const auto run = [&](const std::function<void(std::size_t)>& tell) {
@@ -97,7 +105,11 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
 }
 
 GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere is_there)
-    : seen_(world.AsSeen()), world_(*seen_), things_(world, std::move(is_there)), land_{PostLines(world), {}, {}}, edges_(land_.posts) {
+    : seen_(world.AsSeen()),
+      world_(*seen_),
+      things_(world, std::move(is_there)),
+      land_{PostLines(world), {}, {}},
+      edges_(land_.posts) {
   const auto roads = world.network()->roads();
   std::vector<std::vector<Line3>> lines(roads.size());
   std::vector<std::array<TilePaint, kGroundLevels - 1>> paint(roads.size());
@@ -105,8 +117,11 @@ GroundPlan::GroundPlan(const road::World& world, unsigned threads, ModelIsThere 
     lines[i] = RoadLinesOf(roads[i], kRoadTolerances[0]);
     MeetMeasured(world_, roads[i], kRoadTolerances[0], lines[i]);
     AddLaidLines(world_, roads[i], kRoadTolerances[0], lines[i]);
-    AddStructureLines(roads[i], world.land() != nullptr ? std::span(world.land()->decks()[i]) : std::span<const road::Stretch>(), lines[i]);
-    for (std::size_t level = 0; level < paint[i].size(); ++level) PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
+    AddStructureLines(roads[i],
+                      world.land() != nullptr ? std::span(world.land()->decks()[i]) : std::span<const road::Stretch>(),
+                      lines[i]);
+    for (std::size_t level = 0; level < paint[i].size(); ++level)
+      PaintRoad(roads[i], kPaintChords_m[level], paint[i][level]);
   });
   for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {
     for (TilePaint& level : paint[placed.road]) PaintThing(*world.network(), placed, level);
@@ -158,7 +173,8 @@ TileBall GroundPlan::BallOf(const TileKey& key) const {
 
 int GroundPlan::FinestAlike(const TileKey& key, int level) const {
   const auto is_painted = [&](const TilePaint& paint) { return paint.contains(key); };
-  if (!IsBare(key) || things_.tiles().contains(key) || std::any_of(paint_.begin(), paint_.end(), is_painted)) return level;
+  if (!IsBare(key) || things_.tiles().contains(key) || std::any_of(paint_.begin(), paint_.end(), is_painted))
+    return level;
   int finest = level;
   while (finest > 0 && land_.EveryPost(finest) == 1 && land_.EveryPost(finest - 1) == 1) --finest;
   return finest;
@@ -181,9 +197,11 @@ struct GroundPlan::Begun {
 
 GroundPlan::Begun GroundPlan::Begin(const TileKey& key) const {
   const auto found = segments_.find(key);
-  const auto finest = found == segments_.end() ? std::span<const tessellation::GridSegment>() : std::span(found->second);
+  const auto finest =
+      found == segments_.end() ? std::span<const tessellation::GridSegment>() : std::span(found->second);
   Begun begun{key, finest, TileChains(finest, key, world_), IsBare(key), edges_.Of(key), {}, -1};
-  if (!begun.bare) RefineEdges(world_, key, begun.edge, land_.DecksAtEdges(key));  // the terrain's triangles have their points there
+  if (!begun.bare)
+    RefineEdges(world_, key, begun.edge, land_.DecksAtEdges(key));  // the terrain's triangles have their points there
   return begun;
 }
 
@@ -193,14 +211,18 @@ GroundLevel GroundPlan::LevelOf(Begun& begun, int level) const {
   int as = level;
   while (begun.bare && as > 0 && land_.EveryPost(as) == 1) --as;  // as the level before
   if (begun.woven_level != as) {
-    const auto simplified = as == 0 || begun.finest.empty() ? std::vector<tessellation::GridSegment>() : begun.lines.Simplified(kRoadTolerances[static_cast<std::size_t>(as)]);
-    begun.woven = WeaveTile(world_, PlanTile(world_, land_, key, as == 0 ? begun.finest : std::span(simplified), begun.edge, as));
+    const auto simplified = as == 0 || begun.finest.empty()
+                                ? std::vector<tessellation::GridSegment>()
+                                : begun.lines.Simplified(kRoadTolerances[static_cast<std::size_t>(as)]);
+    begun.woven =
+        WeaveTile(world_, PlanTile(world_, land_, key, as == 0 ? begun.finest : std::span(simplified), begun.edge, as));
     begun.woven_level = as;
   }
   GroundLevel made;
   made.ground = begun.woven.meshes;
   if (at < paint_.size()) {
-    if (const auto paint = paint_[at].find(key); paint != paint_[at].end()) made.marks = LayPaint(paint->second, key, begun.woven.triangles);
+    if (const auto paint = paint_[at].find(key); paint != paint_[at].end())
+      made.marks = LayPaint(paint->second, key, begun.woven.triangles);
   }
   if (const auto things = things_.tiles().find(key); things != things_.tiles().end()) {
     DrawnThings drawn = DrawThings(things->second, key, level);
@@ -215,7 +237,8 @@ GroundTile GroundPlan::Build(const TileKey& key) const {
   GroundTile tile;
   tile.key = key;
   Begun begun = Begin(key);
-  for (int level = 0; level < kGroundLevels; ++level) tile.levels[static_cast<std::size_t>(level)] = LevelOf(begun, level);
+  for (int level = 0; level < kGroundLevels; ++level)
+    tile.levels[static_cast<std::size_t>(level)] = LevelOf(begun, level);
   tile.ball = BallOf(key);
   return tile;
 }

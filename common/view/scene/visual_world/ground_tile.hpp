@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
-#include "common/world/road/world.hpp"
-#include "common/view/scene/road_markings/mark_strips.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/road_furniture/things.hpp"
-#include "common/view/scene/tiles/tile_lines.hpp"
+#include "common/view/scene/road_markings/mark_strips.hpp"
 #include "common/view/scene/tessellation/tile_plan.hpp"
+#include "common/view/scene/tiles/tile_lines.hpp"
 #include "common/view/scene/tiles/tile_sources.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -42,14 +42,15 @@ struct GroundTile {
   std::array<GroundLevel, kGroundLevels> levels;
 };
 
-// A network's ground, ready to be made tile by tile. Tiles are pure functions of the world: in any order, on any threads,
-// the same bits.
+// A network's ground, ready to be made tile by tile. Tiles are pure functions of the world: in any order, on any
+// threads, the same bits.
 class GroundPlan {
  public:
   // Land is drawn this far around roads.
   static constexpr double kAround_m = 500.0;
 
-  // world.network() must not be null; the world must outlive the plan. Its surface is drawn as it is seen (World::AsSeen). threads: 0 for as many as the machine has.
+  // world.network() must not be null; the world must outlive the plan. Its surface is drawn as it is seen
+  // (World::AsSeen). threads: 0 for as many as the machine has.
   explicit GroundPlan(const road::World& world, unsigned threads = 0, ModelIsThere is_there = {});
 
   std::span<const TileKey> tiles() const { return tiles_; }
@@ -61,8 +62,9 @@ class GroundPlan {
   TileBall BallOf(const TileKey& tile) const;
   // How many pieces of lines are cut into it.
   std::size_t PiecesIn(const TileKey& tile) const;
-  // Of everything that can change a bit of the tile, and of nothing that lies out of its reach: lines and paint in it, what stands in it, and what SUELO answers from
-  // there (TileSources). It may change without need, but only where something near changes.
+  // Of everything that can change a bit of the tile, and of nothing that lies out of its reach: lines and paint in it,
+  // what stands in it, and what SUELO answers from there (TileSources). It may change without need, but only where
+  // something near changes.
   base::Digest SourceDigest(const TileKey& tile) const;
 
  private:
@@ -84,8 +86,10 @@ class GroundPlan {
   std::array<TilePaint, kGroundLevels - 1> paint_;  // the coarsest level has none
 };
 
-// Calls work(i) for each i < count on several threads (0: as many as the machine has), each exactly once. `told`, where there is one, is called on this
-// thread, behind each piece of work that it has done itself and at last, with how many are done.
-void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work, const std::function<void(std::size_t)>& told = {});
+// Calls work(i) for each i < count on several threads (0: as many as the machine has), each exactly once. `told`, where
+// there is one, is called on this thread, behind each piece of work that it has done itself and at last, with how many
+// are done.
+void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work,
+                   const std::function<void(std::size_t)>& told = {});
 
 }  // namespace rodeira::scene

@@ -24,7 +24,8 @@ std::vector<TerrainTile> BareLand(const road::World& world) {
   return tiles;
 }
 
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there, const Progress& progress) {
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance, const ModelIsThere& is_there,
+                           const Progress& progress) {
   const auto tell = [&progress](double share) {
     if (progress) progress(share);
   };
@@ -33,9 +34,13 @@ WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolera
     const GroundPlan plan(world, 0, is_there);
     scene.ground.resize(plan.tiles().size());
     const double count = static_cast<double>(plan.tiles().size());
-    const auto told = [&](std::size_t done) { tell(kPlanShare + (1.0 - kPlanShare) * static_cast<double>(done) / count); };
+    const auto told = [&](std::size_t done) {
+      tell(kPlanShare + (1.0 - kPlanShare) * static_cast<double>(done) / count);
+    };
     tell(kPlanShare);
-    if (!plan.tiles().empty()) ForEachAtOnce(plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); }, told);
+    if (!plan.tiles().empty())
+      ForEachAtOnce(
+          plan.tiles().size(), 0, [&](std::size_t i) { scene.ground[i] = plan.Build(plan.tiles()[i]); }, told);
     tell(1.0);
     return scene;
   }
@@ -46,14 +51,16 @@ WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolera
   scene.terrain = BuildTerrain(lattice, ribbons);
   tell(0.5);
   for (std::size_t i = 0; i < ribbons.size(); ++i) {
-    for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice)) scene.roads.push_back(std::move(tile));
+    for (RoadTile& tile : BuildRoad(world, world.roads()[i], ribbons[i], lattice))
+      scene.roads.push_back(std::move(tile));
   }
   LayOnLand(world, scene.terrain);
   tell(0.9);
   if (const terrain::LaidPicture* picture = world.ground_picture()) {
     for (RoadTile& tile : scene.roads) {
       for (Mesh& mesh : tile.ground) {
-        if (mesh.material == lattice.material()) LayPicture(*picture, mesh);  // verges, and what passes into the terrain
+        if (mesh.material == lattice.material())
+          LayPicture(*picture, mesh);  // verges, and what passes into the terrain
       }
     }
   }

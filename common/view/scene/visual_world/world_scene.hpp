@@ -3,11 +3,11 @@
 #include <functional>
 #include <vector>
 
-#include "common/world/road/world.hpp"
-#include "common/view/scene/visual_world/ground_tile.hpp"
 #include "common/view/scene/mesh/repeated.hpp"
 #include "common/view/scene/terrain/ribbon.hpp"
 #include "common/view/scene/terrain/terrain_mesh.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
 
@@ -25,7 +25,9 @@ std::vector<TerrainTile> BareLand(const road::World& world);
 // How far something has come, from 0 to 1: never less than before, 1 at last.
 using Progress = std::function<void(double share)>;
 
-// A pure function of the world and of which models can be read: the same meshes, bit by bit. `progress` is told on this thread.
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {}, const ModelIsThere& is_there = {}, const Progress& progress = {});
+// A pure function of the world and of which models can be read: the same meshes, bit by bit. `progress` is told on this
+// thread.
+WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {},
+                           const ModelIsThere& is_there = {}, const Progress& progress = {});
 
 }  // namespace rodeira::scene

@@ -101,8 +101,9 @@ TEST(State, SaysItsFieldsAndWhereTwoDiffer) {
   };
   const auto fields = StateFields(state(0.1, 3, "abc"));
   ASSERT_TRUE(fields.ok());
-  const std::vector<StateField> expected{{"steps", "7"},        {"part.x", "0.1"},      {"part.list.size", "3"}, {"part.list[0]", "1"},
-                                         {"part.list[1]", "-2"}, {"part.list[2]", "3"}, {"part.name", "abc"}};
+  const std::vector<StateField> expected{{"steps", "7"},        {"part.x", "0.1"},      {"part.list.size", "3"},
+                                         {"part.list[0]", "1"}, {"part.list[1]", "-2"}, {"part.list[2]", "3"},
+                                         {"part.name", "abc"}};
   EXPECT_EQ(fields.value(), expected);
   const Bytes one = state(0.1, 3, "abc");
   EXPECT_FALSE(FirstStateDifference(one, one).value().has_value());
@@ -110,7 +111,8 @@ TEST(State, SaysItsFieldsAndWhereTwoDiffer) {
   EXPECT_EQ(x->path, "part.x");
   EXPECT_EQ(x->first + " " + x->second, "0.1 0.10000000000000002");
   EXPECT_EQ(FirstStateDifference(one, state(0.1, 4, "abd")).value()->path, "part.list[2]");
-  for (std::size_t size = 0; size < one.size(); ++size) (void)StateFields(std::span(one).first(size));  // never beyond its end
+  for (std::size_t size = 0; size < one.size(); ++size)
+    (void)StateFields(std::span(one).first(size));  // never beyond its end
   EXPECT_FALSE(StateFields(std::span(one).first(one.size() - 1)).ok());
 }
 
@@ -188,7 +190,8 @@ TEST(Files, WhatComesThroughAPipeIsReadToItsEnd) {
   ASSERT_EQ(::write(other[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
   ::close(ends[1]), ::close(other[1]);
   EXPECT_EQ(ReadText(path).value(), text + text);
-  EXPECT_EQ(ReadText("/dev/fd/" + std::to_string(other[0]), 10).error().message, "more than the 10 bytes that were expected at most came");
+  EXPECT_EQ(ReadText("/dev/fd/" + std::to_string(other[0]), 10).error().message,
+            "more than the 10 bytes that were expected at most came");
   ::close(ends[0]), ::close(other[0]);
 }
 
@@ -196,9 +199,12 @@ TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
   EXPECT_EQ(Printable("Régua to Pinhão, 3 µs …"), "Régua to Pinhão, 3 µs …");
   EXPECT_EQ(Printable("a\nb\tc\x1b[31m\x7f"), "a\\nb\\tc\\x1b[31m\\x7f");
   EXPECT_EQ(Printable(std::string_view("\0", 1)), "\\x00");
-  EXPECT_EQ(Printable("\xc2\x9b" "31m"), "\\xc2\\x9b31m");                // a control sequence in one character
-  EXPECT_EQ(Printable("\xc3("), "\\xc3(");                                 // cut short
-  EXPECT_EQ(Printable("\xc0\xaf \xed\xa0\x80 \xf5"), "\\xc0\\xaf \\xed\\xa0\\x80 \\xf5");  // overlong, surrogate, beyond Unicode
+  EXPECT_EQ(Printable("\xc2\x9b"
+                      "31m"),
+            "\\xc2\\x9b31m");               // a control sequence in one character
+  EXPECT_EQ(Printable("\xc3("), "\\xc3(");  // cut short
+  EXPECT_EQ(Printable("\xc0\xaf \xed\xa0\x80 \xf5"),
+            "\\xc0\\xaf \\xed\\xa0\\x80 \\xf5");  // overlong, surrogate, beyond Unicode
   EXPECT_EQ(Printable(std::string(5000, 'x'), 10), "xxxxxxxxxx…");
   EXPECT_EQ(WrongInput("'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
 }

@@ -7,7 +7,8 @@
 namespace rodeira::base {
 namespace {
 
-// However many they are, and however little there is to do: each once, round after round, and all done when Share comes back.
+// However many they are, and however little there is to do: each once, round after round, and all done when Share comes
+// back.
 TEST(Crew, DoesEachPartOnceAndWaitsForAll) {
   for (const unsigned threads : {1u, 2u, 3u, 7u}) {
     Crew crew(threads);

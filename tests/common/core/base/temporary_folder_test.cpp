@@ -48,7 +48,8 @@ TEST(TemporaryFolder, WhatAKilledOwnerLeftIsRemovedByTheNextAndALivingOnesIsNot)
   ::close(pipe[0]);
   ASSERT_GT(size, 0);
   const fs::path left = name.substr(0, static_cast<std::size_t>(size));
-  const fs::path foreign = left.parent_path() / ("rodeira-" + kPurpose + "-notes");  // not one of ours by its name's length
+  const fs::path foreign =
+      left.parent_path() / ("rodeira-" + kPurpose + "-notes");  // not one of ours by its name's length
   fs::create_directory(foreign);
   {
     const auto while_it_lives = TemporaryFolder::Make(kPurpose);

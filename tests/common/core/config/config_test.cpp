@@ -12,7 +12,9 @@ File Parsed(const char* text) {
 }
 
 TEST(Config, GivesWhatTheFileSays) {
-  const File file = Parsed("mass_kg: 1200.5\nname: Seat\nwheels: 4\nabs: true\nbody: {colour: red}\ngears: [3.46, 1.96]\nmesh: parts/a.obj\n");
+  const File file = Parsed(
+      "mass_kg: 1200.5\nname: Seat\nwheels: 4\nabs: true\nbody: {colour: red}\ngears: [3.46, 1.96]\nmesh: "
+      "parts/a.obj\n");
   const Map root = file.root();
   EXPECT_EQ(root.Number("mass_kg", Range::Positive()), 1200.5);
   EXPECT_EQ(root.Text("name"), "Seat");
@@ -37,7 +39,8 @@ TEST(Config, AnUnknownKeyIsNamedWithItsLineAndTheNearestName) {
 TEST(Config, AWrongUnitIsNamed) {
   const File file = Parsed("length_cm: 5\n");
   (void)file.root().Number("length_m", {}, 1.0);
-  EXPECT_EQ(file.Finish().error().Text(), "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
+  EXPECT_EQ(file.Finish().error().Text(),
+            "folder/car.yaml:1: unknown key 'length_cm'; the unit is part of the name: 'length_m'");
 }
 
 TEST(Config, AMisspeltKeyIsNotMissingToo) {
@@ -52,11 +55,16 @@ TEST(Config, AMisspeltKeyIsNotMissingToo) {
     return said;
   };
   const std::string rest = "  wheels: {}\n  axles: []\n";
-  EXPECT_EQ(problems("body:\n  mas_kg: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mas_kg'; did you mean 'mass_kg'?"});
-  EXPECT_EQ(problems("body:\n  mass_t: 1\n" + rest), std::vector<std::string>{"car.yaml:2: unknown key 'body.mass_t'; the unit is part of the name: 'mass_kg'"});
+  EXPECT_EQ(problems("body:\n  mas_kg: 1\n" + rest),
+            std::vector<std::string>{"car.yaml:2: unknown key 'body.mas_kg'; did you mean 'mass_kg'?"});
+  EXPECT_EQ(problems("body:\n  mass_t: 1\n" + rest),
+            std::vector<std::string>{"car.yaml:2: unknown key 'body.mass_t'; the unit is part of the name: 'mass_kg'"});
   EXPECT_EQ(problems("body:\n  mass_kg: 1\n  wheel: {}\n  axle: []\n"),
-            (std::vector<std::string>{"car.yaml:3: unknown key 'body.wheel'; did you mean 'wheels'?", "car.yaml:4: unknown key 'body.axle'; did you mean 'axles'?"}));
-  EXPECT_EQ(problems("body:\n" + rest), std::vector<std::string>{"car.yaml:2: key 'body.mass_kg' is missing; a number was expected"}) << "what is just missing is said";
+            (std::vector<std::string>{"car.yaml:3: unknown key 'body.wheel'; did you mean 'wheels'?",
+                                      "car.yaml:4: unknown key 'body.axle'; did you mean 'axles'?"}));
+  EXPECT_EQ(problems("body:\n" + rest),
+            std::vector<std::string>{"car.yaml:2: key 'body.mass_kg' is missing; a number was expected"})
+      << "what is just missing is said";
 }
 
 TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
@@ -81,7 +89,8 @@ TEST(Config, EveryProblemIsCollectedInTheOrderOfLines) {
 }
 
 TEST(Config, RefusesWhatIsNoMapping) {
-  EXPECT_NE(File::Parse("- 1\n", "x.yaml").error().Text().find("a mapping (key: value) was expected"), std::string::npos);
+  EXPECT_NE(File::Parse("- 1\n", "x.yaml").error().Text().find("a mapping (key: value) was expected"),
+            std::string::npos);
   EXPECT_NE(File::Parse("a: [1\n", "x.yaml").error().Text().find("x.yaml:"), std::string::npos);
   EXPECT_EQ(File::Load("/no/such/file.yaml").error().Text(), "/no/such/file.yaml: there is no such file");
   EXPECT_EQ(File::Parse("", "x.yaml").error().code, base::ErrorCode::kWrongInput);
@@ -97,11 +106,13 @@ TEST(Config, NestingIsBounded) {
       EXPECT_NE(file.error().Text().find(":2: this is nested too deeply"), std::string::npos) << file.error().Text();
     }
     const std::string closed = "a: " + std::string(depth, '[') + std::string(depth, ']') + "\n";
-    EXPECT_EQ(File::Parse(closed, "x.yaml").error().Text(), "x.yaml:1: this is nested too deeply: lists and mappings lie in one another, 500 levels are too many");
+    EXPECT_EQ(File::Parse(closed, "x.yaml").error().Text(),
+              "x.yaml:1: this is nested too deeply: lists and mappings lie in one another, 500 levels are too many");
   }
   EXPECT_TRUE(File::Parse("a: " + std::string(200, '[') + std::string(200, ']') + "\n", "x.yaml").ok());
   File file = Parsed("a: 1\n");
-  EXPECT_NE(file.Override("a", std::string(1000, '[')).error().Text().find("the value is nested too deeply"), std::string::npos);
+  EXPECT_NE(file.Override("a", std::string(1000, '[')).error().Text().find("the value is nested too deeply"),
+            std::string::npos);
 }
 
 TEST(Config, AnOverrideByNothingTakesAKeyOut) {
@@ -142,7 +153,8 @@ TEST(Config, OverridesReplaceAndAdd) {
   EXPECT_FALSE(file.Override("a", "[1").ok());
 }
 
-// A key that may stand there and does not is known where another is misspelt, and what is misspelt comes before what is missing.
+// A key that may stand there and does not is known where another is misspelt, and what is misspelt comes before what is
+// missing.
 TEST(Config, WhatMayStandThereIsAmongTheNamesThatAreNear) {
   const auto file = File::Parse("throtle: 1\nframes: {fsp: 25}\n", "wheel.yaml");
   ASSERT_TRUE(file.ok());
@@ -153,8 +165,10 @@ TEST(Config, WhatMayStandThereIsAmongTheNamesThatAreNear) {
   (void)frames.Text("times_s");
   const auto problems = file.value().Problems();
   ASSERT_EQ(problems.size(), 3u);
-  EXPECT_NE(problems[0].Text().find("unknown key 'throtle'; did you mean 'throttle'?"), std::string::npos) << problems[0].Text();
-  EXPECT_NE(problems[1].Text().find("unknown key 'frames.fsp'; did you mean 'fps'?"), std::string::npos) << problems[1].Text();
+  EXPECT_NE(problems[0].Text().find("unknown key 'throtle'; did you mean 'throttle'?"), std::string::npos)
+      << problems[0].Text();
+  EXPECT_NE(problems[1].Text().find("unknown key 'frames.fsp'; did you mean 'fps'?"), std::string::npos)
+      << problems[1].Text();
   EXPECT_NE(problems[2].Text().find("key 'frames.times_s' is missing"), std::string::npos) << problems[2].Text();
 }
 

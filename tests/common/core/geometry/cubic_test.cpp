@@ -28,7 +28,8 @@ TEST(CubicTable, BoundsHoldWhatSamplesFind) {
     std::vector<Cubic> records;
     for (std::uint64_t i = 0; i < 1 + n % 4; ++i) {
       const auto draw = [&](std::uint64_t k) { return base::RandomUniform({n, i, k}, -1.0, 1.0); };
-      records.push_back({3.0 * static_cast<double>(i), draw(0), draw(1), n % 3 == 0 ? 0.0 : draw(2), n % 2 == 0 ? 0.0 : draw(3)});
+      records.push_back(
+          {3.0 * static_cast<double>(i), draw(0), draw(1), n % 3 == 0 ? 0.0 : draw(2), n % 2 == 0 ? 0.0 : draw(3)});
     }
     const CubicTable table(records);
     const double low = base::RandomUniform({n, 100}, -1.0, 6.0), high = low + base::RandomUniform({n, 101}, 0.0, 8.0);

@@ -24,7 +24,8 @@ PlanElement Clothoid(double length, double k0, double k1) {
   return element;
 }
 
-// Tanh-free check: Gauss-Legendre would share our rule's idea, so Simpson's rule in 80 bits with many steps, extrapolated.
+// Tanh-free check: Gauss-Legendre would share our rule's idea, so Simpson's rule in 80 bits with many steps,
+// extrapolated.
 Complex Integral(const PlanElement& e, long double s) {
   const auto f = [&](long double x) {
     const long double rate = (static_cast<long double>(e.curvature_end_1pm) - e.curvature_start_1pm) / e.length_m;
@@ -36,7 +37,8 @@ Complex Integral(const PlanElement& e, long double s) {
     for (int i = 1; i < n; ++i) sum += (i % 2 == 1 ? 4.0L : 2.0L) * f(i * h);
     return sum * h / 3.0L;
   };
-  const int n = 2 * static_cast<int>(50 + 20 * s * std::max(std::fabs(e.curvature_start_1pm), std::fabs(e.curvature_end_1pm)));
+  const int n =
+      2 * static_cast<int>(50 + 20 * s * std::max(std::fabs(e.curvature_start_1pm), std::fabs(e.curvature_end_1pm)));
   const Complex once = simpson(8 * n), twice = simpson(16 * n);
   return twice + (twice - once) / 15.0L;
 }
@@ -55,8 +57,10 @@ TEST(PlanAxis, ClothoidsToAKilometreAndATenthOfCurvature) {
           const double s = part * length;
           const PlanPoint at = axis->Evaluate(s);
           const Complex moved = Integral(element, s);
-          EXPECT_NEAR(at.p_W.x(), static_cast<double>(12.0L + moved.real()), 1e-9) << length << " " << k0 << " " << change;
-          EXPECT_NEAR(at.p_W.y(), static_cast<double>(-7.0L + moved.imag()), 1e-9) << length << " " << k0 << " " << change;
+          EXPECT_NEAR(at.p_W.x(), static_cast<double>(12.0L + moved.real()), 1e-9)
+              << length << " " << k0 << " " << change;
+          EXPECT_NEAR(at.p_W.y(), static_cast<double>(-7.0L + moved.imag()), 1e-9)
+              << length << " " << k0 << " " << change;
           const long double rate = (static_cast<long double>(k1) - k0) / length;
           const auto heading = static_cast<double>(0.7L + (k0 + rate * s / 2) * s);
           EXPECT_NEAR(at.heading_rad, heading, 1e-12);
@@ -122,8 +126,8 @@ std::vector<PlanElement> OfEveryKind() {
   cubic.u = {0.0, 60.0, 10.0, -5.0};
   cubic.v = {0.0, 0.0, 40.0, -25.0};
   cubic.length_m = CubicLength(cubic, 1.0);
-  return {Clothoid(300.0, 0.0, 0.0), Clothoid(90.0, 0.03, 0.03), Clothoid(250.0, -0.004, -0.004), Clothoid(80.0, 0.002, -0.05),
-          Clothoid(500.0, 1e-8, 1e-8), cubic};
+  return {Clothoid(300.0, 0.0, 0.0),    Clothoid(90.0, 0.03, 0.03),  Clothoid(250.0, -0.004, -0.004),
+          Clothoid(80.0, 0.002, -0.05), Clothoid(500.0, 1e-8, 1e-8), cubic};
 }
 
 TEST(PlanAxis, TheFootIsTheNearestPoint) {
@@ -145,7 +149,8 @@ TEST(PlanAxis, TheFootIsTheNearestPoint) {
         nearest = std::min(nearest, (at.p_W - p).norm());
       }
       double sampled = 1e9;
-      for (double s = 0.0; s <= element.length_m; s += 0.02) sampled = std::min(sampled, (axis->Evaluate(s).p_W - p).norm());
+      for (double s = 0.0; s <= element.length_m; s += 0.02)
+        sampled = std::min(sampled, (axis->Evaluate(s).p_W - p).norm());
       EXPECT_LE(nearest, sampled + 1e-9);
       EXPECT_GE(nearest, sampled - 0.02);
     }
@@ -157,7 +162,8 @@ TEST(PlanAxis, PanelsJoinAndStationsAreLengths) {
     const auto axis = PlanAxis::Make({element});
     const auto& panels = axis->panels();
     for (std::size_t i = 0; i + 1 < panels.size(); ++i) {
-      const PlanPoint end = axis->At(panels[i], panels[i].half_m), begin = axis->At(panels[i + 1], -panels[i + 1].half_m);
+      const PlanPoint end = axis->At(panels[i], panels[i].half_m),
+                      begin = axis->At(panels[i + 1], -panels[i + 1].half_m);
       EXPECT_NEAR((end.p_W - begin.p_W).norm(), 0.0, 1e-10);
       EXPECT_NEAR(end.heading_rad, begin.heading_rad, 1e-11);
       EXPECT_NEAR(panels[i].end_s_m(), panels[i + 1].begin_s_m(), 1e-9);

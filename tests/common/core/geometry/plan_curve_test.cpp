@@ -13,7 +13,9 @@ namespace rodeira::geometry {
 namespace {
 
 // Uniform from low to high, in steps of one; times the unit.
-double Draw(int low, int high, double unit) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1)) * unit; }
+double Draw(int low, int high, double unit) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1)) * unit;
+}
 
 // Lines, arcs and clothoids at random, radii from 20 m, so that the curve also meets itself now and then.
 PlanCurve AnyCurve() {
@@ -23,9 +25,15 @@ PlanCurve AnyCurve() {
     const double k0 = Draw(-50, 50, 0.001), k1 = Draw(-50, 50, 0.001);
     const double length = Draw(1, 1200, 0.1);
     switch (*rc::gen::inRange(0, 3)) {
-      case 0: pieces.push_back({length, 0.0, 0.0}); break;
-      case 1: pieces.push_back({length, k0, k0}); break;
-      default: pieces.push_back({length, k0, k1}); break;
+      case 0:
+        pieces.push_back({length, 0.0, 0.0});
+        break;
+      case 1:
+        pieces.push_back({length, k0, k0});
+        break;
+      default:
+        pieces.push_back({length, k0, k1});
+        break;
     }
   }
   return PlanCurve({Draw(-5000, 5000, 1.0), Draw(-5000, 5000, 1.0)}, Draw(-314, 314, 0.01), pieces, 25.0);
@@ -40,8 +48,8 @@ double NearestSample(const PlanCurve& curve, const Eigen::Vector2d& p) {
 }
 
 TEST(PlanCurve, FollowsItsPieces) {
-  const std::vector<PlanPiece> pieces = {{120.0, 0.0, 0.0}, {30.0, 0.0, 1.0 / 45.0}, {60.0, 1.0 / 45.0, 1.0 / 45.0},
-                                         {30.0, 1.0 / 45.0, -1.0 / 90.0}};
+  const std::vector<PlanPiece> pieces = {
+      {120.0, 0.0, 0.0}, {30.0, 0.0, 1.0 / 45.0}, {60.0, 1.0 / 45.0, 1.0 / 45.0}, {30.0, 1.0 / 45.0, -1.0 / 90.0}};
   const PlanCurve curve({10.0, 20.0}, 0.5, pieces);
   EXPECT_DOUBLE_EQ(curve.length_m(), 240.0);
   Eigen::Vector2d start(10.0, 20.0);
@@ -104,8 +112,8 @@ TEST(PlanCurve, FindsTheFootBeforeTheDistanceFallsAgain) {
   EXPECT_NEAR(foot.t_m, 0.9 / at.curvature_1pm, 1e-12);
 }
 
-// About the centre of curvature the distance hardly changes along the curve: two minima lie close together, or a minimum
-// and the end, or all points are equally near. Each foot against the nearest of points 5 mm apart.
+// About the centre of curvature the distance hardly changes along the curve: two minima lie close together, or a
+// minimum and the end, or all points are equally near. Each foot against the nearest of points 5 mm apart.
 TEST(PlanCurve, AboutTheCentreOfCurvatureNoNearerPointIsMissed) {
   const auto draw = [](std::uint64_t stream, int i, double low, double high) {
     return base::RandomUniform({stream, static_cast<std::uint64_t>(i)}, low, high);
@@ -117,11 +125,13 @@ TEST(PlanCurve, AboutTheCentreOfCurvatureNoNearerPointIsMissed) {
     const PlanPoint at = curve.Evaluate(s);
     const double off = std::pow(10.0, draw(5, i, -12.0, -0.7));  // of the radius
     const double way = draw(6, i, -kPi, kPi);
-    const Eigen::Vector2d p = at.p_W + (at.left_W() * (1.0 + off * std::cos(way)) + off * std::sin(way) * at.tangent_W) / at.curvature_1pm;
+    const Eigen::Vector2d p =
+        at.p_W + (at.left_W() * (1.0 + off * std::cos(way)) + off * std::sin(way) * at.tangent_W) / at.curvature_1pm;
     const Foot foot = curve.Project(p.x(), p.y());
     double nearest = foot.distance_m;
     const int count = static_cast<int>(curve.length_m() / 0.005) + 1;
-    for (int k = 0; k <= count; ++k) nearest = std::min(nearest, (curve.Evaluate(curve.length_m() * k / count).p_W - p).norm());
+    for (int k = 0; k <= count; ++k)
+      nearest = std::min(nearest, (curve.Evaluate(curve.length_m() * k / count).p_W - p).norm());
     ASSERT_LE(foot.distance_m, nearest + 1e-12 / at.curvature_1pm) << i;
     const bool at_an_end = foot.s_m == 0.0 || foot.s_m == curve.length_m();
     ASSERT_LT(at_an_end ? 0.0 : std::fabs((p - foot.at.p_W).dot(foot.at.tangent_W)), 1e-8) << i;

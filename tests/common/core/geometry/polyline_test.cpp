@@ -58,11 +58,13 @@ RC_GTEST_PROP(Polyline, EveryMoveHasItsWayBack, (std::uint64_t seed)) {
   RC_ASSERT(Distance(Rotated(Rotated(line, angle, by.head<2>()), -angle, by.head<2>()), line) < 1e-10);
   RC_ASSERT(Distance(Scaled(Scaled(line, factor, 2.0, by), 1.0 / factor, 0.5, by), line) < 1e-10);
   RC_ASSERT(std::fabs(StationsOf(Rotated(line, angle, {0, 0})).back() - StationsOf(line).back()) < 1e-10);
-  RC_ASSERT(std::fabs(StationsOf(Scaled(line, factor, 1.0, {0, 0, 0})).back() - factor * StationsOf(line).back()) < 1e-9);
+  RC_ASSERT(std::fabs(StationsOf(Scaled(line, factor, 1.0, {0, 0, 0})).back() - factor * StationsOf(line).back()) <
+            1e-9);
 }
 
 TEST(Polyline, IsJoinedEndToBeginning) {
-  const Polyline a = Line({{0, 0, 0}, {10, 0, 1}}), b = Line({{10.01, 0, 1}, {20, 0, 2}}), far = Line({{25, 0, 2}, {30, 0, 2}});
+  const Polyline a = Line({{0, 0, 0}, {10, 0, 1}}), b = Line({{10.01, 0, 1}, {20, 0, 2}}),
+                 far = Line({{25, 0, 2}, {30, 0, 2}});
   const std::vector<std::string> names = {"a.csv", "b.csv", "c.csv"};
   const auto join = [&names](std::vector<Polyline> lines, const JoinRules& rules) {
     return Joined(lines, std::span(names).first(lines.size()), rules);
@@ -73,9 +75,9 @@ TEST(Polyline, IsJoinedEndToBeginning) {
   EXPECT_THAT(join({a, Reversed(b)}, {}).error().message, HasSubstr("(its end lies there: --turn turns it round)"));
   EXPECT_EQ(Distance(join({a, Reversed(b)}, {0.05, false, true}).value(), join({a, b}, {}).value()), 0.0);
   EXPECT_THAT(join({a, b, far}, {}).error().message, HasSubstr("'c.csv' begins 5 m from where 'b.csv' ends"));
-  EXPECT_EQ(
-      Distance(join({a, b, far}, {0.05, true, false}).value(), Line({{0, 0, 0}, {10, 0, 1}, {20, 0, 2}, {25, 0, 2}, {30, 0, 2}})),
-      0.0);
+  EXPECT_EQ(Distance(join({a, b, far}, {0.05, true, false}).value(),
+                     Line({{0, 0, 0}, {10, 0, 1}, {20, 0, 2}, {25, 0, 2}, {30, 0, 2}})),
+            0.0);
   Polyline flat = b;
   flat.has_z = false;
   EXPECT_THAT(join({a, flat}, {}).error().message, HasSubstr("do not both have heights"));
@@ -104,7 +106,8 @@ TEST(PolylineCsv, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(refusal("x_m,y_m,x_m\n1,2,3\n"), HasSubstr("column 'x_m' is there twice"));
   EXPECT_THAT(refusal("x_m,y_m\n1,2\n3\n"), HasSubstr("line.csv:3: 1 values were found; 2 were expected"));
   EXPECT_THAT(refusal("x_m,y_m\n1,2\n\n3,4,5\n"), HasSubstr("line.csv:4: 3 values were found; 2 were expected"));
-  EXPECT_THAT(refusal("x_m,y_m\n1,two\n"), HasSubstr("line.csv:2: 'y_m' is 'two'; a number of at most 1e9 was expected"));
+  EXPECT_THAT(refusal("x_m,y_m\n1,two\n"),
+              HasSubstr("line.csv:2: 'y_m' is 'two'; a number of at most 1e9 was expected"));
   EXPECT_THAT(refusal("x_m,y_m\n1,1e10\n"), HasSubstr("'y_m' is '1e10'"));
   EXPECT_THAT(refusal("x_m,y_m\n1,nan\n"), HasSubstr("'y_m' is 'nan'"));
   EXPECT_THAT(refusal("x_m,y_m\n1;2\n"), HasSubstr("1 values were found"));
@@ -117,13 +120,14 @@ TEST(Mitre, FollowsTheRuleOfTheSeed) {
   const Polyline corner = Line({{0, 0, 0}, {10, 0, 0}, {10, 10, 0}});
   const std::vector<Eigen::Vector2d> wide = MitreVectors(corner, Mitre::kKeepWidth),
                                      plain = MitreVectors(corner, Mitre::kKeepLength);
-  EXPECT_EQ(wide[0], Eigen::Vector2d(0, 1));   // the ends: the perpendicular
+  EXPECT_EQ(wide[0], Eigen::Vector2d(0, 1));  // the ends: the perpendicular
   EXPECT_EQ(wide[2], Eigen::Vector2d(-1, 0));
   EXPECT_NEAR((wide[1] - Eigen::Vector2d(-1, 1)).norm(), 0.0, 1e-15);
   EXPECT_NEAR((plain[1] - Eigen::Vector2d(-1, 1) / std::sqrt(2.0)).norm(), 0.0, 1e-15);
   // East, then south: the sum points to the right and is turned.
-  EXPECT_NEAR((MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {10, -10, 0}}), Mitre::kKeepWidth)[1] - Eigen::Vector2d(1, 1)).norm(),
-              0.0, 1e-15);
+  EXPECT_NEAR(
+      (MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {10, -10, 0}}), Mitre::kKeepWidth)[1] - Eigen::Vector2d(1, 1)).norm(),
+      0.0, 1e-15);
   // Collinear: the sum is zero, the perpendicular is used.
   EXPECT_EQ(MitreVectors(Line({{0, 0, 0}, {10, 0, 0}, {30, 0, 0}}), Mitre::kKeepWidth)[1], Eigen::Vector2d(0, 1));
 }
@@ -169,14 +173,17 @@ RC_GTEST_PROP(Offset, KeepsItsDistanceFromEverySegmentAndHasItsWayBack, (std::ui
   }
 }
 
-// The strip between the lines on both sides faces up: left and right of each node, right and left of the next run counter-clockwise seen from above, by either rule, in bends to both sides.
+// The strip between the lines on both sides faces up: left and right of each node, right and left of the next run
+// counter-clockwise seen from above, by either rule, in bends to both sides.
 RC_GTEST_PROP(Offset, TheStripBetweenBothSidesFacesUp, (std::uint64_t seed)) {
   const Polyline line = Wavy(seed);
   for (const Mitre mitre : {Mitre::kKeepWidth, Mitre::kKeepLength}) {
     const OffsetLine left = Offset(line, 3.5, mitre), right = Offset(line, -3.5, mitre);
     RC_ASSERT(left.faults.empty() && right.faults.empty());
     for (std::size_t i = 0; i + 1 < line.points_W.size(); ++i) {
-      const std::array<Eigen::Vector2d, 4> p = {left.line.points_W[i].head<2>(), right.line.points_W[i].head<2>(), right.line.points_W[i + 1].head<2>(), left.line.points_W[i + 1].head<2>()};
+      const std::array<Eigen::Vector2d, 4> p = {left.line.points_W[i].head<2>(), right.line.points_W[i].head<2>(),
+                                                right.line.points_W[i + 1].head<2>(),
+                                                left.line.points_W[i + 1].head<2>()};
       for (std::size_t k = 0; k < 4; ++k) {
         const Eigen::Vector2d a = p[(k + 1) % 4] - p[k], b = p[(k + 2) % 4] - p[(k + 1) % 4];
         RC_ASSERT(a.x() * b.y() - a.y() * b.x() > 0.0);
@@ -215,11 +222,11 @@ TEST(Offset, WherePartsComeNearItCrossesItself) {
   // 100 m to the east, round to the west, south, and by a right-hand bend of 20 m about (20, 26) to the west again, 6 m
   // beside the beginning. 4 m to the left the outside of that bend (24 m) cuts y = 4 at x = 20 + sqrt(24^2 - 22^2).
   Polyline line = Line({{0, 0, 0}, {100, 0, 0}});
-  AddArc(line, {100, 30}, -0.5 * kPi, kPi);         // radius 30, to (100, 60) westward
+  AddArc(line, {100, 30}, -0.5 * kPi, kPi);  // radius 30, to (100, 60) westward
   line.points_W.emplace_back(70.0, 60.0, 0.0);
-  AddArc(line, {70, 30}, 0.5 * kPi, 0.5 * kPi);     // to (40, 30) southward
+  AddArc(line, {70, 30}, 0.5 * kPi, 0.5 * kPi);  // to (40, 30) southward
   line.points_W.emplace_back(40.0, 26.0, 0.0);
-  AddArc(line, {20, 26}, 0.0, -0.5 * kPi);          // to (20, 6) westward
+  AddArc(line, {20, 26}, 0.0, -0.5 * kPi);  // to (20, 6) westward
   line.points_W.emplace_back(0.0, 6.0, 0.0);
   EXPECT_TRUE(Offset(line, 2.9).faults.empty());
   EXPECT_TRUE(Offset(line, -4.0).faults.empty());
@@ -244,7 +251,8 @@ TEST(Offset, ALineThatTurnsBackHasNoMitre) {
   const OffsetLine offset = Offset(Line({{0, 0, 0}, {10, 0, 0}, {0, 0.5, 0}}), -1.0);
   ASSERT_FALSE(offset.faults.empty());
   EXPECT_EQ(offset.faults.back().kind, OffsetFault::Kind::kSharp);
-  EXPECT_THAT(FaultText(offset.faults.back(), -1.0), HasSubstr("turns back by more than 160 degrees at station 10.000 m"));
+  EXPECT_THAT(FaultText(offset.faults.back(), -1.0),
+              HasSubstr("turns back by more than 160 degrees at station 10.000 m"));
 }
 
 TEST(Crossings, AreThoseOfAllPairs) {

@@ -11,7 +11,9 @@
 namespace rodeira::geometry {
 namespace {
 
-double Bit(double value) { return std::nextafter(std::fabs(value), std::numeric_limits<double>::infinity()) - std::fabs(value); }
+double Bit(double value) {
+  return std::nextafter(std::fabs(value), std::numeric_limits<double>::infinity()) - std::fabs(value);
+}
 
 TEST(SmallAngle, SineCosineAndArcTangentAreRightToABit) {
   for (int i = -3000; i <= 3000; ++i) {

@@ -21,7 +21,8 @@ TEST(VerticalProfile, IsTheTextbookParabola) {
 }
 
 TEST(VerticalProfile, HeightAndGradeAreContinuous) {
-  const VerticalProfile profile({{0.0, 0.0, 0.0}, {100.0, 5.0, 80.0}, {180.0, 5.0, 80.0}, {300.0, -7.0, 20.0}, {400.0, 3.0, 0.0}});
+  const VerticalProfile profile(
+      {{0.0, 0.0, 0.0}, {100.0, 5.0, 80.0}, {180.0, 5.0, 80.0}, {300.0, -7.0, 20.0}, {400.0, 3.0, 0.0}});
   ProfilePoint before = profile.Evaluate(0.0);
   for (double s = 0.01; s < 400.0; s += 0.01) {
     const ProfilePoint now = profile.Evaluate(s);

@@ -22,7 +22,8 @@ TEST(PlaneGround, IsThePlaneEverywhere) {
 
 TEST(Patch, LiesAboutItsMiddleFromRearRightToFrontLeft) {
   PlaneGround plane({0.0, 0.0, 0.0}, 0.1, 0.01);
-  GroundPatch patch{10.0, 20.0, 0.5 * 3.14159265358979323846, 4.0, 2.0, 3, 2};  // heading north: forward is +y, left is -x
+  GroundPatch patch{10.0, 20.0, 0.5 * 3.14159265358979323846, 4.0, 2.0,
+                    3,    2};  // heading north: forward is +y, left is -x
   std::vector<GroundPoint> points(patch.size());
   plane.Patch(patch, points);
   const Eigen::Vector2d expected[] = {{11.0, 18.0}, {9.0, 18.0}, {11.0, 20.0}, {9.0, 20.0}, {11.0, 22.0}, {9.0, 22.0}};
@@ -58,7 +59,8 @@ class Floors final : public Ground {
 };
 
 TEST(Layers, AreAllSurfacesFromTheTopDown) {
-  for (const std::vector<double>& floors : {std::vector<double>{}, {3.0}, {12.0, 5.5, 5.25, 0.0, -2.0}, {1e6, 1e6 - 0.001}, {0.1, 0.1 - 1e-5}}) {
+  for (const std::vector<double>& floors :
+       {std::vector<double>{}, {3.0}, {12.0, 5.5, 5.25, 0.0, -2.0}, {1e6, 1e6 - 0.001}, {0.1, 0.1 - 1e-5}}) {
     Floors ground(floors);
     const std::vector<GroundPoint> layers = ground.Layers(1.0, 2.0);
     ASSERT_EQ(layers.size(), floors.size());

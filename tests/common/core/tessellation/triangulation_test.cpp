@@ -37,7 +37,8 @@ void ExpectWhole(const Triangulation& t, bool delaunay) {
       EXPECT_EQ(beyond.fixed[static_cast<std::size_t>(back)], triangle.fixed[k]);
       const std::uint32_t d = beyond.corner[static_cast<std::size_t>((back + 2) % 3)];
       if (delaunay && !triangle.fixed[k]) {
-        EXPECT_FALSE(InCircle(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]], p[d])) << "triangle " << i;
+        EXPECT_FALSE(InCircle(p[triangle.corner[0]], p[triangle.corner[1]], p[triangle.corner[2]], p[d]))
+            << "triangle " << i;
       }
     }
   }
@@ -91,15 +92,16 @@ TEST(Triangulation, SidesThatCrossAreRefused) {
   ExpectWhole(t, true);
 }
 
-// Lines drawn across one another, noded, are sides of the triangulation, every one of them; and points put in afterwards
-// leave them where they are.
+// Lines drawn across one another, noded, are sides of the triangulation, every one of them; and points put in
+// afterwards leave them where they are.
 TEST(Triangulation, NodedLinesBecomeSides) {
   for (std::uint64_t seed = 10; seed < 20; ++seed) {
     std::vector<GridLine> lines;
     const std::int32_t most = seed % 2 == 0 ? kSize : 64;  // a coarse one: everything meets in grid points
     for (std::uint64_t n = 0; n < 60; ++n) {
       GridLine line;
-      for (std::uint64_t k = 0; k < 4; ++k) line.push_back({Draw(seed, n, 2 * k, most), Draw(seed, n, 2 * k + 1, most)});
+      for (std::uint64_t k = 0; k < 4; ++k)
+        line.push_back({Draw(seed, n, 2 * k, most), Draw(seed, n, 2 * k + 1, most)});
       lines.push_back(line);
     }
     const std::vector<GridSegment> segments = Node(lines);
@@ -108,7 +110,8 @@ TEST(Triangulation, NodedLinesBecomeSides) {
       t.Insert(segment.a);
       t.Insert(segment.b);
     }
-    for (const GridSegment& segment : segments) EXPECT_TRUE(t.Fix(t.Insert(segment.a), t.Insert(segment.b))) << "seed " << seed;
+    for (const GridSegment& segment : segments)
+      EXPECT_TRUE(t.Fix(t.Insert(segment.a), t.Insert(segment.b))) << "seed " << seed;
     ExpectWhole(t, true);
     for (const GridSegment& segment : segments) EXPECT_TRUE(IsFixed(t, segment)) << "seed " << seed;
     const auto faces = t.Faces();
@@ -123,7 +126,8 @@ TEST(Triangulation, NodedLinesBecomeSides) {
 
 // What a point is sought from changes nothing; and each new triangle is of the face of the one that it was cut from.
 TEST(Triangulation, WhereAPointIsSoughtFromChangesNothing) {
-  const std::vector<GridLine> lines = {{{1000, 1000}, {kSize - 1000, 900}, {kSize - 2000, kSize - 500}, {1000, 1000}}, {{0, kSize / 2}, {kSize, kSize / 2}}};
+  const std::vector<GridLine> lines = {{{1000, 1000}, {kSize - 1000, 900}, {kSize - 2000, kSize - 500}, {1000, 1000}},
+                                       {{0, kSize / 2}, {kSize, kSize / 2}}};
   Triangulation plain(kSize), sought(kSize);
   for (Triangulation* t : {&plain, &sought}) {
     for (const GridSegment& segment : Node(lines)) {
@@ -135,16 +139,22 @@ TEST(Triangulation, WhereAPointIsSoughtFromChangesNothing) {
   for (std::uint64_t n = 0; n < 2000; ++n) {
     GridPoint p{Draw(77, n, 0, kSize), Draw(77, n, 1, kSize)};
     if (n % 5 == 0) p.y = kSize / 2;  // on a side
-    if (n % 7 == 0) p = plain.points()[static_cast<std::size_t>(Draw(77, n, 2, static_cast<std::int32_t>(plain.points().size()) - 1))];  // there already
-    const auto near = static_cast<std::uint32_t>(Draw(77, n, 3, static_cast<std::int32_t>(sought.triangles().size()) - 1));
+    if (n % 7 == 0)
+      p = plain.points()[static_cast<std::size_t>(
+          Draw(77, n, 2, static_cast<std::int32_t>(plain.points().size()) - 1))];  // there already
+    const auto near =
+        static_cast<std::uint32_t>(Draw(77, n, 3, static_cast<std::int32_t>(sought.triangles().size()) - 1));
     ASSERT_EQ(plain.Insert(p), sought.Insert(p, near)) << n;
-    for (std::size_t i = face_of.size(); i < sought.triangles().size(); ++i) face_of.push_back(face_of[sought.CutFrom(static_cast<std::uint32_t>(i))]);
+    for (std::size_t i = face_of.size(); i < sought.triangles().size(); ++i)
+      face_of.push_back(face_of[sought.CutFrom(static_cast<std::uint32_t>(i))]);
   }
   ASSERT_EQ(plain.triangles().size(), sought.triangles().size());
-  for (std::size_t i = 0; i < plain.triangles().size(); ++i) ASSERT_EQ(plain.triangles()[i].corner, sought.triangles()[i].corner) << i;
+  for (std::size_t i = 0; i < plain.triangles().size(); ++i)
+    ASSERT_EQ(plain.triangles()[i].corner, sought.triangles()[i].corner) << i;
   const std::vector<std::uint32_t> faces = sought.Faces();
   std::map<std::uint32_t, std::uint32_t> same;
-  for (std::size_t i = 0; i < faces.size(); ++i) ASSERT_EQ(same.try_emplace(faces[i], face_of[i]).first->second, face_of[i]) << i;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    ASSERT_EQ(same.try_emplace(faces[i], face_of[i]).first->second, face_of[i]) << i;
 }
 
 TEST(Triangulation, FindsWhereAPointLies) {
@@ -153,7 +163,8 @@ TEST(Triangulation, FindsWhereAPointLies) {
   for (std::uint64_t n = 0; n < 300; ++n) {
     const GridPoint p{Draw(4, n, 0, kSize), Draw(4, n, 1, kSize)};
     const auto& triangle = t.triangles()[t.Find(p)];
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_GE(Turn(t.points()[triangle.corner[k]], t.points()[triangle.corner[(k + 1) % 3]], p), 0);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_GE(Turn(t.points()[triangle.corner[k]], t.points()[triangle.corner[(k + 1) % 3]], p), 0);
   }
 }
 

@@ -29,7 +29,8 @@ class ExportTest : public ::testing::Test {
   struct Recording {
     base::Bytes bytes;
     record::McapWriter writer;
-    explicit Recording(record::WriterSettings settings = {}) : writer(record::McapWriter::Open(std::make_unique<record::MemorySink>(&bytes), settings).value()) {}
+    explicit Recording(record::WriterSettings settings = {})
+        : writer(record::McapWriter::Open(std::make_unique<record::MemorySink>(&bytes), settings).value()) {}
     record::ChannelId Channel(std::string_view topic, const std::string& source) {
       const auto* info = idl::FindTopic(topic);
       const auto schema = writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject)).value();
@@ -50,7 +51,9 @@ class ExportTest : public ::testing::Test {
   };
   fs::path Out() const { return folder_ / "tables"; }
   std::string Table(const std::string& name) const { return base::ReadText(Out() / name).value(); }
-  std::size_t Left() const { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator())); }
+  std::size_t Left() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
 
   const fs::path folder_ = fs::temp_directory_path() / ("rodeira-csv-" + std::to_string(::getpid()));
 };
@@ -81,7 +84,8 @@ TEST_F(ExportTest, ControlsOfTwoSourcesInOneTable) {
   const auto report = ExportCsv(reader, Out());
   ASSERT_TRUE(report.ok()) << report.error().Text();
   EXPECT_EQ(Table("controls.csv"),
-            "time_s,step,source,steering_wheel_rad,throttle,brake,clutch,handbrake,gear,gearbox_mode,starter,indicators,headlights,horn,state_digest\n"
+            "time_s,step,source,steering_wheel_rad,throttle,brake,clutch,handbrake,gear,gearbox_mode,starter,"
+            "indicators,headlights,horn,state_digest\n"
             "0,0,driver,-0.1,0.3333333333333333,0,0,0,-1,0,0,2,0,0,0000000000abcdef\n"
             "1.5000015,1500,\"other, one\",-0.1,0.3333333333333333,0,0,0,-1,0,0,2,0,0,0000000000abd3cb\n");
   ASSERT_EQ(report.value().tables.size(), 1u);
@@ -131,7 +135,8 @@ TEST_F(ExportTest, TrafficIsOneRowAnAgentAndEventsOneRowAnEvent) {
 TEST_F(ExportTest, VehicleStatesReadBackToTheBit) {
   Recording recording;
   const auto ego = recording.Channel(idl::topics::kVehicleState, "ego");
-  const std::vector<double> values = {0.1, 1e-300, -123456.789012345678, 5e-324, 1.7976931348623157e308, 0.30000000000000004};
+  const std::vector<double> values = {
+      0.1, 1e-300, -123456.789012345678, 5e-324, 1.7976931348623157e308, 0.30000000000000004};
   const std::vector<float> singles = {0.1F, 1e-38F, -123456.789F, 1e-45F, 3.4028235e38F, 0.30000001F};
   for (std::size_t i = 0; i < values.size(); ++i) {
     msg::VehicleState state;
@@ -158,7 +163,8 @@ TEST_F(ExportTest, VehicleStatesReadBackToTheBit) {
 
 TEST_F(ExportTest, ForeignTypesListsAndClashingNames) {
   Recording recording;
-  const char* idl = "struct P { double x; string s; }; struct A { sequence<double> v; sequence<P> a; sequence<P> b; octet raw[2]; };";
+  const char* idl =
+      "struct P { double x; string s; }; struct A { sequence<double> v; sequence<P> a; sequence<P> b; octet raw[2]; };";
   const auto schema = recording.writer.AddSchema("A", "omgidl", idl).value();
   const auto plain = recording.writer.AddSchema("X", "jsonschema", "{}").value();
   const auto one = recording.writer.AddChannel("a/b", schema, "cdr").value();
@@ -172,12 +178,14 @@ TEST_F(ExportTest, ForeignTypesListsAndClashingNames) {
   for (int i = 0; i < 3; ++i) out.Put(std::uint8_t{0});
   out.Put(std::uint32_t{0});  // b
   out.Put(std::uint8_t{1}), out.Put(std::uint8_t{0xfe});
-  for (const auto channel : {one, two}) ASSERT_TRUE(recording.writer.Write(channel, 0, 2'500'000'000, 0, out.bytes()).ok());
+  for (const auto channel : {one, two})
+    ASSERT_TRUE(recording.writer.Write(channel, 0, 2'500'000'000, 0, out.bytes()).ok());
   ASSERT_TRUE(recording.writer.Write(json, 0, 0, 0, out.bytes()).ok());
   const auto reader = recording.Reader();
   const auto report = ExportCsv(reader, Out());
   ASSERT_TRUE(report.ok()) << report.error().Text();
-  EXPECT_EQ(Table("a_b.csv"), "time_s,source,v,a,b,raw\n2.5,channel 1,1.5; -2,\"[0].x=0.25; [0].s=\"\"a\\\"\";b\"\"\",,01fe\n");
+  EXPECT_EQ(Table("a_b.csv"),
+            "time_s,source,v,a,b,raw\n2.5,channel 1,1.5; -2,\"[0].x=0.25; [0].s=\"\"a\\\"\";b\"\"\",,01fe\n");
   EXPECT_TRUE(fs::exists(Out() / "a_b_2.csv"));
   EXPECT_EQ(report.value().left_out, std::vector<std::string>{"text: its messages are not CDR with an IDL schema"});
 }
@@ -206,7 +214,8 @@ TEST_F(ExportTest, NothingIsLeftOfAnExportThatFails) {
   const auto report = ExportCsv(reader, Out());
   ASSERT_FALSE(report.ok());
   EXPECT_EQ(report.error().exit_status(), 2);
-  EXPECT_THAT(report.error().Text(), HasSubstr("rodeira/controls of 'driver' at 0.02 s: byte 4: the message ends after 46 bytes"));
+  EXPECT_THAT(report.error().Text(),
+              HasSubstr("rodeira/controls of 'driver' at 0.02 s: byte 4: the message ends after 46 bytes"));
   EXPECT_EQ(Left(), 0u);
   const auto stopped = ExportCsv(reader, Out(), [](double) { return false; });
   ASSERT_FALSE(stopped.ok());

@@ -25,8 +25,9 @@ std::string Columns(const Layout& layout) {
 }
 
 TEST(Layout, ArraysAreColumnsAndOneSequenceOfStructuresMakesTheRows) {
-  const std::string idl = "struct P { double x; octet tag[2]; short g[2]; };"
-                          "struct A { long n; sequence<P> points; sequence<double> more; string s; };";
+  const std::string idl =
+      "struct P { double x; octet tag[2]; short g[2]; };"
+      "struct A { long n; sequence<P> points; sequence<double> more; string s; };";
   const Layout layout = Of(idl, "A");
   EXPECT_EQ(layout.rows, "points");
   EXPECT_FALSE(layout.has_header);
@@ -34,8 +35,10 @@ TEST(Layout, ArraysAreColumnsAndOneSequenceOfStructuresMakesTheRows) {
 }
 
 TEST(Layout, OfSeveralSequencesOfStructuresNoneMakesRows) {
-  const std::string idl = "struct P { double x; }; struct Q { sequence<P> p; }; struct A { sequence<P> a; sequence<P> b; }; struct B { Q q[2]; };"
-                          "struct C { sequence<Q> q; double m[2][2]; };";
+  const std::string idl =
+      "struct P { double x; }; struct Q { sequence<P> p; }; struct A { sequence<P> a; sequence<P> b; }; struct B { Q "
+      "q[2]; };"
+      "struct C { sequence<Q> q; double m[2][2]; };";
   EXPECT_EQ(Columns(Of(idl, "A")), "a[] b[]");
   EXPECT_EQ(Columns(Of(idl, "B")), "q[0].p[] q[1].p[]");
   EXPECT_EQ(Columns(Of(idl, "C")), "*q.p[] m[0][0] m[0][1] m[1][0] m[1][1]");
@@ -54,11 +57,13 @@ TEST(Layout, OfTheProjectsTopics) {
     const auto* info = idl::FindTopic(topic);
     return Of(idl::IdlTextOf(info->subject), std::string(info->type));
   };
-  for (const idl::TopicInfo& topic : idl::Topics()) EXPECT_EQ(of(topic.topic).has_header, topic.lockstep) << topic.topic;
+  for (const idl::TopicInfo& topic : idl::Topics())
+    EXPECT_EQ(of(topic.topic).has_header, topic.lockstep) << topic.topic;
   EXPECT_EQ(of(idl::topics::kTrafficState).rows, "agents");
   EXPECT_EQ(of(idl::topics::kScenarioEvents).rows, "events");
   EXPECT_EQ(of(idl::topics::kVehicleState).rows, "");
-  EXPECT_EQ(Columns(of(idl::topics::kControls)), "steering_wheel_rad throttle brake clutch handbrake gear gearbox_mode starter indicators headlights horn");
+  EXPECT_EQ(Columns(of(idl::topics::kControls)),
+            "steering_wheel_rad throttle brake clutch handbrake gear gearbox_mode starter indicators headlights horn");
 }
 
 }  // namespace

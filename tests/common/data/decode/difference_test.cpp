@@ -60,7 +60,8 @@ TEST(FirstDifference, OfTwoKindsOfNoNumberSaysTheBits) {
   a.brake(std::numeric_limits<double>::quiet_NaN());
   b.brake(-std::numeric_limits<double>::quiet_NaN());
   EXPECT_EQ(Between("driving", "rodeira::msg::Controls", a, a), "");
-  EXPECT_EQ(Between("driving", "rodeira::msg::Controls", a, b), "brake: nan (0x7ff8000000000000) | nan (0xfff8000000000000)");
+  EXPECT_EQ(Between("driving", "rodeira::msg::Controls", a, b),
+            "brake: nan (0x7ff8000000000000) | nan (0xfff8000000000000)");
 }
 
 TEST(FirstDifference, OfPaddingAndOfWhatIsNoMessage) {

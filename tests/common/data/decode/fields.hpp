@@ -20,7 +20,8 @@ void Fields(V& v, msg::Header& m) {
 }
 template <class V>
 void Fields(V& v, msg::Grant& m) {
-  v("clock_id", m.clock_id()), v("roster_hash", m.roster_hash()), v("through_step", m.through_step()), v("serial", m.serial());
+  v("clock_id", m.clock_id()), v("roster_hash", m.roster_hash()), v("through_step", m.through_step()),
+      v("serial", m.serial());
   v("final_step", m.final_step()), v("abort", m.abort()), v("over", m.over()), v("safe_step", m.safe_step());
   v("resume_step", m.resume_step()), v("lives", m.lives()), v("reason", m.reason()), v("end", m.end());
 }
@@ -35,18 +36,23 @@ void Fields(V& v, msg::Hello& m) {
 }
 template <class V>
 void Fields(V& v, msg::Report& m) {
-  v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()), v("phase", m.phase());
+  v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()),
+      v("phase", m.phase());
   v("progress_step", m.progress_step()), v("waiting", m.waiting()), v("waiting_source", m.waiting_source());
-  v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()), v("worst_ns", m.worst_ns());
+  v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()),
+      v("worst_ns", m.worst_ns());
   v("server_calls", m.server_calls()), v("median_interval_ns", m.median_interval_ns()),
       v("p99_interval_ns", m.p99_interval_ns()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
-  v("granted_final", m.granted_final()), v("cannot_save", m.cannot_save()), v("message", m.message()), v("end", m.end());
+  v("granted_final", m.granted_final()), v("cannot_save", m.cannot_save()), v("message", m.message()),
+      v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Controls& m) {
-  v("header", m.header()), v("steering_wheel_rad", m.steering_wheel_rad()), v("throttle", m.throttle()), v("brake", m.brake());
+  v("header", m.header()), v("steering_wheel_rad", m.steering_wheel_rad()), v("throttle", m.throttle()),
+      v("brake", m.brake());
   v("clutch", m.clutch()), v("handbrake", m.handbrake()), v("gear", m.gear()), v("gearbox_mode", m.gearbox_mode());
-  v("starter", m.starter()), v("indicators", m.indicators()), v("headlights", m.headlights()), v("horn", m.horn()), v("end", m.end());
+  v("starter", m.starter()), v("indicators", m.indicators()), v("headlights", m.headlights()), v("horn", m.horn()),
+      v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::GroundPointQuery& m) {
@@ -59,12 +65,14 @@ void Fields(V& v, msg::GroundPointAnswer& m) {
 }
 template <class V>
 void Fields(V& v, msg::GroundRequest& m) {
-  v("asker", m.asker()), v("incarnation", m.incarnation()), v("step", m.step()), v("number", m.number()), v("points", m.points());
+  v("asker", m.asker()), v("incarnation", m.incarnation()), v("step", m.step()), v("number", m.number()),
+      v("points", m.points());
   v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::GroundReply& m) {
-  v("asker", m.asker()), v("incarnation", m.incarnation()), v("number", m.number()), v("points", m.points()), v("end", m.end());
+  v("asker", m.asker()), v("incarnation", m.incarnation()), v("number", m.number()), v("points", m.points()),
+      v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::LiveKey& m) {
@@ -72,7 +80,8 @@ void Fields(V& v, msg::LiveKey& m) {
 }
 template <class V>
 void Fields(V& v, msg::LiveRequest& m) {
-  v("number", m.number()), v("x_m", m.x_m()), v("y_m", m.y_m()), v("value", m.value()), v("name", m.name()), v("argument", m.argument());
+  v("number", m.number()), v("x_m", m.x_m()), v("y_m", m.y_m()), v("value", m.value()), v("name", m.name()),
+      v("argument", m.argument());
   v("end", m.end());
 }
 template <class V>
@@ -85,17 +94,20 @@ void Fields(V& v, msg::LiveKeys& m) {
 }
 template <class V>
 void Fields(V& v, msg::WallTime& m) {
-  v("after_step", m.after_step()), v("through_step", m.through_step()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns());
+  v("after_step", m.after_step()), v("through_step", m.through_step()), v("utc_ns", m.utc_ns()),
+      v("monotonic_ns", m.monotonic_ns());
   v("late_ns", m.late_ns()), v("pace", m.pace()), v("paused", m.paused()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Remark& m) {
-  v("step", m.step()), v("time_ns", m.time_ns()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns()), v("pace", m.pace());
+  v("step", m.step()), v("time_ns", m.time_ns()), v("utc_ns", m.utc_ns()), v("monotonic_ns", m.monotonic_ns()),
+      v("pace", m.pace());
   v("kind", m.kind()), v("text", m.text()), v("number", m.number()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::RunLog& m) {
-  v("clock_id", m.clock_id()), v("number", m.number()), v("walls", m.walls()), v("remarks", m.remarks()), v("last", m.last()), v("end", m.end());
+  v("clock_id", m.clock_id()), v("number", m.number()), v("walls", m.walls()), v("remarks", m.remarks()),
+      v("last", m.last()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Trigger& m) {
@@ -126,15 +138,19 @@ template <class V>
 void Fields(V& v, msg::TrafficAgent& m) {
   v("id", m.id()), v("trip", m.trip()), v("position_x_m", m.position_x_m()), v("position_y_m", m.position_y_m());
   v("position_z_m", m.position_z_m()), v("speed_mps", m.speed_mps()), v("acceleration_mps2", m.acceleration_mps2());
-  v("heading_rad", m.heading_rad()), v("pitch_rad", m.pitch_rad()), v("roll_rad", m.roll_rad()), v("length_m", m.length_m());
-  v("width_m", m.width_m()), v("height_m", m.height_m()), v("wheelbase_m", m.wheelbase_m()), v("wheel_radius_m", m.wheel_radius_m());
+  v("heading_rad", m.heading_rad()), v("pitch_rad", m.pitch_rad()), v("roll_rad", m.roll_rad()),
+      v("length_m", m.length_m());
+  v("width_m", m.width_m()), v("height_m", m.height_m()), v("wheelbase_m", m.wheelbase_m()),
+      v("wheel_radius_m", m.wheel_radius_m());
   v("steer_rad", m.steer_rad()), v("wheel_spin_rad", m.wheel_spin_rad()), v("colour_rgb", m.colour_rgb());
   v("kind", m.kind()), v("lights", m.lights());
 }
 template <class V>
 void Fields(V& v, msg::TrafficDetail& m) {
-  v("id", m.id()), v("throttle", m.throttle()), v("brake", m.brake()), v("clutch", m.clutch()), v("engine_speed_radps", m.engine_speed_radps());
-  v("fuel_rate_kgps", m.fuel_rate_kgps()), v("fuel_used_kg", m.fuel_used_kg()), v("target_speed_mps", m.target_speed_mps());
+  v("id", m.id()), v("throttle", m.throttle()), v("brake", m.brake()), v("clutch", m.clutch()),
+      v("engine_speed_radps", m.engine_speed_radps());
+  v("fuel_rate_kgps", m.fuel_rate_kgps()), v("fuel_used_kg", m.fuel_used_kg()),
+      v("target_speed_mps", m.target_speed_mps());
   v("target_x_m", m.target_x_m()), v("target_y_m", m.target_y_m()), v("path_heading_rad", m.path_heading_rad());
   v("look_ahead_x_m", m.look_ahead_x_m()), v("look_ahead_y_m", m.look_ahead_y_m()), v("gear", m.gear());
 }
@@ -151,8 +167,10 @@ void Fields(V& v, msg::Collision& m) {
   v("position_x_m", m.position_x_m()), v("position_y_m", m.position_y_m()), v("position_z_m", m.position_z_m());
   v("impulse_x_ns", m.impulse_x_ns()), v("impulse_y_ns", m.impulse_y_ns()), v("impulse_z_ns", m.impulse_z_ns());
   v("normal_x", m.normal_x()), v("normal_y", m.normal_y()), v("normal_z", m.normal_z());
-  v("depth_m", m.depth_m()), v("closing_mps", m.closing_mps()), v("partner", m.partner()), v("partner_source", m.partner_source());
-  v("partner_id", m.partner_id()), v("partner_name", m.partner_name()), v("begins", m.begins()), v("index", m.index()), v("end", m.end());
+  v("depth_m", m.depth_m()), v("closing_mps", m.closing_mps()), v("partner", m.partner()),
+      v("partner_source", m.partner_source());
+  v("partner_id", m.partner_id()), v("partner_name", m.partner_name()), v("begins", m.begins()), v("index", m.index()),
+      v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Collisions& m) {
@@ -168,7 +186,8 @@ void Fields(V& v, msg::SignalsState& m) {
 }
 template <class V>
 void Fields(V& v, msg::WeatherState& m) {
-  v("header", m.header()), v("wetness", m.wetness()), v("rain_mmph", m.rain_mmph()), v("visibility_m", m.visibility_m()), v("clouds", m.clouds()), v("hour", m.hour()), v("end", m.end());
+  v("header", m.header()), v("wetness", m.wetness()), v("rain_mmph", m.rain_mmph()),
+      v("visibility_m", m.visibility_m()), v("clouds", m.clouds()), v("hour", m.hour()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Vector3& m) {
@@ -184,29 +203,37 @@ void Fields(V& v, msg::Quaternion& m) {
 }
 template <class V>
 void Fields(V& v, msg::WheelState& m) {
-  v("contact_b_m", m.contact_b_m()), v("contact_normal_w", m.contact_normal_w()), v("hub_b_m", m.hub_b_m()), v("steer_rad", m.steer_rad());
-  v("spin_rad", m.spin_rad()), v("spin_radps", m.spin_radps()), v("longitudinal_n", m.longitudinal_n()), v("lateral_n", m.lateral_n());
-  v("load_n", m.load_n()), v("slip", m.slip()), v("slip_angle_tan", m.slip_angle_tan()), v("brake_torque_nm", m.brake_torque_nm());
-  v("drive_torque_nm", m.drive_torque_nm()), v("suspension_n", m.suspension_n()), v("damper_n", m.damper_n()), v("travel_m", m.travel_m());
+  v("contact_b_m", m.contact_b_m()), v("contact_normal_w", m.contact_normal_w()), v("hub_b_m", m.hub_b_m()),
+      v("steer_rad", m.steer_rad());
+  v("spin_rad", m.spin_rad()), v("spin_radps", m.spin_radps()), v("longitudinal_n", m.longitudinal_n()),
+      v("lateral_n", m.lateral_n());
+  v("load_n", m.load_n()), v("slip", m.slip()), v("slip_angle_tan", m.slip_angle_tan()),
+      v("brake_torque_nm", m.brake_torque_nm());
+  v("drive_torque_nm", m.drive_torque_nm()), v("suspension_n", m.suspension_n()), v("damper_n", m.damper_n()),
+      v("travel_m", m.travel_m());
   v("friction", m.friction()), v("surface", m.surface()), v("in_contact", m.in_contact());
 }
 template <class V>
 void Fields(V& v, msg::VehicleState& m) {
   v("header", m.header()), v("position_w_m", m.position_w_m()), v("attitude_wb", m.attitude_wb());
   v("velocity_w_mps", m.velocity_w_mps()), v("angular_velocity_b_radps", m.angular_velocity_b_radps());
-  v("steering_wheel_rad", m.steering_wheel_rad()), v("engine_speed_radps", m.engine_speed_radps()), v("fuel_kg", m.fuel_kg());
+  v("steering_wheel_rad", m.steering_wheel_rad()), v("engine_speed_radps", m.engine_speed_radps()),
+      v("fuel_kg", m.fuel_kg());
   v("odometer_m", m.odometer_m()), v("wheels", m.wheels()), v("acceleration_w_mps2", m.acceleration_w_mps2());
   v("angular_acceleration_b_radps2", m.angular_acceleration_b_radps2()), v("engine_torque_nm", m.engine_torque_nm());
-  v("clutch", m.clutch()), v("clutch_torque_nm", m.clutch_torque_nm()), v("throttle", m.throttle()), v("brake", m.brake());
+  v("clutch", m.clutch()), v("clutch_torque_nm", m.clutch_torque_nm()), v("throttle", m.throttle()),
+      v("brake", m.brake());
   v("steering_torque_nm", m.steering_torque_nm()), v("fuel_rate_kgps", m.fuel_rate_kgps()), v("drag_n", m.drag_n());
   v("length_m", m.length_m()), v("front_m", m.front_m()), v("width_m", m.width_m()), v("height_m", m.height_m());
   v("wheelbase_m", m.wheelbase_m()), v("track_front_m", m.track_front_m()), v("track_rear_m", m.track_rear_m());
   v("wheel_radius_m", m.wheel_radius_m()), v("gear", m.gear());
-  v("engine_running", m.engine_running()), v("lights", m.lights()), v("horn", m.horn()), v("inside_world", m.inside_world()), v("end", m.end());
+  v("engine_running", m.engine_running()), v("lights", m.lights()), v("horn", m.horn()),
+      v("inside_world", m.inside_world()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::WorldInfo& m) {
-  v("content_hash", m.content_hash()), v("name", m.name()), v("start_x_m", m.start_x_m()), v("start_y_m", m.start_y_m());
+  v("content_hash", m.content_hash()), v("name", m.name()), v("start_x_m", m.start_x_m()),
+      v("start_y_m", m.start_y_m());
   v("start_heading_rad", m.start_heading_rad()), v("roads", m.roads()), v("end", m.end());
 }
 

@@ -27,7 +27,8 @@ TEST(IdlReader, ReadsEveryTextOfTheProject) {
   for (const idl::IdlText& text : idl::IdlTexts()) {
     const auto types = IdlTypes::Read(text.text, text.subject);
     ASSERT_TRUE(types.ok()) << types.error().Text();
-    EXPECT_TRUE(types.value().types().contains("rodeira::msg::Header") || text.text.find("Header") == std::string::npos) << text.subject;
+    EXPECT_TRUE(types.value().types().contains("rodeira::msg::Header") || text.text.find("Header") == std::string::npos)
+        << text.subject;
   }
 }
 
@@ -60,12 +61,14 @@ module a { // opened again
   EXPECT_EQ(two->least_bytes, 3u * 2u * 32u);
   EXPECT_EQ(FindMember(*outer, "text")->bound, 16u);
   EXPECT_EQ(FindMember(*outer, "inners")->bound, 8u);
-  EXPECT_EQ(FindMember(*outer, "gears")->element->enumerators, (std::vector<std::string>{"kReverse", "kNeutral", "kFirst"}));
-  const std::map<std::string, Kind> kinds = {{"p", Kind::kBool},   {"q", Kind::kOctet},  {"r", Kind::kChar},   {"s", Kind::kInt16},
-                                             {"t", Kind::kUint16}, {"u", Kind::kInt32},  {"v", Kind::kUint32}, {"w", Kind::kInt64},
-                                             {"f", Kind::kFloat},  {"g", Kind::kDouble}, {"i1", Kind::kInt8},  {"i2", Kind::kUint8},
-                                             {"i3", Kind::kInt16}, {"i4", Kind::kUint16}, {"i5", Kind::kInt32}, {"i6", Kind::kUint32},
-                                             {"i7", Kind::kInt64}, {"i8", Kind::kUint64}, {"number", Kind::kInt32}, {"gear", Kind::kEnum}};
+  EXPECT_EQ(FindMember(*outer, "gears")->element->enumerators,
+            (std::vector<std::string>{"kReverse", "kNeutral", "kFirst"}));
+  const std::map<std::string, Kind> kinds = {
+      {"p", Kind::kBool},   {"q", Kind::kOctet},   {"r", Kind::kChar},       {"s", Kind::kInt16},
+      {"t", Kind::kUint16}, {"u", Kind::kInt32},   {"v", Kind::kUint32},     {"w", Kind::kInt64},
+      {"f", Kind::kFloat},  {"g", Kind::kDouble},  {"i1", Kind::kInt8},      {"i2", Kind::kUint8},
+      {"i3", Kind::kInt16}, {"i4", Kind::kUint16}, {"i5", Kind::kInt32},     {"i6", Kind::kUint32},
+      {"i7", Kind::kInt64}, {"i8", Kind::kUint64}, {"number", Kind::kInt32}, {"gear", Kind::kEnum}};
   for (const auto& [name, kind] : kinds) EXPECT_EQ(FindMember(*outer, name)->kind, kind) << name;
   EXPECT_EQ(FindMember(*outer, "nothing"), nullptr);
 }
@@ -84,7 +87,8 @@ TEST(IdlReader, RefusesWithPlaceAndReason) {
 }
 
 TEST(IdlReader, RefusesWhatItCannotDecodeRightly) {
-  EXPECT_THAT(Refused("struct A {\n long x;\n"), HasSubstr("x.idl:3: 'the end of the text' was found, a type was expected"));
+  EXPECT_THAT(Refused("struct A {\n long x;\n"),
+              HasSubstr("x.idl:3: 'the end of the text' was found, a type was expected"));
   EXPECT_THAT(Refused("struct A { long x };"), HasSubstr("'}' was found, ';' was expected"));
   EXPECT_THAT(Refused("struct A { };"), HasSubstr("the structure 'A' has no members"));
   EXPECT_THAT(Refused("struct A { long x; long x; };"), HasSubstr("the member 'x' is there twice"));
@@ -118,14 +122,17 @@ TEST(IdlReader, NestingIsBounded) {
   for (int i = 1; i <= 5000; ++i) {
     modules += "module m { ";
     sequences += "sequence<";
-    structs += "struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a; S" + std::to_string(i - 1) + " b; };";
+    structs +=
+        "struct S" + std::to_string(i) + " { S" + std::to_string(i - 1) + " a; S" + std::to_string(i - 1) + " b; };";
   }
-  for (const std::string& text : {modules, sequences, structs}) EXPECT_THAT(Refused(text), HasSubstr("nested more than 64 deep"));
+  for (const std::string& text : {modules, sequences, structs})
+    EXPECT_THAT(Refused(text), HasSubstr("nested more than 64 deep"));
 }
 
 TEST(IdlReader, ATypeThatIsNotThereIsNamedWithTheNearest) {
   const IdlTypes types = Good("module m { struct Controls { long x; }; };");
-  EXPECT_EQ(types.Find("m::Control").error().Text(), "x.idl: the type 'm::Control' is not in its IDL text; did you mean 'm::Controls'?");
+  EXPECT_EQ(types.Find("m::Control").error().Text(),
+            "x.idl: the type 'm::Control' is not in its IDL text; did you mean 'm::Controls'?");
   EXPECT_THAT(ReadType("struct A { long x; };", "B").error().Text(), HasSubstr("IDL of 'B'"));
 }
 

@@ -27,7 +27,8 @@ void ExpectSame(const std::vector<Entry>& found, const std::vector<Entry>& expec
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     ASSERT_EQ(found[i].path, expected[i].path);
-    ASSERT_TRUE(SameBits(found[i].value, expected[i].value)) << found[i].path << ": " << Text(found[i].value) << ", " << Text(expected[i].value);
+    ASSERT_TRUE(SameBits(found[i].value, expected[i].value))
+        << found[i].path << ": " << Text(found[i].value) << ", " << Text(expected[i].value);
   }
 }
 

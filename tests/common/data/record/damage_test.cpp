@@ -42,7 +42,8 @@ TEST_P(Damage, EveryTruncationGivesExactlyTheCompleteChunks) {
   std::uint64_t summary_start = 0;
   std::memcpy(&summary_start, bytes_.data() + bytes_.size() - 28, sizeof summary_start);
   for (std::size_t size = 0; size < bytes_.size(); ++size) {
-    auto reader = McapReader::OpenBytes(base::Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size)));
+    auto reader =
+        McapReader::OpenBytes(base::Bytes(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(size)));
     if (size < kHeaderEnd) {
       ASSERT_FALSE(reader.ok()) << size;
       EXPECT_FALSE(reader.error().message.empty());

@@ -1,4 +1,5 @@
-// Another writer goes on with the recording of one that has died: nothing that was whole is lost, and nothing is destroyed.
+// Another writer goes on with the recording of one that has died: nothing that was whole is lost, and nothing is
+// destroyed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,7 +17,11 @@ namespace fs = std::filesystem;
 
 class GoOn : public testing::Test {
  protected:
-  GoOn() : folder_(fs::temp_directory_path() / ("rodeira-go-on-" + std::to_string(::getpid()))), file_(folder_ / "a.mcap") { fs::create_directories(folder_); }
+  GoOn()
+      : folder_(fs::temp_directory_path() / ("rodeira-go-on-" + std::to_string(::getpid()))),
+        file_(folder_ / "a.mcap") {
+    fs::create_directories(folder_);
+  }
   ~GoOn() override { fs::remove_all(folder_); }
 
   // A message each 10 ns, chunks of 100 ns.
@@ -51,16 +56,18 @@ class GoOn : public testing::Test {
   }
   base::Result<std::optional<McapWriter>> Go(std::uint64_t least_end_ns) {
     handed_.clear();
-    return McapWriter::GoOn(file_, Settings(), {1'000'000, least_end_ns, [&](const Channel&, const Message& message) -> base::Status {
-                                                  handed_.push_back(message.sequence);
-                                                  return {};
-                                                }});
+    return McapWriter::GoOn(file_, Settings(),
+                            {1'000'000, least_end_ns, [&](const Channel&, const Message& message) -> base::Status {
+                               handed_.push_back(message.sequence);
+                               return {};
+                             }});
   }
   fs::path folder_, file_;
   std::vector<std::uint32_t> handed_;
 };
 
-// At every byte where the first writer may have ended, its last one among them: the file becomes that of one who wrote it all.
+// At every byte where the first writer may have ended, its last one among them: the file becomes that of one who wrote
+// it all.
 TEST_F(GoOn, WhereverTheFirstOneEndedTheFileIsTheSame) {
   const base::Bytes whole = Whole(57);
   int gone_on = 0, closed = 0;

@@ -53,7 +53,8 @@ TEST(Checksum, IsTheOneOfTheStandard) {
   const std::string_view check = "123456789";
   EXPECT_EQ(Crc32(std::as_bytes(std::span(check))), 0xCBF43926u);
   EXPECT_EQ(SlowCrc(std::as_bytes(std::span(check))), 0xCBF43926u);
-  EXPECT_EQ(Crc32(std::as_bytes(std::span(check).subspan(4)), Crc32(std::as_bytes(std::span(check).first(4)))), 0xCBF43926u);
+  EXPECT_EQ(Crc32(std::as_bytes(std::span(check).subspan(4)), Crc32(std::as_bytes(std::span(check).first(4)))),
+            0xCBF43926u);
 }
 
 TEST(Layout, RecordsComeInTheirOrderWithTheirChecksums) {
@@ -65,7 +66,25 @@ TEST(Layout, RecordsComeInTheirOrderWithTheirChecksums) {
   for (const Piece& piece : pieces) order += "0123456789ABCDEF"[piece.opcode];
   // Header; chunk and indexes, metadata, …, attachment, …; DataEnd; 3 schemas, 3 channels, statistics, chunk indexes,
   // attachment index, metadata index; a summary offset for each of the six groups; footer.
-  EXPECT_EQ(order, "1" "6777" "C" "677" "67" "9" "67" "67" "67" "F" "333" "444" "B" "888888" "A" "D" "EEEEEE" "2");
+  EXPECT_EQ(order,
+            "1"
+            "6777"
+            "C"
+            "677"
+            "67"
+            "9"
+            "67"
+            "67"
+            "67"
+            "F"
+            "333"
+            "444"
+            "B"
+            "888888"
+            "A"
+            "D"
+            "EEEEEE"
+            "2");
 
   for (const Piece& piece : pieces) {
     if (piece.opcode == 6) {
@@ -82,7 +101,8 @@ TEST(Layout, RecordsComeInTheirOrderWithTheirChecksums) {
       EXPECT_EQ(At<std::uint32_t>(piece.content, 0), SlowCrc(std::span(bytes).first(piece.at)));
     } else if (piece.opcode == 2) {
       const auto start = static_cast<std::size_t>(At<std::uint64_t>(piece.content, 0));
-      EXPECT_EQ(At<std::uint32_t>(piece.content, 16), SlowCrc(std::span(bytes).subspan(start, piece.at + 9 + 16 - start)));
+      EXPECT_EQ(At<std::uint32_t>(piece.content, 16),
+                SlowCrc(std::span(bytes).subspan(start, piece.at + 9 + 16 - start)));
     }
   }
 }

@@ -12,8 +12,25 @@ namespace {
 
 // A length or an offset that looks plausible, or is at an edge.
 std::uint64_t Interesting(Draw& draw, std::uint64_t size) {
-  const std::uint64_t values[] = {0, 1, 7, 9, size, size - 1, size + 1, 0x7F, 0x80, 0xFF, 0xFFFF, 0x7FFFFFFF, 0xFFFFFFFF,
-                                  0x10000000, 0x10000001, 0x7FFFFFFFFFFFFFFF, ~0ull, ~0ull - 8, draw.Bits() % (size + 1)};
+  const std::uint64_t values[] = {0,
+                                  1,
+                                  7,
+                                  9,
+                                  size,
+                                  size - 1,
+                                  size + 1,
+                                  0x7F,
+                                  0x80,
+                                  0xFF,
+                                  0xFFFF,
+                                  0x7FFFFFFF,
+                                  0xFFFFFFFF,
+                                  0x10000000,
+                                  0x10000001,
+                                  0x7FFFFFFFFFFFFFFF,
+                                  ~0ull,
+                                  ~0ull - 8,
+                                  draw.Bits() % (size + 1)};
   return values[draw.Below(std::size(values))];
 }
 
@@ -90,7 +107,8 @@ void Reseal(base::Bytes& bytes) {
   }
   if (bytes.size() < 60) return;
   const std::uint64_t summary = NumberAt(bytes, bytes.size() - 28);
-  if (summary < bytes.size() - 12) PutCrc(bytes, static_cast<std::size_t>(summary), bytes.size() - 12, bytes.size() - 12);
+  if (summary < bytes.size() - 12)
+    PutCrc(bytes, static_cast<std::size_t>(summary), bytes.size() - 12, bytes.size() - 12);
 }
 
 }  // namespace rodeira::record

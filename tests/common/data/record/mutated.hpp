@@ -22,10 +22,11 @@ class Draw {
 
 // Changes a few bytes at a drawn place: turns, overwrites, takes out, doubles, cuts off, clears.
 void Mutate(base::Bytes& bytes, Draw& draw);
-// The same at or behind the beginning of one of the file's records, so that small records are met as often as large ones.
+// The same at or behind the beginning of one of the file's records, so that small records are met as often as large
+// ones.
 void MutateARecord(base::Bytes& bytes, Draw& draw);
-// Makes the checksums right again (of uncompressed chunks, of attachments, of all data, of the summary), so that the changes
-// reach what lies behind them.
+// Makes the checksums right again (of uncompressed chunks, of attachments, of all data, of the summary), so that the
+// changes reach what lies behind them.
 void Reseal(base::Bytes& bytes);
 
 }  // namespace rodeira::record

@@ -27,13 +27,14 @@ struct Outcome {
 };
 
 Outcome Check(const fs::path& recording, const fs::path& expected = {}) {
-  const std::string command = fmt::format("node '{}' '{}' {} 2>&1", (kChecker / "check.mjs").string(), recording.string(),
-                                          expected.empty() ? "" : "'" + expected.string() + "'");
+  const std::string command = fmt::format("node '{}' '{}' {} 2>&1", (kChecker / "check.mjs").string(),
+                                          recording.string(), expected.empty() ? "" : "'" + expected.string() + "'");
   Outcome outcome;
   FILE* pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) return outcome;
   std::array<char, 4096> buffer;
-  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), got);
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
+    outcome.output.append(buffer.data(), got);
   const int status = ::pclose(pipe);
   outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
@@ -60,11 +61,13 @@ class Npm : public testing::Test {
     EXPECT_TRUE(opened.ok());
     McapWriter& writer = opened.value();
     const ChannelId samples =
-        writer.AddChannel("probe/sample", writer.AddSchema("probe::Sample", "omgidl", probe::kIdl).value(), "cdr").value();
-    const ChannelId ticks = writer
-                                .AddChannel("probe/tick", writer.AddSchema("probe::Tick", "omgidl", probe::kIdl).value(),
-                                            "cdr", {{"source", "clock"}})
-                                .value();
+        writer.AddChannel("probe/sample", writer.AddSchema("probe::Sample", "omgidl", probe::kIdl).value(), "cdr")
+            .value();
+    const ChannelId ticks =
+        writer
+            .AddChannel("probe/tick", writer.AddSchema("probe::Tick", "omgidl", probe::kIdl).value(), "cdr",
+                        {{"source", "clock"}})
+            .value();
     std::string sample_json;
     std::string tick_json;
     EXPECT_TRUE(writer.AddMetadata("run", {{"seed", "1"}}).ok());
@@ -93,8 +96,9 @@ TEST_F(Npm, TheReferenceReaderReadsAndDecodesEverything) {
     std::ofstream(expected) << WriteProbe(path, compression);
     const Outcome outcome = Check(path, expected);
     EXPECT_EQ(outcome.status, 0) << outcome.output;
-    for (const char* line : {"topic probe/sample (probe::Sample): 200 messages", "topic probe/tick (probe::Tick): 50 messages",
-                             "attachment launch.yaml: 100 bytes", "metadata run: 1 entries"}) {
+    for (const char* line :
+         {"topic probe/sample (probe::Sample): 200 messages", "topic probe/tick (probe::Tick): 50 messages",
+          "attachment launch.yaml: 100 bytes", "metadata run: 1 entries"}) {
       EXPECT_NE(outcome.output.find(line), std::string::npos) << outcome.output;
     }
   }

@@ -132,7 +132,8 @@ module probe {
 Sample MakeSample(std::uint64_t n) {
   const auto bits = [n](std::uint64_t which) { return base::RandomBits({n, which}); };
   Sample s;
-  s.header = {static_cast<std::int64_t>(n), static_cast<std::int64_t>(9007199254740993 + n), static_cast<std::uint32_t>(bits(1))};
+  s.header = {static_cast<std::int64_t>(n), static_cast<std::int64_t>(9007199254740993 + n),
+              static_cast<std::uint32_t>(bits(1))};
   s.small = static_cast<std::uint8_t>(bits(2));
   s.x_m = AnyDouble(n, 3);
   s.on = bits(4) % 2 == 0;
@@ -142,7 +143,8 @@ Sample MakeSample(std::uint64_t n) {
   for (std::uint64_t i = 0; i < n % 4; ++i) s.values.push_back(AnyDouble(n, 100 + i));
   s.after = static_cast<std::uint8_t>(bits(8));
   for (std::uint64_t i = 0; i < n % 3; ++i) {
-    s.wheels.push_back({AnyDouble(n, 200 + i), static_cast<float>(AnyDouble(n, 301 + 3 * i)), static_cast<std::uint8_t>(i)});
+    s.wheels.push_back(
+        {AnyDouble(n, 200 + i), static_cast<float>(AnyDouble(n, 301 + 3 * i)), static_cast<std::uint8_t>(i)});
   }
   for (std::uint64_t i = 0; i < n % 5; ++i) s.names.push_back(std::string(i, 'a' + static_cast<char>(i)));
   s.text = n % 7 == 0 ? "" : "ángulo ✓ " + std::to_string(n);
@@ -173,7 +175,8 @@ std::string Json(const Sample& s) {
   json += fmt::format(R"(,"wheels":{})", JsonList(s.wheels, [](const Wheel& wheel) { return Json(wheel); }));
   json += fmt::format(R"(,"names":{})", JsonList(s.names, [](const std::string& name) { return '"' + name + '"'; }));
   json += fmt::format(R"(,"text":"{}","gear":{})", s.text, static_cast<int>(s.gear));
-  json += fmt::format(R"(,"gears":{})", JsonList(s.gears, [](Gear gear) { return fmt::format("{}", static_cast<int>(gear)); }));
+  json += fmt::format(R"(,"gears":{})",
+                      JsonList(s.gears, [](Gear gear) { return fmt::format("{}", static_cast<int>(gear)); }));
   json += fmt::format(R"(,"triple":{},"grid":[{},{}],"raw":{})", Numbers(s.triple), Numbers(s.grid[0]),
                       Numbers(s.grid[1]), Numbers(s.raw));
   json += fmt::format(R"(,"longs":{},"last":{}}})",

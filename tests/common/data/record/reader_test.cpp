@@ -12,10 +12,13 @@ namespace {
 rc::Gen<std::vector<Call>> Calls() {
   using enum Call::Kind;
   return rc::gen::container<std::vector<Call>>(rc::gen::build<Call>(
-      rc::gen::set(&Call::kind, rc::gen::weightedElement<Call::Kind>({{20, kMessage}, {1, kMetadata}, {1, kAttachment}, {1, kFlush}})),
+      rc::gen::set(&Call::kind, rc::gen::weightedElement<Call::Kind>(
+                                    {{20, kMessage}, {1, kMetadata}, {1, kAttachment}, {1, kFlush}})),
       rc::gen::set(&Call::channel, rc::gen::inRange<std::uint8_t>(0, 3)),
-      rc::gen::set(&Call::log_time_ns, rc::gen::oneOf(rc::gen::inRange<std::uint64_t>(0, 4000), rc::gen::arbitrary<std::uint64_t>())),
-      rc::gen::set(&Call::bytes, rc::gen::oneOf(rc::gen::inRange<std::uint16_t>(0, 60), rc::gen::inRange<std::uint16_t>(0, 9000)))));
+      rc::gen::set(&Call::log_time_ns,
+                   rc::gen::oneOf(rc::gen::inRange<std::uint64_t>(0, 4000), rc::gen::arbitrary<std::uint64_t>())),
+      rc::gen::set(&Call::bytes,
+                   rc::gen::oneOf(rc::gen::inRange<std::uint16_t>(0, 60), rc::gen::inRange<std::uint16_t>(0, 9000)))));
 }
 
 WriterSettings AnySettings() {
@@ -78,12 +81,19 @@ TEST(Reader, KnowsSchemasChannelsMetadataAttachmentsStatistics) {
     const McapReader& reader = opened.value();
     EXPECT_EQ(reader.header(), (Header{"", "rodeira"}));
     ASSERT_EQ(reader.schemas().size(), 3u);
-    EXPECT_EQ(reader.schemas().at(2), (Schema{2, "probe::Type1", "omgidl", "module probe { struct Type1 { long x; }; };"}));
+    EXPECT_EQ(reader.schemas().at(2),
+              (Schema{2, "probe::Type1", "omgidl", "module probe { struct Type1 { long x; }; };"}));
     EXPECT_EQ(reader.channels().at(3), (Channel{3, 3, "events", "cdr", {{"source", "14"}}}));
     EXPECT_EQ(reader.ChannelsOf("clock/grant"), std::vector<ChannelId>{2});
     EXPECT_EQ(reader.ChannelsOf("nothing"), std::vector<ChannelId>{});
-    const Statistics expected{.messages = 9, .schemas = 3, .channels = 3, .attachments = 1, .metadata = 1, .chunks = 6,
-                              .first_log_time_ns = 0, .last_log_time_ns = 2200,
+    const Statistics expected{.messages = 9,
+                              .schemas = 3,
+                              .channels = 3,
+                              .attachments = 1,
+                              .metadata = 1,
+                              .chunks = 6,
+                              .first_log_time_ns = 0,
+                              .last_log_time_ns = 2200,
                               .messages_by_channel = {{1, 4}, {2, 3}, {3, 2}}};
     EXPECT_EQ(reader.statistics(), expected);
     auto metadata = reader.FindMetadata("meta3");
@@ -146,7 +156,8 @@ TEST(Reader, RefusesWhatIsNoRecording) {
             "memory: this is no MCAP recording: it does not begin with MCAP's mark");
   base::Bytes other = Record(SmallPlan(), SmallSettings(Compression::kZstd));
   other[5] = std::byte{'7'};
-  EXPECT_EQ(McapReader::OpenBytes(other).error().Text(), "memory: a recording of MCAP's version 7 was found, version 0 was expected");
+  EXPECT_EQ(McapReader::OpenBytes(other).error().Text(),
+            "memory: a recording of MCAP's version 7 was found, version 0 was expected");
   EXPECT_EQ(McapReader::Open("/nowhere/at/all.mcap").error().Text(),
             "/nowhere/at/all.mcap: the recording cannot be opened: No such file or directory");
   EXPECT_EQ(McapReader::Open("/tmp").error().Text(), "/tmp: this is not a file, a recording was expected");

@@ -27,7 +27,8 @@ base::Status Make(McapWriter& writer, const std::vector<Call>& calls) {
   ChannelId channels[3];
   for (int i = 0; i < 3; ++i) {
     const std::string name = "probe::Type" + std::to_string(i);
-    auto schema = writer.AddSchema(name, "omgidl", "module probe { struct Type" + std::to_string(i) + " { long x; }; };");
+    auto schema =
+        writer.AddSchema(name, "omgidl", "module probe { struct Type" + std::to_string(i) + " { long x; }; };");
     if (!schema) return schema.error();
     auto channel = writer.AddChannel(kTopics[i], schema.value(), "cdr", {{"source", std::to_string(7 * i)}});
     if (!channel) return channel.error();
@@ -45,7 +46,8 @@ base::Status Make(McapWriter& writer, const std::vector<Call>& calls) {
         status = writer.AddMetadata("meta" + std::to_string(i), {{"bytes", std::to_string(call.bytes)}, {"k", ""}});
         break;
       case Call::Kind::kAttachment:
-        status = writer.AddAttachment("file" + std::to_string(i), "text/plain", DataOf(i, call.bytes), call.log_time_ns, i);
+        status =
+            writer.AddAttachment("file" + std::to_string(i), "text/plain", DataOf(i, call.bytes), call.log_time_ns, i);
         break;
       case Call::Kind::kFlush:
         status = writer.Flush();

@@ -50,8 +50,8 @@ TEST_F(WriterFile, AnExistingFileIsRefusedAndKept) {
   std::ofstream(folder_ / "a.mcap") << "precious";
   auto writer = McapWriter::Open(folder_ / "a.mcap");
   ASSERT_FALSE(writer.ok());
-  EXPECT_EQ(writer.error().Text(), (folder_ / "a.mcap").string() +
-                                       ": the recording cannot be created: a file of that name is there already");
+  EXPECT_EQ(writer.error().Text(),
+            (folder_ / "a.mcap").string() + ": the recording cannot be created: a file of that name is there already");
   EXPECT_EQ(writer.error().exit_status(), 2);
   EXPECT_EQ(base::ReadText(folder_ / "a.mcap").value(), "precious");
 }
@@ -89,7 +89,7 @@ TEST_F(WriterFile, AFileThatMayNotGrowKeepsItsCompleteChunks) {
   struct rlimit before {};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
   const auto handler = ::signal(SIGXFSZ, SIG_IGN);
-  const struct rlimit limit{.rlim_cur = 20'000, .rlim_max = before.rlim_max};
+  const struct rlimit limit { .rlim_cur = 20'000, .rlim_max = before.rlim_max };
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
 
   WriterSettings settings;
@@ -170,7 +170,8 @@ TEST_F(WriterFile, WhatWasFlushedSurvivesTheEndOfTheProcess) {
     const ChannelId channel = writer.value().AddChannel("t", 0, "cdr").value();
     for (std::uint32_t i = 0; i < 10; ++i) static_cast<void>(writer.value().Write(channel, i, i, i, Numbered(50)).ok());
     static_cast<void>(writer.value().Flush().ok());
-    for (std::uint32_t i = 10; i < 20; ++i) static_cast<void>(writer.value().Write(channel, i, i, i, Numbered(50)).ok());
+    for (std::uint32_t i = 10; i < 20; ++i)
+      static_cast<void>(writer.value().Write(channel, i, i, i, Numbered(50)).ok());
     ::kill(::getpid(), SIGKILL);
   }
   int status = 0;
@@ -266,7 +267,8 @@ TEST(Writer, SettingsOutOfRangeAreRefused) {
             "memory: chunk_span_ns is 0, 1 to 1000000000 (one second) was expected");
   EXPECT_EQ(text_of([](WriterSettings& s) { s.chunk_bytes = 100; }),
             "memory: chunk_bytes is 100, 4096 to 67108864 was expected");
-  EXPECT_EQ(text_of([](WriterSettings& s) { s.zstd_level = 20; }), "memory: zstd_level is 20, -7 (fastest) to 19 was expected");
+  EXPECT_EQ(text_of([](WriterSettings& s) { s.zstd_level = 20; }),
+            "memory: zstd_level is 20, -7 (fastest) to 19 was expected");
 }
 
 }  // namespace

@@ -21,15 +21,21 @@ constexpr int kDriverEvery = 10;  // 100 Hz
 // A car in a lane with its driver.
 struct Drive {
   Drive(std::shared_ptr<const road::World> in, int lane, double start_m, double speed_mps, int road_index = 0)
-      : Drive(in, std::make_unique<LanePath>(in->roads()[static_cast<std::size_t>(road_index)], lane), start_m, speed_mps) {}
+      : Drive(in, std::make_unique<LanePath>(in->roads()[static_cast<std::size_t>(road_index)], lane), start_m,
+              speed_mps) {}
   Drive(std::shared_ptr<const road::World> in, std::unique_ptr<const Way> way, double start_m, double speed_mps)
       : world(std::move(in)),
         ground(world->MakeGround()),
-        car(std::move(dynamics::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml")).value()),
+        car(std::move(dynamics::LoadVehicle(std::filesystem::path(SourceDir()) / "configs/vehicles/default.yaml"))
+                .value()),
         autopilot(AutopilotSettings{}, std::move(way)) {
     const LaneFrame start = autopilot.path().At(start_m);
-    const auto placed = car->Initialise(
-        {.x_m = start.p_W.x(), .y_m = start.p_W.y(), .z_hint_m = start.p_W.z(), .heading_rad = start.heading_rad, .speed_mps = speed_mps}, *ground);
+    const auto placed = car->Initialise({.x_m = start.p_W.x(),
+                                         .y_m = start.p_W.y(),
+                                         .z_hint_m = start.p_W.z(),
+                                         .heading_rad = start.heading_rad,
+                                         .speed_mps = speed_mps},
+                                        *ground);
     EXPECT_TRUE(placed.ok()) << (placed.ok() ? "" : placed.error().Text());
   }
 
@@ -61,10 +67,10 @@ struct Drive {
 };
 
 struct Record {
-  double aside_m = 0.0;      // farthest from the lane's middle
-  double over_mps = -1e9;    // over the limit
+  double aside_m = 0.0;    // farthest from the lane's middle
+  double over_mps = -1e9;  // over the limit
   double lateral_mps2 = 0.0;
-  double hand_radps = 0.0;   // fastest turn of the steering wheel
+  double hand_radps = 0.0;  // fastest turn of the steering wheel
   double end_m = 0.0;
   double seconds = 0.0;
 };
@@ -79,7 +85,8 @@ Record DriveToTheEnd(Drive& drive, double limit_mps, double most_s) {
     record.aside_m = std::max(record.aside_m, std::fabs(place.offset_m));
     record.over_mps = std::max(record.over_mps, s.speed_mps() - limit_mps);
     record.lateral_mps2 = std::max(record.lateral_mps2, std::fabs(s.w_WB_B.z() * s.speed_mps()));
-    record.hand_radps = std::max(record.hand_radps, std::fabs(drive.controls.steering_wheel_rad - wheel) / (kStep_s * kDriverEvery));
+    record.hand_radps =
+        std::max(record.hand_radps, std::fabs(drive.controls.steering_wheel_rad - wheel) / (kStep_s * kDriverEvery));
     wheel = drive.controls.steering_wheel_rad;
     record.end_m = place.d_m;
     record.seconds = drive.k * kStep_s;
@@ -88,7 +95,8 @@ Record DriveToTheEnd(Drive& drive, double limit_mps, double most_s) {
   return record;
 }
 
-// What displays say is what it does: the steering wheel goes to where pure pursuit of that point has it, the speed is the planned one.
+// What displays say is what it does: the steering wheel goes to where pure pursuit of that point has it, the speed is
+// the planned one.
 TEST(AutopilotAim, IsWhatItSteersAndDrivesBy) {
   Drive drive(N222OfVersion1(), -1, 150.0, 12.0);
   for (int i = 0; i < 4000; ++i) drive.Step();
@@ -97,18 +105,22 @@ TEST(AutopilotAim, IsWhatItSteersAndDrivesBy) {
   const CarMotion motion{s.p_WB_W, s.heading_rad(), s.speed_mps(), size.wheelbase_m, size.front_m};
   const Aim aim = drive.autopilot.AimOf(motion).value();
   dynamics::Controls controls;
-  for (int i = 0; i < 200; ++i) controls = drive.autopilot.Step({s, size, {}}, 0.02);  // hands have the time that they need
+  for (int i = 0; i < 200; ++i)
+    controls = drive.autopilot.Step({s, size, {}}, 0.02);  // hands have the time that they need
   const Eigen::Vector2d ahead(std::cos(s.heading_rad()), std::sin(s.heading_rad()));
-  const double wheels = PursuitAngle(SteeringSettings{}, s.p_WB_W.head<2>() - 0.5 * size.wheelbase_m * ahead, s.heading_rad(), aim.target_W, size.wheelbase_m, s.speed_mps());
+  const double wheels = PursuitAngle(SteeringSettings{}, s.p_WB_W.head<2>() - 0.5 * size.wheelbase_m * ahead,
+                                     s.heading_rad(), aim.target_W, size.wheelbase_m, s.speed_mps());
   EXPECT_NEAR(controls.steering_wheel_rad, wheels * size.steering_ratio, 1e-6);
   EXPECT_GT(std::fabs(controls.steering_wheel_rad), 1e-3) << "a road that bends";
   EXPECT_EQ(aim.speed_mps, drive.autopilot.allowed_mps());
   const Way& way = drive.autopilot.path();
   const double d_m = drive.Place().d_m;
   EXPECT_NEAR(aim.way_heading_rad, way.At(d_m).heading_rad, 1e-9);
-  EXPECT_NEAR((aim.look_ahead_W - way.Position(d_m + size.front_m + AutopilotSettings{}.range_m, 0.0).head<2>()).norm(), 0.0, 1e-6);
+  EXPECT_NEAR((aim.look_ahead_W - way.Position(d_m + size.front_m + AutopilotSettings{}.range_m, 0.0).head<2>()).norm(),
+              0.0, 1e-6);
   CarMotion beside = motion;
-  beside.p_WB_W = way.Position(0.0, 0.0) - Eigen::Vector3d(50.0 * std::cos(way.At(0.0).heading_rad), 50.0 * std::sin(way.At(0.0).heading_rad), 0.0);
+  beside.p_WB_W = way.Position(0.0, 0.0) - Eigen::Vector3d(50.0 * std::cos(way.At(0.0).heading_rad),
+                                                           50.0 * std::sin(way.At(0.0).heading_rad), 0.0);
   EXPECT_FALSE(drive.autopilot.AimOf(beside)) << "before the way's beginning";
 }
 
@@ -211,7 +223,9 @@ TEST(Autopilot, OncomingTrafficInItsOwnLaneDoesNotStopIt) {
 TEST(Autopilot, ComesBackFromBesideItsLane) {
   Drive drive(StraightWorld(1000, 15.0), -1, 50.0, 0.0);
   const Eigen::Vector3d p = drive.autopilot.path().Position(50.0, 2.0);
-  ASSERT_TRUE(drive.car->Initialise({.x_m = p.x(), .y_m = p.y(), .heading_rad = 0.3 + 0.3, .speed_mps = 5.0}, *drive.ground).ok());
+  ASSERT_TRUE(
+      drive.car->Initialise({.x_m = p.x(), .y_m = p.y(), .heading_rad = 0.3 + 0.3, .speed_mps = 5.0}, *drive.ground)
+          .ok());
   for (int i = 0; i < 15000; ++i) drive.Step();
   EXPECT_LT(std::fabs(drive.Place().offset_m), 0.05);
 }

@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "common/core/base/random.hpp"
-#include "common/driving/driver/autopilot.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/driving/driver/autopilot.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/tree.hpp"
 
@@ -23,8 +23,10 @@ RC_GTEST_PROP(Idm, NothingAcceleratesAtTheEquilibriumGap, (std::uint32_t seed)) 
 
 TEST(Idm, AgreesWithItsFormula) {
   const IdmSettings idm{.time_gap_s = 1.5, .standing_gap_m = 2, .acceleration_mps2 = 1, .braking_mps2 = 1.5};
-  // v 20, v0 30, gap 50, leader 15: s* = 2 + 30 + 20·5/(2 sqrt 1.5) = 72.8248; a = 1 - (2/3)^4 - (72.8248/50)² = -1.318897
-  EXPECT_NEAR(IdmAcceleration(idm, 20, 30, 50, 15), 1 - 16.0 / 81 - std::pow((32 + 100 / (2 * std::sqrt(1.5))) / 50, 2), 1e-12);
+  // v 20, v0 30, gap 50, leader 15: s* = 2 + 30 + 20·5/(2 sqrt 1.5) = 72.8248; a = 1 - (2/3)^4 - (72.8248/50)² =
+  // -1.318897
+  EXPECT_NEAR(IdmAcceleration(idm, 20, 30, 50, 15), 1 - 16.0 / 81 - std::pow((32 + 100 / (2 * std::sqrt(1.5))) / 50, 2),
+              1e-12);
   EXPECT_NEAR(IdmFreeAcceleration(idm, 0, 30), 1.0, 1e-12);
   EXPECT_NEAR(IdmFreeAcceleration(idm, 30, 30), 0.0, 1e-12);
   EXPECT_LT(IdmFreeAcceleration(idm, 35, 30), 0.0);
@@ -34,7 +36,8 @@ TEST(Idm, AgreesWithItsFormula) {
 // On a circle a lane at offset t is (R - t) long a radian; the other lane runs the other way.
 TEST(LanePath, DistancesAreTheLanesOwn) {
   const double radius = 50.0, angle = 2.0;
-  const auto world = WorldOf(TwoLanes({{radius * angle, 1 / radius, 1 / radius}}, 20, {{0, 0, 0}, {radius * angle, 0, 0}}));
+  const auto world =
+      WorldOf(TwoLanes({{radius * angle, 1 / radius, 1 / radius}}, 20, {{0, 0, 0}, {radius * angle, 0, 0}}));
   const road::Road& road = world->roads()[0];
   const LanePath right(road, -1);
   const LanePath left(road, 1);
@@ -42,7 +45,8 @@ TEST(LanePath, DistancesAreTheLanesOwn) {
   EXPECT_NEAR(left.length_m(), (radius - 1.5) * angle, 1e-9);
   EXPECT_NEAR(right.At(30).curvature_1pm, 1 / (radius + 1.5), 1e-12);
   EXPECT_NEAR(left.At(30).curvature_1pm, -1 / (radius - 1.5), 1e-12);
-  EXPECT_NEAR(std::fabs(geometry::WrapAngle(left.At(0).heading_rad - right.At(right.length_m()).heading_rad)), geometry::kPi, 1e-9);
+  EXPECT_NEAR(std::fabs(geometry::WrapAngle(left.At(0).heading_rad - right.At(right.length_m()).heading_rad)),
+              geometry::kPi, 1e-9);
   // A step along the lane moves by as much.
   EXPECT_NEAR((right.Position(40.001, 0) - right.Position(40, 0)).norm(), 0.001, 1e-9);
 }
@@ -70,12 +74,15 @@ TEST(SpeedPlan, KeepsTheLimitTheBendsAndThePlannedBraking) {
       const auto here = plan.At(d);
       EXPECT_LE(here.speed_mps, 20.0 + 1e-9);
       // Between nodes a clothoid may be a little sharper than at them.
-      EXPECT_LE(here.speed_mps * here.speed_mps * std::fabs(path.At(d).curvature_1pm), settings.lateral_mps2 * 1.06) << d;
+      EXPECT_LE(here.speed_mps * here.speed_mps * std::fabs(path.At(d).curvature_1pm), settings.lateral_mps2 * 1.06)
+          << d;
       EXPECT_GE(here.slope_1ps * here.speed_mps, -settings.braking_mps2 - 1e-9);
       if (d < path.length_m() - 50) slowest = std::min(slowest, here.speed_mps);
     }
     // The outer lane of the bend of 35 m, which leans outward by the roof's 2.5 %; the inner one leans inward.
-    EXPECT_NEAR(slowest, std::sqrt(9.81 * std::tan(std::atan(settings.lateral_mps2 / 9.81) - std::atan(0.025)) * (35.0 + 1.5)), 0.05);
+    EXPECT_NEAR(slowest,
+                std::sqrt(9.81 * std::tan(std::atan(settings.lateral_mps2 / 9.81) - std::atan(0.025)) * (35.0 + 1.5)),
+                0.05);
     EXPECT_EQ(plan.At(path.length_m()).speed_mps, 0.0);
   }
 }
@@ -88,7 +95,8 @@ TEST(Steering, PursuitOnACircleIsTheCirclesAngle) {
     for (const double arc : {5.0, 20.0}) {
       const double turn = arc / radius;
       const Eigen::Vector2d target(radius * std::sin(turn), radius * (1 - std::cos(turn)));
-      EXPECT_NEAR(PursuitAngle(settings, Eigen::Vector2d::Zero(), 0.0, target, 2.5, 10.0), std::atan(2.5 / radius), 1e-12);
+      EXPECT_NEAR(PursuitAngle(settings, Eigen::Vector2d::Zero(), 0.0, target, 2.5, 10.0), std::atan(2.5 / radius),
+                  1e-12);
     }
   }
 }
@@ -106,7 +114,7 @@ TEST(Leader, OnlyWhatIsAheadAndInTheWay) {
   ASSERT_TRUE(nearest.has_value());
   EXPECT_NEAR(nearest->gap_m, 130 - 2 - 102, 1e-9);
   EXPECT_NEAR(nearest->speed_mps, 7.0, 1e-9);
-  EXPECT_NEAR(find({at(130, 0, geometry::kPi, 8)})->speed_mps, -8.0, 1e-9);  // comes towards us
+  EXPECT_NEAR(find({at(130, 0, geometry::kPi, 8)})->speed_mps, -8.0, 1e-9);                // comes towards us
   EXPECT_NEAR(find({at(130, 0, 0.5 * geometry::kPi, 0)})->gap_m, 130 - 0.85 - 102, 1e-9);  // stands across
   EXPECT_LT(find({at(101, 0, 0, 0)})->gap_m, 0.0);
 }

@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "common/driving/driver/autopilot.hpp"
-#include "common/world/road/world.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/tree.hpp"
 
@@ -22,15 +22,19 @@ constexpr double kLine_m = 600.0, kLimit_mps = 50.0 / 3.6, kAmber_s = 3.0;
 // A straight of one lane with a light at kLine_m.
 struct Street {
   Street() {
-    const auto file = std::filesystem::temp_directory_path() / ("rodeira-light-" + std::to_string(::getpid()) + ".xodr");
+    const auto file =
+        std::filesystem::temp_directory_path() / ("rodeira-light-" + std::to_string(::getpid()) + ".xodr");
     opendrive::RoadText road;
     road.length = 1200.0;
     road.left = "";
     road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"1200\"><line/></geometry>";
-    road.more = "<signals><signal s=\"600\" t=\"-4\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"2\" type=\"1000001\" subtype=\"-1\" "
-                "country=\"OpenDRIVE\"/></signals>";
-    std::ofstream(file) << opendrive::Document(road.Text() + "<controller id=\"1\" name=\"only\"><control signalId=\"7\" type=\"0\"/>"
-                                                             "<userData code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>");
+    road.more =
+        "<signals><signal s=\"600\" t=\"-4\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"2\" type=\"1000001\" "
+        "subtype=\"-1\" "
+        "country=\"OpenDRIVE\"/></signals>";
+    std::ofstream(file) << opendrive::Document(road.Text() +
+                                               "<controller id=\"1\" name=\"only\"><control signalId=\"7\" type=\"0\"/>"
+                                               "<userData code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>");
     auto loaded = road::World::Load(file);
     std::filesystem::remove(file);
     EXPECT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -40,12 +44,12 @@ struct Street {
 };
 
 struct Passage {
-  double front_at_red_m = 0.0;    // when amber ends
-  double stands_at_m = 0.0;       // front, 20 s after amber began
+  double front_at_red_m = 0.0;  // when amber ends
+  double stands_at_m = 0.0;     // front, 20 s after amber began
   double stands_mps = 0.0;
-  double hardest_mps2 = 0.0;      // of the braking, in the mean of half a second: gears that change pull for a moment
+  double hardest_mps2 = 0.0;  // of the braking, in the mean of half a second: gears that change pull for a moment
   double gap_m = 0.0, speed_mps = 0.0;  // from the front to the line when amber begins
-  double on_at_m = 0.0;           // front, 12 s after green
+  double on_at_m = 0.0;                 // front, 12 s after green
 };
 
 // Comes to the line at the limit; amber begins when the front is `gap_m` before it, green 30 s later.
@@ -66,15 +70,20 @@ Passage Come(const Street& street, double gap_m) {
   std::array<double, 500> speeds{};
   for (int k = 0; k < 80'000; ++k) {
     const double t = 0.001 * k, front = car->state().p_WB_W.x() + car->dimensions().front_m;
-    if (amber_s < 0.0 && front >= kLine_m - gap_m) amber_s = t, told.gap_m = kLine_m - front, told.speed_mps = car->state().speed_mps();
+    if (amber_s < 0.0 && front >= kLine_m - gap_m)
+      amber_s = t, told.gap_m = kLine_m - front, told.speed_mps = car->state().speed_mps();
     const double since = amber_s < 0.0 ? -1.0 : t - amber_s;
-    const LightColour colour = since < 0.0 || since >= 30.0 ? LightColour::kGreen : since < kAmber_s ? LightColour::kAmber : LightColour::kRed;
+    const LightColour colour = since < 0.0 || since >= 30.0 ? LightColour::kGreen
+                               : since < kAmber_s           ? LightColour::kAmber
+                                                            : LightColour::kRed;
     if (k % 10 == 0) {
       const std::vector<LightAhead> lights{{lines[0].d_m, colour}};
       controls = autopilot.Step({car->state(), car->dimensions(), {}, lights}, 0.01);
     }
     speeds[static_cast<std::size_t>(k % 500)] = car->state().speed_mps();
-    if (since > 0.5 && since < 20.0) told.hardest_mps2 = std::max(told.hardest_mps2, (speeds[static_cast<std::size_t>((k + 1) % 500)] - car->state().speed_mps()) / 0.499);
+    if (since > 0.5 && since < 20.0)
+      told.hardest_mps2 = std::max(
+          told.hardest_mps2, (speeds[static_cast<std::size_t>((k + 1) % 500)] - car->state().speed_mps()) / 0.499);
     if (since < kAmber_s) told.front_at_red_m = front;
     if (since < 20.0) told.stands_at_m = front, told.stands_mps = car->state().speed_mps();
     told.on_at_m = front;
@@ -84,8 +93,8 @@ Passage Come(const Street& street, double gap_m) {
   return told;
 }
 
-// v²/(2 b) with b = 2.8 m/s² and half a second for the pedals decides (Gazis, Herman, Maradudin 1960): with three seconds of amber at
-// 50 km/h whoever goes on has passed the line before red.
+// v²/(2 b) with b = 2.8 m/s² and half a second for the pedals decides (Gazis, Herman, Maradudin 1960): with three
+// seconds of amber at 50 km/h whoever goes on has passed the line before red.
 TEST(LightStops, InACarStopsAtAmberWhereItCanAndElsePassesBeforeRed) {
   const Street street;
   int stopped = 0, passed = 0;
@@ -104,7 +113,8 @@ TEST(LightStops, InACarStopsAtAmberWhereItCanAndElsePassesBeforeRed) {
       EXPECT_GT(p.stands_at_m, kLine_m - 2.5) << gap;
       // What the law asks, and what the pedals' lag and their correction add.
       EXPECT_LT(p.hardest_mps2, std::max(1.5, needed) + 1.2) << gap;
-      EXPECT_GT(p.on_at_m, kLine_m + 40.0) << gap;  // green again: 12 s with at least 1 m/s² from rest are 50 m beyond the line and more
+      EXPECT_GT(p.on_at_m, kLine_m + 40.0)
+          << gap;  // green again: 12 s with at least 1 m/s² from rest are 50 m beyond the line and more
       ++stopped;
     }
   }
@@ -119,7 +129,8 @@ TEST(LightStops, DecidesOnceAtALine) {
   const double v = 14.0;
   EXPECT_FALSE(stops.Step(settings, std::vector<LightAhead>{{100.0, LightColour::kAmber}}, 75.0, v, 0.5).has_value());
   EXPECT_FALSE(stops.Step(settings, std::vector<LightAhead>{{100.0, LightColour::kRed}}, 80.0, 10.0, 0.5).has_value());
-  EXPECT_FALSE(stops.Step(settings, std::vector<LightAhead>{{100.0, LightColour::kGreen}}, 81.0, 10.0, 0.5).has_value());
+  EXPECT_FALSE(
+      stops.Step(settings, std::vector<LightAhead>{{100.0, LightColour::kGreen}}, 81.0, 10.0, 0.5).has_value());
   const auto again = stops.Step(settings, std::vector<LightAhead>{{100.0, LightColour::kAmber}}, 60.0, 10.0, 0.5);
   ASSERT_TRUE(again.has_value());
   EXPECT_LT(*again, 0.0);
@@ -139,14 +150,23 @@ TEST(LightLines, AreThoseThatHoldForTheLanesOfTheRoute) {
   road.length = 300.0;
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"300\"><line/></geometry>";
   const auto signal = [](double s, const char* id, const char* way) {
-    return fmt::format("<signal s=\"{}\" t=\"-4\" id=\"{}\" dynamic=\"yes\" orientation=\"{}\" zOffset=\"2\" type=\"1000001\" subtype=\"-1\" country=\"OpenDRIVE\"/>", s, id, way);
+    return fmt::format(
+        "<signal s=\"{}\" t=\"-4\" id=\"{}\" dynamic=\"yes\" orientation=\"{}\" zOffset=\"2\" type=\"1000001\" "
+        "subtype=\"-1\" country=\"OpenDRIVE\"/>",
+        s, id, way);
   };
-  road.more = "<signals>" + signal(100.0, "a", "+") + signal(220.0, "b", "-") + signal(60.0, "c", "-") + signal(250.0, "dark", "+") + "</signals>";
+  road.more = "<signals>" + signal(100.0, "a", "+") + signal(220.0, "b", "-") + signal(60.0, "c", "-") +
+              signal(250.0, "dark", "+") + "</signals>";
   const auto controlled = [](int id, const char* signals) {
-    return fmt::format("<controller id=\"{}\" name=\"{}\"><control signalId=\"{}\" type=\"0\"/><userData code=\"rodeira:times\" value=\"60 0 20 3 1\"/></controller>", id, id, signals);
+    return fmt::format(
+        "<controller id=\"{}\" name=\"{}\"><control signalId=\"{}\" type=\"0\"/><userData code=\"rodeira:times\" "
+        "value=\"60 0 20 3 1\"/></controller>",
+        id, id, signals);
   };
-  const auto network = opendrive::MustRead(opendrive::Document(road.Text() + controlled(1, "b") + controlled(2, "a") + controlled(3, "c")));
-  const RoutePath there(*network, StraightOn(*network, {0, 0, -1}, 1000.0)), back(*network, StraightOn(*network, {0, 0, 1}, 1000.0));
+  const auto network = opendrive::MustRead(
+      opendrive::Document(road.Text() + controlled(1, "b") + controlled(2, "a") + controlled(3, "c")));
+  const RoutePath there(*network, StraightOn(*network, {0, 0, -1}, 1000.0)),
+      back(*network, StraightOn(*network, {0, 0, 1}, 1000.0));
   const auto forward = LightLines(*network, there), backward = LightLines(*network, back);
   ASSERT_EQ(forward.size(), 1u);
   EXPECT_NEAR(forward[0].d_m, 100.0, 1e-9);

@@ -5,8 +5,8 @@
 
 #include "common/driving/driver/autopilot.hpp"
 #include "common/driving/driver/route_path.hpp"
-#include "common/world/road/world.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/tree.hpp"
 
@@ -27,8 +27,9 @@ std::string Bend() {
   arc.id = "2";
   arc.length = 60;
   const double end = 60.0 / 50.0, x = 100.0 + 50.0 * std::sin(end), y = 50.0 * (1.0 - std::cos(end));
-  arc.geometry = fmt::format(R"(<geometry s="0" x="{}" y="{}" hdg="{}" length="60"><arc curvature="-0.02"/></geometry>)", x, y,
-                             end + std::acos(-1.0));
+  arc.geometry =
+      fmt::format(R"(<geometry s="0" x="{}" y="{}" hdg="{}" length="60"><arc curvature="-0.02"/></geometry>)", x, y,
+                  end + std::acos(-1.0));
   arc.elevation = R"(<elevation s="0" a="3" b="0" c="0" d="0"/>)";
   arc.link = R"(<successor elementType="road" elementId="1" contactPoint="end"/>)";
   arc.left =
@@ -48,7 +49,8 @@ TEST(RoutePath, IsTheMiddleOfItsLanes) {
   const LaneFrame bend = path.At(100.0 + 0.5 * 51.75);
   EXPECT_NEAR(bend.heading_rad, 0.5, 1e-5);
   EXPECT_NEAR(bend.curvature_1pm, 1.0 / 51.75, 1e-6);
-  EXPECT_NEAR((bend.p_W - Eigen::Vector3d(100.0 + 51.75 * std::sin(0.5), 50.0 - 51.75 * std::cos(0.5), 3.0)).norm(), 0.0, 1e-4);
+  EXPECT_NEAR((bend.p_W - Eigen::Vector3d(100.0 + 51.75 * std::sin(0.5), 50.0 - 51.75 * std::cos(0.5), 3.0)).norm(),
+              0.0, 1e-4);
   for (const double d : {0.3, 55.0, 99.8, 120.0, 160.0}) {
     for (const double offset : {-1.0, 0.0, 0.6}) {
       const Eigen::Vector3d p = path.Position(d, offset);
@@ -62,7 +64,8 @@ TEST(RoutePath, IsTheMiddleOfItsLanes) {
 }
 
 // The car of the project drives `for_s` seconds along the route from the world's start. It stays in its lane.
-void Drive(const std::shared_ptr<const road::World>& world, double for_s, const std::string& name, double most_aside_m) {
+void Drive(const std::shared_ptr<const road::World>& world, double for_s, const std::string& name,
+           double most_aside_m) {
   const network::Network& network = *world->network();
   const road::StartPose& start = world->start();
   const auto at = network.Locate(start.x_m, start.y_m);
@@ -106,7 +109,8 @@ double Steepest(const road::World& world) {
   return steepest;
 }
 
-// Two roads of 10 m that climb by 1 in 1 and lean by 45 degrees: the normal is along (-1, sqrt 2, 1), the ground 60 degrees steep, and asphalt has a friction of 1.
+// Two roads of 10 m that climb by 1 in 1 and lean by 45 degrees: the normal is along (-1, sqrt 2, 1), the ground 60
+// degrees steep, and asphalt has a friction of 1.
 TEST(RoutePath, NoCarStandsOnTheOneRealFileThatIsNotDriven) {
   for (const auto& file : opendrive::RealFiles()) {
     if (file.stem() != "esmini_two_pitched_and_rolled_roads") continue;

@@ -53,16 +53,20 @@ TEST(Smooth, TheWayOfASmoothStopIsThatOfItsMotion) {
 TEST(Smooth, AStopsProfileIsAMotion) {
   constexpr double kBraking = 2.0, kJerk = 3.0, kEased_m = 8.0 / 54.0;
   for (double x = 1e-3; x < 40.0; x *= 1.1) {
-    const StopProfile at = StopIn(x, kBraking, kJerk), before = StopIn(x * (1.0 + 1e-6), kBraking, kJerk), after = StopIn(x * (1.0 - 1e-6), kBraking, kJerk);
+    const StopProfile at = StopIn(x, kBraking, kJerk), before = StopIn(x * (1.0 + 1e-6), kBraking, kJerk),
+                      after = StopIn(x * (1.0 - 1e-6), kBraking, kJerk);
     EXPECT_NEAR((before.speed_mps - after.speed_mps) / (2e-6 * x) * at.speed_mps, at.deceleration_mps2, 1e-4) << x;
-    if (x < kEased_m) EXPECT_NEAR(at.deceleration_mps2, std::sqrt(2.0 * kJerk * at.speed_mps), 1e-9);
-    else EXPECT_EQ(at.deceleration_mps2, kBraking);
+    if (x < kEased_m)
+      EXPECT_NEAR(at.deceleration_mps2, std::sqrt(2.0 * kJerk * at.speed_mps), 1e-9);
+    else
+      EXPECT_EQ(at.deceleration_mps2, kBraking);
   }
   EXPECT_EQ(StopIn(0.0, kBraking, kJerk).speed_mps, 0.0);
   EXPECT_EQ(StopIn(-1.0, kBraking, kJerk).speed_mps, 0.0);
 }
 
-// From 14 m/s without braking yet: 3 m/s² can be had smoothly, 8 m/s² cannot; and nobody hurries for the last of a stop.
+// From 14 m/s without braking yet: 3 m/s² can be had smoothly, 8 m/s² cannot; and nobody hurries for the last of a
+// stop.
 TEST(Smooth, HasteIsWhereSmoothBrakingComesTooLate) {
   EXPECT_FALSE(NeedsHaste(-3.0, 14.0, 0.0, 3.0));
   EXPECT_TRUE(NeedsHaste(-8.0, 14.0, 0.0, 3.0));

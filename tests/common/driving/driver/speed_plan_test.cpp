@@ -36,14 +36,19 @@ double Sideways_mps2(double speed_mps, double curvature_1pm, double bank) {
   return (curvature_1pm > 0.0 ? -1.0 : 1.0) * force.dot(left) / -force.dot(up) * kGravity_mps2;
 }
 
-double Speed(double curvature_1pm, double bank, const SpeedPlanSettings& settings) { return SpeedPlan(BankedBend(curvature_1pm, bank), settings).At(20.0).speed_mps; }
+double Speed(double curvature_1pm, double bank, const SpeedPlanSettings& settings) {
+  return SpeedPlan(BankedBend(curvature_1pm, bank), settings).At(20.0).speed_mps;
+}
 
-// Where the ground leans outward the car feels what is comfortable, no more and no less: v² = g R tan(atan(a / g) - lean).
+// Where the ground leans outward the car feels what is comfortable, no more and no less: v² = g R tan(atan(a / g) -
+// lean).
 TEST(SpeedPlan, ABendThatLeansOutwardIsFeltAsOneOnTheLevel) {
   const SpeedPlanSettings settings;
   for (const double curvature : {0.01, -0.01, 0.05, -0.1}) {
     for (const double lean : {0.0, 0.01, 0.025, 0.06, 0.1, 0.14}) {
-      const double bank = std::copysign(lean, curvature), speed = Speed(curvature, bank, settings);  // a bend to the left leans outward where the left is higher
+      const double bank = std::copysign(lean, curvature),
+                   speed =
+                       Speed(curvature, bank, settings);  // a bend to the left leans outward where the left is higher
       EXPECT_NEAR(Sideways_mps2(speed, curvature, bank), settings.lateral_mps2, 1e-9) << curvature << " " << lean;
     }
   }
@@ -53,18 +58,22 @@ TEST(SpeedPlan, ABendThatLeansOutwardIsFeltAsOneOnTheLevel) {
 TEST(SpeedPlan, ABendThatLeansInwardIsDrivenAsOnTheLevel) {
   const SpeedPlanSettings settings;
   for (const double curvature : {0.01, -0.05}) {
-    for (const double lean : {0.02, 0.1, 0.5}) EXPECT_NEAR(Speed(curvature, std::copysign(lean, -curvature), settings), std::sqrt(settings.lateral_mps2 / std::fabs(curvature)), 1e-9);
+    for (const double lean : {0.02, 0.1, 0.5})
+      EXPECT_NEAR(Speed(curvature, std::copysign(lean, -curvature), settings),
+                  std::sqrt(settings.lateral_mps2 / std::fabs(curvature)), 1e-9);
   }
 }
 
-// Ground that leans outward by more than is comfortable: the bend adds a quarter of the comfortable, never more than 0.6 of what tips the car over, else a crawl.
+// Ground that leans outward by more than is comfortable: the bend adds a quarter of the comfortable, never more than
+// 0.6 of what tips the car over, else a crawl.
 TEST(SpeedPlan, NobodyTipsOverWhereTheGroundLeansOutward) {
   SpeedPlanSettings settings;
   for (const double tips : {5.8, 6.9, 10.5}) {
     settings.tips_mps2 = tips;
     int crawls = 0, free = 0;
     for (double lean = 0.2; lean < 0.9; lean += 0.01) {
-      const double speed = Speed(0.01, lean, settings), bend = 0.01 * speed * speed, felt = Sideways_mps2(speed, 0.01, lean);
+      const double speed = Speed(0.01, lean, settings), bend = 0.01 * speed * speed,
+                   felt = Sideways_mps2(speed, 0.01, lean);
       EXPECT_LE(bend, 0.25 * settings.lateral_mps2 + 1e-9);
       if (felt > 0.6 * tips + 1e-9) {
         EXPECT_NEAR(bend, 0.2, 1e-9) << lean;

@@ -7,7 +7,8 @@
 
 namespace rodeira::driver {
 
-inline road::RoadSpec TwoLanes(std::vector<geometry::PlanPiece> pieces, double limit_mps, std::vector<geometry::GradePoint> grades) {
+inline road::RoadSpec TwoLanes(std::vector<geometry::PlanPiece> pieces, double limit_mps,
+                               std::vector<geometry::GradePoint> grades) {
   road::RoadSpec spec;
   spec.id = "test";
   spec.heading_rad = 0.3;
@@ -51,7 +52,8 @@ inline std::shared_ptr<const road::World> WindingWorld(double limit_mps = 20.0) 
   }
   double length = 0.0;
   for (const auto& piece : pieces) length += piece.length_m;
-  return WorldOf(TwoLanes(std::move(pieces), limit_mps, {{0.0, 0.0, 0.0}, {300.0, 15.0, 100.0}, {600.0, -3.0, 120.0}, {length, 5.0, 0.0}}));
+  return WorldOf(TwoLanes(std::move(pieces), limit_mps,
+                          {{0.0, 0.0, 0.0}, {300.0, 15.0, 100.0}, {600.0, -3.0, 120.0}, {length, 5.0, 0.0}}));
 }
 
 }  // namespace rodeira::driver

@@ -1,5 +1,5 @@
-// Manoeuvres against what can be said of them without a car: the linear single-track model, balances of energy and force,
-// symmetry. Then the project's cars go through them all.
+// Manoeuvres against what can be said of them without a car: the linear single-track model, balances of energy and
+// force, symmetry. Then the project's cars go through them all.
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 
 #include <gmock/gmock.h>
@@ -37,15 +37,23 @@ Outcome Driven(base::Result<Outcome> outcome) {
   return outcome.ok() ? std::move(outcome).value() : Outcome{};
 }
 
-// A car with the two degrees of freedom that the linear model has: a low centre of gravity, short relaxation, no losses.
+// A car with the two degrees of freedom that the linear model has: a low centre of gravity, short relaxation, no
+// losses.
 struct LinearCar {
   double mass_kg = 1500.0, inertia_kgm2 = 2500.0, a_m = 1.2, b_m = 1.5;
   double front_Nprad = 8e4, rear_Nprad = 1e5;
 
   BicycleModel Make() const {
     BicycleSettings s = dynamics::DefaultSettings();
-    s.body = {.mass_kg = mass_kg, .roll_inertia_kgm2 = 400, .pitch_inertia_kgm2 = 2000, .yaw_inertia_kgm2 = inertia_kgm2, .cg_height_m = 0.05,
-              .cg_to_front_axle_m = a_m, .wheelbase_m = a_m + b_m, .drag_area_m2 = 0.0, .air_density_kgpm3 = 1.2};
+    s.body = {.mass_kg = mass_kg,
+              .roll_inertia_kgm2 = 400,
+              .pitch_inertia_kgm2 = 2000,
+              .yaw_inertia_kgm2 = inertia_kgm2,
+              .cg_height_m = 0.05,
+              .cg_to_front_axle_m = a_m,
+              .wheelbase_m = a_m + b_m,
+              .drag_area_m2 = 0.0,
+              .air_density_kgpm3 = 1.2};
     s.dimensions.wheelbase_m = a_m + b_m;
     s.wheel.rolling_resistance = 0.0;
     const double stiffness[] = {front_Nprad, rear_Nprad};
@@ -64,7 +72,9 @@ struct LinearCar {
   double a22(double V) const { return -(a_m * a_m * front_Nprad + b_m * b_m * rear_Nprad) / (inertia_kgm2 * V); }
   double b1() const { return front_Nprad / mass_kg; }
   double b2() const { return a_m * front_Nprad / inertia_kgm2; }
-  double UndersteerGradient() const { return mass_kg / (a_m + b_m) * (b_m / front_Nprad - a_m / rear_Nprad); }  // rad per m/s²
+  double UndersteerGradient() const {
+    return mass_kg / (a_m + b_m) * (b_m / front_Nprad - a_m / rear_Nprad);
+  }  // rad per m/s²
   // Yaw rate over the front wheels' angle at a frequency.
   std::complex<double> YawResponse(double V, double radps) const {
     const std::complex<double> s(0.0, radps);
@@ -90,7 +100,8 @@ TEST(Manoeuvres, AStepOfSteerAnswersAsTheLinearModelDoes) {
   double v = 0.0, r = 0.0, most = 0.0, at = 0.0, t = 0.0;
   const auto slope = [&](double time, double v0, double r0) {
     const double delta = std::clamp(time / 0.1, 0.0, 1.0);
-    return std::pair(linear.a11(V) * v0 + linear.a12(V) * r0 + linear.b1() * delta, linear.a21(V) * v0 + linear.a22(V) * r0 + linear.b2() * delta);
+    return std::pair(linear.a11(V) * v0 + linear.a12(V) * r0 + linear.b1() * delta,
+                     linear.a21(V) * v0 + linear.a22(V) * r0 + linear.b2() * delta);
   };
   for (; t < 5.5; t += h) {
     const auto [v1, r1] = slope(t, v, r);
@@ -105,7 +116,8 @@ TEST(Manoeuvres, AStepOfSteerAnswersAsTheLinearModelDoes) {
     }
   }
   const double ratio = car.dimensions().steering_ratio;
-  EXPECT_NEAR(r, V / (2.7 + linear.UndersteerGradient() * V * V), 1e-6) << "the integration itself, against the closed form";
+  EXPECT_NEAR(r, V / (2.7 + linear.UndersteerGradient() * V * V), 1e-6)
+      << "the integration itself, against the closed form";
   EXPECT_NEAR(Value(outcome, "yaw rate gain"), r / ratio, 0.01 * r / ratio);
   EXPECT_NEAR(Value(outcome, "yaw rate overshoot"), (most / r - 1.0) * 100.0, 1.0);
   EXPECT_NEAR(Value(outcome, "yaw rate peak after"), at - 0.05, 0.02);
@@ -122,27 +134,36 @@ TEST(Manoeuvres, ASineAnswersAsTheLinearModelsFrequencyResponse) {
   EXPECT_NEAR(Value(outcome, "yaw rate delay"), -std::arg(expected) / radps * 1e3, 5.0);
 }
 
-// No car is faster than its engine's power allows: half m v² <= P t; at its top speed power and resistance are in balance.
+// No car is faster than its engine's power allows: half m v² <= P t; at its top speed power and resistance are in
+// balance.
 TEST(Manoeuvres, AccelerationKeepsToTheEnginesPower) {
   BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Acceleration(car, kStep_s));
   const auto& s = car.settings();
   double power_W = 0.0;
-  for (const auto& sample : s.powertrain.engine.full_load) power_W = std::max(power_W, 1.02 * sample.speed_radps * sample.torque_Nm);  // between samples a little more
+  for (const auto& sample : s.powertrain.engine.full_load)
+    power_W = std::max(power_W, 1.02 * sample.speed_radps * sample.torque_Nm);  // between samples a little more
   const double hundred = 100.0 / 3.6, top = Value(outcome, "top speed") / 3.6;
   EXPECT_GT(Value(outcome, "0 to 100 km/h"), 0.5 * s.body.mass_kg * hundred * hundred / power_W);
   EXPECT_LT(Value(outcome, "0 to 100 km/h"), 20.0);
-  EXPECT_GT(Value(outcome, "0 to 400 m"), std::cbrt(4.5 * 400.0 * 400.0 * s.body.mass_kg / power_W / 2.0));  // constant power: x = 2/3 sqrt(2P/m) t^1.5
-  // What the curve gives at the speed at which the engine turns then, less what the gears take, is what air and tyres take.
+  EXPECT_GT(Value(outcome, "0 to 400 m"), std::cbrt(4.5 * 400.0 * 400.0 * s.body.mass_kg / power_W /
+                                                    2.0));  // constant power: x = 2/3 sqrt(2P/m) t^1.5
+  // What the curve gives at the speed at which the engine turns then, less what the gears take, is what air and tyres
+  // take.
   const auto& curve = s.powertrain.engine.full_load;
   const double turning_radps = outcome.table.At(outcome.table.rows() - 1, 16) * geometry::kPi / 30.0;
   std::size_t above = 1;
   while (above + 1 < curve.size() && curve[above].speed_radps < turning_radps) ++above;
-  const double part = (turning_radps - curve[above - 1].speed_radps) / (curve[above].speed_radps - curve[above - 1].speed_radps);
-  const double given_W = turning_radps * (curve[above - 1].torque_Nm + part * (curve[above].torque_Nm - curve[above - 1].torque_Nm)) * s.powertrain.gearbox.efficiency;
-  const double resisting_W = top * (0.5 * s.body.air_density_kgpm3 * s.body.drag_area_m2 * top * top + s.wheel.rolling_resistance * s.body.mass_kg * kG_mps2);
+  const double part =
+      (turning_radps - curve[above - 1].speed_radps) / (curve[above].speed_radps - curve[above - 1].speed_radps);
+  const double given_W = turning_radps *
+                         (curve[above - 1].torque_Nm + part * (curve[above].torque_Nm - curve[above - 1].torque_Nm)) *
+                         s.powertrain.gearbox.efficiency;
+  const double resisting_W = top * (0.5 * s.body.air_density_kgpm3 * s.body.drag_area_m2 * top * top +
+                                    s.wheel.rolling_resistance * s.body.mass_kg * kG_mps2);
   EXPECT_LT(resisting_W, power_W);
-  const double growing_W = top * s.body.mass_kg * outcome.table.At(outcome.table.rows() - 1, 5);  // it still gets a little faster
+  const double growing_W =
+      top * s.body.mass_kg * outcome.table.At(outcome.table.rows() - 1, 5);  // it still gets a little faster
   EXPECT_NEAR(resisting_W + growing_W, given_W, 0.02 * given_W) << "the rest is slip";
 }
 
@@ -154,7 +175,8 @@ TEST(Manoeuvres, BrakingKeepsToFriction) {
   EXPECT_GT(mean, 0.6 * kG_mps2);
   EXPECT_NEAR(Value(outcome, "drift to the left"), 0.0, 1e-6) << "left and right are the same";
   const double distance = Value(outcome, "distance");
-  EXPECT_NEAR(Value(outcome, "time"), 2.0 * distance / (100.0 / 3.6), 0.15 * Value(outcome, "time")) << "nearly constant deceleration";
+  EXPECT_NEAR(Value(outcome, "time"), 2.0 * distance / (100.0 / 3.6), 0.15 * Value(outcome, "time"))
+      << "nearly constant deceleration";
 }
 
 // With ice on the right a car of four wheels turns to the left.
@@ -212,14 +234,18 @@ TEST_P(EveryCar, GoesThroughEveryManoeuvreTwiceTheSame) {
     if (manoeuvre.name == "step_steer") {
       EXPECT_LT(Value(a, "90 % of lateral acceleration after"), 0.4);
     }
-    if (manoeuvre.name == "acceleration" || manoeuvre.name == "constant_radius" || manoeuvre.name == "park") continue;  // long
+    if (manoeuvre.name == "acceleration" || manoeuvre.name == "constant_radius" || manoeuvre.name == "park")
+      continue;  // long
     EXPECT_EQ(Driven(Drive(manoeuvre, *second, 0.002)).table.values, a.table.values);
   }
 }
-INSTANTIATE_TEST_SUITE_P(Models, EveryCar, ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody, dynamics::kSecondMultibody, dynamics::kFmu),
+INSTANTIATE_TEST_SUITE_P(Models, EveryCar,
+                         ::testing::Values(dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody,
+                                           dynamics::kSecondMultibody, dynamics::kFmu),
                          dynamics::NameOf);
 
-// The tests' FMU is a point with dv/dt = 3 - v/20 and the yaw rate v tan(steering wheel / 16) / 2.5: its figures are closed forms.
+// The tests' FMU is a point with dv/dt = 3 - v/20 and the yaw rate v tan(steering wheel / 16) / 2.5: its figures are
+// closed forms.
 TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
   auto car = dynamics::MakeModel(dynamics::kFmu);
   const Outcome fast = Driven(Acceleration(*car, kStep_s));
@@ -231,7 +257,8 @@ TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
   EXPECT_EQ(Value(Driven(Park(*car, kStep_s)), "creep"), 0.0);
 }
 
-// The multibody car with undivided steps of 10 ms: the same drive as at 1 ms, 1 cm nearer to or farther from the cones at most.
+// The multibody car with undivided steps of 10 ms: the same drive as at 1 ms, 1 cm nearer to or farther from the cones
+// at most.
 TEST(Manoeuvres, AtTenMillisecondsTheMultibodyCarStillDrivesTheLaneChange) {
   auto fine = dynamics::MakeModel(dynamics::kMultibody);
   dynamics::MultibodySettings settings = static_cast<dynamics::MultibodyModel&>(*fine).settings();

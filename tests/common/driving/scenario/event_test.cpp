@@ -23,11 +23,13 @@ TEST(Event, APlaceIsReadBackToTheBit) {
 }
 
 TEST(Event, WhatIsNoPlaceIsRefused) {
-  for (const char* text : {"", "ego", "ego 1", "ego 1 2 3 4", "ego  1 2", " 1 2", "ego 1 nan", "ego inf 2", "ego 1x 2", "ego 1 2 x", "ego 1,5 2", "ego 1 2 "}) {
+  for (const char* text : {"", "ego", "ego 1", "ego 1 2 3 4", "ego  1 2", " 1 2", "ego 1 nan", "ego inf 2", "ego 1x 2",
+                           "ego 1 2 x", "ego 1,5 2", "ego 1 2 "}) {
     const auto read = ParsePlace(text);
     ASSERT_FALSE(read.ok()) << text;
     EXPECT_EQ(read.error().exit_status(), 2);
-    EXPECT_NE(read.error().Text().find("is no place; the name of a vehicle node and metres"), std::string::npos) << read.error().Text();
+    EXPECT_NE(read.error().Text().find("is no place; the name of a vehicle node and metres"), std::string::npos)
+        << read.error().Text();
   }
 }
 
@@ -44,12 +46,14 @@ TEST(Event, ACrossingIsARoadAPlaceAndASide) {
     const auto read = ParseCrossing(text);
     ASSERT_FALSE(read.ok()) << text;
     EXPECT_EQ(read.error().exit_status(), 2);
-    EXPECT_NE(read.error().Text().find("is no crossing; a road, metres along it"), std::string::npos) << read.error().Text();
+    EXPECT_NE(read.error().Text().find("is no crossing; a road, metres along it"), std::string::npos)
+        << read.error().Text();
   }
 }
 
 TEST(Event, AnAgentMayBeMeantAtAPlace) {
-  const auto one = ParseAgent("12"), at = ParseAgent("12 at main 350.5"), next = ParseAgent("next at long road 3"), all = ParseAgent("all at 7 0");
+  const auto one = ParseAgent("12"), at = ParseAgent("12 at main 350.5"), next = ParseAgent("next at long road 3"),
+             all = ParseAgent("all at 7 0");
   ASSERT_TRUE(one.ok() && at.ok() && next.ok() && all.ok());
   EXPECT_FALSE(one.value().at);
   EXPECT_EQ(at.value().kind, AgentChoice::Kind::kOne);
@@ -60,12 +64,14 @@ TEST(Event, AnAgentMayBeMeantAtAPlace) {
   EXPECT_EQ(next.value().at->road, "long road");
   EXPECT_EQ(all.value().kind, AgentChoice::Kind::kAll);
   EXPECT_EQ(AgentText("next", *next.value().at), "next at long road 3");
-  for (const char* text : {"12 at", "12 at ", "12 at main", "12 at main x", "12 at main -3", "12 at  5", "12 at main nan"}) {
+  for (const char* text :
+       {"12 at", "12 at ", "12 at main", "12 at main x", "12 at main -3", "12 at  5", "12 at main nan"}) {
     const auto read = ParseAgent(text);
     ASSERT_FALSE(read.ok()) << text;
     EXPECT_EQ(read.error().exit_status(), 2);
   }
-  EXPECT_EQ(ParseAgent("next").error().Text(), "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+  EXPECT_EQ(ParseAgent("next").error().Text(),
+            "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
   EXPECT_EQ(ParseAgent("first at main 3").error().Text(), "'first' is no agent; its number, all or ahead was expected");
 }
 
@@ -75,7 +81,8 @@ TEST(Event, AVehicleAppearsOnALane) {
   EXPECT_EQ(read.value().id, 20u);
   EXPECT_EQ(read.value().at->road, "long road:-2");
   EXPECT_EQ(read.value().at->s_m, 350.5);
-  for (const char* text : {"", "20", "all at main:-1 5", "next at main:-1 5", "20 at main 5", "20 at :-1 5", "20 at main:x 5", "20 at main: 5", "20 at main:-1", "x at main:-1 5"}) {
+  for (const char* text : {"", "20", "all at main:-1 5", "next at main:-1 5", "20 at main 5", "20 at :-1 5",
+                           "20 at main:x 5", "20 at main: 5", "20 at main:-1", "x at main:-1 5"}) {
     const auto refused = ParseAgentOnLane(text);
     ASSERT_FALSE(refused.ok()) << text;
     EXPECT_EQ(refused.error().exit_status(), 2);
@@ -84,7 +91,8 @@ TEST(Event, AVehicleAppearsOnALane) {
   EXPECT_FALSE(CheckEvent({"traffic.appear", "20 at main:-1 5", 101.0}));
   EXPECT_TRUE(CheckEvent({"traffic.overtake", "next at main 5", 0.0}));
   EXPECT_TRUE(CheckEvent({"traffic.change_lane", "3", -1.0}));
-  EXPECT_EQ(CheckEvent({"traffic.change_lane", "3", 0.5}).error().Text(), "'side' of 'traffic.change_lane' is 0.5; 1 (left) or -1 (right) was expected");
+  EXPECT_EQ(CheckEvent({"traffic.change_lane", "3", 0.5}).error().Text(),
+            "'side' of 'traffic.change_lane' is 0.5; 1 (left) or -1 (right) was expected");
 }
 
 TEST(Event, WhatCannotBeObeyedIsSaid) {
@@ -96,10 +104,13 @@ TEST(Event, WhatCannotBeObeyedIsSaid) {
     return status ? std::string() : status.error().Text();
   };
   EXPECT_NE(complaint({"vehicle.plce", "ego 1 2", 0.0}).find("did you mean 'vehicle.place'?"), std::string::npos);
-  EXPECT_EQ(complaint({"vehicle.place", "ego 1 2", 400.0}), "'heading_deg' of 'vehicle.place' is 400; -360 to 360 was expected");
-  EXPECT_NE(complaint({"vehicle.place", "ego 1 2", std::numeric_limits<double>::quiet_NaN()}).find("heading_deg"), std::string::npos);
+  EXPECT_EQ(complaint({"vehicle.place", "ego 1 2", 400.0}),
+            "'heading_deg' of 'vehicle.place' is 400; -360 to 360 was expected");
+  EXPECT_NE(complaint({"vehicle.place", "ego 1 2", std::numeric_limits<double>::quiet_NaN()}).find("heading_deg"),
+            std::string::npos);
   EXPECT_NE(complaint({"vehicle.place", "ego", 0.0}).find("is no place"), std::string::npos);
-  EXPECT_NE(complaint({"weather", "fogg", 5.0}).find("'fogg' is no weather; did you mean 'fog'?"), std::string::npos) << complaint({"weather", "fogg", 5.0});
+  EXPECT_NE(complaint({"weather", "fogg", 5.0}).find("'fogg' is no weather; did you mean 'fog'?"), std::string::npos)
+      << complaint({"weather", "fogg", 5.0});
   EXPECT_NE(complaint({"traffic.pedestrian", "main", 0.0}).find("is no crossing"), std::string::npos);
   EXPECT_NE(complaint({"traffic.brake", "nobody", 5.0}).find("is no agent"), std::string::npos);
 }

@@ -51,9 +51,13 @@ TEST(ScenarioFile, AnAgentMayBeToldAtAPlace) {
   ASSERT_TRUE(read.ok()) << read.error().Text();
   EXPECT_EQ(read.value().scheduled.at(0).event.argument, "next at main 350.5");
   EXPECT_EQ(read.value().conditional.at(0).event.argument, "all at side road 4");
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: next}\n").find("'next' is whoever comes to a place first"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {s_m: 3}}\n").find("road' is missing"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {road: main, s_m: -3}}\n").find("s_m' is -3"), std::string::npos);
+  EXPECT_NE(
+      Complaint("  - {at_s: 1, name: traffic.release, agent: next}\n").find("'next' is whoever comes to a place first"),
+      std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {s_m: 3}}\n").find("road' is missing"),
+            std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.release, agent: 1, at: {road: main, s_m: -3}}\n").find("s_m' is -3"),
+            std::string::npos);
   EXPECT_NE(Complaint("  - {at_s: 1, name: mark, text: x, at: {road: main, s_m: 3}}\n").find("at"), std::string::npos);
 }
 
@@ -73,19 +77,28 @@ TEST(ScenarioFile, VehiclesAreToldToOvertakeToChangeLanesAndToAppear) {
   EXPECT_EQ(events.at(2).event.value, 1.0);
   EXPECT_EQ(events.at(3).event.argument, "20 at main:-1 350.5");
   EXPECT_EQ(events.at(3).event.value, 12.0);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.change_lane, agent: 3, side: lft}\n").find("did you mean 'left'?"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.change_lane, agent: 3, side: lft}\n").find("did you mean 'left'?"),
+            std::string::npos);
   EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.change_lane, agent: 3}\n").find("side"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 20, speed_mps: 3}\n").find("at' is missing"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: all, at: {lane: \"main:-1\", s_m: 3}, speed_mps: 3}\n").find("is no agent on a lane"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: main, s_m: 3}, speed_mps: 3}\n").find("is no agent on a lane"), std::string::npos);
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: \"main:-1\", s_m: 3}, speed_mps: -1}\n").find("speed_mps' is -1"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 20, speed_mps: 3}\n").find("at' is missing"),
+            std::string::npos);
+  EXPECT_NE(
+      Complaint("  - {at_s: 1, name: traffic.appear, agent: all, at: {lane: \"main:-1\", s_m: 3}, speed_mps: 3}\n")
+          .find("is no agent on a lane"),
+      std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: main, s_m: 3}, speed_mps: 3}\n")
+                .find("is no agent on a lane"),
+            std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.appear, agent: 2, at: {lane: \"main:-1\", s_m: 3}, speed_mps: -1}\n")
+                .find("speed_mps' is -1"),
+            std::string::npos);
 }
 
 // 0.1 has no exact binary form: every multiple must still be the step that it names.
 TEST(ScenarioFile, EveryMultipleOfThePeriodIsItsStep) {
   for (const std::int64_t tenths : {1, 3, 7, 1001, 99999, 123456}) {
-    const auto read =
-        Read("  - {at_s: " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + ", name: mark, text: x}\n");
+    const auto read = Read("  - {at_s: " + std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) +
+                           ", name: mark, text: x}\n");
     ASSERT_TRUE(read.ok()) << read.error().Text();
     EXPECT_EQ(read.value().scheduled.at(0).step, tenths * 100);
   }
@@ -94,10 +107,12 @@ TEST(ScenarioFile, EveryMultipleOfThePeriodIsItsStep) {
 TEST(ScenarioFile, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(Complaint("  - {at_s: 1.005, name: mark, text: x}\n"),
             "scenario.yaml:3: 'at_s' is 1.005; a multiple of the scenario's period of 0.01 s was expected, 1 or 1.01");
-  EXPECT_EQ(Complaint("  - {at_s: 0, name: mark, text: x}\n"),
-            "scenario.yaml:3: 'at_s' is 0; the first time at which an event can act was expected, 0.02 s, or a later one");
+  EXPECT_EQ(
+      Complaint("  - {at_s: 0, name: mark, text: x}\n"),
+      "scenario.yaml:3: 'at_s' is 0; the first time at which an event can act was expected, 0.02 s, or a later one");
   EXPECT_EQ(Complaint("  - {at_s: 0.01, name: mark, text: x}\n", {1'000'000, 10, 10}), "");
-  for (const char* far : {"1e300", "-5e15", "2000000.0005"}) {  // as steps more than a number holds: one sentence, about the range
+  for (const char* far :
+       {"1e300", "-5e15", "2000000.0005"}) {  // as steps more than a number holds: one sentence, about the range
     const std::string said = Complaint(std::string("  - {at_s: ") + far + ", name: mark, text: x}\n");
     EXPECT_NE(said.find("at_s' is"), std::string::npos) << said;
     EXPECT_EQ(said.find("a multiple"), std::string::npos) << said;
@@ -105,16 +120,17 @@ TEST(ScenarioFile, WrongOnesAreRefusedWithTheirPlace) {
   }
   EXPECT_EQ(Complaint("  - {at_s: 2, name: mark, text: x}\n  - {at_s: 1, name: mark, text: y}\n"),
             "scenario.yaml:4: 'at_s' is 1 and follows 2; times that do not descend were expected");
-  EXPECT_NE(
-      Complaint("  - {at_s: 1, name: trafic.brake, agent: 1, deceleration_mps2: 2}\n").find("did you mean 'traffic.brake'?"),
-      std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: trafic.brake, agent: 1, deceleration_mps2: 2}\n")
+                .find("did you mean 'traffic.brake'?"),
+            std::string::npos);
   EXPECT_EQ(Complaint("  - {at_s: 1, name: traffic.brake, agent: first, deceleration_mps2: 2}\n"),
             "scenario.yaml:3: 'first' is no agent; its number, all or ahead was expected");
   EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.brake, agent: 1, deceleration_mps2: 30}\n")
                 .find("'events[0].deceleration_mps2' is 30; a number from 0.1 to 10"),
             std::string::npos)
       << Complaint("  - {at_s: 1, name: traffic.brake, agent: 1, deceleration_mps2: 30}\n");
-  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.brake, agent: 1}\n").find("deceleration_mps2' is missing"), std::string::npos);
+  EXPECT_NE(Complaint("  - {at_s: 1, name: traffic.brake, agent: 1}\n").find("deceleration_mps2' is missing"),
+            std::string::npos);
   EXPECT_NE(Complaint("  - {at_s: 1, name: mark, text: x, agent: 3}\n").find("unknown key"), std::string::npos);
   EXPECT_EQ(Complaint("  - {at_s: 1, when: {passes_m: 3}, name: mark, text: x}\n"),
             "scenario.yaml:3: an event has 'at_s' and 'when'; one of them was expected");

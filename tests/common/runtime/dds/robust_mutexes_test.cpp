@@ -14,7 +14,9 @@ namespace {
 // As Fast DDS makes and takes the mutex of a port: process-shared, with a limit of a second.
 class SharedMutex {
  public:
-  SharedMutex() : mutex_(static_cast<pthread_mutex_t*>(::mmap(nullptr, sizeof(pthread_mutex_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {
+  SharedMutex()
+      : mutex_(static_cast<pthread_mutex_t*>(
+            ::mmap(nullptr, sizeof(pthread_mutex_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0))) {
     pthread_mutexattr_t attributes;
     ::pthread_mutexattr_init(&attributes);
     ::pthread_mutexattr_setpshared(&attributes, PTHREAD_PROCESS_SHARED);

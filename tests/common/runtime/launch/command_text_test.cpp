@@ -40,7 +40,8 @@ TEST(CommandText, RefusesNonsenseWithASentence) {
   EXPECT_EQ(refused("pace nan"), "pace: 'nan' was found; max, real or a positive number was expected");
   EXPECT_EQ(refused("pace"), "pace: '' was found; max, real or a positive number was expected");
   EXPECT_EQ(refused("step 0"), "step: '0' was found; a number of base steps from 1 to 1000000000 was expected");
-  EXPECT_EQ(refused("step 99999999999999999999"), "step: '99999999999999999999' was found; a number of base steps from 1 to 1000000000 was expected");
+  EXPECT_EQ(refused("step 99999999999999999999"),
+            "step: '99999999999999999999' was found; a number of base steps from 1 to 1000000000 was expected");
   EXPECT_EQ(refused("step two"), "step: 'two' was found; a number of base steps from 1 to 1000000000 was expected");
   EXPECT_EQ(refused("mark"), "mark: a text was expected");
   EXPECT_EQ(refused("mark " + std::string(501, 'x')), "mark: 501 bytes of text were found, at most 500 were expected");

@@ -54,8 +54,10 @@ TEST(Lab, SaysWhereEverybodyIs) {
 }
 
 TEST(Lab, MeasuresItsScreens) {
-  const std::string text = std::string(kLab) + "screens:\n  left: {width_cm: 120, height_cm: 70, distance_cm: 90, angle_deg: 60, eye_height_cm: 30, aside_cm: -5}\n"
-                                               "  centre: {width_cm: 120, height_cm: 70, distance_cm: 90}\n";
+  const std::string text = std::string(kLab) +
+                           "screens:\n  left: {width_cm: 120, height_cm: 70, distance_cm: 90, angle_deg: 60, "
+                           "eye_height_cm: 30, aside_cm: -5}\n"
+                           "  centre: {width_cm: 120, height_cm: 70, distance_cm: 90}\n";
   const Lab lab = Lab::Parse(text, "rig.yaml").value();
   const LabScreen left = lab.Screen("left").value();
   EXPECT_DOUBLE_EQ(left.width_m, 1.2);
@@ -85,23 +87,34 @@ TEST(Lab, TellsEveryProcessHowToMeetTheOthers) {
 
 TEST(Lab, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(Refusal(Changed("lab/1", "lab/2")), "dir/rig.yaml:1: 'rodeira' is 'lab/2'; did you mean 'lab/1'?");
-  EXPECT_EQ(Refusal(Changed("clock: right", "clock: rihgt")), "dir/rig.yaml:4: 'clock' is 'rihgt'; did you mean 'right'?");
-  EXPECT_EQ(Refusal(Changed("kind: peers", "kind: pears")), "dir/rig.yaml:5: 'discovery.kind' is 'pears'; did you mean 'peers'?");
-  EXPECT_EQ(Refusal(Changed("kind: peers", "kind: peers, port: 1")), "dir/rig.yaml:5: unknown key 'discovery.port'; known are kind, participants");
-  EXPECT_EQ(Refusal(Changed("192.168.10.2", "192.168.10")), "dir/rig.yaml:8: 'address' is '192.168.10'; an IPv4 address as 192.168.10.1 was expected");
-  EXPECT_EQ(Refusal(Changed("192.168.10.2", "192.168.10.1")), "dir/rig.yaml:8: hosts 'left' and 'right' have the same address 192.168.10.1");
-  EXPECT_EQ(Refusal(Changed("address: 192.168.10.2", "adress: 192.168.10.2")), "dir/rig.yaml:8: unknown key 'hosts.right.adress'; did you mean 'address'?");
-  EXPECT_EQ(Refusal(Changed("domain: 42", "domain: 233")), "dir/rig.yaml:2: 'domain' is 233; a whole number from 0 to 232 was expected");
-  EXPECT_EQ(Refusal(Changed("run: rig", "transport: shared_memory")), "dir/rig.yaml:3: 'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
+  EXPECT_EQ(Refusal(Changed("clock: right", "clock: rihgt")),
+            "dir/rig.yaml:4: 'clock' is 'rihgt'; did you mean 'right'?");
+  EXPECT_EQ(Refusal(Changed("kind: peers", "kind: pears")),
+            "dir/rig.yaml:5: 'discovery.kind' is 'pears'; did you mean 'peers'?");
+  EXPECT_EQ(Refusal(Changed("kind: peers", "kind: peers, port: 1")),
+            "dir/rig.yaml:5: unknown key 'discovery.port'; known are kind, participants");
+  EXPECT_EQ(Refusal(Changed("192.168.10.2", "192.168.10")),
+            "dir/rig.yaml:8: 'address' is '192.168.10'; an IPv4 address as 192.168.10.1 was expected");
+  EXPECT_EQ(Refusal(Changed("192.168.10.2", "192.168.10.1")),
+            "dir/rig.yaml:8: hosts 'left' and 'right' have the same address 192.168.10.1");
+  EXPECT_EQ(Refusal(Changed("address: 192.168.10.2", "adress: 192.168.10.2")),
+            "dir/rig.yaml:8: unknown key 'hosts.right.adress'; did you mean 'address'?");
+  EXPECT_EQ(Refusal(Changed("domain: 42", "domain: 233")),
+            "dir/rig.yaml:2: 'domain' is 233; a whole number from 0 to 232 was expected");
+  EXPECT_EQ(Refusal(Changed("run: rig", "transport: shared_memory")),
+            "dir/rig.yaml:3: 'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
   EXPECT_EQ(Refusal("rodeira: lab/1\ndomain: 1\n"), "dir/rig.yaml:1: key 'hosts' is missing; a mapping was expected");
   const Lab lab = Lab::Parse(kLab, "dir/rig.yaml").value();
   EXPECT_EQ(lab.Host("lefft").error().Text(), "dir/rig.yaml: there is no host 'lefft'; did you mean 'left'?");
   const Launch launch = Launch::Parse(kLaunch, "dir/empty.yaml", {{"nodes.b.host", "lft"}}).value();
-  EXPECT_EQ(lab.Fits(launch).error().Text(), "dir/empty.yaml: node 'b' belongs to host 'lft', which is not in dir/rig.yaml; did you mean 'left'?");
+  EXPECT_EQ(lab.Fits(launch).error().Text(),
+            "dir/empty.yaml: node 'b' belongs to host 'lft', which is not in dir/rig.yaml; did you mean 'left'?");
 }
 
 TEST(Agreement, IsOfWhatTheRunIsAndNotOfThePc) {
-  const auto of = [](const std::string& text, const Overrides& overrides) { return Agreement(Launch::Parse(text, "x.yaml", overrides).value()); };
+  const auto of = [](const std::string& text, const Overrides& overrides) {
+    return Agreement(Launch::Parse(text, "x.yaml", overrides).value());
+  };
   const base::Digest digest = of(kLaunch, {});
   const Lab lab = Lab::Parse(kLab, "rig.yaml").value();
   for (const LabHost& host : lab.hosts()) EXPECT_EQ(of(kLaunch, lab.For(host)), digest);
@@ -112,17 +125,23 @@ TEST(Agreement, IsOfWhatTheRunIsAndNotOfThePc) {
 }
 
 TEST(Discovery, OfALaunchFile) {
-  const auto parse = [](const std::string& discovery) { return Launch::Parse(kLaunch + "transport: udp\ndiscovery: " + discovery + "\n", "x.yaml"); };
+  const auto parse = [](const std::string& discovery) {
+    return Launch::Parse(kLaunch + "transport: udp\ndiscovery: " + discovery + "\n", "x.yaml");
+  };
   const auto refusal = [&](const std::string& discovery) {
     const auto launch = parse(discovery);
     return launch.ok() ? "" : launch.error().Text();
   };
-  EXPECT_EQ(parse("{kind: peers, addresses: [10.0.0.1, 10.0.0.2], participants: 50}").value().discovery().participants, 50u);
+  EXPECT_EQ(parse("{kind: peers, addresses: [10.0.0.1, 10.0.0.2], participants: 50}").value().discovery().participants,
+            50u);
   EXPECT_EQ(parse("{kind: server, address: 10.0.0.1}").value().discovery().port, Discovery::kServerPort);
   EXPECT_EQ(refusal("{kind: server}"), "x.yaml:6: key 'discovery.address' is missing; a text was expected");
-  EXPECT_EQ(refusal("{kind: server, address: 10.0.0.1, port: 70000}"), "x.yaml:6: 'discovery.port' is 70000; a whole number from 1 to 65535 was expected");
-  EXPECT_EQ(refusal("{kind: peers, addresses: []}"), "x.yaml:6: 'addresses' is empty; the address of each PC of the run was expected");
-  EXPECT_EQ(refusal("{kind: peers, addresses: [left]}"), "x.yaml:6: address 'left' was found; an IPv4 address as 192.168.10.1 was expected");
+  EXPECT_EQ(refusal("{kind: server, address: 10.0.0.1, port: 70000}"),
+            "x.yaml:6: 'discovery.port' is 70000; a whole number from 1 to 65535 was expected");
+  EXPECT_EQ(refusal("{kind: peers, addresses: []}"),
+            "x.yaml:6: 'addresses' is empty; the address of each PC of the run was expected");
+  EXPECT_EQ(refusal("{kind: peers, addresses: [left]}"),
+            "x.yaml:6: address 'left' was found; an IPv4 address as 192.168.10.1 was expected");
   const auto shared = Launch::Parse(kLaunch + "discovery: {kind: server, address: 10.0.0.1}\n", "x.yaml");
   ASSERT_FALSE(shared.ok());
   EXPECT_EQ(shared.error().Text(), "x.yaml:5: 'discovery.kind' is 'server', which needs 'transport: udp'");

@@ -41,7 +41,9 @@ TEST(Launch, WiresEverybodyByTopic) {
 }
 
 TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
-  const auto hash = [](const Overrides& overrides) { return Launch::Parse(kDrive, "x.yaml", overrides).value().roster().hash(); };
+  const auto hash = [](const Overrides& overrides) {
+    return Launch::Parse(kDrive, "x.yaml", overrides).value().roster().hash();
+  };
   EXPECT_EQ(hash({}), hash({}));
   EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
 }
@@ -54,7 +56,8 @@ TEST(Launch, SnapshotsAreTakenWhereAllPeriodsMeetTheRecordersToo) {
     return roster.source(*roster.node(roster.Find("ego")).snapshots).period;
   };
   EXPECT_EQ(every({}), 1000);
-  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.05"}}), 100) << "of 1, 20, 50 and the driver's 10 steps";
+  EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.05"}}), 100)
+      << "of 1, 20, 50 and the driver's 10 steps";
   EXPECT_EQ(every({{"snapshot_every_s", "0.01"}, {"nodes.recorder.period_s", "0.03"}}), 60);
   EXPECT_EQ(every({{"snapshot_every_s", "1"}, {"nodes.recorder.period_s", "0.03"}}), 1020);
 }
@@ -62,27 +65,36 @@ TEST(Launch, SnapshotsAreTakenWhereAllPeriodsMeetTheRecordersToo) {
 TEST(Launch, ANodeOfNoKindIsNotThere) {
   std::string without = kDrive;
   without.resize(without.find("  recorder:"));
-  const Launch launch = Launch::Parse(kDrive, "x.yaml", {{"nodes.recorder.kind", "none"}, {"nodes.recorder.config.file", "a.mcap"}}).value();
+  const Launch launch =
+      Launch::Parse(kDrive, "x.yaml", {{"nodes.recorder.kind", "none"}, {"nodes.recorder.config.file", "a.mcap"}})
+          .value();
   EXPECT_EQ(launch.roster().hash(), Launch::Parse(without, "x.yaml").value().roster().hash());
   EXPECT_EQ(launch.nodes().size(), 4u);
-  EXPECT_EQ(Refusal(kDrive, {{"nodes.driver.kind", "none"}}).substr(0, 61), "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
+  EXPECT_EQ(Refusal(kDrive, {{"nodes.driver.kind", "none"}}).substr(0, 61),
+            "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
 }
 
 TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   const std::string text = kDrive;
-  EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"), "dir/drive.yaml:10: 'nodes.x.kind' is 'vehcile'; did you mean 'vehicle'?");
+  EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"),
+            "dir/drive.yaml:10: 'nodes.x.kind' is 'vehcile'; did you mean 'vehicle'?");
   EXPECT_EQ(Refusal(text + "  b: {kind: input}\n"),
-            "dir/drive.yaml:7: node 'ego' takes 'controls' from one node, but 2 publish it (driver, b); say which under 'inputs'");
+            "dir/drive.yaml:7: node 'ego' takes 'controls' from one node, but 2 publish it (driver, b); say which "
+            "under 'inputs'");
   EXPECT_EQ(Refusal(text, {{"nodes.ego.inputs.controls", "[drivr]"}}),
             "dir/drive.yaml: node 'ego', input 'rodeira/controls': there is no node 'drivr'; did you mean 'driver'?");
   EXPECT_EQ(Refusal(text + "sed: 4\n"), "dir/drive.yaml:10: unknown key 'sed'; did you mean 'seed'?");
   EXPECT_EQ(Refusal(text, {{"nodes.traffic.period_s", "0.0105"}}),
             "dir/drive.yaml:8: 'period_s' is 0.0105 s; a multiple of the base step (0.001 s) was expected");
-  EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"), "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
+  EXPECT_EQ(Refusal("rodeira: launch/2\nnodes: {road: {kind: road}}\n"),
+            "dir/drive.yaml:1: 'rodeira' is 'launch/2'; did you mean 'launch/1'?");
   EXPECT_EQ(Refusal("rodeira: launch/1\n"), "dir/drive.yaml:1: key 'nodes' is missing; a mapping was expected");
-  EXPECT_EQ(Refusal("rodeira: launch/1\nnodes: {ego: {kind: vehicle}}\n"), "dir/drive.yaml:2: node 'ego' needs 'controls', but no node publishes it");
-  EXPECT_EQ(Refusal(text + "pace: rael\n"), "dir/drive.yaml:10: 'pace' is 'rael'; max, real or a positive number was expected");
-  EXPECT_EQ(Refusal(text + "pace: -1\n"), "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
+  EXPECT_EQ(Refusal("rodeira: launch/1\nnodes: {ego: {kind: vehicle}}\n"),
+            "dir/drive.yaml:2: node 'ego' needs 'controls', but no node publishes it");
+  EXPECT_EQ(Refusal(text + "pace: rael\n"),
+            "dir/drive.yaml:10: 'pace' is 'rael'; max, real or a positive number was expected");
+  EXPECT_EQ(Refusal(text + "pace: -1\n"),
+            "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
   EXPECT_EQ(Refusal(text, {{"base_step_s", "fast"}}), "dir/drive.yaml: 'base_step_s' is 'fast'; a number was expected");
 }
 

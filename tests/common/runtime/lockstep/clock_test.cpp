@@ -38,9 +38,18 @@ TEST_F(ClockTest, GrantsNothingBeforeEverybodyIsReady) {
 
 // A server has no steps of its own: that it died before says nothing, as long as the run gets on.
 TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
-  std::vector<NodeWish> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
-                               {"recorder", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}}, 0},
-                               {"road", "road", Role::kService, 1, 0, 0, {}, {}, 0}};
+  std::vector<NodeWish> wishes{
+      {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
+      {"recorder",
+       "t",
+       Role::kStepped,
+       5,
+       5,
+       0,
+       {},
+       {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
+       0},
+      {"road", "road", Role::kService, 1, 0, 0, {}, {}, 0}};
   const Roster roster = Roster::Create(1'000'000, 20, wishes).value();
   Clock clock(roster, 1000, 0, std::vector<Policy>(3, Policy::kRestart));
   const auto all_at = [&](Step step) {
@@ -87,7 +96,8 @@ TEST_F(ClockTest, TheLastStepIsFinal) {
   EXPECT_EQ(grant.through, 5);
   EXPECT_TRUE(grant.final);
   EXPECT_FALSE(clock.all_finished());
-  for (const NodeIndex n : {0u, 1u, 2u}) ASSERT_TRUE(clock.Take(Make(n, Phase::kFinished, n == 0 ? 6 : n == 1 ? 8 : 0)).ok());
+  for (const NodeIndex n : {0u, 1u, 2u})
+    ASSERT_TRUE(clock.Take(Make(n, Phase::kFinished, n == 0 ? 6 : n == 1 ? 8 : 0)).ok());
   EXPECT_TRUE(clock.all_finished());
 }
 
@@ -116,11 +126,14 @@ TEST_F(ClockTest, StopMakesTheGrantedStepTheLast) {
 TEST_F(ClockTest, RefusesReportsThatDoNotMatchAndNamesThem) {
   for (const NodeIndex n : {0u, 1u, 2u}) Take(Make(n, Phase::kReady, 0, 2));
   (void)clock_.Update(kFree);
-  EXPECT_EQ(clock_.Take(Make(7, Phase::kReady, 0)).error().Text(), "a report of node number 7 was refused: the roster has 3 nodes");
+  EXPECT_EQ(clock_.Take(Make(7, Phase::kReady, 0)).error().Text(),
+            "a report of node number 7 was refused: the roster has 3 nodes");
   EXPECT_EQ(clock_.Take(Make(1, Phase::kRunning, 3, 2)).error().Text(),
             "report of node 'b': progress 3 was found, a multiple of the period 4 was expected");
-  EXPECT_EQ(clock_.Take(Make(0, Phase::kRunning, 4, 1)).error().Text(), "report of node 'a': incarnation 1 was found, 2 is the living one");
-  EXPECT_EQ(clock_.Take(Make(0, Phase::kRunning, 30, 2)).error().Text(), "report of node 'a': progress 30 was found, but only step 8 is granted");
+  EXPECT_EQ(clock_.Take(Make(0, Phase::kRunning, 4, 1)).error().Text(),
+            "report of node 'a': incarnation 1 was found, 2 is the living one");
+  EXPECT_EQ(clock_.Take(Make(0, Phase::kRunning, 30, 2)).error().Text(),
+            "report of node 'a': progress 30 was found, but only step 8 is granted");
   EXPECT_EQ(clock_.slowest_progress(), 0) << "none of them moved anything";
   EXPECT_TRUE(clock_.Take(Make(0, Phase::kRunning, 8, 2)).ok());
   EXPECT_TRUE(clock_.Take(Make(0, Phase::kRunning, 4, 2)).ok()) << "an overtaken report is no news";

@@ -23,7 +23,8 @@ class ConductorTest : public ::testing::Test {
     Report(Phase::kRunning, through + 1);
     return through;
   }
-  base::Result<std::string> Do(Command::Kind kind, std::int64_t ms, Step steps = 1, double pace = 0.0, std::string text = "") {
+  base::Result<std::string> Do(Command::Kind kind, std::int64_t ms, Step steps = 1, double pace = 0.0,
+                               std::string text = "") {
     Command command;
     command.kind = kind;
     command.steps = steps;
@@ -60,7 +61,8 @@ TEST_F(ConductorTest, PauseStepAndResumeMoveTheGrantAndNothingElse) {
   EXPECT_EQ(Said(Kind::kResume, 300), "runs in real time at step 26 (0.026 s)");
   EXPECT_EQ(Move(304), 30);
   EXPECT_EQ(conductor_.pacer().slipped_ns(), 0);
-  EXPECT_EQ(conductor_.pacer().lateness().late, 7u) << "1 to 4 and 27 to 29, looked at too late; none of those that the operator held";
+  EXPECT_EQ(conductor_.pacer().lateness().late, 7u)
+      << "1 to 4 and 27 to 29, looked at too late; none of those that the operator held";
 }
 
 TEST_F(ConductorTest, AStepOfARunningRunPausesIt) {
@@ -125,7 +127,8 @@ TEST_F(ConductorTest, TheLogTellsWhenEachStepWasGrantedAndWhatWasDone) {
                                                  {0, 3, At(43).utc_ns, 3 * kMs, 0, 1.0, false},
                                                  {3, 4, At(51).utc_ns, 11 * kMs, 0, 1.0, true}}));
   std::string told;
-  for (const Remark& remark : batch->remarks) told += std::string(RemarkName(remark.kind)) + std::to_string(remark.step) + remark.text + " ";
+  for (const Remark& remark : batch->remarks)
+    told += std::string(RemarkName(remark.kind)) + std::to_string(remark.step) + remark.text + " ";
   EXPECT_EQ(told, "start-1 mark3a deer pause3 step31 stop4 end4 ");
   EXPECT_EQ(batch->remarks[1].number, 2u);
   EXPECT_EQ(batch->remarks[1].utc_ns, At(43).utc_ns);

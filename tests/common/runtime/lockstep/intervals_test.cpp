@@ -18,8 +18,9 @@ TEST(Intervals, OfNothingIsNothing) {
 
 // Against the sorted lengths themselves.
 RC_GTEST_PROP(Intervals, AQuantileIsAtMostAnEighthTooLong, ()) {
-  auto lengths = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(rc::gen::oneOf(
-      rc::gen::inRange<std::int64_t>(0, 40), rc::gen::inRange<std::int64_t>(0, 100'000), rc::gen::inRange<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()))));
+  auto lengths = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::int64_t>>(
+      rc::gen::oneOf(rc::gen::inRange<std::int64_t>(0, 40), rc::gen::inRange<std::int64_t>(0, 100'000),
+                     rc::gen::inRange<std::int64_t>(0, std::numeric_limits<std::int64_t>::max()))));
   const double share = static_cast<double>(*rc::gen::inRange(1, 101)) / 100.0;
   Intervals intervals;
   for (const std::int64_t length : lengths) intervals.Add(length);

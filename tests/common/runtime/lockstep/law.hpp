@@ -25,7 +25,8 @@ inline std::uint64_t ContentOf(const Sample& sample) {
 }
 
 // One activation's arithmetic: order matters in every argument.
-inline std::uint64_t Fold(std::uint64_t h, std::uint64_t port, std::uint64_t source, Step valid, std::uint64_t content) {
+inline std::uint64_t Fold(std::uint64_t h, std::uint64_t port, std::uint64_t source, Step valid,
+                          std::uint64_t content) {
   return base::RandomBits({h, port, source, static_cast<std::uint64_t>(valid), content});
 }
 
@@ -67,7 +68,8 @@ class Rememberer final : public Node {
 
  private:
   void PutAll(Outbox& outbox) const {
-    for (const SourceIndex output : roster_.node(index_).outputs) outbox.Put(roster_.source(output).topic, Payload(base::RandomBits({memory_, output})));
+    for (const SourceIndex output : roster_.node(index_).outputs)
+      outbox.Put(roster_.source(output).topic, Payload(base::RandomBits({memory_, output})));
   }
   const Roster& roster_;
   NodeIndex index_;
@@ -84,7 +86,8 @@ inline std::map<std::pair<SourceIndex, Step>, std::uint64_t> Reference(const Ros
   for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     memory.push_back(n + 1);
     for (const SourceIndex output : roster.node(n).outputs) {
-      for (Step v = 0; v < roster.node(n).delay; v += roster.node(n).period) content[{output, v}] = base::RandomBits({memory[n], output});
+      for (Step v = 0; v < roster.node(n).delay; v += roster.node(n).period)
+        content[{output, v}] = base::RandomBits({memory[n], output});
     }
   }
   for (Step k = 0; k <= last; ++k) {

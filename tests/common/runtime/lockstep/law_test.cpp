@@ -98,11 +98,19 @@ TEST(Law, TheDigestTellsRunsApart) {
 }
 
 TEST(Law, ASlowConsumerOfEventsLosesNoneAndASinkClosesWithTheRest) {
-  const auto roster = Roster::Create(1'000'000, 50,
-                                     {{"fast", "test", Role::kStepped, 3, 0, 0, {"press"}, {}},
-                                      {"slow", "test", Role::kStepped, 10, 0, 0, {"a"}, {{"press", PortKind::kEvent, {"fast"}}}},
-                                      {"sink", "test", Role::kStepped, 7, 0, 0, {}, {{"press", PortKind::kEvent, {"fast"}}, {"a", PortKind::kEvent, {"slow"}}}}})
-                          .value();
+  const auto roster =
+      Roster::Create(1'000'000, 50,
+                     {{"fast", "test", Role::kStepped, 3, 0, 0, {"press"}, {}},
+                      {"slow", "test", Role::kStepped, 10, 0, 0, {"a"}, {{"press", PortKind::kEvent, {"fast"}}}},
+                      {"sink",
+                       "test",
+                       Role::kStepped,
+                       7,
+                       0,
+                       0,
+                       {},
+                       {{"press", PortKind::kEvent, {"fast"}}, {"a", PortKind::kEvent, {"slow"}}}}})
+          .value();
   auto made = law::MakeNodes(roster);
   InProcessSettings settings;
   settings.last_step = 100;
@@ -154,10 +162,11 @@ class Failing final : public Node {
 };
 
 TEST(Law, AFailingNodeStopsTheRunAndIsNamed) {
-  const auto roster = Roster::Create(1'000'000, 20,
-                                     {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
-                                      {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
-                          .value();
+  const auto roster =
+      Roster::Create(1'000'000, 20,
+                     {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
+                      {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
+          .value();
   Failing car;
   law::Rememberer sink(roster, 1);
   InProcessSettings settings;
@@ -177,10 +186,14 @@ class BusySink final : public Node {
   base::Status Initialise(Outbox& outbox) override { return sink_.Initialise(outbox); }
   base::Status Step(const StepInfo& step, const Inbox& inbox, Outbox& outbox) override {
     auto status = sink_.Step(step, inbox, outbox);
-    if (step.step == 24) std::this_thread::sleep_for(std::chrono::milliseconds(100));  // meanwhile the car goes on within the window, and fails
+    if (step.step == 24)
+      std::this_thread::sleep_for(
+          std::chrono::milliseconds(100));  // meanwhile the car goes on within the window, and fails
     return status;
   }
-  base::Status Finish(const Inbox& rest, lockstep::Step last, bool complete) override { return sink_.Finish(rest, last, complete); }
+  base::Status Finish(const Inbox& rest, lockstep::Step last, bool complete) override {
+    return sink_.Finish(rest, last, complete);
+  }
   void Save(base::StateWriter&) const override {}
   void Restore(base::StateReader&) override {}
 
@@ -189,10 +202,11 @@ class BusySink final : public Node {
 };
 
 TEST(Law, WhatASinkTookInWhileTheRunWasBrokenOffItTakesOnce) {
-  const auto roster = Roster::Create(1'000'000, 20,
-                                     {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
-                                      {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
-                          .value();
+  const auto roster =
+      Roster::Create(1'000'000, 20,
+                     {{"car", "test", Role::kStepped, 1, 0, 0, {"a"}, {}},
+                      {"sink", "test", Role::kStepped, 4, 0, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
+          .value();
   Failing car;
   law::Rememberer remembers(roster, 1);
   BusySink sink(remembers);
@@ -200,7 +214,8 @@ TEST(Law, WhatASinkTookInWhileTheRunWasBrokenOffItTakesOnce) {
   settings.last_step = 1000;
   EXPECT_FALSE(RunThreaded(roster, {&car, &sink}, settings).ok);
   ASSERT_EQ(remembers.seen().size(), 41u);
-  for (std::size_t i = 0; i < remembers.seen().size(); ++i) EXPECT_EQ(remembers.seen()[i].second, static_cast<lockstep::Step>(i));
+  for (std::size_t i = 0; i < remembers.seen().size(); ++i)
+    EXPECT_EQ(remembers.seen()[i].second, static_cast<lockstep::Step>(i));
 }
 
 TEST(Law, StopEndsTheRunAtAGrantedStepForEverybody) {

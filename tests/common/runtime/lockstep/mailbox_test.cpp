@@ -28,7 +28,14 @@ class MailboxTest : public ::testing::Test {
   const Roster roster_ = Roster::Create(1'000'000, 20,
                                         {{"slow", "t", Role::kStepped, 10, 0, 0, {"a"}, {}},
                                          {"fast", "t", Role::kStepped, 2, 0, 0, {"b"}, {}},
-                                         {"me", "t", Role::kStepped, 5, 0, 0, {}, {{"a", PortKind::kState, {"slow"}}, {"b", PortKind::kEvent, {"fast"}}}}})
+                                         {"me",
+                                          "t",
+                                          Role::kStepped,
+                                          5,
+                                          0,
+                                          0,
+                                          {},
+                                          {{"a", PortKind::kState, {"slow"}}, {"b", PortKind::kEvent, {"fast"}}}}})
                              .value();
   Mailbox mailbox_{roster_, 2};
 };
@@ -100,7 +107,8 @@ TEST_F(MailboxTest, ADuplicateIsIgnoredAndADifferentOneRefused) {
 }
 
 TEST_F(MailboxTest, AStepThatCannotBeIsRefused) {
-  EXPECT_EQ(mailbox_.Deliver(Make(1, 3, 7)).error().message, "a sample valid at 3 was found, multiples of the period 2 were expected");
+  EXPECT_EQ(mailbox_.Deliver(Make(1, 3, 7)).error().message,
+            "a sample valid at 3 was found, multiples of the period 2 were expected");
   EXPECT_FALSE(mailbox_.Deliver(Make(1, -2, 7)).ok());
   EXPECT_FALSE(mailbox_.Deliver(Make(1, Step{1} << 40, 7)).ok());
   EXPECT_TRUE(mailbox_.Deliver(Make(99, 2, 7)).ok()) << "a source that this node is not wired to is nothing to it";

@@ -126,8 +126,9 @@ TEST(Pacer, StepsThatWaitForSlowNodesAreLateBySoMuch) {
   EXPECT_EQ(pacer.late_ns(), 0) << "what is behind is due later by what was given up";
 }
 
-// A node that is started again pulls the window below what was granted. Time stands meanwhile, whatever came before: a pause, a new
-// pace, another life of the clock; and goes on from what was granted at once when everybody is there again.
+// A node that is started again pulls the window below what was granted. Time stands meanwhile, whatever came before: a
+// pause, a new pace, another life of the clock; and goes on from what was granted at once when everybody is there
+// again.
 TEST(Pacer, WhileANodeComputesAgainTimeStandsAndNoMoreIsGivenUpThanPassed) {
   for (const char* before : {"nothing", "a pause", "a new pace", "another clock"}) {
     SCOPED_TRACE(before);

@@ -18,10 +18,11 @@ Sample Make(SourceIndex source, Step valid) {
 }
 
 Roster MakeRoster(Step source_period, Step state_period, Step event_period) {
-  return Roster::Create(1'000'000, 100,
-                        {{"source", "t", Role::kStepped, source_period, 0, 0, {"a"}, {}},
-                         {"state", "t", Role::kStepped, state_period, 0, 0, {"b"}, {{"a", PortKind::kState, {"source"}}}},
-                         {"events", "t", Role::kStepped, event_period, 0, 0, {}, {{"a", PortKind::kEvent, {"source"}}}}})
+  return Roster::Create(
+             1'000'000, 100,
+             {{"source", "t", Role::kStepped, source_period, 0, 0, {"a"}, {}},
+              {"state", "t", Role::kStepped, state_period, 0, 0, {"b"}, {{"a", PortKind::kState, {"source"}}}},
+              {"events", "t", Role::kStepped, event_period, 0, 0, {}, {{"a", PortKind::kEvent, {"source"}}}}})
       .value();
 }
 
@@ -40,8 +41,9 @@ TEST(Parcels, AStateIsSentOnceAnActivationAndEventsTogether) {
   for (Step v = 0; v <= 11; ++v) {
     for (const auto& parcel : parcels.Add(Make(0, v), 11)) sent.emplace_back(parcel.to, Steps(parcel.samples));
   }
-  const std::vector<std::pair<NodeIndex, std::vector<Step>>> expected{{1, {0}}, {2, {0}}, {1, {4}}, {2, {1, 2, 3, 4, 5}}, {1, {8}}, {2, {6, 7, 8, 9, 10}},
-                                                                      {1, {11}}, {2, {11}}};  // 11 is the run's last step
+  const std::vector<std::pair<NodeIndex, std::vector<Step>>> expected{
+      {1, {0}},  {2, {0}}, {1, {4}}, {2, {1, 2, 3, 4, 5}}, {1, {8}}, {2, {6, 7, 8, 9, 10}},
+      {1, {11}}, {2, {11}}};  // 11 is the run's last step
   EXPECT_EQ(sent, expected);
 }
 
@@ -57,7 +59,8 @@ TEST(Parcels, WhatIsFullGoesAtOnce) {
   EXPECT_EQ(sent, (std::vector<std::vector<Step>>{{0}, {1, 2, 3}, {4, 5, 6}}));
 }
 
-// Against the law: when the newest sample at an activation has been added, everything that this activation sees is sent.
+// Against the law: when the newest sample at an activation has been added, everything that this activation sees is
+// sent.
 RC_GTEST_PROP(Parcels, NobodyWaitsLongerThanForSingleSamples, ()) {
   const Step source = *rc::gen::inRange<Step>(1, 8);
   const Step state = *rc::gen::inRange<Step>(1, 30);
@@ -71,14 +74,18 @@ RC_GTEST_PROP(Parcels, NobodyWaitsLongerThanForSingleSamples, ()) {
       if (!GetsParcels(roster, 0, n)) has[n].insert(v);
     }
     for (const auto& parcel : parcels.Add(Make(0, v), last)) {
-      for (const Sample& sample : parcel.samples) RC_ASSERT(has[parcel.to].insert(sample.valid()).second);  // never twice
+      for (const Sample& sample : parcel.samples)
+        RC_ASSERT(has[parcel.to].insert(sample.valid()).second);  // never twice
     }
-    for (Step k = FloorTo(v + source - 1, state); k >= v && k <= last; k -= state) RC_ASSERT(has[1].contains(FloorTo(k, source)));
+    for (Step k = FloorTo(v + source - 1, state); k >= v && k <= last; k -= state)
+      RC_ASSERT(has[1].contains(FloorTo(k, source)));
     for (Step k = FloorTo(v + source - 1, event); k >= v && k <= last; k -= event) {
-      for (Step e = CeilTo(std::max<Step>(k - event + 1, 0), source); e <= k; e += source) RC_ASSERT(has[2].contains(e));
+      for (Step e = CeilTo(std::max<Step>(k - event + 1, 0), source); e <= k; e += source)
+        RC_ASSERT(has[2].contains(e));
     }
   }
-  for (Step e = 0; e <= last; e += source) RC_ASSERT(has[2].contains(e));  // behind the last activation a sink sees the rest
+  for (Step e = 0; e <= last; e += source)
+    RC_ASSERT(has[2].contains(e));  // behind the last activation a sink sees the rest
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace {
 
 std::vector<std::vector<Step>> Drained(Questions& questions) {
   std::vector<std::vector<Step>> all;
-  while (const auto q = questions.Next()) all.push_back({static_cast<Step>(q->asker), static_cast<Step>(q->gap.source), q->gap.from});
+  while (const auto q = questions.Next())
+    all.push_back({static_cast<Step>(q->asker), static_cast<Step>(q->gap.source), q->gap.from});
   return all;
 }
 

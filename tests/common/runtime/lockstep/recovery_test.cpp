@@ -133,7 +133,8 @@ TEST(Recovery, DeathsAtAnyMomentChangeNoBitAndNoRecord) {
     for (std::size_t i = 0; i < disk.file.size(); ++i) RC_ASSERT(SameContent(disk.file[i], undisturbed.file[i]));
     std::map<std::pair<SourceIndex, Step>, std::uint64_t> recorded;
     for (const Sample& sample : disk.file) {
-      if (roster.source(sample.source()).topic != kSnapshotTopic) recorded[{sample.source(), sample.valid()}] = law::ContentOf(sample);
+      if (roster.source(sample.source()).topic != kSnapshotTopic)
+        recorded[{sample.source(), sample.valid()}] = law::ContentOf(sample);
     }
     auto reference = law::Reference(roster, last);
     std::erase_if(reference, [&](const auto& entry) { return entry.first.second > last; });
@@ -160,7 +161,15 @@ class RecoveryOfOne : public ::testing::Test {
   static Roster Make(bool with_recorder) {
     std::vector<NodeWish> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
     if (with_recorder) {
-      wishes.push_back({"recorder", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}}, 0});
+      wishes.push_back({"recorder",
+                        "t",
+                        Role::kStepped,
+                        5,
+                        5,
+                        0,
+                        {},
+                        {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
+                        0});
     } else {
       wishes.push_back({"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}, 0});
     }
@@ -211,7 +220,9 @@ TEST_F(RecoveryOfOne, WhoCannotSaveItsStateIsNotStartedAgain) {
   car.cannot_save = true;
   const auto status = Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car);
   ASSERT_FALSE(status.ok());
-  EXPECT_EQ(status.error().Text(), "node 'car' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as nodes.car.recovery");
+  EXPECT_EQ(status.error().Text(),
+            "node 'car' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as "
+            "nodes.car.recovery");
   EXPECT_EQ(status.error().exit_status(), 2);
   EXPECT_TRUE(Recovery(roster, {Policy::kPause, Policy::kRestart}).CheckState(car).ok());
   EXPECT_TRUE(Recovery(roster, {Policy::kStop, Policy::kRestart}).CheckState(car).ok());
@@ -284,11 +295,12 @@ TEST_F(RecoveryOfOne, TheArchiveHasNoHolesAndRefusesAContradiction) {
 }
 
 TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
-  const Roster roster = Roster::Create(1'000'000, 20,
-                                       {{"driver", "t", Role::kStepped, 1, 1, 0, {"c"}, {{"a", PortKind::kState, {"car"}}}},
-                                        {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {{"c", PortKind::kState, {"driver"}}}},
-                                        {"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
-                            .value();
+  const Roster roster =
+      Roster::Create(1'000'000, 20,
+                     {{"driver", "t", Role::kStepped, 1, 1, 0, {"c"}, {{"a", PortKind::kState, {"car"}}}},
+                      {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {{"c", PortKind::kState, {"driver"}}}},
+                      {"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}}})
+          .value();
   std::vector<Report> reports{Running(0, 12), Running(1, 12), Running(2, 10)};
   for (Report& report : reports) report.waiting = Waiting::kGrant;
   EXPECT_EQ(WaitChain(roster, reports), "") << "everybody waits for time";
@@ -299,11 +311,16 @@ TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
   reports[1].waiting_source = 0;
   reports[0].waiting = Waiting::kNothing;
   reports[0].since_ms = 3200;
-  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' computes step 12 since 3.2 s");
+  EXPECT_EQ(WaitChain(roster, reports),
+            "'view' waits for 'car', 'car' waits for 'driver', 'driver' computes step 12 since 3.2 s");
   reports[0].waiting = Waiting::kServer;
-  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' waits at step 12 for a server's answer since 3.2 s");
+  EXPECT_EQ(
+      WaitChain(roster, reports),
+      "'view' waits for 'car', 'car' waits for 'driver', 'driver' waits at step 12 for a server's answer since 3.2 s");
   reports[0].waiting = Waiting::kOutput;
-  EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' writes what it made before step 12 since 3.2 s");
+  EXPECT_EQ(
+      WaitChain(roster, reports),
+      "'view' waits for 'car', 'car' waits for 'driver', 'driver' writes what it made before step 12 since 3.2 s");
   reports[0].phase = Phase::kStarting;
   reports[0].waiting = Waiting::kNothing;
   EXPECT_EQ(WaitChain(roster, reports), "'view' waits for 'car', 'car' waits for 'driver', 'driver' is starting");

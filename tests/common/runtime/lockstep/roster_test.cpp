@@ -13,9 +13,10 @@ std::string Refusal(const std::vector<NodeWish>& wishes) {
 const NodeWish kCar{"car", "vehicle", Role::kStepped, 1, 0, 0, {"state"}, {}};
 
 TEST(Roster, NumbersSourcesInTheOrderOfTheLaunchFile) {
-  const auto roster = Roster::Create(1'000'000, 20,
-                                     {kCar, {"view", "view", Role::kStepped, 16, 32, 0, {}, {{"state", PortKind::kState, {"car"}}}}})
-                          .value();
+  const auto roster =
+      Roster::Create(1'000'000, 20,
+                     {kCar, {"view", "view", Role::kStepped, 16, 32, 0, {}, {{"state", PortKind::kState, {"car"}}}}})
+          .value();
   EXPECT_EQ(roster.Find("view"), 1u);
   EXPECT_EQ(roster.Find("nobody"), 2u);
   EXPECT_EQ(roster.SourceName(0), "car.state");
@@ -30,17 +31,24 @@ TEST(Roster, RefusesWhatCannotBeWired) {
             "node 'view', input 'state': there is no node 'cra'; did you mean 'car'?");
   EXPECT_EQ(Refusal({kCar, {"view", "view", Role::kStepped, 1, 0, 0, {}, {{"pose", PortKind::kState, {"car"}}}}}),
             "node 'view', input 'pose': node 'car' does not publish this topic");
-  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 0, 0, 0, {}, {}}}), "node 'x': period 0 was found, at least 1 step was expected");
-  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 4, 6, 0, {}, {}}}), "node 'x': delay 6 was found, a multiple of the period 4 was expected");
-  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 4, 2, 0, {}, {}}}), "node 'x': delay 2 was found, a multiple of the period 4 was expected");
-  EXPECT_EQ(Refusal({{"x", "x", Role::kService, 1, 0, 0, {"y"}, {}}}), "node 'x': a service has neither inputs nor outputs in the lockstep");
-  EXPECT_NE(Refusal({kCar, {"v", "v", Role::kStepped, 1, 0, 0, {}, {{"state", PortKind::kState, {"car", "car"}}}}}).find("wired twice"), std::string::npos);
+  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 0, 0, 0, {}, {}}}),
+            "node 'x': period 0 was found, at least 1 step was expected");
+  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 4, 6, 0, {}, {}}}),
+            "node 'x': delay 6 was found, a multiple of the period 4 was expected");
+  EXPECT_EQ(Refusal({{"x", "x", Role::kStepped, 4, 2, 0, {}, {}}}),
+            "node 'x': delay 2 was found, a multiple of the period 4 was expected");
+  EXPECT_EQ(Refusal({{"x", "x", Role::kService, 1, 0, 0, {"y"}, {}}}),
+            "node 'x': a service has neither inputs nor outputs in the lockstep");
+  EXPECT_NE(Refusal({kCar, {"v", "v", Role::kStepped, 1, 0, 0, {}, {{"state", PortKind::kState, {"car", "car"}}}}})
+                .find("wired twice"),
+            std::string::npos);
 }
 
 TEST(Roster, TheHashSeesEveryWire) {
   const auto hash = [](Step period, PortKind kind, std::int64_t step_ns) {
-    return Roster::Create(step_ns, 20, {{"car", "vehicle", Role::kStepped, period, 0, 0, {"state"}, {}},
-                                        {"view", "view", Role::kStepped, 1, 0, 0, {}, {{"state", kind, {"car"}}}}})
+    return Roster::Create(step_ns, 20,
+                          {{"car", "vehicle", Role::kStepped, period, 0, 0, {"state"}, {}},
+                           {"view", "view", Role::kStepped, 1, 0, 0, {}, {{"state", kind, {"car"}}}}})
         .value()
         .hash();
   };

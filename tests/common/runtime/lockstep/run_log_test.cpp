@@ -67,7 +67,8 @@ TEST(RunLog, TheReceiverHasEverythingInOrderWhateverIsLost) {
     EXPECT_TRUE(inbox.AwaitEnd(std::chrono::milliseconds(0))) << "seed " << seed;
     take();
     ASSERT_EQ(heard.size(), kBatches) << "seed " << seed;
-    for (std::uint64_t number = 0; number < kBatches; ++number) ASSERT_EQ(heard[number].number, number) << "seed " << seed;
+    for (std::uint64_t number = 0; number < kBatches; ++number)
+      ASSERT_EQ(heard[number].number, number) << "seed " << seed;
   }
 }
 

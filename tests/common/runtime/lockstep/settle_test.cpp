@@ -1,4 +1,5 @@
-// What a node has given to its own threads is waited for before each activation, and that waiting is not its step's time.
+// What a node has given to its own threads is waited for before each activation, and that waiting is not its step's
+// time.
 #include <gtest/gtest.h>
 
 #include "common/runtime/lockstep/runner.hpp"

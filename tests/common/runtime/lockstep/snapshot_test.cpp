@@ -40,7 +40,9 @@ TEST(Snapshot, ARunResumedFromAnyStepGoesOnWithTheSameBits) {
     again.last_step = last;
     again.resume = resume;
     again.first_step = every;
-    again.on_sample = [&contents](const Sample& sample) { contents[{sample.source(), sample.valid()}] = law::ContentOf(sample); };
+    again.on_sample = [&contents](const Sample& sample) {
+      contents[{sample.source(), sample.valid()}] = law::ContentOf(sample);
+    };
     auto second = law::MakeNodes(roster);
     const RunOutcome resumed = RunShuffled(roster, second.nodes, again, seed + 7);
     RC_ASSERT(resumed.fault == "");
@@ -58,7 +60,8 @@ TEST(Snapshot, CutAnywhereItIsRefused) {
   snapshot.samples.push_back({{}, std::make_shared<const base::Bytes>(law::Payload(5))});
   const base::Bytes whole = snapshot.Encode();
   ASSERT_TRUE(Snapshot::Decode(whole).ok());
-  for (std::size_t size = 0; size < whole.size(); ++size) EXPECT_FALSE(Snapshot::Decode(std::span(whole).first(size)).ok()) << size;
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_FALSE(Snapshot::Decode(std::span(whole).first(size)).ok()) << size;
   base::Bytes longer = whole;
   longer.push_back(std::byte{1});
   EXPECT_FALSE(Snapshot::Decode(longer).ok());

@@ -7,7 +7,8 @@ namespace {
 
 class WatchdogTest : public ::testing::Test {
  protected:
-  void Hear(NodeIndex node, std::int64_t now_ms, Phase phase = Phase::kRunning, Waiting waiting = Waiting::kInputs, std::int64_t since_ms = 0) {
+  void Hear(NodeIndex node, std::int64_t now_ms, Phase phase = Phase::kRunning, Waiting waiting = Waiting::kInputs,
+            std::int64_t since_ms = 0) {
     Report report;
     report.node = node;
     report.phase = phase;
@@ -17,7 +18,10 @@ class WatchdogTest : public ::testing::Test {
     report.message = "no such file";
     dog_.Heard(report, now_ms);
   }
-  const Roster roster_ = Roster::Create(1'000'000, 8, {{"car", "t", Role::kStepped, 1, 0, 300, {"x"}, {}}, {"view", "t", Role::kStepped, 4, 0, 0, {}, {}}}).value();
+  const Roster roster_ = Roster::Create(1'000'000, 8,
+                                        {{"car", "t", Role::kStepped, 1, 0, 300, {"x"}, {}},
+                                         {"view", "t", Role::kStepped, 4, 0, 0, {}, {}}})
+                             .value();
   Watchdog dog_{roster_, {600, 2000, 5000}};
 };
 
@@ -121,8 +125,8 @@ TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
   EXPECT_EQ(fault->node, 0u);
 }
 
-// A recorder was stopped and killed, and its next life is ready in half a second; the car hangs for two in what it had wanted to say
-// to the old one.
+// A recorder was stopped and killed, and its next life is ready in half a second; the car hangs for two in what it had
+// wanted to say to the old one.
 TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
   Hear(0, 0);
   Hear(1, 0);
@@ -163,7 +167,8 @@ TEST_F(WatchdogTest, WhoNeverSpeaksAgainIsNamedAtLast) {
   }
   dog_.Heard(back, now);
   ASSERT_TRUE(dog_.Check(now));
-  EXPECT_EQ(dog_.Check(now)->reason, "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
+  EXPECT_EQ(dog_.Check(now)->reason,
+            "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
 }
 
 TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {

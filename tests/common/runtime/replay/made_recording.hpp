@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/data/record/mcap_writer.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/sample.hpp"
-#include "common/data/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::replay {
@@ -53,7 +53,8 @@ inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
   for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {
     const idl::TopicInfo* info = idl::FindTopic(roster.source(s).topic);
     const record::SchemaId schema = Must(writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject)));
-    channels.push_back(Must(writer.AddChannel(roster.source(s).topic, schema, "cdr", {{"source_number", std::to_string(s)}})));
+    channels.push_back(
+        Must(writer.AddChannel(roster.source(s).topic, schema, "cdr", {{"source_number", std::to_string(s)}})));
   }
   std::vector<std::pair<lockstep::Step, lockstep::SourceIndex>> order;
   for (lockstep::Step step = 0; step <= wish.last_step; ++step) {

@@ -21,7 +21,8 @@ using lockstep::Step;
 
 // A car at 10 Hz, traffic at 2 Hz, a steering hand at 10 Hz.
 constexpr const char* kLaunch =
-    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input, period_s: 0.1}\n  ego: {kind: vehicle, period_s: 0.1}\n"
+    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input, period_s: 0.1}\n  ego: {kind: vehicle, period_s: "
+    "0.1}\n"
     "  others: {kind: traffic, period_s: 0.5}\n";
 
 base::Bytes Payload(const lockstep::Source& source, Step step) {
@@ -37,7 +38,8 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
 
 class TapeTest : public testing::Test {
  protected:
-  TapeTest() : file_(std::filesystem::temp_directory_path() / ("rodeira-tape-" + std::to_string(::getpid()) + ".mcap")) {}
+  TapeTest()
+      : file_(std::filesystem::temp_directory_path() / ("rodeira-tape-" + std::to_string(::getpid()) + ".mcap")) {}
   ~TapeTest() override { std::filesystem::remove(file_); }
 
   RecordedRun Made(Step last, const std::function<void(MadeRecording&)>& change = {}) {
@@ -67,8 +69,8 @@ class TapeTest : public testing::Test {
     return valid;
   }
   // The same, told by a plain walk over all messages.
-  static std::vector<std::optional<lockstep::Sample>> Plainly(const RecordedRun& run, const std::vector<SourceIndex>& sources,
-                                                              Step step) {
+  static std::vector<std::optional<lockstep::Sample>> Plainly(const RecordedRun& run,
+                                                              const std::vector<SourceIndex>& sources, Step step) {
     std::vector<std::optional<lockstep::Sample>> newest(sources.size());
     SampleStream stream = run.Samples();
     for (auto sample = stream.Next(); sample.value(); sample = stream.Next()) {
@@ -149,8 +151,9 @@ TEST_F(TapeTest, ChunksThatOverlapAreTakenTogether) {
 TEST_F(TapeTest, WhereASampleIsMissingTheOneBeforeItStands) {
   const RecordedRun run = Made(20'000, [](MadeRecording& wish) {
     wish.payload = [](const lockstep::Source& source, Step step) {
-      const bool lost = source.topic == idl::topics::kVehicleState ? step > 5'000 && step < 12'000
-                                                                   : source.topic == idl::topics::kTrafficState && step < 3'000;
+      const bool lost = source.topic == idl::topics::kVehicleState
+                            ? step > 5'000 && step < 12'000
+                            : source.topic == idl::topics::kTrafficState && step < 3'000;
       return lost ? base::Bytes() : Payload(source, step);
     };
   });
@@ -165,8 +168,8 @@ TEST_F(TapeTest, ADamagedChunkIsToldOfAndTheRestIsThere) {
   { const RecordedRun whole = Made(20'000); }
   const auto damaged_at = [&] {
     const auto reader = record::McapReader::Open(file_);
-    const auto& chunk =
-        *std::ranges::find_if(reader.value().chunks(), [](const auto& one) { return one.first_log_time_ns == 10'000'000'000; });
+    const auto& chunk = *std::ranges::find_if(reader.value().chunks(),
+                                              [](const auto& one) { return one.first_log_time_ns == 10'000'000'000; });
     return chunk.offset + chunk.record_bytes - 20;
   }();
   {
@@ -181,7 +184,8 @@ TEST_F(TapeTest, ADamagedChunkIsToldOfAndTheRestIsThere) {
   const auto there = tape.At(10'200);
   ASSERT_FALSE(there.ok());
   EXPECT_EQ(there.error().exit_status(), 2);
-  EXPECT_NE(there.error().Text().find("the chunk with the messages from 10.000 s to 10.900 s is damaged"), std::string::npos)
+  EXPECT_NE(there.error().Text().find("the chunk with the messages from 10.000 s to 10.900 s is damaged"),
+            std::string::npos)
       << there.error().Text();
   EXPECT_EQ(ValidAt(tape, 11'000), (std::vector<Step>{11'000, 11'000}));
 }
@@ -198,7 +202,8 @@ TEST_F(TapeTest, AnEndThatCannotBeIsRefused) {
   };
   const auto run = make(9'000'000'000'000'000'000);
   ASSERT_FALSE(run.ok());
-  EXPECT_NE(run.error().Text().find("ended at step 9000000000000000000, which cannot be"), std::string::npos) << run.error().Text();
+  EXPECT_NE(run.error().Text().find("ended at step 9000000000000000000, which cannot be"), std::string::npos)
+      << run.error().Text();
   const auto longer = make(5'000);  // than what is recorded: the last samples stand
   ASSERT_TRUE(longer.ok()) << longer.error().Text();
   Tape tape(longer.value(), Seen(longer.value()));

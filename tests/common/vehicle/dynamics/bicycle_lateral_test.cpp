@@ -42,7 +42,8 @@ TEST(BicycleLateral, SteadyYawRateIsTheClosedForm) {
     EXPECT_NEAR(s.w_WB_B.z() / steer, expected, 0.02 * expected) << speed;
     // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
     const SteeringSettings& steering = settings.steering;
-    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * s.w_WB_B.z() * s.speed_mps() / steering.ratio;
+    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * s.w_WB_B.z() *
+                            s.speed_mps() / steering.ratio;
     EXPECT_NEAR(s.steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
     // beta / delta at the centre of gravity, = (b - a m V² / (L Cr)) / (L + Kus V²).
     const double beta = (s.v_WB_B().y() + s.w_WB_B.z() * (l / 2 - a)) / s.speed_mps();
@@ -53,12 +54,19 @@ TEST(BicycleLateral, SteadyYawRateIsTheClosedForm) {
   }
 }
 
-// The facts page's car at 100 km/h: r/delta 4.966065, overshoot 14.432 %, peak at .385 s. A low centre of gravity, stiff
-// springs and a short relaxation leave the two degrees of freedom that the closed form has.
+// The facts page's car at 100 km/h: r/delta 4.966065, overshoot 14.432 %, peak at .385 s. A low centre of gravity,
+// stiff springs and a short relaxation leave the two degrees of freedom that the closed form has.
 TEST(BicycleLateral, AStepOfSteerAnswersAsTheClosedFormSays) {
   BicycleSettings s = WithoutLosses(DefaultSettings());
-  s.body = {.mass_kg = 1500, .roll_inertia_kgm2 = 400, .pitch_inertia_kgm2 = 2000, .yaw_inertia_kgm2 = 2500, .cg_height_m = 0.05,
-            .cg_to_front_axle_m = 1.2, .wheelbase_m = 2.7, .drag_area_m2 = 0.0, .air_density_kgpm3 = 1.2};
+  s.body = {.mass_kg = 1500,
+            .roll_inertia_kgm2 = 400,
+            .pitch_inertia_kgm2 = 2000,
+            .yaw_inertia_kgm2 = 2500,
+            .cg_height_m = 0.05,
+            .cg_to_front_axle_m = 1.2,
+            .wheelbase_m = 2.7,
+            .drag_area_m2 = 0.0,
+            .air_density_kgpm3 = 1.2};
   s.dimensions.wheelbase_m = 2.7;
   const double stiffness[] = {8e4, 1e5};
   const double load[] = {1500 * kG_mps2 * 1.5 / 2.7 / 2, 1500 * kG_mps2 * 1.2 / 2.7 / 2};
@@ -83,7 +91,8 @@ TEST(BicycleLateral, AStepOfSteerAnswersAsTheClosedFormSays) {
   EXPECT_NEAR(at, 0.385, 0.015);
 }
 
-// Roll moment: half track × load difference, summed over the axles = m a_y h. Stiff springs keep the body over its wheels.
+// Roll moment: half track × load difference, summed over the axles = m a_y h. Stiff springs keep the body over its
+// wheels.
 TEST(BicycleLateral, LoadTransferIsMAHOverT) {
   BicycleSettings settings = WithoutLosses(DefaultSettings());
   for (auto& axle : settings.suspension) {
@@ -96,7 +105,8 @@ TEST(BicycleLateral, LoadTransferIsMAHOverT) {
   const VehicleState& s = car.state();
   const double ay = s.w_WB_B.z() * s.speed_mps();
   EXPECT_GT(ay, 2.5);
-  const double moment = 0.71 * (s.wheels[kFrontRight].load_N - s.wheels[kFrontLeft].load_N) + 0.70 * (s.wheels[kRearRight].load_N - s.wheels[kRearLeft].load_N);
+  const double moment = 0.71 * (s.wheels[kFrontRight].load_N - s.wheels[kFrontLeft].load_N) +
+                        0.70 * (s.wheels[kRearRight].load_N - s.wheels[kRearLeft].load_N);
   const double expected = settings.body.mass_kg * 0.53 * ay;
   EXPECT_GT(s.roll_rad(), 0.001);  // it leans out of the bend
   EXPECT_NEAR(moment, expected, 0.02 * expected);

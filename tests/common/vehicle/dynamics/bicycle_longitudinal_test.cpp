@@ -41,7 +41,8 @@ TEST(BicycleAtRest, StandsAsItWasPlaced) {
   EXPECT_TRUE(car.state().inside_world);
 }
 
-// On a slope the loads are those of statics: sum m g cos, transfer m g sin h / L between the axles, m g sin h / T across.
+// On a slope the loads are those of statics: sum m g cos, transfer m g sin h / L between the axles, m g sin h / T
+// across.
 TEST(BicycleAtRest, LoadsOnASlopeAreThoseOfStatics) {
   const BicycleSettings settings = DefaultSettings();
   const double weight = settings.body.mass_kg * kG_mps2;
@@ -117,7 +118,8 @@ TEST(BicycleRolling, RollsDownWithoutBrakes) {
   const double early = car.state().speed_mps();
   Drive(car, ground, InNeutral(), 8.0);
   const double angle = std::atan(0.08);
-  const double expected = settings.body.mass_kg * kG_mps2 * (std::sin(angle) - 0.012 * std::cos(angle)) / EffectiveMass(settings);
+  const double expected =
+      settings.body.mass_kg * kG_mps2 * (std::sin(angle) - 0.012 * std::cos(angle)) / EffectiveMass(settings);
   EXPECT_NEAR((car.state().speed_mps() - early) / 8.0, expected, 0.003 * expected);
   EXPECT_GT(early, 0.5);
 }
@@ -139,7 +141,8 @@ TEST(BicycleRolling, CoastsDownAsTheClosedFormSays) {
   double worst = 0.0;
   Drive(car, ground, InNeutral(), 60.0, [&](int step) {
     const double t = step * kStep_s;
-    const double v = std::sqrt(f0 / k) * std::tan(std::atan(45.0 * std::sqrt(k / f0)) - t * std::sqrt(f0 * k) / EffectiveMass(settings));
+    const double v = std::sqrt(f0 / k) *
+                     std::tan(std::atan(45.0 * std::sqrt(k / f0)) - t * std::sqrt(f0 * k) / EffectiveMass(settings));
     worst = std::max(worst, std::fabs(car.state().speed_mps() - v));
   });
   EXPECT_LT(worst, 0.05);
@@ -228,7 +231,8 @@ TEST(BicycleDriving, FuelAtFiftyAndAtHundredIsThatOfASmallCar) {
     EXPECT_GT(car.state().mean_consumption_l_per_100km(), low);
     EXPECT_LT(car.state().mean_consumption_l_per_100km(), high);
     EXPECT_NEAR(car.state().consumption_l_per_100km(), car.state().mean_consumption_l_per_100km(), 0.5);
-    EXPECT_NEAR(car.state().fuel_l_per_h(), car.state().consumption_l_per_100km() * car.state().speed_mps() * 3.6 / 100.0, 1e-9);
+    EXPECT_NEAR(car.state().fuel_l_per_h(),
+                car.state().consumption_l_per_100km() * car.state().speed_mps() * 3.6 / 100.0, 1e-9);
   }
 }
 
@@ -320,8 +324,8 @@ TEST(BicycleDriving, TheClutchWorkIsAccountedFor) {
   EXPECT_LT(heat_J, 50000.0);
 }
 
-// Ice under the left wheels. An open differential gives both the little that ice bears; with plates of locking value S the right
-// one gets (1 + S)/(1 - S) of it.
+// Ice under the left wheels. An open differential gives both the little that ice bears; with plates of locking value S
+// the right one gets (1 + S)/(1 - S) of it.
 class SplitGround final : public ground::Ground {
  public:
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {

@@ -42,8 +42,9 @@ HillGround::Kind WildGround(std::uint64_t seed) {
 }
 
 bool Sane(const VehicleState& s) {
-  const bool finite = s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite() &&
-                      s.a_WB_W.allFinite() && std::isfinite(s.engine_speed_radps) && std::isfinite(s.fuel_kg);
+  const bool finite = s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() &&
+                      s.w_WB_B.allFinite() && s.a_WB_W.allFinite() && std::isfinite(s.engine_speed_radps) &&
+                      std::isfinite(s.fuel_kg);
   if (!finite || std::fabs(s.q_WB.norm() - 1.0) > 1e-9) return false;
   // A car that rolls back in gear turns its stalled engine backward; first gear at 60 m/s would turn it at 3100 rad/s.
   if (s.v_WB_W.norm() > 150.0 || std::fabs(s.engine_speed_radps) > 3500.0) return false;
@@ -58,7 +59,8 @@ bool Sane(const VehicleState& s) {
 RC_GTEST_PROP(BicycleProperty, StaysSaneUnderAnyControlsOnAnyGround, (std::uint32_t seed)) {
   HillGround ground(seed, WildGround(seed));
   BicycleModel car(DefaultSettings());
-  const InitialCondition initial{.heading_rad = base::RandomUniform({seed, 7}, -3, 3), .speed_mps = base::RandomUniform({seed, 8}, -10, 60)};
+  const InitialCondition initial{.heading_rad = base::RandomUniform({seed, 7}, -3, 3),
+                                 .speed_mps = base::RandomUniform({seed, 8}, -10, 60)};
   RC_ASSERT(car.Initialise(initial, ground).ok());
   RC_ASSERT(Sane(car.state()));
   for (int i = 0; i < 5000; ++i) {
@@ -148,7 +150,8 @@ TEST(BicycleProperty, ConvergesWithTheStep) {
 TEST(BicycleProperty, PlacedOnHillsItIsNearRest) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     HillGround ground(seed, {.amplitude_m = 4.0, .wave_m = 50.0});
-    BicycleModel car = PlacedCar(DefaultSettings(), ground, {.x_m = 5.0 * static_cast<double>(seed), .heading_rad = static_cast<double>(seed)});
+    BicycleModel car = PlacedCar(DefaultSettings(), ground,
+                                 {.x_m = 5.0 * static_cast<double>(seed), .heading_rad = static_cast<double>(seed)});
     const Eigen::Vector3d placed = car.state().p_WB_W;
     Controls hold;
     hold.brake = 1.0;

@@ -1,4 +1,5 @@
-// Many cars at once: each has the bits that it has alone, on any number of threads, whoever else is there, and from a snapshot.
+// Many cars at once: each has the bits that it has alone, on any number of threads, whoever else is there, and from a
+// snapshot.
 #include "common/vehicle/dynamics/car_array.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +25,8 @@ BicycleSettings Van() {
   settings.body.mass_kg = 1900.0;
   settings.body.yaw_inertia_kgm2 = 3200.0;
   settings.front_driven = false;
-  for (TyreSettings& tyre : settings.tyre) tyre.slip_curve = SlipCurveSettings{{0.1, 1.0, 0.4, 0.8}, {0.12, 0.95, 0.5, 0.8}};
+  for (TyreSettings& tyre : settings.tyre)
+    tyre.slip_curve = SlipCurveSettings{{0.1, 1.0, 0.4, 0.8}, {0.12, 0.95, 0.5, 0.8}};
   return settings;
 }
 
@@ -85,7 +87,8 @@ TEST(CarArray, EachCarHasTheBitsOfItAlone) {
   HillGround ground(4, {.ice = true});
   Cars cars(All(), ground);
   std::vector<BicycleModel> alone;
-  for (std::size_t i = 0; i < kCars; ++i) alone.push_back(PlacedCar(i % 3 == 0 ? Van() : DefaultSettings(), ground, Place(i)));
+  for (std::size_t i = 0; i < kCars; ++i)
+    alone.push_back(PlacedCar(i % 3 == 0 ? Van() : DefaultSettings(), ground, Place(i)));
   for (int step = 0; step < 300; ++step) {
     const int before = ground.batches;
     cars.Step(step);
@@ -147,8 +150,11 @@ TEST(CarArray, RollsDownASlope) {
   for (int step = 0; step < 200; ++step) array.Step(controls, ground, kDecision_s);
   const BicycleSettings settings = DefaultSettings();
   const double slope = std::atan(0.1);
-  const double turning_kg = 4.0 * settings.wheel.inertia_kgm2 / (settings.wheel.rolling_radius_m * settings.wheel.rolling_radius_m);
-  const double wanted = 2.0 * settings.body.mass_kg * kG_mps2 * (std::sin(slope) - settings.wheel.rolling_resistance * std::cos(slope)) / (settings.body.mass_kg + turning_kg);
+  const double turning_kg =
+      4.0 * settings.wheel.inertia_kgm2 / (settings.wheel.rolling_radius_m * settings.wheel.rolling_radius_m);
+  const double wanted = 2.0 * settings.body.mass_kg * kG_mps2 *
+                        (std::sin(slope) - settings.wheel.rolling_resistance * std::cos(slope)) /
+                        (settings.body.mass_kg + turning_kg);
   EXPECT_NEAR(array.speed_mps(0), wanted, 0.02 * wanted);
 }
 

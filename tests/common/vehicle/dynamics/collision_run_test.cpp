@@ -1,5 +1,5 @@
-// Cars that hit something: momentum, energy and rebound against closed forms, whatever the model; and the same bits from a snapshot
-// taken while they touch.
+// Cars that hit something: momentum, energy and rebound against closed forms, whatever the model; and the same bits
+// from a snapshot taken while they touch.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -71,8 +71,8 @@ TEST_P(Struck, AWallTakesItsMomentumAndGivesSomeBack) {
   EXPECT_NEAR(car->state().p_WB_W.y(), 0.0, 1e-6);
 }
 
-// Against a standing box of known mass on the same ground: momentum stays, energy falls, and what they part with is the oscillator's
-// share of what they met with (its mass is m1 m2 / (m1 + m2)).
+// Against a standing box of known mass on the same ground: momentum stays, energy falls, and what they part with is the
+// oscillator's share of what they met with (its mass is m1 m2 / (m1 + m2)).
 TEST_P(Struck, AStandingBoxIsPushedAwayAndMomentumStays) {
   auto car = MakeModel(GetParam());
   auto ground = Slippery();
@@ -95,8 +95,10 @@ TEST_P(Struck, AStandingBoxIsPushedAwayAndMomentumStays) {
   EXPECT_NEAR(mass * car_mps + box_kg * box_mps, mass * speed + air_Ns, 2e-3 * mass * speed);
   EXPECT_LT(mass * car_mps * car_mps + box_kg * box_mps * box_mps, mass * speed * speed);
   const double reduced = mass * box_kg / (mass + box_kg);
-  const double w = std::sqrt(settings.stiffness_Npm / reduced), zeta = settings.damping_Nspm / (2.0 * std::sqrt(settings.stiffness_Npm * reduced));
-  const double s = std::sqrt(1.0 - zeta * zeta), end = (M_PI - std::atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)) / (w * s);
+  const double w = std::sqrt(settings.stiffness_Npm / reduced),
+               zeta = settings.damping_Nspm / (2.0 * std::sqrt(settings.stiffness_Npm * reduced));
+  const double s = std::sqrt(1.0 - zeta * zeta),
+               end = (M_PI - std::atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)) / (w * s);
   const double parts = std::exp(-zeta * w * end) * std::fabs(std::cos(w * s * end) - zeta / s * std::sin(w * s * end));
   EXPECT_NEAR((box_mps - car_mps) / speed, parts, 0.05);
 }
@@ -106,7 +108,10 @@ TEST_P(Struck, RestoredWhileTouchingItGoesOnWithTheSameBits) {
   auto first = MakeModel(GetParam()), second = MakeModel(GetParam());
   PlaneGround ground;
   const CollisionSpace space(first->dimensions(), {});
-  Obstacle barrier{.id = 1, .centre_W = {10.0, 3.0, 0.5}, .q_WO = Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ())), .half_m = {8.0, 0.15, 1.5}};
+  Obstacle barrier{.id = 1,
+                   .centre_W = {10.0, 3.0, 0.5},
+                   .q_WO = Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ())),
+                   .half_m = {8.0, 0.15, 1.5}};
   const std::vector<Obstacle> obstacles{barrier};
   ASSERT_TRUE(first->Initialise({.speed_mps = 15.0}, ground).ok());
   Controls controls;
@@ -136,7 +141,9 @@ TEST_P(Overturned, LiesAboveTheGround) {
   for (int i = 0; i < 10000; ++i) {
     const VehicleState& s = car->state();
     over = over || (s.q_WB * Eigen::Vector3d::UnitZ()).z() < 0.0;
-    if (!over) car->SetPush({Eigen::Vector3d::Zero(), s.q_WB * Eigen::Vector3d(std::clamp(3e4 * (2.0 - s.w_WB_B.x()), -3e4, 3e4), 0.0, 0.0)});
+    if (!over)
+      car->SetPush({Eigen::Vector3d::Zero(),
+                    s.q_WB * Eigen::Vector3d(std::clamp(3e4 * (2.0 - s.w_WB_B.x()), -3e4, 3e4), 0.0, 0.0)});
     car->Step(Neutral(1.0), ground, kStep);
     ASSERT_TRUE(s.p_WB_W.allFinite()) << i;
   }
@@ -149,7 +156,8 @@ TEST_P(Overturned, LiesAboveTheGround) {
   double lowest = 1.0;
   for (const double x : {d.front_m, -d.rear_m}) {
     for (const double y : {-0.5 * d.width_m, 0.5 * d.width_m}) {
-      for (const double z : {0.16, d.height_m}) lowest = std::min(lowest, (s.p_WB_W + s.q_WB * Eigen::Vector3d(x, y, z)).dot(normal));
+      for (const double z : {0.16, d.height_m})
+        lowest = std::min(lowest, (s.p_WB_W + s.q_WB * Eigen::Vector3d(x, y, z)).dot(normal));
     }
   }
   EXPECT_GT(lowest, -0.03);

@@ -1,4 +1,5 @@
-// The car's box among obstacles: what touches, the force of it, momentum and rebound against closed forms, and the same bits.
+// The car's box among obstacles: what touches, the force of it, momentum and rebound against closed forms, and the same
+// bits.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -64,8 +65,9 @@ TEST(CollisionSpace, ThePartnerFeelsTheOppositeForce) {
   EXPECT_LT((on_a[0].force_W + on_b[0].force_W).norm(), 0.05 * on_a[0].force_W.norm());
 }
 
-// A linear spring and damper stop the car: depth and rebound are the oscillator's. With zeta = c / (2 sqrt(k m)) the force ends, and with it
-// the touch, where k x + c x' = 0; the car leaves with the speed of that moment, exp(-zeta w t1) of what it came with.
+// A linear spring and damper stop the car: depth and rebound are the oscillator's. With zeta = c / (2 sqrt(k m)) the
+// force ends, and with it the touch, where k x + c x' = 0; the car leaves with the speed of that moment, exp(-zeta w
+// t1) of what it came with.
 TEST(CollisionSpace, AWallThrowsTheCarBackAsTheOscillatorSays) {
   CollisionSettings settings;
   settings.friction = 0.0;
@@ -81,9 +83,10 @@ TEST(CollisionSpace, AWallThrowsTheCarBackAsTheOscillatorSays) {
     }
     car.p_WB_W += step * car.v_WB_W;
   }
-  const double w = std::sqrt(settings.stiffness_Npm / mass), zeta = settings.damping_Nspm / (2.0 * std::sqrt(settings.stiffness_Npm * mass));
+  const double w = std::sqrt(settings.stiffness_Npm / mass),
+               zeta = settings.damping_Nspm / (2.0 * std::sqrt(settings.stiffness_Npm * mass));
   const double s = std::sqrt(1.0 - zeta * zeta), wd = w * s;
-  const double peak = std::atan2(s, zeta) / wd;                       // x' = 0
+  const double peak = std::atan2(s, zeta) / wd;                                          // x' = 0
   const double end = (M_PI - std::atan2(2.0 * zeta * s, 1.0 - 2.0 * zeta * zeta)) / wd;  // k x + c x' = 0
   const double depth = speed / wd * std::exp(-zeta * w * peak) * std::sin(wd * peak);
   const double leaves = speed * std::exp(-zeta * w * end) * (std::cos(wd * end) - zeta / s * std::sin(wd * end));

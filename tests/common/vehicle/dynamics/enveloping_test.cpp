@@ -1,4 +1,5 @@
-// A rigid ring on planes, over an edge and over a half-round bump against its closed forms, and cars that drive with it.
+// A rigid ring on planes, over an edge and over a half-round bump against its closed forms, and cars that drive with
+// it.
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 #include <gtest/gtest.h>
@@ -113,7 +114,8 @@ TEST(Enveloping, OverAHalfRoundTheHubFollowsBothRadii) {
     const double both = kRadius + kRound;
     const double hub = HubHeight(Under(ground, {0.0, 0.0, kRadius}));
     const double circle = std::fabs(ahead) < both ? std::max(kRadius, std::sqrt(both * both - ahead * ahead)) : kRadius;
-    // A tangent plane lies over the round by z'' δ² / 2 within half a cell, z'' = r² / z³ at the place that is touched, at most 0.66 r from the middle.
+    // A tangent plane lies over the round by z'' δ² / 2 within half a cell, z'' = r² / z³ at the place that is touched,
+    // at most 0.66 r from the middle.
     const double over = 0.5 * kHalfCell_m * kHalfCell_m / (kRound * std::pow(1.0 - 0.66 * 0.66, 1.5));
     EXPECT_GE(hub, circle - 1e-12) << ahead;
     EXPECT_LE(hub, circle + 2.0 * over) << ahead;
@@ -153,7 +155,8 @@ std::unique_ptr<VehicleModel> WithRing(const ModelCase& model) {
 
 class EnvelopingCar : public ::testing::TestWithParam<ModelCase> {};
 
-// The front wheels meet a step where the ring does, sqrt(2 R H - H²) before the hub is over it; without a ring when the hub is.
+// The front wheels meet a step where the ring does, sqrt(2 R H - H²) before the hub is over it; without a ring when the
+// hub is.
 TEST_P(EnvelopingCar, MeetsAStepWhereTheRingDoes) {
   constexpr double kHeight = 0.03, kSpeed = 2.0;
   const auto met = [&](VehicleModel& car) {
@@ -163,7 +166,8 @@ TEST_P(EnvelopingCar, MeetsAStepWhereTheRingDoes) {
     for (int i = 0; i < 3000; ++i) {
       const VehicleState before = car.state();
       car.Step(Neutral(), ground, 0.001);
-      if (car.state().wheels[kFrontLeft].load_N > 1.05 * load_N) return 3.0 - (before.p_WB_W + before.q_WB * before.wheels[kFrontLeft].hub_B).x();
+      if (car.state().wheels[kFrontLeft].load_N > 1.05 * load_N)
+        return 3.0 - (before.p_WB_W + before.q_WB * before.wheels[kFrontLeft].hub_B).x();
     }
     return -1.0;
   };
@@ -189,7 +193,8 @@ TEST_P(EnvelopingCar, ChangesNothingOnLevelGroundAndKeepsItsBits) {
   EXPECT_EQ(DigestOf(*ring), DigestOf(*plain));
   HillGround hills(3, {});
   auto again = WithRing(GetParam());
-  ExpectTheSameBitsFromASnapshot(*ring, *again, 500, [&](VehicleModel& car, int) { car.Step(Neutral(), hills, 0.001); });
+  ExpectTheSameBitsFromASnapshot(*ring, *again, 500,
+                                 [&](VehicleModel& car, int) { car.Step(Neutral(), hills, 0.001); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, EnvelopingCar, ::testing::Values(kBicycle, kOde, kMultibody), NameOf);

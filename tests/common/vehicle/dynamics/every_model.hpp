@@ -16,13 +16,15 @@ namespace rodeira::dynamics {
 
 struct ModelCase {
   const char* name;
-  const char* file;        // of configs/vehicles; empty: the tests' FMU, a point on the ground with a speed
-  bool is_body = true;     // it has springs, gears and tyres
-  // A mechanism: its step is solved to some 1e-3 m/s² (docs/multibody.md), and tyres that stand hold the track at which they met the ground.
+  const char* file;     // of configs/vehicles; empty: the tests' FMU, a point on the ground with a speed
+  bool is_body = true;  // it has springs, gears and tyres
+  // A mechanism: its step is solved to some 1e-3 m/s² (docs/multibody.md), and tyres that stand hold the track at which
+  // they met the ground.
   bool is_mechanism = false;
 };
 
-inline constexpr ModelCase kBicycle{"bicycle", "default.yaml"}, kOde{"ode", "ode.yaml"}, kMultibody{"multibody", "prototype.yaml", true, true},
+inline constexpr ModelCase kBicycle{"bicycle", "default.yaml"}, kOde{"ode", "ode.yaml"},
+    kMultibody{"multibody", "prototype.yaml", true, true},
     kSecondMultibody{"double_wishbones", "double_wishbones.yaml", true, true}, kFmu{"fmu", "", false};
 
 // `more`: lines of the FMU's vehicle file.
@@ -47,7 +49,8 @@ inline Controls Neutral(double brake = 0.0) {
   return controls;
 }
 
-inline void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& controls, double seconds, double step_s = 0.001) {
+inline void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& controls, double seconds,
+                     double step_s = 0.001) {
   const auto steps = static_cast<int>(std::lround(seconds / step_s));
   for (int i = 0; i < steps; ++i) car.Step(controls, ground, step_s);
 }

@@ -1,4 +1,5 @@
-// What holds whatever the model is: a story from drop to reverse, left and right, slopes, places, and the same bits again.
+// What holds whatever the model is: a story from drop to reverse, left and right, slopes, places, and the same bits
+// again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -54,7 +55,8 @@ TEST_P(EveryModel, IsDroppedSettlesDrivesOffShiftsBrakesStopsAndReverses) {
   for (int i = 0; i < 4000; ++i) {
     car->Step(Neutral(1.0), ground, kStep);
     lowest = std::min(lowest, car->state().p_WB_W.z());
-    flew = flew || std::ranges::all_of(car->state().wheels, [](const WheelState& wheel) { return wheel.load_N == 0.0; });
+    flew =
+        flew || std::ranges::all_of(car->state().wheels, [](const WheelState& wheel) { return wheel.load_N == 0.0; });
   }
   EXPECT_TRUE(flew);
   if (GetParam().is_body) {
@@ -205,14 +207,18 @@ TEST_P(EveryModel, AnythingAnywhereStaysFinite) {
       c.brake = std::max(0.0, draw(2, i, -2.0, 1.0));
       c.handbrake = std::max(0.0, draw(3, i, -4.0, 1.0));
       c.gear = draw(4, i, 0.0, 1.0) < 0.2 ? -1 : 1;
-      if (draw(5, i, 0.0, 1.0) < 0.1) car->SetPush({{draw(6, i, -2e4, 2e4), draw(7, i, -2e4, 2e4), draw(8, i, 0.0, 2e4)}, {draw(9, i, -1e4, 1e4), 0.0, 0.0}});
+      if (draw(5, i, 0.0, 1.0) < 0.1)
+        car->SetPush(
+            {{draw(6, i, -2e4, 2e4), draw(7, i, -2e4, 2e4), draw(8, i, 0.0, 2e4)}, {draw(9, i, -1e4, 1e4), 0.0, 0.0}});
       const int before = ground.batches;
       car->Step(c, ground, kStep);
       ASSERT_EQ(ground.batches, before + 1);
       const VehicleState& s = car->state();
-      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite()) << seed << " " << i;
+      ASSERT_TRUE(s.p_WB_W.allFinite() && s.q_WB.coeffs().allFinite() && s.v_WB_W.allFinite() && s.w_WB_B.allFinite())
+          << seed << " " << i;
       ASSERT_LT(s.v_WB_W.norm(), 150.0) << seed << " " << i;
-      for (const WheelState& wheel : s.wheels) ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
+      for (const WheelState& wheel : s.wheels)
+        ASSERT_TRUE(std::isfinite(wheel.load_N) && wheel.load_N >= 0.0) << seed << " " << i;
     }
   }
 }
@@ -272,7 +278,9 @@ TEST_P(EveryBody, StandsInEquilibrium) {
 // At a speed: nothing accelerates either, and with the throttle that INI found it goes on as it began.
 TEST_P(EveryBody, AtASpeedItBeginsSteadily) {
   auto car = MakeModel(GetParam());
-  for (const auto& [speed_mps, slope_x, slope_y] : {std::tuple(15.0, 0.0, 0.0), std::tuple(30.0, 0.0, 0.0), std::tuple(12.0, 0.05, 0.0), std::tuple(20.0, -0.01, 0.0), std::tuple(15.0, 0.02, 0.03)}) {
+  for (const auto& [speed_mps, slope_x, slope_y] :
+       {std::tuple(15.0, 0.0, 0.0), std::tuple(30.0, 0.0, 0.0), std::tuple(12.0, 0.05, 0.0),
+        std::tuple(20.0, -0.01, 0.0), std::tuple(15.0, 0.02, 0.03)}) {
     SCOPED_TRACE(speed_mps);
     PlaneGround ground(Eigen::Vector3d(0, 0, 12.5), slope_x, slope_y);
     ASSERT_TRUE(car->Initialise({.x_m = 100.0, .y_m = -7.0, .speed_mps = speed_mps}, ground).ok());
@@ -285,7 +293,8 @@ TEST_P(EveryBody, AtASpeedItBeginsSteadily) {
     }
     double loads_N = 0.0;
     for (const WheelState& wheel : s.wheels) loads_N += wheel.load_N;
-    EXPECT_NEAR(loads_N, car->dimensions().mass_kg * kG / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y), 1e-6 * loads_N);
+    EXPECT_NEAR(loads_N, car->dimensions().mass_kg * kG / std::sqrt(1.0 + slope_x * slope_x + slope_y * slope_y),
+                1e-6 * loads_N);
     Controls controls;
     controls.gearbox = GearboxMode::kManual;
     controls.gear = s.gear;
@@ -307,7 +316,8 @@ TEST_P(EveryBody, AtASpeedItBeginsSteadily) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, EveryModel, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody, kFmu), NameOf);
+INSTANTIATE_TEST_SUITE_P(Models, EveryModel, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody, kFmu),
+                         NameOf);
 INSTANTIATE_TEST_SUITE_P(Models, EveryBody, ::testing::Values(kBicycle, kOde, kMultibody, kSecondMultibody), NameOf);
 
 }  // namespace

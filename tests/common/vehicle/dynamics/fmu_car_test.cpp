@@ -1,12 +1,13 @@
-// A laboratory's own car as an FMU: it drives by its own equations, is saved and restored where it offers that, and fails in a sentence.
+// A laboratory's own car as an FMU: it drives by its own equations, is saved and restored where it offers that, and
+// fails in a sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/vehicle/dynamics/fmu_model.hpp"
-#include "tests/common/vehicle/fmi/test_fmu.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
+#include "tests/common/vehicle/fmi/test_fmu.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -24,7 +25,8 @@ class FmuCar : public ::testing::Test {
     EXPECT_TRUE(car.ok()) << (car.ok() ? "" : car.error().Text());
     return std::move(car).value();
   }
-  std::string Refusal(const std::vector<std::pair<std::string, std::string>>& changes, const std::string& more = "") const {
+  std::string Refusal(const std::vector<std::pair<std::string, std::string>>& changes,
+                      const std::string& more = "") const {
     folder_.Pack(changes);
     const auto car = LoadVehicle(folder_.WriteCar(more));
     EXPECT_FALSE(car.ok());
@@ -120,7 +122,7 @@ TEST_F(FmuCar, AFailureIsToldAndTheCarStays) {
   Controls controls;
   controls.throttle = 1.0;
   for (const auto& [parameter, what] : {std::pair("fail_at_s", "fmi2DoStep: error: the tank is empty at 0.5 s"),
-                                       std::pair("nonsense_at_s", "its output 'y_m' is not a finite number")}) {
+                                        std::pair("nonsense_at_s", "its output 'y_m' is not a finite number")}) {
     auto car = Car(std::string("parameters: {") + parameter + ": 0.5}\n");
     ASSERT_TRUE(car->Initialise({}, ground).ok());
     for (int i = 0; i < 500; ++i) car->Step(controls, ground, kStep);
@@ -138,14 +140,17 @@ TEST_F(FmuCar, AFailureIsToldAndTheCarStays) {
 }
 
 TEST_F(FmuCar, WrongFilesAreRefused) {
-  EXPECT_THAT(Refusal({{"name=\"velocity_x_mps\"", "name=\"velocity_x\""}}), HasSubstr("no variable 'velocity_x_mps' (an output); did you mean 'velocity_x'?"));
+  EXPECT_THAT(Refusal({{"name=\"velocity_x_mps\"", "name=\"velocity_x\""}}),
+              HasSubstr("no variable 'velocity_x_mps' (an output); did you mean 'velocity_x'?"));
   EXPECT_THAT(Refusal({{"name=\"start_x_m\"", "name=\"begin_x_m\""}}), HasSubstr("no variable 'start_x_m'"));
-  EXPECT_THAT(Refusal({{"valueReference=\"0\" causality=\"output\"><Real unit=\"m\"", "valueReference=\"0\" causality=\"output\"><Real unit=\"mm\""}}),
+  EXPECT_THAT(Refusal({{"valueReference=\"0\" causality=\"output\"><Real unit=\"m\"",
+                        "valueReference=\"0\" causality=\"output\"><Real unit=\"mm\""}}),
               HasSubstr("'x_m' of the FMU is declared in 'mm'; 'm' was expected"));
   EXPECT_THAT(Refusal({{"valueReference=\"13\" causality=\"input\"", "valueReference=\"13\" causality=\"output\""}}),
               HasSubstr("'throttle' of the FMU is declared 'output'; 'input' was expected"));
   EXPECT_THAT(Refusal({{"<Real unit=\"rad\"/>", "<String/>"}}), HasSubstr("is no number"));
-  EXPECT_THAT(Refusal({}, "parameters: {fail_at: 3}\n"), HasSubstr("no parameter 'fail_at'; did you mean 'fail_at_s'?"));
+  EXPECT_THAT(Refusal({}, "parameters: {fail_at: 3}\n"),
+              HasSubstr("no parameter 'fail_at'; did you mean 'fail_at_s'?"));
   folder_.Pack();
   const auto file = folder_.WriteCar();
   const auto with = [&](const std::string& from, const std::string& to) {
@@ -158,7 +163,8 @@ TEST_F(FmuCar, WrongFilesAreRefused) {
     return car.ok() ? "" : car.error().Text();
   };
   EXPECT_THAT(with("heading_rad: body.yaw", "heading_rad: body.jaw"), HasSubstr("no variable 'body.jaw'"));
-  EXPECT_THAT(with("{heading_rad: body.yaw", "{throtle: throttle, heading_rad: body.yaw"), HasSubstr("'names.throtle' is no variable of a vehicle; did you mean 'throttle'?"));
+  EXPECT_THAT(with("{heading_rad: body.yaw", "{throtle: throttle, heading_rad: body.yaw"),
+              HasSubstr("'names.throtle' is no variable of a vehicle; did you mean 'throttle'?"));
   EXPECT_THAT(with("fmu: car.fmu", "fmu: none.fmu"), HasSubstr("no such file"));
   EXPECT_THAT(with("fmu: car.fmu", "fmu: car.yaml"), HasSubstr("a ZIP archive was expected"));
   EXPECT_THAT(with("mass_kg: 1000", "mass_kg: -1"), HasSubstr("other.yaml:"));
@@ -168,7 +174,8 @@ TEST_F(FmuCar, OneThatCannotBeginInMotionRefusesTo) {
   changes_ = {{"name=\"start_speed_mps\"", "name=\"initial_speed\""}};
   auto car = Car();
   PlaneGround ground;
-  EXPECT_THAT(car->Initialise({.speed_mps = 5.0}, ground).error().Text(), HasSubstr("cannot begin in motion: it has no variable 'start_speed_mps'"));
+  EXPECT_THAT(car->Initialise({.speed_mps = 5.0}, ground).error().Text(),
+              HasSubstr("cannot begin in motion: it has no variable 'start_speed_mps'"));
   EXPECT_TRUE(car->Initialise({}, ground).ok());
 }
 

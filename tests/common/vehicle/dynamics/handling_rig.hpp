@@ -13,12 +13,13 @@
 
 namespace rodeira::dynamics {
 
-// A rig that the multibody car drives on: a field of acceleration acts on all bodies as a bend's would, so that it rolls
-// and shifts its loads as in a bend, but keeps it going straight ahead at a heading of its own. Axle forces over slip
-// angles are the axles' cornering stiffnesses, with all that rolling and yielding does to them.
+// A rig that the multibody car drives on: a field of acceleration acts on all bodies as a bend's would, so that it
+// rolls and shifts its loads as in a bend, but keeps it going straight ahead at a heading of its own. Axle forces over
+// slip angles are the axles' cornering stiffnesses, with all that rolling and yielding does to them.
 class RigLoad final : public multibody::Load {
  public:
-  RigLoad(const multibody::Drawing& drawing, int chassis) : frame_(drawing.bodies[static_cast<std::size_t>(chassis)].frame) {
+  RigLoad(const multibody::Drawing& drawing, int chassis)
+      : frame_(drawing.bodies[static_cast<std::size_t>(chassis)].frame) {
     for (const auto& body : drawing.bodies) bodies_.emplace_back(body.mass_kg, body.centre);
     ground_ = frame_.PointAt(Eigen::Vector3d::Zero());
   }
@@ -45,7 +46,8 @@ class RigLoad final : public multibody::Load {
     const Eigen::Vector3d ahead = multibody::Evaluate(frame_.axes[0], motion.q);
     const Eigen::Vector3d turning = ahead.cross(multibody::Evaluate(frame_.axes[0], motion.qd));
     const double off = std::atan2(ahead.y(), ahead.x()) - heading_rad_;
-    multibody::PushTorque(frame_, {0.0, 0.0, -kYawInertia_kgm2 * kFast * (kFast * off + 2.0 * turning.z())}, motion.q, sink.forces());
+    multibody::PushTorque(frame_, {0.0, 0.0, -kYawInertia_kgm2 * kFast * (kFast * off + 2.0 * turning.z())}, motion.q,
+                          sink.forces());
   }
 
  private:
@@ -72,14 +74,16 @@ struct AxleStiffness {
 // Where the mass is, along x, as drawn.
 inline double CentreOfMass(const MultibodySettings& settings) {
   std::vector<double> drawn;
-  for (const auto& entity : settings.mechanism.entities) drawn.insert(drawn.end(), entity.at.data(), entity.at.data() + 3);
+  for (const auto& entity : settings.mechanism.entities)
+    drawn.insert(drawn.end(), entity.at.data(), entity.at.data() + 3);
   double moment = 0.0;
-  for (const auto& body : settings.mechanism.bodies) moment += body.mass_kg * multibody::Evaluate(body.centre, drawn.data()).x();
+  for (const auto& body : settings.mechanism.bodies)
+    moment += body.mass_kg * multibody::Evaluate(body.centre, drawn.data()).x();
   return moment / settings.mass_kg;
 }
 
-// Two small loads, one by the heading (both axles slip) and one by the steering wheel (the front axle slips), are put together
-// so that the axles' forces stand in the ratio that they have in a bend.
+// Two small loads, one by the heading (both axles slip) and one by the steering wheel (the front axle slips), are put
+// together so that the axles' forces stand in the ratio that they have in a bend.
 inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) {
   const auto rig = std::make_shared<RigLoad>(settings.mechanism, settings.chassis);
   settings.mechanism.loads.push_back({"rig", rig});
@@ -108,13 +112,15 @@ inline AxleStiffness MeasureAxles(MultibodySettings settings, double speed_mps) 
   const double centre = CentreOfMass(settings);
   double front = 0.0, rear = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i)
-    (i < 2 ? front : rear) += 0.5 * settings.mechanism.entities[static_cast<std::size_t>(settings.wheels[i].centre)].at.x();
+    (i < 2 ? front : rear) +=
+        0.5 * settings.mechanism.entities[static_cast<std::size_t>(settings.wheels[i].centre)].at.x();
   axles.front_to_centre_m = front - centre;
   axles.centre_to_rear_m = centre - rear;
   constexpr double kHeading = 0.004, kWheel = 0.064;
   axles.steering_ratio = 2.0 * kWheel / (drive(0.0, kWheel, 1e-9) - drive(0.0, -kWheel, 1e-9))[2];
   const Eigen::Vector3d crab = (drive(kHeading, 0.0, 1.0) - drive(-kHeading, 0.0, 1.0)) / (2.0 * kHeading);
-  const Eigen::Vector3d steer = (drive(0.0, kWheel, 1.0) - drive(0.0, -kWheel, 1.0)) / (2.0 * kWheel / axles.steering_ratio);
+  const Eigen::Vector3d steer =
+      (drive(0.0, kWheel, 1.0) - drive(0.0, -kWheel, 1.0)) / (2.0 * kWheel / axles.steering_ratio);
   Eigen::Matrix2d forces;
   forces << crab[0], steer[0], crab[1], steer[1];
   // Per newton of side force.

@@ -17,7 +17,8 @@
 namespace rodeira::dynamics {
 namespace {
 
-const std::filesystem::path kTir = std::filesystem::path(SourceDir()) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
+const std::filesystem::path kTir =
+    std::filesystem::path(SourceDir()) / "../shared/data/tyre/mfeval_MagicFormula61_Parameters.tir";
 
 // Values of an independent implementation for a 255/55 tyre (facts page, Tyre).
 TEST(MagicFormula, AgreesWithAnIndependentImplementationOfVersion61) {
@@ -38,8 +39,10 @@ TEST(MagicFormula, TheStiffnessIsTheSlopeAtTheOrigin) {
   const MagicFormulaSettings tyre = DefaultSettings().tyre[0].formula;
   constexpr double kProbe = 1e-6;
   for (const double load : {500.0, 2000.0, 3500.0, 7000.0}) {
-    const double fx = SteadyForces(tyre, {kProbe, 0.0, 0.0}, load, 1.0).longitudinal_N - SteadyForces(tyre, {-kProbe, 0.0, 0.0}, load, 1.0).longitudinal_N;
-    const double fy = SteadyForces(tyre, {0.0, kProbe, 0.0}, load, 1.0).lateral_N - SteadyForces(tyre, {0.0, -kProbe, 0.0}, load, 1.0).lateral_N;
+    const double fx = SteadyForces(tyre, {kProbe, 0.0, 0.0}, load, 1.0).longitudinal_N -
+                      SteadyForces(tyre, {-kProbe, 0.0, 0.0}, load, 1.0).longitudinal_N;
+    const double fy = SteadyForces(tyre, {0.0, kProbe, 0.0}, load, 1.0).lateral_N -
+                      SteadyForces(tyre, {0.0, -kProbe, 0.0}, load, 1.0).lateral_N;
     EXPECT_NEAR(fx / (2 * kProbe) / LongitudinalStiffness(tyre, load), 1.0, 1e-6);
     EXPECT_NEAR(-fy / (2 * kProbe) / CorneringStiffness(tyre, load), 1.0, 1e-6);
   }
@@ -49,10 +52,13 @@ TEST(MagicFormula, FrictionScalesThePeakAndLeavesTheSlope) {
   const MagicFormulaSettings tyre = DefaultSettings().tyre[0].formula;
   for (const double friction : {0.1, 0.5, 1.0}) {
     double most = 0.0;
-    for (double alpha = 0.0; alpha < 1.0; alpha += 1e-4) most = std::max(most, -SteadyForces(tyre, {0.0, alpha, 0.0}, 3000.0, friction).lateral_N);
+    for (double alpha = 0.0; alpha < 1.0; alpha += 1e-4)
+      most = std::max(most, -SteadyForces(tyre, {0.0, alpha, 0.0}, 3000.0, friction).lateral_N);
     EXPECT_NEAR(most / LateralPeak(tyre, 3000.0, friction), 1.0, 1e-3);
     EXPECT_NEAR(LateralPeak(tyre, 3000.0, friction), friction * LateralPeak(tyre, 3000.0, 1.0), 1e-9);
-    EXPECT_NEAR(-SteadyForces(tyre, {0.0, 1e-6, 0.0}, 3000.0, friction).lateral_N * 1e6 / CorneringStiffness(tyre, 3000.0), 1.0, 1e-4);
+    EXPECT_NEAR(
+        -SteadyForces(tyre, {0.0, 1e-6, 0.0}, 3000.0, friction).lateral_N * 1e6 / CorneringStiffness(tyre, 3000.0), 1.0,
+        1e-4);
   }
 }
 
@@ -66,7 +72,9 @@ TEST(MagicFormula, TheForceFallsBeyondThePeak) {
 
 RC_GTEST_PROP(MagicFormula, IsOddWithoutShiftsBoundedAndFinite, (std::uint32_t seed)) {
   const MagicFormulaSettings tyre = DefaultSettings().tyre[0].formula;
-  const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, what}, low, high); };
+  const auto draw = [&](std::uint64_t what, double low, double high) {
+    return base::RandomUniform({seed, what}, low, high);
+  };
   const TyreSlip slip{draw(0, -3, 3), draw(1, -3, 3), 0.0};
   const double load = draw(2, -100, 15000);
   const double friction = draw(3, 0, 1.2);

@@ -1,4 +1,5 @@
-// The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it repeats.
+// The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it
+// repeats.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -36,7 +37,8 @@ void DriveFor(VehicleModel& car, ground::Ground& ground, const Controls& control
   for (int i = 0; i < steps; ++i) car.Step(controls, ground, kStep);
 }
 
-// C6: 44 points, 7 unit vectors, 1 angle, 5 distances: 159 variables. Eleven ways to move: body 6, wheels 4, steering 1.
+// C6: 44 points, 7 unit vectors, 1 angle, 5 distances: 159 variables. Eleven ways to move: body 6, wheels 4,
+// steering 1.
 TEST(Prototype, HasTheCoordinatesOfItsSource) {
   auto car = Prototype();
   const multibody::System& system = Multibody(*car).system();
@@ -62,18 +64,22 @@ base::Result<std::unique_ptr<VehicleModel>> WithOutputs(const std::string& outpu
   std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml").value();
   const auto from = text.find("  outputs:\n"), to = text.find("\nbody:");
   text.replace(from, to - from, "  outputs:\n" + outputs);
-  const auto path = std::filesystem::temp_directory_path() / ("rodeira-outputs-" + std::to_string(::getpid()) + ".yaml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("rodeira-outputs-" + std::to_string(::getpid()) + ".yaml");
   EXPECT_TRUE(base::WriteWhole(path, text).ok());
   auto model = LoadVehicle(path);
   std::filesystem::remove(path);
   return model;
 }
 
-// C5, in a car that drives: what acts on a carrier at its points bears its weight; on the chassis, at the damper's top, acts the damper alone.
+// C5, in a car that drives: what acts on a carrier at its points bears its weight; on the chassis, at the damper's top,
+// acts the damper alone.
 TEST(Prototype, ForcesInItsJointsAreOutputs) {
   auto made = WithOutputs(
-      "    low_N: joint fl_carrier fl_lower_ball.z\n    high_N: joint fl_carrier fl_upper_ball.z\n    tie_N: joint fl_carrier fl_tie_outer.z\n"
-      "    hub_N: joint fl_carrier fl_hub.z\n    top_x_N: joint chassis fl_damper_top.x\n    top_y_N: joint chassis fl_damper_top.y\n"
+      "    low_N: joint fl_carrier fl_lower_ball.z\n    high_N: joint fl_carrier fl_upper_ball.z\n    tie_N: joint "
+      "fl_carrier fl_tie_outer.z\n"
+      "    hub_N: joint fl_carrier fl_hub.z\n    top_x_N: joint chassis fl_damper_top.x\n    top_y_N: joint chassis "
+      "fl_damper_top.y\n"
       "    top_z_N: joint chassis fl_damper_top.z\n");
   ASSERT_TRUE(made.ok()) << made.error().Text();
   VehicleModel& car = *made.value();
@@ -144,7 +150,8 @@ TEST(PrototypeDynamics, LoadTransferOfBraking) {
   double moment = 0.0;
   for (const auto& body : settings.mechanism.bodies) {
     std::vector<double> drawn;
-    for (const auto& entity : settings.mechanism.entities) drawn.insert(drawn.end(), entity.at.data(), entity.at.data() + 3);
+    for (const auto& entity : settings.mechanism.entities)
+      drawn.insert(drawn.end(), entity.at.data(), entity.at.data() + 3);
     moment += body.mass_kg * multibody::Evaluate(body.centre, drawn.data()).z();
   }
   const double height = moment / settings.mass_kg;
@@ -153,8 +160,8 @@ TEST(PrototypeDynamics, LoadTransferOfBraking) {
   EXPECT_NEAR(all, settings.mass_kg * kG, 0.01 * settings.mass_kg * kG);
   // Air drag acts at its own height; the rest at the mass's. The body's lean moves it a little.
   const double deceleration = -s.a_WB_B().x();
-  const double expected =
-      (settings.mass_kg * deceleration * height - s.drag_N * settings.drag_point_m.z()) / settings.dimensions.wheelbase_m;
+  const double expected = (settings.mass_kg * deceleration * height - s.drag_N * settings.drag_point_m.z()) /
+                          settings.dimensions.wheelbase_m;
   EXPECT_NEAR(front - front_at_rest, expected, 0.05 * expected);
   EXPECT_NEAR(-along + s.drag_N, settings.mass_kg * deceleration, 0.03 * settings.mass_kg * deceleration);
 }
@@ -183,8 +190,9 @@ TEST(PrototypeDynamics, TurnsTowardsTheWheelAndLeansOut) {
   EXPECT_NEAR(0.5 / steer, settings.steering.ratio, 0.15 * settings.steering.ratio);
 }
 
-// Force feedback in a steady bend against the statics of the linkage: what tyre, weight and turning do about the kingpin (the line through
-// both ball joints) the tie rod holds, the rods push the rack, and its pinion turns the column.
+// Force feedback in a steady bend against the statics of the linkage: what tyre, weight and turning do about the
+// kingpin (the line through both ball joints) the tie rod holds, the rods push the rack, and its pinion turns the
+// column.
 TEST(PrototypeDynamics, SteeringTorqueIsThatOfKingpinTieRodsAndPinion) {
   auto car = Prototype();
   PlaneGround ground;
@@ -207,22 +215,28 @@ TEST(PrototypeDynamics, SteeringTorqueIsThatOfKingpinTieRodsAndPinion) {
       ADD_FAILURE() << name;
       return Eigen::Vector3d::Zero();
     };
-    const Eigen::Vector3d turning = s.q_WB * s.w_WB_B, pull = Eigen::Vector3d(0, 0, -kG) - turning.cross(s.v_WB_W);  // weight and centrifugal
+    const Eigen::Vector3d turning = s.q_WB * s.w_WB_B,
+                          pull = Eigen::Vector3d(0, 0, -kG) - turning.cross(s.v_WB_W);  // weight and centrifugal
     const Eigen::Vector3d rack_way = at("left");
     double pinion_N = -3.0 * pull.dot(rack_way);  // on the rack along its way
     for (const std::size_t i : {kFrontLeft, kFrontRight}) {
       const std::string side = i == kFrontLeft ? "fl_" : "fr_";
       const WheelState& w = s.wheels[i];
       const Eigen::Vector3d low = at(side + "lower_ball"), kingpin = (at(side + "upper_ball") - low).normalized();
-      const Eigen::Vector3d hub = at(side + "hub"), axle = at(side + "axle"), along = axle.cross(w.contact_normal_W).normalized();
-      const Eigen::Vector3d force = w.longitudinal_N * along + w.lateral_N * w.contact_normal_W.cross(along) + w.load_N * w.contact_normal_W;
+      const Eigen::Vector3d hub = at(side + "hub"), axle = at(side + "axle"),
+                            along = axle.cross(w.contact_normal_W).normalized();
+      const Eigen::Vector3d force =
+          w.longitudinal_N * along + w.lateral_N * w.contact_normal_W.cross(along) + w.load_N * w.contact_normal_W;
       Eigen::Vector3d about_hub = (w.contact_W - hub).cross(force);
       about_hub -= about_hub.dot(axle) * axle;  // the wheel turns freely
       about_hub -= model.settings().wheel.inertia_kgm2 * w.spin_radps * turning.cross(axle);
       const auto& carrier = drawing.bodies[static_cast<std::size_t>(model.settings().wheels[i].carrier)];
-      const Eigen::Vector3d outer = at(side + "tie_outer"), inner = at(side + "rack"), rod = (outer - inner).normalized();
+      const Eigen::Vector3d outer = at(side + "tie_outer"), inner = at(side + "rack"),
+                            rod = (outer - inner).normalized();
       const double moment = (about_hub + (hub - low).cross(force) +
-                             (multibody::Evaluate(carrier.centre, motion.q) - low).cross(carrier.mass_kg * pull) + (outer - low).cross(0.4 * pull)).dot(kingpin);
+                             (multibody::Evaluate(carrier.centre, motion.q) - low).cross(carrier.mass_kg * pull) +
+                             (outer - low).cross(0.4 * pull))
+                                .dot(kingpin);
       const double in_rod_N = -moment / (outer - low).cross(rod).dot(kingpin);
       pinion_N += (in_rod_N * rod - 0.4 * pull).dot(rack_way);
     }
@@ -232,8 +246,9 @@ TEST(PrototypeDynamics, SteeringTorqueIsThatOfKingpinTieRodsAndPinion) {
   }
 }
 
-// Undivided steps of 10 ms against a tenth of a millisecond, steering a function of time (each step gets the angle at its end): yaw rate within
-// 1 % RMS, path within 2 cm, at most four turns, and steps of half the length are off by a quarter, as tyres, wheels and mechanism are of second order.
+// Undivided steps of 10 ms against a tenth of a millisecond, steering a function of time (each step gets the angle at
+// its end): yaw rate within 1 % RMS, path within 2 cm, at most four turns, and steps of half the length are off by a
+// quarter, as tyres, wheels and mechanism are of second order.
 TEST(PrototypeDynamics, LongStepsAgreeWithATenthOfAMillisecond) {
   PlaneGround ground;
   struct Point {
@@ -281,15 +296,17 @@ TEST(PrototypeDynamics, LongStepsAgreeWithATenthOfAMillisecond) {
   EXPECT_GT(path_m / path_half_m, 3.0);
 }
 
-// The prototype's mechanism without dampers, stops, weight and ground; its springs are released and swing by 250 J. Thrown at 20 m/s its energy
-// stays within 1e-5 over 10 s at 1 ms. At rest as a whole, where rounding of large speeds does not count, it is off by at most 5e-4 of what
-// swings, and by a quarter of that where the step is halved.
+// The prototype's mechanism without dampers, stops, weight and ground; its springs are released and swing by 250 J.
+// Thrown at 20 m/s its energy stays within 1e-5 over 10 s at 1 ms. At rest as a whole, where rounding of large speeds
+// does not count, it is off by at most 5e-4 of what swings, and by a quarter of that where the step is halved.
 TEST(PrototypeDynamics, WithoutDampersItsEnergyStays) {
   std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "configs/vehicles/prototype.yaml").value();
   text = std::regex_replace(text, std::regex(R"(damper_mps_N: \[\[.*?\]\])"), "damping_Nspm: 0");
-  text = std::regex_replace(text, std::regex(R"(stops_m: \[[^\]]*\], stop_stiffness_Npm: [0-9]*, stop_damping_Nspm: [0-9]*)"),
+  text = std::regex_replace(text,
+                            std::regex(R"(stops_m: \[[^\]]*\], stop_stiffness_Npm: [0-9]*, stop_damping_Nspm: [0-9]*)"),
                             "stops_m: [0.05, 0.9], stop_stiffness_Npm: 1000, stop_damping_Nspm: 0");
-  const auto path = std::filesystem::temp_directory_path() / ("rodeira-undamped-" + std::to_string(::getpid()) + ".yaml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("rodeira-undamped-" + std::to_string(::getpid()) + ".yaml");
   ASSERT_TRUE(base::WriteWhole(path, text).ok());
   const auto car = LoadVehicle(path);
   std::filesystem::remove(path);
@@ -368,7 +385,9 @@ TEST(ASecondCar, WrongFilesAreRefused) {
   EXPECT_NE(refusal("carrier: fl_carrier", "carrier: fl_carier").find("did you mean 'fl_carrier'"), std::string::npos);
   EXPECT_NE(refusal("axle: rl_axle", "axle: up").find("drawn to the left"), std::string::npos);
   EXPECT_NE(refusal("mass_kg: 512", "mass_kg: -512").find("-512"), std::string::npos);
-  EXPECT_NE(refusal("  constraints:\n", "  constraints:\n    more: {kind: distance, points: [fl_lower_front, fl_lower_rear]}\n").find("redundant"),
+  EXPECT_NE(refusal("  constraints:\n",
+                    "  constraints:\n    more: {kind: distance, points: [fl_lower_front, fl_lower_rear]}\n")
+                .find("redundant"),
             std::string::npos);
   std::filesystem::remove(path);
 }

@@ -1,4 +1,5 @@
-// The prototype's handling against the single-track closed form with its own axles' stiffnesses, measured on a virtual rig.
+// The prototype's handling against the single-track closed form with its own axles' stiffnesses, measured on a virtual
+// rig.
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "tests/common/vehicle/dynamics/handling_rig.hpp"
 #include "tests/tree.hpp"
@@ -15,7 +16,9 @@ std::unique_ptr<VehicleModel> Car(const std::string& name) {
 }
 
 // Of a car of its own: a load belongs to one mechanism.
-MultibodySettings SettingsOf(const std::string& name) { return static_cast<const MultibodyModel&>(*Car(name)).settings(); }
+MultibodySettings SettingsOf(const std::string& name) {
+  return static_cast<const MultibodyModel&>(*Car(name)).settings();
+}
 
 struct Bend {
   double speed_mps = 0.0, yaw_rate_radps = 0.0, sideslip_rad = 0.0;
@@ -50,7 +53,8 @@ TEST(PrototypeHandling, BendsAsTheClosedFormWithItsAxlesStiffnesses) {
   for (const double speed : {10.0, 20.0, 30.0}) {
     const AxleStiffness axles = MeasureAxles(SettingsOf("prototype.yaml"), speed);
     const double gradient = axles.UndersteerGradient();
-    const double wheel_rad = axles.steering_ratio * 0.6 * (axles.wheelbase_m() + gradient * speed * speed) / (speed * speed);
+    const double wheel_rad =
+        axles.steering_ratio * 0.6 * (axles.wheelbase_m() + gradient * speed * speed) / (speed * speed);
     const Bend bend = DriveRound(*car, speed, wheel_rad);
     EXPECT_NEAR(bend.yaw_rate_radps * bend.speed_mps, 0.6, 0.1);
     EXPECT_NEAR(bend.speed_mps, speed, 0.01 * speed);
@@ -59,12 +63,14 @@ TEST(PrototypeHandling, BendsAsTheClosedFormWithItsAxlesStiffnesses) {
     const double denominator = axles.wheelbase_m() + gradient * v2;
     const double gain = bend.speed_mps / denominator;
     EXPECT_NEAR(bend.yaw_rate_radps / angle, gain, 0.05 * gain) << speed;
-    // B lies midway between the axles, not at the centre of gravity: its sideslip is r (b - L/2) / V less. Each of the two terms
-    // that the sideslip is the difference of holds to 5 %.
+    // B lies midway between the axles, not at the centre of gravity: its sideslip is r (b - L/2) / V less. Each of the
+    // two terms that the sideslip is the difference of holds to 5 %.
     const double to_middle = axles.centre_to_rear_m - 0.5 * axles.wheelbase_m();
     const double to_slip = axles.front_to_centre_m * axles.mass_kg * v2 / (axles.wheelbase_m() * axles.rear_Nprad);
     const double sideslip = (bend.sideslip_rad + bend.yaw_rate_radps / bend.speed_mps * to_middle) / angle;
-    EXPECT_NEAR(sideslip, (axles.centre_to_rear_m - to_slip) / denominator, 0.05 * (axles.centre_to_rear_m + to_slip) / denominator) << speed;
+    EXPECT_NEAR(sideslip, (axles.centre_to_rear_m - to_slip) / denominator,
+                0.05 * (axles.centre_to_rear_m + to_slip) / denominator)
+        << speed;
     // An understeering car, and the ratio that its file names.
     EXPECT_GT(gradient * kDegreesPerG, 0.5);
     EXPECT_LT(gradient * kDegreesPerG, 3.0);

@@ -1,5 +1,5 @@
-// Toe and camber of the prototype's wheels over their travel against the linkages' geometry, solved by itself: rotations of the
-// arms about their pivots and intersections of spheres, from nothing but the points as drawn.
+// Toe and camber of the prototype's wheels over their travel against the linkages' geometry, solved by itself:
+// rotations of the arms about their pivots and intersections of spheres, from nothing but the points as drawn.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 constexpr double kPinion = 0.0069;  // m of the rack a radian of the pinion, from the file
 
 // The two points at given distances from three others, of which the one nearer to `near`.
-Vector3d ThreeSpheres(const Vector3d& a, double ra, const Vector3d& b, double rb, const Vector3d& c, double rc, const Vector3d& near) {
+Vector3d ThreeSpheres(const Vector3d& a, double ra, const Vector3d& b, double rb, const Vector3d& c, double rc,
+                      const Vector3d& near) {
   const Vector3d ex = (b - a).normalized();
   const double d = (b - a).norm();
   const double i = ex.dot(c - a);
@@ -64,7 +65,9 @@ class Linkage : public ::testing::Test {
     ADD_FAILURE() << name;
     return 0;
   }
-  Vector3d At(const std::string& name) const { return settings_.mechanism.entities[static_cast<std::size_t>(Index(name))].at; }
+  Vector3d At(const std::string& name) const {
+    return settings_.mechanism.entities[static_cast<std::size_t>(Index(name))].at;
+  }
 
   // Double wishbone: the lower arm turned by an angle, the rack moved to the left.
   Corner Wishbones(const std::string& side, double arm_rad, double rack_m) const {
@@ -72,25 +75,32 @@ class Linkage : public ::testing::Test {
     const Vector3d lower = TurnedAbout(at("lower_front"), at("lower_rear"), arm_rad, at("lower_ball"));
     const Vector3d foot = TurnedAbout(at("lower_front"), at("lower_rear"), arm_rad, at("damper_foot"));
     const auto apart = [&](const char* a, const char* b) { return (at(a) - at(b)).norm(); };
-    const Vector3d upper = ThreeSpheres(at("upper_front"), apart("upper_ball", "upper_front"), at("upper_rear"), apart("upper_ball", "upper_rear"), lower,
-                                        apart("upper_ball", "lower_ball"), at("upper_ball"));
-    const Vector3d tie = ThreeSpheres(lower, apart("tie_outer", "lower_ball"), upper, apart("tie_outer", "upper_ball"),
-                                      at("rack") + Vector3d(0.0, rack_m, 0.0), apart("tie_outer", "rack"), at("tie_outer"));
-    const Eigen::Isometry3d moved = FrameOf(lower, upper, tie) * FrameOf(at("lower_ball"), at("upper_ball"), at("tie_outer")).inverse();
+    const Vector3d upper =
+        ThreeSpheres(at("upper_front"), apart("upper_ball", "upper_front"), at("upper_rear"),
+                     apart("upper_ball", "upper_rear"), lower, apart("upper_ball", "lower_ball"), at("upper_ball"));
+    const Vector3d tie =
+        ThreeSpheres(lower, apart("tie_outer", "lower_ball"), upper, apart("tie_outer", "upper_ball"),
+                     at("rack") + Vector3d(0.0, rack_m, 0.0), apart("tie_outer", "rack"), at("tie_outer"));
+    const Eigen::Isometry3d moved =
+        FrameOf(lower, upper, tie) * FrameOf(at("lower_ball"), at("upper_ball"), at("tie_outer")).inverse();
     return {(at("damper_top") - foot).norm(), moved * at("hub"), moved.linear() * at("axle")};
   }
 
-  // Strut: its top lies on the carrier's line foot-neck, so that its place in the carrier follows from its distance to the ball.
+  // Strut: its top lies on the carrier's line foot-neck, so that its place in the carrier follows from its distance to
+  // the ball.
   Corner Strut(const std::string& side, double arm_rad) const {
     const auto at = [&](const char* name) { return At(side + name); };
     const Vector3d ball = TurnedAbout(at("arm_front"), at("arm_rear"), arm_rad, at("ball"));
     const Vector3d along = (at("strut_neck") - at("strut_foot")).normalized();
-    const Vector3d beside = at("strut_foot") + along.dot(at("ball") - at("strut_foot")) * along;  // on the line, nearest to the ball
+    const Vector3d beside =
+        at("strut_foot") + along.dot(at("ball") - at("strut_foot")) * along;  // on the line, nearest to the ball
     const double up = std::sqrt((at("strut_top") - ball).squaredNorm() - (beside - at("ball")).squaredNorm());
     const Vector3d top_drawn = beside + up * along;  // where the drawn carrier has what is the top now
-    const Vector3d toe = ThreeSpheres(ball, (at("toe_outer") - at("ball")).norm(), at("strut_top"), (at("toe_outer") - top_drawn).norm(),
-                                      at("toe_inner"), (at("toe_outer") - at("toe_inner")).norm(), at("toe_outer"));
-    const Eigen::Isometry3d moved = FrameOf(ball, at("strut_top"), toe) * FrameOf(at("ball"), top_drawn, at("toe_outer")).inverse();
+    const Vector3d toe =
+        ThreeSpheres(ball, (at("toe_outer") - at("ball")).norm(), at("strut_top"), (at("toe_outer") - top_drawn).norm(),
+                     at("toe_inner"), (at("toe_outer") - at("toe_inner")).norm(), at("toe_outer"));
+    const Eigen::Isometry3d moved =
+        FrameOf(ball, at("strut_top"), toe) * FrameOf(at("ball"), top_drawn, at("toe_outer")).inverse();
     return {(top_drawn - at("strut_foot")).norm(), moved * at("hub"), moved.linear() * at("axle")};
   }
 
@@ -98,7 +108,8 @@ class Linkage : public ::testing::Test {
   std::unique_ptr<multibody::System> Held(const std::array<Corner, kWheels>& corners, double pinion_rad) const {
     multibody::Drawing drawing = settings_.mechanism;
     drawing.loads.clear();
-    for (const int entity : drawing.bodies[static_cast<std::size_t>(settings_.chassis)].entities) drawing.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
+    for (const int entity : drawing.bodies[static_cast<std::size_t>(settings_.chassis)].entities)
+      drawing.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
     const auto hold = [&drawing](int entity, double value) {
       drawing.entities[static_cast<std::size_t>(entity)].at.x() = value;
       drawing.entities[static_cast<std::size_t>(entity)].fixed[0] = true;
@@ -130,14 +141,17 @@ TEST_F(Linkage, ToeAndCamberOverTravelAreTheGeometrys) {
     for (int step = -4; step <= 4; ++step) {
       const double arm = -0.04 * step;  // the left arms' axes point backwards: less is upwards
       const double rack = -kPinion * pinion;
-      const std::array<Corner, kWheels> expected = {Wishbones("fl_", arm, rack), Wishbones("fr_", -arm, rack), Strut("rl_", arm), Strut("rr_", -arm)};
+      const std::array<Corner, kWheels> expected = {Wishbones("fl_", arm, rack), Wishbones("fr_", -arm, rack),
+                                                    Strut("rl_", arm), Strut("rr_", -arm)};
       const auto system = Held(expected, pinion);
       for (std::size_t i = 0; i < kWheels; ++i) {
-        const Vector3d hub = system->motion().At(settings_.wheels[i].centre), axle = system->motion().At(settings_.wheels[i].axle);
+        const Vector3d hub = system->motion().At(settings_.wheels[i].centre),
+                       axle = system->motion().At(settings_.wheels[i].axle);
         EXPECT_LT((hub - expected[i].hub).norm(), 1e-8) << i << " at " << step << ", pinion " << pinion;
         const auto toe_of = [](const Vector3d& a) { return std::atan2(-a.x(), a.y()); };
         EXPECT_NEAR(toe_of(axle), toe_of(expected[i].axle), 1e-8) << i << " at " << step << ", pinion " << pinion;
-        EXPECT_NEAR(std::asin(axle.z()), std::asin(expected[i].axle.z()), 1e-8) << i << " at " << step << ", pinion " << pinion;
+        EXPECT_NEAR(std::asin(axle.z()), std::asin(expected[i].axle.z()), 1e-8)
+            << i << " at " << step << ", pinion " << pinion;
         if (pinion != 0.0) continue;
         travel[i].Add(hub.z() - At(i == 0 ? "fl_hub" : i == 1 ? "fr_hub" : i == 2 ? "rl_hub" : "rr_hub").z());
         toe[i].Add(toe_of(axle));
@@ -155,7 +169,9 @@ TEST_F(Linkage, ToeAndCamberOverTravelAreTheGeometrys) {
 
 // What makes the car understeer as it leans: a front wheel that springs in turns outward, a rear one inward.
 TEST_F(Linkage, SpringingInTurnsFrontWheelsOutAndRearWheelsIn) {
-  const auto left_toe = [](const Corner& corner) { return std::atan2(-corner.axle.x(), corner.axle.y()); };  // positive: to the left, outward
+  const auto left_toe = [](const Corner& corner) {
+    return std::atan2(-corner.axle.x(), corner.axle.y());
+  };  // positive: to the left, outward
   const double front = left_toe(Wishbones("fl_", -0.05, 0.0)) - left_toe(Wishbones("fl_", 0.05, 0.0));
   const double rear = left_toe(Strut("rl_", -0.05)) - left_toe(Strut("rl_", 0.05));
   EXPECT_GT(Wishbones("fl_", -0.05, 0.0).hub.z(), At("fl_hub").z());

@@ -66,7 +66,8 @@ TEST(OdeCar, ItsPartsAreTheWholeCar) {
   EXPECT_NEAR(centre.z(), body.cg_height_m, 1e-12);
   double yaw = chassis.inertia_kgm2.z() + chassis.mass_kg * (chassis.p_BG_B - centre).head<2>().squaredNorm();
   for (std::size_t i = 0; i < kWheels; ++i) {
-    yaw += settings.wheel_across_kgm2 + settings.wheel_mass_kg * (HubAtRest_B(settings.car, i) - centre).head<2>().squaredNorm();
+    yaw += settings.wheel_across_kgm2 +
+           settings.wheel_mass_kg * (HubAtRest_B(settings.car, i) - centre).head<2>().squaredNorm();
   }
   EXPECT_NEAR(yaw, body.yaw_inertia_kgm2, 1e-9);
 }
@@ -86,7 +87,8 @@ TEST(OdeCarAtRest, StandsInEquilibrium) {
     for (const auto& wheel : s.wheels) {
       const Eigen::Vector3d axle = s.q_WB * Eigen::Vector3d::UnitY();
       const Eigen::Vector3d along = axle.cross(wheel.contact_normal_W).normalized();
-      sum += wheel.load_N * wheel.contact_normal_W + wheel.longitudinal_N * along + wheel.lateral_N * wheel.contact_normal_W.cross(along);
+      sum += wheel.load_N * wheel.contact_normal_W + wheel.longitudinal_N * along +
+             wheel.lateral_N * wheel.contact_normal_W.cross(along);
     }
     EXPECT_NEAR(sum.z(), weight, 1e-9 * weight);
     EXPECT_NEAR(sum.head<2>().norm(), 0.0, 1e-6);
@@ -124,12 +126,14 @@ TEST(OdeCarDynamics, BelowOneMetrePerSecondSquaredItIsTheClosedForm) {
     EXPECT_NEAR(car->state().w_WB_B.z() / steer, expected, 0.05 * expected) << speed;
     // The front axle bears m b / L of the lateral acceleration, by both trails: the tyres hardly slide.
     const SteeringSettings& steering = settings.car.steering;
-    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l * car->state().w_WB_B.z() * v / steering.ratio;
+    const double feedback = -(steering.mechanical_trail_m + steering.pneumatic_trail_m) * m * b / l *
+                            car->state().w_WB_B.z() * v / steering.ratio;
     EXPECT_NEAR(car->state().steering_torque_Nm, feedback, 0.03 * std::fabs(feedback)) << speed;
   }
 }
 
-// Newton on the whole car: what the tyres and the air do is mass times acceleration; what the front axle gains is m a h / L.
+// Newton on the whole car: what the tyres and the air do is mass times acceleration; what the front axle gains is m a h
+// / L.
 TEST(OdeCarDynamics, LoadTransferOfBraking) {
   auto car = Car();
   PlaneGround ground;
@@ -172,7 +176,8 @@ TEST(OdeCarDynamics, TurnsTowardsTheWheelAndLeansOut) {
   EXPECT_NEAR(s.wheels[kFrontLeft].steer_rad, 0.8 / car->settings().car.steering.ratio, 1e-4);
   EXPECT_NEAR(s.wheels[kRearLeft].steer_rad, 0.0, 1e-4);
   double side = 0.0;
-  for (const auto& wheel : s.wheels) side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
+  for (const auto& wheel : s.wheels)
+    side += wheel.lateral_N * std::cos(wheel.steer_rad) + wheel.longitudinal_N * std::sin(wheel.steer_rad);
   EXPECT_NEAR(side, car->settings().car.body.mass_kg * s.w_WB_B.z() * s.speed_mps(), 0.05 * side);
 }
 
@@ -237,7 +242,8 @@ TEST(OdeCarBits, RestoredInACrashItGoesOnWithTheSameBits) {
   controls.throttle = 1.0;
   controls.steering_wheel_rad = 3.0;
   for (int i = 0; i < 1200; ++i) first->Step(controls, ground, kStep);
-  ExpectTheSameBitsFromASnapshot(*first, *second, 1000, [&](VehicleModel& car, int) { car.Step(controls, ground, kStep); });
+  ExpectTheSameBitsFromASnapshot(*first, *second, 1000,
+                                 [&](VehicleModel& car, int) { car.Step(controls, ground, kStep); });
 }
 
 TEST(OdeCarFile, RefusalsNamePlaceAndRemedy) {
@@ -260,7 +266,8 @@ TEST(OdeCarFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(refusal("roll_inertia_kgm2: 360", "roll_inertia_kgm2: 20"), HasSubstr("more inertia"));
   EXPECT_THAT(refusal("mass_kg: 1050", "mass_kg: -1050"), HasSubstr("-1050"));
   EXPECT_THAT(refusal("asymptote_slip: 0.5,", "asymptote_slip: 0.05,"), HasSubstr("not above 'extremum_slip'"));
-  EXPECT_THAT(refusal("    slip_curve:\n", "    magic_formula: {FNOMIN: 3000}\n    slip_curve:\n"), HasSubstr("stands beside 'slip_curve'"));
+  EXPECT_THAT(refusal("    slip_curve:\n", "    magic_formula: {FNOMIN: 3000}\n    slip_curve:\n"),
+              HasSubstr("stands beside 'slip_curve'"));
   EXPECT_THAT(refusal("clearance_m: 0.16", "clearence_m: 0.16"), HasSubstr("clearance_m"));
   std::filesystem::remove(path);
 }
@@ -279,7 +286,9 @@ TEST(VehicleModels, AFileNamesTheSameCarInOtherModels) {
   EXPECT_EQ(unknown.error().exit_status(), 2);
   EXPECT_THAT(unknown.error().Text(), HasSubstr("did you mean 'multibody'?"));
   const auto path = std::filesystem::temp_directory_path() / ("rodeira-models-" + std::to_string(::getpid()) + ".yaml");
-  ASSERT_TRUE(base::WriteWhole(path, "rodeira: vehicle/1\nmodel: bicycle\nmodels: {ode: " + (configs / "default.yaml").string() + "}\n").ok());
+  ASSERT_TRUE(base::WriteWhole(path, "rodeira: vehicle/1\nmodel: bicycle\nmodels: {ode: " +
+                                         (configs / "default.yaml").string() + "}\n")
+                  .ok());
   EXPECT_THAT(LoadVehicle(path, "ode").error().Text(), HasSubstr("'model' is 'bicycle'; 'ode' was expected"));
   std::filesystem::remove(path);
 }

@@ -35,7 +35,8 @@ void Spin(Engine& engine, const EngineSettings& settings, double throttle, bool 
   }
 }
 
-// Smooth: through the samples, with one slope from both sides, never beyond its two samples, and straight where they are.
+// Smooth: through the samples, with one slope from both sides, never beyond its two samples, and straight where they
+// are.
 TEST(Engine, ASmoothCurveGoesThroughItsSamplesWithoutOvershoot) {
   EngineSettings engine;
   engine.full_load = {{100.0, 80.0}, {200.0, 110.0}, {300.0, 112.0}, {400.0, 112.0}, {500.0, 90.0}, {650.0, 20.0}};
@@ -45,7 +46,8 @@ TEST(Engine, ASmoothCurveGoesThroughItsSamplesWithoutOvershoot) {
     EXPECT_NEAR(FullLoadTorque(engine, speed), torque, 1e-12);
     if (i == 0 || i + 1 == engine.full_load.size()) continue;
     constexpr double kProbe = 1e-5;
-    const double before = (torque - FullLoadTorque(engine, speed - kProbe)) / kProbe, after = (FullLoadTorque(engine, speed + kProbe) - torque) / kProbe;
+    const double before = (torque - FullLoadTorque(engine, speed - kProbe)) / kProbe,
+                 after = (FullLoadTorque(engine, speed + kProbe) - torque) / kProbe;
     EXPECT_NEAR(before, after, 1e-5) << speed;
     const auto [low, high] = std::minmax(torque, engine.full_load[i + 1].torque_Nm);
     for (double share = 0.0; share <= 1.0; share += 0.01) {
@@ -57,7 +59,8 @@ TEST(Engine, ASmoothCurveGoesThroughItsSamplesWithoutOvershoot) {
   EngineSettings line;
   line.full_load = {{100.0, 50.0}, {220.0, 62.0}, {500.0, 90.0}};
   line.full_load_Nmspr = SmoothSlopes(line.full_load);
-  for (double speed = 100.0; speed < 500.0; speed += 7.0) EXPECT_NEAR(FullLoadTorque(line, speed), 40.0 + 0.1 * speed, 1e-9);
+  for (double speed = 100.0; speed < 500.0; speed += 7.0)
+    EXPECT_NEAR(FullLoadTorque(line, speed), 40.0 + 0.1 * speed, 1e-9);
 }
 
 // The source's: proportional to the throttle, whatever the engine gives for it.
@@ -142,7 +145,9 @@ TEST(Engine, NothingIsBurntInOverrun) {
 // Kinetic energy of the three rotors against the work of all torques at mean speeds.
 RC_GTEST_PROP(Driveline, WorkBalances, (std::uint32_t seed)) {
   const EngineSettings settings = DefaultSettings().powertrain.engine;
-  const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, what}, low, high); };
+  const auto draw = [&](std::uint64_t what, double low, double high) {
+    return base::RandomUniform({seed, what}, low, high);
+  };
   DrivelineLoads loads;
   loads.ratio = draw(0, -15, 15);
   loads.clutch_capacity_Nm = draw(1, 0, 200);
@@ -161,7 +166,8 @@ RC_GTEST_PROP(Driveline, WorkBalances, (std::uint32_t seed)) {
     const DrivelineMotion m = StepDriveline(settings, engine, loads, kStep_s);
     const double j = loads.wheel_inertia_kgm2;
     double change = 0.5 * settings.inertia_kgm2 * (m.engine_radps * m.engine_radps - w0 * w0);
-    const double drag_Nm = settings.inertia_kgm2 * (m.engine_radps - w0) / kStep_s - engine.driving_Nm() + m.clutch_torque_Nm;
+    const double drag_Nm =
+        settings.inertia_kgm2 * (m.engine_radps - w0) / kStep_s - engine.driving_Nm() + m.clutch_torque_Nm;
     double work = (engine.driving_Nm() + drag_Nm) * 0.5 * (w0 + m.engine_radps) - m.clutch_heat_W - m.locking_heat_W;
     for (std::size_t k = 0; k < 2; ++k) {
       change += 0.5 * j * (m.wheel_radps[k] * m.wheel_radps[k] - wheels0[k] * wheels0[k]);
@@ -235,7 +241,8 @@ TEST(Driveline, TorquePassesBothWaysAndHalvesAtTheDifferential) {
   EXPECT_NEAR(m.wheel_radps[0] - m.wheel_radps[1], 10.0, 1e-9);  // open: the difference is free
 }
 
-// The left wheel spins on ice, the right one is held by the road: what the shafts differ by is what the plates bear, and it heats them.
+// The left wheel spins on ice, the right one is held by the road: what the shafts differ by is what the plates bear,
+// and it heats them.
 TEST(Driveline, PlatesCarryTheirTorqueToTheSlowerWheel) {
   DrivelineLoads loads;
   loads.ratio = 10.0;
@@ -247,11 +254,13 @@ TEST(Driveline, PlatesCarryTheirTorqueToTheSlowerWheel) {
   const auto shafts = m.shaft_torque_Nm();
   EXPECT_NEAR(shafts[0] - shafts[1], -240.0, 1e-9);
   EXPECT_NEAR(shafts[0] + shafts[1], 10.0 * m.clutch_torque_Nm, 1e-9);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(m.wheel_radps[i], loads.wheel_radps[i] + kStep_s * (shafts[i] - 30.0) / loads.wheel_inertia_kgm2, 1e-9);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(m.wheel_radps[i], loads.wheel_radps[i] + kStep_s * (shafts[i] - 30.0) / loads.wheel_inertia_kgm2, 1e-9);
   EXPECT_NEAR(m.locking_heat_W, 120.0 * 0.5 * (40.0 + m.wheel_radps[0] - m.wheel_radps[1]), 1e-6);
 }
 
-// Two wheels and the plates' friction alone: the difference falls by locking torque / inertia a second, to nothing and stays there.
+// Two wheels and the plates' friction alone: the difference falls by locking torque / inertia a second, to nothing and
+// stays there.
 TEST(Driveline, PlatesWearADifferenceAwayAndThenHoldIt) {
   const EngineSettings settings = DefaultSettings().powertrain.engine;
   Engine engine;
@@ -284,7 +293,9 @@ TEST(Differential, LocksByPreloadAndByTheTorqueOfItsDirection) {
 
 // The complementarity conditions themselves are the oracle.
 RC_GTEST_PROP(Friction, TheSolutionSticksOrSlides, (std::uint32_t seed)) {
-  const auto draw = [&](std::uint64_t what, double low, double high) { return base::RandomUniform({seed, what}, low, high); };
+  const auto draw = [&](std::uint64_t what, double low, double high) {
+    return base::RandomUniform({seed, what}, low, high);
+  };
   FrictionMatrix root;
   for (int i = 0; i < 25; ++i) root(i / 5, i % 5) = draw(static_cast<std::uint64_t>(i), -1, 1);
   const FrictionMatrix a = root * root.transpose() + 0.01 * FrictionMatrix::Identity();
@@ -320,7 +331,8 @@ TEST(Gearbox, ByHandAGearNeedsTheClutchAndReverseNeedsPatience) {
   EXPECT_EQ(ShiftByHand(gearbox, -1, 1, 1.0, -5.0), 0);
 }
 
-// Forty cars of two kinds in one array, and each by itself, backward through the array: the same bits, whoever stands beside it.
+// Forty cars of two kinds in one array, and each by itself, backward through the array: the same bits, whoever stands
+// beside it.
 TEST(PowertrainArray, EachCarHasTheBitsThatItHasAlone) {
   constexpr std::size_t kCars = 40;
   const PowertrainSettings usual = DefaultSettings().powertrain;

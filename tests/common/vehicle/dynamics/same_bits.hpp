@@ -7,8 +7,8 @@
 
 namespace rodeira::dynamics {
 
-// Restores `second` from a snapshot of `first` and steps both, `step(car, i)` each: their states must agree to the bit behind every one of
-// `steps` steps.
+// Restores `second` from a snapshot of `first` and steps both, `step(car, i)` each: their states must agree to the bit
+// behind every one of `steps` steps.
 template <class Step>
 void ExpectTheSameBitsFromASnapshot(VehicleModel& first, VehicleModel& second, int steps, const Step& step) {
   base::StateWriter snapshot;

@@ -9,7 +9,8 @@ namespace rodeira::dynamics {
 namespace {
 
 const SlipCurve kCurve{.extremum_slip = 0.1, .extremum_value = 1.1, .asymptote_slip = 0.5, .asymptote_value = 0.7};
-const SlipCurveSettings kTyre{kCurve, {.extremum_slip = 0.14, .extremum_value = 0.9, .asymptote_slip = 0.6, .asymptote_value = 0.8}};
+const SlipCurveSettings kTyre{
+    kCurve, {.extremum_slip = 0.14, .extremum_value = 0.9, .asymptote_slip = 0.6, .asymptote_value = 0.8}};
 
 TEST(SlipCurve, GoesThroughItsPointsAndIsFlatBeyond) {
   EXPECT_EQ(Evaluate(kCurve, 0.0), 0.0);
@@ -30,12 +31,15 @@ TEST(SlipCurve, GoesThroughItsPointsAndIsFlatBeyond) {
 
 TEST(SlipCurve, StiffnessIsTheSlopeAndFrictionScalesThePeakOnly) {
   const double load = 3000.0, h = 1e-7;
-  EXPECT_NEAR(SteadyForces(kTyre, {h, 0.0, 0.0}, load, 1.0).longitudinal_N / h, LongitudinalStiffness(kTyre, load), 1e-4 * LongitudinalStiffness(kTyre, load));
-  EXPECT_NEAR(-SteadyForces(kTyre, {0.0, h, 0.0}, load, 0.3).lateral_N / h, CorneringStiffness(kTyre, load), 1e-4 * CorneringStiffness(kTyre, load));
+  EXPECT_NEAR(SteadyForces(kTyre, {h, 0.0, 0.0}, load, 1.0).longitudinal_N / h, LongitudinalStiffness(kTyre, load),
+              1e-4 * LongitudinalStiffness(kTyre, load));
+  EXPECT_NEAR(-SteadyForces(kTyre, {0.0, h, 0.0}, load, 0.3).lateral_N / h, CorneringStiffness(kTyre, load),
+              1e-4 * CorneringStiffness(kTyre, load));
   EXPECT_NEAR(LongitudinalStiffness(kTyre, load), 2 * 1.1 / 0.1 * load, 1e-9);
   for (const double friction : {1.0, 0.3}) {
     double most = 0.0;
-    for (double slip = 0.0; slip < 2.0; slip += 1e-4) most = std::max(most, SteadyForces(kTyre, {slip, 0.0, 0.0}, load, friction).longitudinal_N);
+    for (double slip = 0.0; slip < 2.0; slip += 1e-4)
+      most = std::max(most, SteadyForces(kTyre, {slip, 0.0, 0.0}, load, friction).longitudinal_N);
     EXPECT_NEAR(most, LongitudinalPeak(kTyre, load, friction), 1e-3);
     EXPECT_NEAR(most, friction * 1.1 * load, 1e-3);
   }
@@ -51,14 +55,16 @@ TEST(SlipCurve, BothWaysTogetherStayOnTheEllipse) {
       const TyreForces f = SteadyForces(kTyre, {kappa, alpha, 0.0}, load, 0.8);
       EXPECT_GE(f.longitudinal_N * kappa, 0.0);
       EXPECT_LE(f.lateral_N * alpha, 0.0);
-      most = std::max(most, std::hypot(f.longitudinal_N / LongitudinalPeak(kTyre, load, 0.8), f.lateral_N / LateralPeak(kTyre, load, 0.8)));
+      most = std::max(most, std::hypot(f.longitudinal_N / LongitudinalPeak(kTyre, load, 0.8),
+                                       f.lateral_N / LateralPeak(kTyre, load, 0.8)));
     }
   }
   EXPECT_LE(most, 1.0 + 1e-12);
   EXPECT_GT(most, 0.99);
 }
 
-// The relaxing tyre of the Magic Formula carries the curve as well: steadily it is the table, and what holds a car is found again.
+// The relaxing tyre of the Magic Formula carries the curve as well: steadily it is the table, and what holds a car is
+// found again.
 TEST(SlipCurve, TheSteadyTransientIsTheTableAndBearsWhatItIsSetTo) {
   TyreSettings settings;
   settings.slip_curve = kTyre;

@@ -25,7 +25,8 @@ inline BicycleSettings DefaultSettings() {
 }
 
 // A car that has been placed on the ground.
-inline BicycleModel PlacedCar(const BicycleSettings& settings, ground::Ground& ground, const InitialCondition& initial = {}) {
+inline BicycleModel PlacedCar(const BicycleSettings& settings, ground::Ground& ground,
+                              const InitialCondition& initial = {}) {
   BicycleModel car(settings);
   const base::Status status = car.Initialise(initial, ground);
   EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().Text());

@@ -8,8 +8,8 @@
 
 namespace rodeira::dynamics {
 
-// Seeded hills: three sines each way; amplitude and steepness by the seed. Optionally cut into terraces (vertical steps),
-// with a world's edge, and with ice here and there. Counts the batches.
+// Seeded hills: three sines each way; amplitude and steepness by the seed. Optionally cut into terraces (vertical
+// steps), with a world's edge, and with ice here and there. Counts the batches.
 class HillGround final : public ground::Ground {
  public:
   struct Kind {

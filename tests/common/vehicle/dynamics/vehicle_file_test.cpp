@@ -28,7 +28,8 @@ std::string ProblemAfter(const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   text.replace(at, from.size(), to);
-  const auto path = std::filesystem::temp_directory_path() / ("rodeira-vehicle-" + std::to_string(::getpid()) + ".yaml");
+  const auto path =
+      std::filesystem::temp_directory_path() / ("rodeira-vehicle-" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << text;
   const auto model = LoadVehicle(path);
   std::filesystem::remove(path);
@@ -43,7 +44,8 @@ TEST(VehicleFile, TheDefaultCarLoads) {
 }
 
 TEST(VehicleFile, RefusalsNamePlaceAndRemedy) {
-  EXPECT_THAT(ProblemAfter("model: bicycle", "model: bycicle"), HasSubstr(":7: 'model' is 'bycicle'; did you mean 'bicycle'?"));
+  EXPECT_THAT(ProblemAfter("model: bicycle", "model: bycicle"),
+              HasSubstr(":7: 'model' is 'bycicle'; did you mean 'bicycle'?"));
   EXPECT_THAT(ProblemAfter("vehicle/1", "vehicle/7"), HasSubstr("'rodeira' is 'vehicle/7'"));
   EXPECT_THAT(ProblemAfter("  mass_kg: 1050 ", "  mas_kg: 1050 "), HasSubstr("mass_kg"));
   EXPECT_THAT(ProblemAfter("  mass_kg: 1050 ", "  mass_t: 1.05 "), HasSubstr("mass_kg"));
@@ -52,11 +54,15 @@ TEST(VehicleFile, RefusalsNamePlaceAndRemedy) {
   EXPECT_THAT(ProblemAfter("PCX1: 1.6", "PCX9: 1.6"), HasSubstr("'tyre.front.magic_formula.PCX9'"));
   EXPECT_THAT(ProblemAfter("resume_rpm: 6300", "resume_rpm: 6600"), HasSubstr("not below"));
   EXPECT_THAT(ProblemAfter("[3.46, 1.96,", "[1.96, 3.46,"), HasSubstr("does not fall"));
-  EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking_drive: 1.3}\nautomatic:  #"), HasSubstr("'differential.locking_drive' is 1.3"));
+  EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking_drive: 1.3}\nautomatic:  #"),
+              HasSubstr("'differential.locking_drive' is 1.3"));
   EXPECT_THAT(ProblemAfter("automatic:  #", "differential: {locking: 0.3}\nautomatic:  #"), HasSubstr("locking_drive"));
-  EXPECT_EQ(ProblemAfter("automatic:  #", "differential: {preload_Nm: 40, locking_drive: 0.3, locking_overrun: 0.15}\nautomatic:  #"), "");
+  EXPECT_EQ(ProblemAfter("automatic:  #",
+                         "differential: {preload_Nm: 40, locking_drive: 0.3, locking_overrun: 0.15}\nautomatic:  #"),
+            "");
   EXPECT_EQ(ProblemAfter("vertical_Npm: 180000", "enveloping: ring\n  vertical_Npm: 180000"), "");
-  EXPECT_THAT(ProblemAfter("vertical_Npm: 180000", "enveloping: rings\n  vertical_Npm: 180000"), HasSubstr("'wheel.enveloping' is 'rings'; did you mean 'ring'?"));
+  EXPECT_THAT(ProblemAfter("vertical_Npm: 180000", "enveloping: rings\n  vertical_Npm: 180000"),
+              HasSubstr("'wheel.enveloping' is 'rings'; did you mean 'ring'?"));
   EXPECT_THAT(ProblemAfter("driven_axle: front", "driven_axle: frnt"), HasSubstr("did you mean 'front'?"));
   EXPECT_THAT(ProblemAfter("cg_to_front_axle_m: 1.0 ", "cg_to_front_axle_m: 3.0 "), HasSubstr("between the axles"));
   EXPECT_EQ(LoadVehicle("/no/such/car.yaml").error().exit_status(), 2);
@@ -74,7 +80,9 @@ TEST(VehicleFile, TyresMayComeFromAPropertyFile) {
     std::ofstream(folder / "t.tir") << tir;
     return LoadVehicle(folder / "car.yaml");
   };
-  const std::string tir = "[MODEL]\nFITTYP = 52\nFNOMIN = 4100\nPCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 21\nPCY1 = 1.3\nPDY1 = 0.95\nPHY3 = 0.01\nPKY1 = -17\n";
+  const std::string tir =
+      "[MODEL]\nFITTYP = 52\nFNOMIN = 4100\nPCX1 = 1.6\nPDX1 = 1.1\nPKX1 = 21\nPCY1 = 1.3\nPDY1 = 0.95\nPHY3 = "
+      "0.01\nPKY1 = -17\n";
   const auto car = loaded("    tir: t.tir\n    magic_formula: {PDY1: 0.9}\n", tir);
   ASSERT_TRUE(car.ok()) << car.error().Text();
   const MagicFormulaSettings& tyre = static_cast<const BicycleModel&>(*car.value()).settings().tyre[0].formula;
@@ -82,14 +90,18 @@ TEST(VehicleFile, TyresMayComeFromAPropertyFile) {
   EXPECT_EQ(tyre.pky1, -17.0);
   EXPECT_EQ(tyre.pdy1, 0.9);
   EXPECT_EQ(tyre.phy3, 0.01);
-  EXPECT_THAT(loaded("    tir: t.tir\n", "[MODEL]\nFITTYP = 52\nPCX1 = x\n").error().Text(), HasSubstr("t.tir:3: 'PCX1' is 'x'; a number was expected"));
+  EXPECT_THAT(loaded("    tir: t.tir\n", "[MODEL]\nFITTYP = 52\nPCX1 = x\n").error().Text(),
+              HasSubstr("t.tir:3: 'PCX1' is 'x'; a number was expected"));
   EXPECT_THAT(loaded("    tir: none.tir\n", tir).error().Text(), HasSubstr("none.tir"));
   std::filesystem::remove_all(folder);
 }
 
 TEST(VehicleFile, AFurtherKindOfModelIsFound) {
-  const ModelKind more[] = {{"other", [](const config::Map&) -> std::unique_ptr<VehicleModel> { return std::make_unique<BicycleModel>(DefaultSettings()); }}};
-  const auto path = std::filesystem::temp_directory_path() / ("rodeira-vehicle-kind-" + std::to_string(::getpid()) + ".yaml");
+  const ModelKind more[] = {{"other", [](const config::Map&) -> std::unique_ptr<VehicleModel> {
+                               return std::make_unique<BicycleModel>(DefaultSettings());
+                             }}};
+  const auto path =
+      std::filesystem::temp_directory_path() / ("rodeira-vehicle-kind-" + std::to_string(::getpid()) + ".yaml");
   std::ofstream(path) << "rodeira: vehicle/1\nmodel: other\n";
   EXPECT_TRUE(LoadVehicle(path, {}, more).ok());
   EXPECT_FALSE(LoadVehicle(path).ok());

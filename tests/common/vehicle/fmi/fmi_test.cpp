@@ -57,7 +57,8 @@ TEST_F(Fmi, RunsAnFmuAndRestoresItsState) {
   ASSERT_TRUE(state.ok());
   drive(500, 1000);
   const double x = car.Get(*description.Find("x_m")).value();
-  // v' = 1.5 - 0.05 v from rest: v = 30 (1 - e^(-t/20)), x its integral; Euler's steps of 10 ms are off by half a step's acceleration.
+  // v' = 1.5 - 0.05 v from rest: v = 30 (1 - e^(-t/20)), x its integral; Euler's steps of 10 ms are off by half a
+  // step's acceleration.
   EXPECT_NEAR(x, 30.0 * (10.0 - 20.0 * (1.0 - std::exp(-0.5))), 0.1);
   EXPECT_EQ(car.Get(*description.Find("gear")).value(), 1.0);
   ASSERT_TRUE(car.SetState(state.value()).ok());
@@ -84,7 +85,8 @@ TEST_F(Fmi, WhatTheFmuSaysIsToldWithItsFailure) {
   // Of another description than the binary was made for.
   auto other = Unit::Load(folder_.Pack({{"{rodeira-test-car}", "{another}"}}));
   ASSERT_TRUE(other.ok());
-  EXPECT_THAT(other.value()->Instantiate("one").error().Text(), HasSubstr("the guid is {another}, which is another car's"));
+  EXPECT_THAT(other.value()->Instantiate("one").error().Text(),
+              HasSubstr("the guid is {another}, which is another car's"));
 }
 
 TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
@@ -98,12 +100,19 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
   EXPECT_THAT(Refusal(file), HasSubstr("is no XML"));
   WriteZip(file, {{"modelDescription.xml", "<html/>"}});
   EXPECT_THAT(Refusal(file), HasSubstr("no 'fmiModelDescription'"));
-  EXPECT_THAT(Refusal(folder_.Pack({{"fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""}})), HasSubstr("FMI version '3.0'; 2.0 was expected"));
+  EXPECT_THAT(Refusal(folder_.Pack({{"fmiVersion=\"2.0\"", "fmiVersion=\"3.0\""}})),
+              HasSubstr("FMI version '3.0'; 2.0 was expected"));
   EXPECT_THAT(Refusal(folder_.Pack({{"<CoSimulation", "<ModelExchange"}})), HasSubstr("no co-simulation"));
-  EXPECT_THAT(Refusal(folder_.Pack({{"canHandle", "needsExecutionTool=\"true\" canHandle"}})), HasSubstr("maker's program"));
-  EXPECT_THAT(Refusal(folder_.Pack({}, "win64")), HasSubstr("no binaries/linux64/car.so; the platforms that it has binaries for: win64"));
-  EXPECT_THAT(Refusal(folder_.Pack({{"modelIdentifier=\"car\"", "modelIdentifier=\"../car\""}})), HasSubstr("'modelIdentifier' is '../car'"));
-  WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"binaries/linux64/car.so", "\x7f" "ELF of no kind"}});
+  EXPECT_THAT(Refusal(folder_.Pack({{"canHandle", "needsExecutionTool=\"true\" canHandle"}})),
+              HasSubstr("maker's program"));
+  EXPECT_THAT(Refusal(folder_.Pack({}, "win64")),
+              HasSubstr("no binaries/linux64/car.so; the platforms that it has binaries for: win64"));
+  EXPECT_THAT(Refusal(folder_.Pack({{"modelIdentifier=\"car\"", "modelIdentifier=\"../car\""}})),
+              HasSubstr("'modelIdentifier' is '../car'"));
+  WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()},
+                  {"binaries/linux64/car.so",
+                   "\x7f"
+                   "ELF of no kind"}});
   EXPECT_THAT(Refusal(file), HasSubstr("cannot be loaded"));
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"../outside.txt", "x"}});
   EXPECT_THAT(Refusal(file), HasSubstr("'../outside.txt' leads out of its folder"));
@@ -112,11 +121,14 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
 
 // It is tried in a process of its own first.
 TEST_F(Fmi, WhatCrashesOrHangsAsItIsLoadedIsRefused) {
-  EXPECT_THAT(Refusal(folder_.Pack({{"{rodeira-test-car}", "{crashes}"}})), HasSubstr("its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
-  const auto hangs = TryInChild([] {
-    volatile double never = 0.0;
-    while (never < 1.0) never = never * 0.5;
-  }, 1);
+  EXPECT_THAT(Refusal(folder_.Pack({{"{rodeira-test-car}", "{crashes}"}})),
+              HasSubstr("its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
+  const auto hangs = TryInChild(
+      [] {
+        volatile double never = 0.0;
+        while (never < 1.0) never = never * 0.5;
+      },
+      1);
   EXPECT_EQ(hangs.error().exit_status(), 2);
   EXPECT_THAT(hangs.error().Text(), HasSubstr("its binary does not come back within 1 s"));
 }
@@ -164,9 +176,10 @@ TEST(FmiGuard, CrashesEndTheCallInEveryThread) {
     EXPECT_EQ(depth, 5);
     // Foreign code within foreign code: each call has its own end.
     EXPECT_EQ(CallGuarded([&] {
-      EXPECT_EQ(CallGuarded([&] { *nowhere = 1; }), SIGSEGV);
-      *nowhere = 1;
-    }), SIGSEGV);
+                EXPECT_EQ(CallGuarded([&] { *nowhere = 1; }), SIGSEGV);
+                *nowhere = 1;
+              }),
+              SIGSEGV);
   };
   each();
   std::thread(each).join();
@@ -175,18 +188,22 @@ TEST(FmiGuard, CrashesEndTheCallInEveryThread) {
 TEST(FmiGuardDeathTest, OurOwnCrashesAreNotHidden) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto dies = [](int status) { return status != 0; };  // by SIGSEGV, or as a sanitizer will have it
-  EXPECT_EXIT({
-    (void)CallGuarded([] {});
-    (void)::raise(SIGSEGV);
-  }, dies, "");
+  EXPECT_EXIT(
+      {
+        (void)CallGuarded([] {});
+        (void)::raise(SIGSEGV);
+      },
+      dies, "");
 }
 
-// Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: nobody can try foreign code.
+// Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: nobody can try foreign
+// code.
 TEST_F(Fmi, DamagedArchivesAreRefused) {
   const auto file = folder_.path() / "car.fmu";
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"resources/note.txt", "of no use"}});
   const std::string good = base::ReadText(file).value();
-  constexpr std::size_t kEndRecord = 22;  // a ZIP archive ends with its table and this; of the record itself the last bytes say nothing
+  constexpr std::size_t kEndRecord =
+      22;  // a ZIP archive ends with its table and this; of the record itself the last bytes say nothing
   for (std::size_t cut = 0; cut < good.size(); cut += 7) {
     ASSERT_TRUE(base::WriteWhole(file, good.substr(0, cut)).ok());
     const bool is_read = Unpack(file).ok();

@@ -27,9 +27,11 @@ double Settled(const ForceSettings& settings, const ForceMoment& moment) {
 TEST(ForceFeedback, TheRoadsTorqueComesInItsShareAndNeverMore) {
   ForceSettings settings = Bare();
   EXPECT_NEAR(Settled(settings, {0.0, 7.85, 2.0}), settings.share * 2.0 / settings.device_Nm, 1e-12);
-  EXPECT_NEAR(Settled(settings, {0.5, 7.85, -2.0}), -settings.share * 2.0 / settings.device_Nm, 1e-12) << "positive is to the left, both ways";
+  EXPECT_NEAR(Settled(settings, {0.5, 7.85, -2.0}), -settings.share * 2.0 / settings.device_Nm, 1e-12)
+      << "positive is to the left, both ways";
   settings.most_Nm = 1.1;
-  for (const double torque_Nm : {50.0, 1e9, -50.0}) EXPECT_EQ(Settled(settings, {0.0, 7.85, torque_Nm}), std::copysign(0.5, torque_Nm));
+  for (const double torque_Nm : {50.0, 1e9, -50.0})
+    EXPECT_EQ(Settled(settings, {0.0, 7.85, torque_Nm}), std::copysign(0.5, torque_Nm));
   EXPECT_EQ(Settled(settings, {0.0, 7.85, std::numeric_limits<double>::quiet_NaN()}), 0.0);
 }
 
@@ -72,7 +74,8 @@ TEST(ForceFeedback, TheStopPushesBackOnEitherSideAtOnce) {
   for (const double side : {1.0, -1.0}) {
     ForceFeedback law(settings);
     EXPECT_EQ(law.Step({side * 7.85, 7.85, 0.0}, 1.0), 0.0);
-    EXPECT_NEAR(law.Step({side * (7.85 + 0.1), 7.85, 0.0}, 1.01), -side * 0.6 / settings.device_Nm, 1e-9) << "before it has faded in";
+    EXPECT_NEAR(law.Step({side * (7.85 + 0.1), 7.85, 0.0}, 1.01), -side * 0.6 / settings.device_Nm, 1e-9)
+        << "before it has faded in";
     EXPECT_EQ(law.Step({side * 9.5, 7.85, 0.0}, 1.02), -side) << "limited";
   }
 }
@@ -83,12 +86,15 @@ TEST(ForceFeedback, ABumpUnderOneWheelIsFeltAndPassesWithTheWheelStraight) {
   settings.fade_s = 0.1;
   ForceFeedback law(settings);
   double now_s = 5.0;
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(law.Step({0.0, 7.85, 0.0, -700.0}, now_s += 0.01), 0.0) << "load that shifts slowly is not the road: " << i;
+  for (int i = 0; i < 100; ++i)
+    ASSERT_EQ(law.Step({0.0, 7.85, 0.0, -700.0}, now_s += 0.01), 0.0)
+        << "load that shifts slowly is not the road: " << i;
   double expected_Nm = ForceFeedback::kFeelArm_m * 300.0;
   constexpr double kKept = ForceFeedback::kFeelSlow_s / (ForceFeedback::kFeelSlow_s + 0.01);
   for (int i = 0; i < 50; ++i) {
     expected_Nm *= kKept;
-    ASSERT_NEAR(law.Step({0.0, 7.85, 0.0, -400.0}, now_s += 0.01), expected_Nm / settings.device_Nm, 1e-12) << "more load on the left pulls to the left: " << i;
+    ASSERT_NEAR(law.Step({0.0, 7.85, 0.0, -400.0}, now_s += 0.01), expected_Nm / settings.device_Nm, 1e-12)
+        << "more load on the left pulls to the left: " << i;
   }
   EXPECT_NEAR(ForceFeedback::kFeelArm_m * 300.0, 0.1875, 1e-12) << "Nm at the rim, of 300 N";
 }
@@ -103,7 +109,8 @@ TEST(ForceFeedback, TheRoadsRoughnessIsLimitedAndNothingAfterAPause) {
   EXPECT_EQ(law.Step({0.0, 7.85, 0.0, std::numeric_limits<double>::quiet_NaN()}, now_s += 0.01), 0.0);
   EXPECT_TRUE(std::isfinite(law.Step({0.0, 7.85, 0.0, -1e6}, now_s += 0.01))) << "and is not remembered";
   now_s += 0.5;
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(law.Step({0.0, 7.85, 0.0, 900.0}, now_s += 0.01), 0.0) << "what is after a pause is what is usual";
+  for (int i = 0; i < 100; ++i)
+    ASSERT_EQ(law.Step({0.0, 7.85, 0.0, 900.0}, now_s += 0.01), 0.0) << "what is after a pause is what is usual";
   settings.road_feel = 0.0;
   ForceFeedback deaf(settings);
   for (int i = 0; i < 200; ++i) ASSERT_EQ(deaf.Step({0.0, 7.85, 0.0, i % 2 == 0 ? 900.0 : -900.0}, now_s += 0.01), 0.0);
@@ -115,7 +122,8 @@ class FakeMotor final : public ForceDevice {
   struct Told {
     double at_s, share, for_s;
   };
-  FakeMotor(const double& now_s, std::vector<Told>& told, const bool& there) : now_s_(now_s), told_(told), there_(there) {}
+  FakeMotor(const double& now_s, std::vector<Told>& told, const bool& there)
+      : now_s_(now_s), told_(told), there_(there) {}
   bool Push(double share, double for_s) override {
     if (there_) told_.push_back({now_s_, share, for_s});
     return there_;
@@ -137,7 +145,8 @@ TEST(ForceDriver, WhereNobodyTellsItTheWheelIsFreeWithinATenthOfASecond) {
     driver.Tell({0.0, 7.85, 2.0}, now_s);
   }
   ASSERT_EQ(told.size(), 200u);
-  for (std::size_t i = 1; i < told.size(); ++i) ASSERT_GT(told[i - 1].at_s + told[i - 1].for_s, told[i].at_s) << "no gap while it drives: " << i;
+  for (std::size_t i = 1; i < told.size(); ++i)
+    ASSERT_GT(told[i - 1].at_s + told[i - 1].for_s, told[i].at_s) << "no gap while it drives: " << i;
   EXPECT_LE(told.back().for_s, 0.1);
   EXPECT_GT(told.back().share, 0.0);
   // After the pause it begins at nothing.

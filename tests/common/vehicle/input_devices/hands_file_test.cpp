@@ -53,7 +53,8 @@ TEST(KeyboardFile, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(KeyboardComplaint("keys:\n  steer_left: [left]\n  steer_right: [k]\n  throttle: [up]\n  brake: [down]\n"),
             "keys.yaml:4: 'k' cannot drive: the window keeps it (camera)");
   EXPECT_EQ(
-      KeyboardComplaint("keys: {steer_left: [left], steer_right: [right], throttle: [up], brake: [down], handbrake: [space]}\n"),
+      KeyboardComplaint(
+          "keys: {steer_left: [left], steer_right: [right], throttle: [up], brake: [down], handbrake: [space]}\n"),
       "keys.yaml:2: 'space' cannot drive: the window keeps it (pause the run, and go on)");
   EXPECT_EQ(KeyboardComplaint("keys: {steer_left: [left], steer_right: [left], throttle: [up], brake: [down]}\n"),
             "keys.yaml:2: 'left' is taken for 'steer_left' already; a key that does nothing else was expected");
@@ -71,17 +72,19 @@ TEST(WheelFile, TheProjectsOwnIsRead) {
 
 TEST(WheelFile, WrongOnesAreRefusedWithTheirPlace) {
   EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0}\n"), "");
-  EXPECT_EQ(
-      WheelComplaint("devices: {rim: 0300}\nsteering: {axis: 0}\n"),
-      "wheel.yaml:2: 'devices.rim' is '0300'; a GUID of 32 hexadecimal digits was expected, as `rodeira joysticks` lists them");
+  EXPECT_EQ(WheelComplaint("devices: {rim: 0300}\nsteering: {axis: 0}\n"),
+            "wheel.yaml:2: 'devices.rim' is '0300'; a GUID of 32 hexadecimal digits was expected, as `rodeira "
+            "joysticks` lists them");
   EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0}\nbrake: {device: rimm, axis: 1}\n"),
             "wheel.yaml:4: there is no device 'rimm'; did you mean 'rim'?");
-  EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0}\nbrake: {axis: 1, min: 5, max: -5}\n"),
-            "wheel.yaml:4: 'max' is -5 and 'min' 5; a larger 'max' was expected ('inverted: true' turns an axis round)");
+  EXPECT_EQ(
+      WheelComplaint(kDevice + "steering: {axis: 0}\nbrake: {axis: 1, min: 5, max: -5}\n"),
+      "wheel.yaml:4: 'max' is -5 and 'min' 5; a larger 'max' was expected ('inverted: true' turns an axis round)");
   EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0, centre: 40000}\n"),
             "wheel.yaml:3: 'centre' is 40000; a number between 'min' (-32768) and 'max' (32767) was expected");
-  EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0}\npedals: {axis: 1}\nbrake: {axis: 2}\n"),
-            "wheel.yaml:4: 'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
+  EXPECT_EQ(
+      WheelComplaint(kDevice + "steering: {axis: 0}\npedals: {axis: 1}\nbrake: {axis: 2}\n"),
+      "wheel.yaml:4: 'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
   EXPECT_EQ(WheelComplaint(kDevice + "steering: {axis: 0}\nlever: {7: {button: 3}}\n"),
             "wheel.yaml:4: '7' is no place of the lever; reverse or a gear from 1 to 5 was expected");
   EXPECT_NE(WheelComplaint(kDevice).find("steering"), std::string::npos);

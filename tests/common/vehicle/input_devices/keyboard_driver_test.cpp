@@ -42,7 +42,8 @@ TEST(KeyboardDriver, AHeldKeyTurnsTheWheelAtItsRateToTheLockOfTheSpeed) {
       for (int i = 0; i < 100; ++i) {
         const double angle = driver.Step(Holding({Action::kSteerLeft}, v), dt).steering_wheel_rad;
         t += dt;
-        EXPECT_NEAR(angle, std::min(1.0, t / s.turn_s) * Lock(s, v), 1e-12 * s.lock_rad * 100) << v << " m/s, " << t << " s";
+        EXPECT_NEAR(angle, std::min(1.0, t / s.turn_s) * Lock(s, v), 1e-12 * s.lock_rad * 100)
+            << v << " m/s, " << t << " s";
       }
     }
   }
@@ -70,7 +71,8 @@ TEST(KeyboardDriver, LetGoTheWheelComesBackAtItsRateAndStandsAtExactlyZero) {
   EXPECT_EQ(driver.controls().steering_wheel_rad, 0.0);
 }
 
-// From the right lock to the left key: first back at the centring rate, then out at the turning rate, also within one step.
+// From the right lock to the left key: first back at the centring rate, then out at the turning rate, also within one
+// step.
 TEST(KeyboardDriver, ChangingSidesPassesTheMiddleWithoutLosingTime) {
   const KeyboardSettings s = Settings();
   for (const double dt : {0.002, 0.04}) {
@@ -90,8 +92,8 @@ TEST(KeyboardDriver, AWheelBeyondTheLockOfAHigherSpeedGivesWayAtTheCentringRate)
   KeyboardDriver driver(s);
   for (int i = 0; i < 200; ++i) driver.Step(Holding({Action::kSteerLeft}, 0.0), 0.01);
   const double lock = Lock(s, 30.0);
-  EXPECT_NEAR(driver.Step(Holding({Action::kSteerLeft}, 30.0), 0.01).steering_wheel_rad, s.lock_rad - 0.01 * lock / s.centre_s,
-              1e-12);
+  EXPECT_NEAR(driver.Step(Holding({Action::kSteerLeft}, 30.0), 0.01).steering_wheel_rad,
+              s.lock_rad - 0.01 * lock / s.centre_s, 1e-12);
   for (int i = 0; i < 5000; ++i) driver.Step(Holding({Action::kSteerLeft}, 30.0), 0.01);
   EXPECT_DOUBLE_EQ(driver.controls().steering_wheel_rad, lock);
 }

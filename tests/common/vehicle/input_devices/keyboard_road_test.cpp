@@ -7,8 +7,8 @@
 
 #include "common/driving/driver/lane_path.hpp"
 #include "common/driving/driver/speed_plan.hpp"
-#include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/tree.hpp"
 
@@ -60,8 +60,9 @@ Drive DriveBy(const Person& person, const KeyboardSettings& settings) {
   auto car = dynamics::LoadVehicle(kConfigs / "vehicles/default.yaml").value();
   const driver::LaneFrame start = path.At(5.0);
   EXPECT_TRUE(
-      car->Initialise({.x_m = start.p_W.x(), .y_m = start.p_W.y(), .z_hint_m = start.p_W.z(), .heading_rad = start.heading_rad},
-                      *ground)
+      car->Initialise(
+             {.x_m = start.p_W.x(), .y_m = start.p_W.y(), .z_hint_m = start.p_W.z(), .heading_rad = start.heading_rad},
+             *ground)
           .ok());
   KeyboardDriver driver(settings);
   std::deque<KeyboardInput> on_the_way(static_cast<std::size_t>(person.delay_ms / 10));
@@ -73,7 +74,8 @@ Drive DriveBy(const Person& person, const KeyboardSettings& settings) {
     drive.worst_m = std::max(drive.worst_m, std::fabs(place->offset_m));
     drive.arrived = place->d_m > path.length_m() - 40.0;
     if (drive.arrived) return drive;
-    if (ms % person.decides_ms == 0) decided = Look(person, car->state(), path, place->d_m, plan.At(place->d_m + 5.0).speed_mps);
+    if (ms % person.decides_ms == 0)
+      decided = Look(person, car->state(), path, place->d_m, plan.At(place->d_m + 5.0).speed_mps);
     if (ms % 10 == 0) {
       on_the_way.push_back(decided);
       KeyboardInput input = on_the_way.front();

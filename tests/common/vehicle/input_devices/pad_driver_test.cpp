@@ -51,7 +51,8 @@ TEST(PadDriver, TheStickSaysWhereBetweenTheLocksOfThisSpeed) {
       double wheel = 0.0;
       for (int i = 0; i < 200; ++i) wheel = driver.Step(Stick(stick), 1, speed_mps, kDt_s).steering_wheel_rad;
       const double lock = settings.lock_rad / (1.0 + speed_mps * speed_mps / (6.5 * 6.5));
-      EXPECT_NEAR(wheel, -std::copysign(lock * std::pow((std::fabs(stick) - 0.12) / 0.88, 1.6), stick), 1e-9) << speed_mps << " " << stick;
+      EXPECT_NEAR(wheel, -std::copysign(lock * std::pow((std::fabs(stick) - 0.12) / 0.88, 1.6), stick), 1e-9)
+          << speed_mps << " " << stick;
     }
   }
   PadDriver driver(settings);

@@ -28,7 +28,8 @@ TEST(Signals, APressBeginsAndAnotherOneEnds) {
   EXPECT_EQ(lever.Step(Left(3), 0.0).indicators, Indicators::kLeft);
 }
 
-// The wheel goes a way and comes back; the indicator goes out where it is straight again, and only behind a bend to its own side.
+// The wheel goes a way and comes back; the indicator goes out where it is straight again, and only behind a bend to its
+// own side.
 TEST(Signals, ItGoesOutBehindItsOwnBend) {
   const auto out_at = [](const SignalRequests& side, double most_rad) -> double {
     SignalSwitch lever;

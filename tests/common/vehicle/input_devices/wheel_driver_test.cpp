@@ -136,12 +136,14 @@ TEST(WheelDriver, AButtonHeldIsOnePress) {
   EXPECT_TRUE(driver.controls().starter);
 }
 
-// Buttons for lamps, horn and R N D: presses count once each, the horn sounds while its button is down, and where the wheel is unplugged
-// nobody holds it.
+// Buttons for lamps, horn and R N D: presses count once each, the horn sounds while its button is down, and where the
+// wheel is unplugged nobody holds it.
 TEST(WheelDriver, ButtonsForLampsHornAndGearsDoWhatTheySay) {
   WheelSettings settings = Settings();
-  const std::array uses{WheelButton::kIndicateLeft, WheelButton::kHeadlights, WheelButton::kHorn, WheelButton::kReverse, WheelButton::kNeutral, WheelButton::kDrive};
-  for (std::size_t i = 0; i < uses.size(); ++i) settings.buttons[static_cast<std::size_t>(uses[i])] = ButtonUse{0, 10 + i, ""};
+  const std::array uses{WheelButton::kIndicateLeft, WheelButton::kHeadlights, WheelButton::kHorn,
+                        WheelButton::kReverse,      WheelButton::kNeutral,    WheelButton::kDrive};
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    settings.buttons[static_cast<std::size_t>(uses[i])] = ButtonUse{0, 10 + i, ""};
   WheelDriver driver(settings);
   auto readings = Rest();
   readings[0].buttons.assign(16, 0);

@@ -17,12 +17,15 @@ using Stage = WheelSetup::Stage;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-// A person at devices with some axes: moves one thing at a time, a hundredth of a second each step, with the noise of real pots.
+// A person at devices with some axes: moves one thing at a time, a hundredth of a second each step, with the noise of
+// real pots.
 class Person {
  public:
-  explicit Person(std::vector<std::vector<double>> axes, std::size_t buttons = 8) : at_(std::move(axes)), buttons_(at_.size(), std::vector<std::uint8_t>(buttons, 0)) {
+  explicit Person(std::vector<std::vector<double>> axes, std::size_t buttons = 8)
+      : at_(std::move(axes)), buttons_(at_.size(), std::vector<std::uint8_t>(buttons, 0)) {
     std::vector<DeviceUse> devices;
-    for (std::size_t d = 0; d < at_.size(); ++d) devices.push_back({"device" + std::to_string(d + 1), std::string(32, static_cast<char>('a' + d)), ""});
+    for (std::size_t d = 0; d < at_.size(); ++d)
+      devices.push_back({"device" + std::to_string(d + 1), std::string(32, static_cast<char>('a' + d)), ""});
     setup_ = std::make_unique<WheelSetup>(devices, 450.0 * kDegree);
   }
   WheelSetup& setup() { return *setup_; }
@@ -79,7 +82,8 @@ void Steer(Person& person, std::size_t device, std::size_t axis, double left, do
 }
 
 // What those settings make of raw numbers.
-dynamics::Controls Driven(const WheelSettings& settings, const std::vector<std::vector<std::vector<double>>>& positions) {
+dynamics::Controls Driven(const WheelSettings& settings,
+                          const std::vector<std::vector<std::vector<double>>>& positions) {
   WheelDriver driver(settings);
   dynamics::Controls controls;
   for (const auto& axes : positions) {
@@ -147,7 +151,8 @@ TEST(WheelSetup, SeveralDevicesAndInvertedAxes) {
   ASSERT_EQ(settings.devices.size(), 2u) << "the second one has nothing to do";
   EXPECT_EQ(settings.devices[1].guid, std::string(32, 'c'));
   EXPECT_FALSE(settings.buttons[0]);
-  const dynamics::Controls c = Driven(settings, {{{0.0}, {-32768.0, -32768.0, 32767.0}}, {{30000.0}, {32767.0, -32768.0, -32768.0}}});
+  const dynamics::Controls c =
+      Driven(settings, {{{0.0}, {-32768.0, -32768.0, 32767.0}}, {{30000.0}, {32767.0, -32768.0, -32768.0}}});
   EXPECT_GT(c.steering_wheel_rad, 400.0 * kDegree);
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_EQ(c.brake, 0.0);
@@ -172,7 +177,8 @@ TEST(WheelSetup, TwoPedalsOnOneAxis) {
     const WheelSettings settings = person.setup().settings();
     EXPECT_TRUE(settings.buttons[static_cast<std::size_t>(WheelButton::kCamera)]);
     EXPECT_FALSE(settings.buttons[static_cast<std::size_t>(WheelButton::kPause)]);
-    const dynamics::Controls go = Driven(settings, {{{0.0, 0.0}}, {{0.0, throttle}}}), stop = Driven(settings, {{{0.0, 0.0}}, {{0.0, -throttle}}});
+    const dynamics::Controls go = Driven(settings, {{{0.0, 0.0}}, {{0.0, throttle}}}),
+                             stop = Driven(settings, {{{0.0, 0.0}}, {{0.0, -throttle}}});
     EXPECT_EQ(go.throttle, 1.0);
     EXPECT_EQ(go.brake, 0.0);
     EXPECT_EQ(stop.throttle, 0.0);
@@ -192,7 +198,8 @@ TEST(WheelSetup, WhatADeviceSaysBeforeItMovesIsNotBelieved) {
   ASSERT_EQ(person.setup().stage(), Stage::kClutch) << person.setup().remark();
   person.Press(0, 0);
   for (const std::size_t button : {1, 2, 3, 4}) person.Press(0, button);
-  const dynamics::Controls c = Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
+  const dynamics::Controls c =
+      Driven(person.setup().settings(), {{{0.0, 32767.0, 32767.0}}, {{0.0, -32768.0, 30000.0}}});
   EXPECT_EQ(c.throttle, 1.0);
   EXPECT_LT(c.brake, 0.05);
 }
@@ -202,7 +209,9 @@ TEST(WheelSetup, APedalThatIsHeldIsWaitedFor) {
   for (const double up : {32767.0, -32768.0}) {
     Person person({{0.0, up, up, up}});
     Steer(person, 0, 0, -32000.0, 32000.0);
-    for (const auto& [axis, stage, pedal] : {std::tuple(std::size_t{1}, Stage::kThrottle, "throttle"), {std::size_t{2}, Stage::kBrake, "brake"}, {std::size_t{3}, Stage::kClutch, "clutch"}}) {
+    for (const auto& [axis, stage, pedal] : {std::tuple(std::size_t{1}, Stage::kThrottle, "throttle"),
+                                             {std::size_t{2}, Stage::kBrake, "brake"},
+                                             {std::size_t{3}, Stage::kClutch, "clutch"}}) {
       ASSERT_EQ(person.setup().stage(), stage) << person.setup().remark();
       person.Move(0, axis, -up);
       person.Wait(3.0);
@@ -210,7 +219,8 @@ TEST(WheelSetup, APedalThatIsHeldIsWaitedFor) {
       person.Move(0, axis, -up);
       person.Wait(3.0);
       ASSERT_EQ(person.setup().stage(), stage) << "held at the floor";
-      EXPECT_EQ(person.setup().remark(), std::string("The ") + pedal + " has not come back yet: release it, or press it once more.");
+      EXPECT_EQ(person.setup().remark(),
+                std::string("The ") + pedal + " has not come back yet: release it, or press it once more.");
       person.Move(0, axis, up);
       person.Wait(0.7);
     }

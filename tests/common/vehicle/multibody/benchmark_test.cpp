@@ -55,7 +55,8 @@ TEST(Benchmark, A02FortyFourBarsFollowTheClosedForm) {
   const double h = 1e-5;
   const auto pull = [&](double a) { return -k * g * std::cos(a); };
   for (int i = 0; i < 200000; ++i) {
-    const double k1 = pull(angle), k2 = pull(angle + 0.5 * h * rate), k3 = pull(angle + 0.5 * h * rate + 0.25 * h * h * k1);
+    const double k1 = pull(angle), k2 = pull(angle + 0.5 * h * rate),
+                 k3 = pull(angle + 0.5 * h * rate + 0.25 * h * h * k1);
     const double k4 = pull(angle + h * rate + 0.5 * h * h * k2);
     angle += h * rate + h * h / 6.0 * (k1 + k2 + k3);
     rate += h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4);

@@ -29,7 +29,8 @@ Problem Random(std::uint64_t seed, int entities, double diagonal) {
   for (int g = 0; g < 2 * entities; ++g) {
     std::vector<int> group;
     for (std::uint64_t k = 0; k < 3; ++k) {
-      const auto at = static_cast<std::size_t>(base::RandomBits({seed, static_cast<std::uint64_t>(g), k}) % free.size());
+      const auto at =
+          static_cast<std::size_t>(base::RandomBits({seed, static_cast<std::uint64_t>(g), k}) % free.size());
       if (std::find(group.begin(), group.end(), free[at]) == group.end()) group.push_back(free[at]);
     }
     for (const int a : group) {

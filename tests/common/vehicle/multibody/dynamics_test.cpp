@@ -30,7 +30,8 @@ TEST(Order, IsTwo) {
   for (const double step : {0.004, 0.002, 0.001}) {
     Mechanism pendulum = Example("pendulum");
     RunTo(pendulum, 1.0, step);
-    const double error = std::hypot(Value(pendulum, "x_m") + 0.986291751131875, Value(pendulum, "y_m") + 0.165010853125541);
+    const double error =
+        std::hypot(Value(pendulum, "x_m") + 0.986291751131875, Value(pendulum, "y_m") + 0.165010853125541);
     if (before > 0.0) {
       EXPECT_NEAR(std::log2(before / error), 2.0, 0.1) << step;
     }
@@ -151,7 +152,8 @@ outputs: {x: S.x, vx: S.vx, ax: S.ax, angle: crank, rate: crank.rate}
   EXPECT_NEAR(Value(slider, "angle"), a, 1e-9);
   EXPECT_NEAR(Value(slider, "x"), r * std::cos(a) + root, 1e-9);
   EXPECT_NEAR(Value(slider, "vx"), -r * w * std::sin(a) * (1.0 + r * std::cos(a) / root), 1e-7);
-  const double d2 = -(r * r * std::cos(2.0 * a)) / root - std::pow(r * r * std::sin(a) * std::cos(a), 2) / std::pow(root, 3);
+  const double d2 =
+      -(r * r * std::cos(2.0 * a)) / root - std::pow(r * r * std::sin(a) * std::cos(a), 2) / std::pow(root, 3);
   EXPECT_NEAR(Value(slider, "ax"), w * w * (-r * std::cos(a) + d2), 1e-4);
 }
 
@@ -170,7 +172,9 @@ TEST(Redundant, BricardsLoopMovesAndKeepsItsEnergy) {
     drift = std::max(drift, std::fabs(Value(loop, "energy_J") - start));
     // Bricard's closed form: the cosines between neighbouring rods are by turns c and d, with c d + c + d = 0.
     std::array<Vector3d, 6> rods;
-    for (int k = 0; k < 6; ++k) rods[static_cast<std::size_t>(k)] = PointOf(loop, "P" + std::to_string((k + 1) % 6)) - PointOf(loop, "P" + std::to_string(k));
+    for (int k = 0; k < 6; ++k)
+      rods[static_cast<std::size_t>(k)] =
+          PointOf(loop, "P" + std::to_string((k + 1) % 6)) - PointOf(loop, "P" + std::to_string(k));
     const double c = rods[0].dot(rods[1]), d = rods[1].dot(rods[2]);
     for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(rods[k].dot(rods[(k + 1) % 6]), k % 2 == 0 ? c : d, 1e-7) << i;
     EXPECT_NEAR(c * d + c + d, 0.0, 1e-7) << i;

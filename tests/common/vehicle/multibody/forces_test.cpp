@@ -24,8 +24,9 @@ Vector3d PointOf(const Mechanism& mechanism, const std::string& name) {
   return Vector3d::Zero();
 }
 
-// Joint forces of a four-bar linkage against Newton's and Euler's equations of its three rods, solved by themselves from where the rods are
-// and how fast: eight forces and three angular accelerations from nine equations of motion and the coupler's end, which both ends give.
+// Joint forces of a four-bar linkage against Newton's and Euler's equations of its three rods, solved by themselves
+// from where the rods are and how fast: eight forces and three angular accelerations from nine equations of motion and
+// the coupler's end, which both ends give.
 TEST(Reactions, JointForcesOfAFourBarAreNewtonsAndEulers) {
   Mechanism bars = Parsed(R"(
 planar: true
@@ -57,7 +58,8 @@ outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: j
     Eigen::Matrix<double, 11, 11> m = Eigen::Matrix<double, 11, 11>::Zero();
     Eigen::Matrix<double, 11, 1> right = Eigen::Matrix<double, 11, 1>::Zero();
     int row = 0;
-    const auto body = [&](double mass_kg, const Flat& middle, const Flat& length, const std::vector<std::tuple<int, double, Flat>>& forces,
+    const auto body = [&](double mass_kg, const Flat& middle, const Flat& length,
+                          const std::vector<std::tuple<int, double, Flat>>& forces,
                           const std::vector<std::pair<int, Flat>>& accelerates, const Flat& known, int turn) {
       for (const auto& [force, sign, at] : forces) {
         m.block<2, 2>(row, 2 * force) += sign * Eigen::Matrix2d::Identity();
@@ -70,9 +72,10 @@ outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: j
     };
     const Flat inward_b = -w1 * w1 * crank, inward_c = inward_b - w2 * w2 * coupler;
     body(1.0, 0.5 * (a_m + b_m), crank, {{0, 1.0, a_m}, {1, -1.0, b_m}}, {{0, 0.5 * about(crank)}}, 0.5 * inward_b, 0);
-    body(2.0, 0.5 * (b_m + c_m), coupler, {{1, 1.0, b_m}, {2, -1.0, c_m}}, {{0, about(crank)}, {1, 0.5 * about(coupler)}},
-         0.5 * (inward_b + inward_c), 1);
-    body(1.5, 0.5 * (c_m + d_m), rocker, {{2, 1.0, c_m}, {3, 1.0, d_m}}, {{2, 0.5 * about(rocker)}}, -0.5 * w3 * w3 * rocker, 2);
+    body(2.0, 0.5 * (b_m + c_m), coupler, {{1, 1.0, b_m}, {2, -1.0, c_m}},
+         {{0, about(crank)}, {1, 0.5 * about(coupler)}}, 0.5 * (inward_b + inward_c), 1);
+    body(1.5, 0.5 * (c_m + d_m), rocker, {{2, 1.0, c_m}, {3, 1.0, d_m}}, {{2, 0.5 * about(rocker)}},
+         -0.5 * w3 * w3 * rocker, 2);
     m.block<2, 1>(row, 8) = about(crank);
     m.block<2, 1>(row, 9) = about(coupler);
     m.block<2, 1>(row, 10) = -about(rocker);
@@ -80,7 +83,8 @@ outputs: {ax: joint crank A.x, ay: joint crank A.y, bx: joint coupler B.x, by: j
     const Eigen::Matrix<double, 11, 1> solved = m.partialPivLu().solve(right);
     int k = 0;
     for (const std::string force : {"ax", "ay", "bx", "by", "cx", "cy", "dx", "dy"}) {
-      EXPECT_NEAR(Value(bars, force), solved[k], 2e-3 * (1.0 + solved.head<8>().norm())) << force << " at " << 0.02 * i << " s";
+      EXPECT_NEAR(Value(bars, force), solved[k], 2e-3 * (1.0 + solved.head<8>().norm()))
+          << force << " at " << 0.02 * i << " s";
       most_N = std::max(most_N, std::fabs(solved[k++]));
     }
   }
@@ -121,7 +125,8 @@ outputs: {x: P.x, pull: force spring}
   RunTo(mass, 1.5, 0.0005);
   const double w0 = 10.0, zeta = 4.0 / (2.0 * std::sqrt(200.0 * 2.0));
   const double wd = w0 * std::sqrt(1.0 - zeta * zeta);
-  const double expected = 1.0 + 0.1 * std::exp(-zeta * w0 * 1.5) * (std::cos(wd * 1.5) + zeta * w0 / wd * std::sin(wd * 1.5));
+  const double expected =
+      1.0 + 0.1 * std::exp(-zeta * w0 * 1.5) * (std::cos(wd * 1.5) + zeta * w0 / wd * std::sin(wd * 1.5));
   EXPECT_NEAR(Value(mass, "x"), expected, 1e-6);
 }
 
@@ -180,8 +185,8 @@ outputs: {z: B.z, tip: tip.z, force: force bush}
   EXPECT_NEAR(2000.0 * sine, 2.0 * 9.81 * 0.3 * std::sqrt(1.0 - sine * sine), 1e-4);
 }
 
-// The same on the ends of a rod, which has no frame of its own: each end gives by its share of the weight, along the wall's
-// own axes, which lie askew here.
+// The same on the ends of a rod, which has no frame of its own: each end gives by its share of the weight, along the
+// wall's own axes, which lie askew here.
 TEST(Bushings, HoldThePointsOfARod) {
   Mechanism rod = Parsed(R"(
 points:
@@ -229,8 +234,10 @@ outputs: {ax: A.x, ay: A.y, avx: A.vx, avy: A.vy, px: P.x, py: P.y, pvx: P.vx, p
 )");
   const auto v = [&pair](const char* name) { return Value(pair, name); };
   const auto angular = [&v] {
-    const double cx = 0.5 * (v("px") + v("qx")), cy = 0.5 * (v("py") + v("qy")), cvx = 0.5 * (v("pvx") + v("qvx")), cvy = 0.5 * (v("pvy") + v("qvy"));
-    const double frame_turning = (v("ex") - v("ax")) * (v("evy") - v("avy")) - (v("ey") - v("ay")) * (v("evx") - v("avx"));
+    const double cx = 0.5 * (v("px") + v("qx")), cy = 0.5 * (v("py") + v("qy")), cvx = 0.5 * (v("pvx") + v("qvx")),
+                 cvy = 0.5 * (v("pvy") + v("qvy"));
+    const double frame_turning =
+        (v("ex") - v("ax")) * (v("evy") - v("avy")) - (v("ey") - v("ay")) * (v("evx") - v("avx"));
     const double wx = v("qx") - v("px"), wy = v("qy") - v("py");
     const double rod_turning = wx * (v("qvy") - v("pvy")) - wy * (v("qvx") - v("pvx"));  // of a length of 1 m
     return 3.0 * (v("ax") * v("avy") - v("ay") * v("avx")) + 0.4 * frame_turning + 1.2 * (cx * cvy - cy * cvx) +

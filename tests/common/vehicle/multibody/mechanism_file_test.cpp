@@ -45,19 +45,25 @@ TEST(MechanismFile, MistakesAreNamedWithTheirLine) {
   EXPECT_THAT(Refusal("points: [B, C]", "points: [B, X]"), HasSubstr("bar.yaml:9: 'X' is no point"));
   EXPECT_THAT(Refusal("[1, 0, 0]", "[1, 0]"), HasSubstr("three were expected"));
   EXPECT_THAT(Refusal("mechanism/1", "mechanism/2"), HasSubstr("mechanism/1"));
-  const auto force = [](const std::string& text) { return Refusal("constraints:\n", "forces: {f: {" + text + "}}\nconstraints:\n"); };
+  const auto force = [](const std::string& text) {
+    return Refusal("constraints:\n", "forces: {f: {" + text + "}}\nconstraints:\n");
+  };
   EXPECT_THAT(force("kind: anti_roll, coordinates: [B, C], stiffness_Npm: 1"), HasSubstr("bar.yaml:8: "));
   EXPECT_THAT(force("kind: anti_roll, coordinates: [B], stiffness_Npm: 1"), HasSubstr("two were expected"));
-  EXPECT_THAT(force("kind: bushing, first: crank, point: C, stiffness_Npm: [1, 1, 1]"), HasSubstr("must be a general or planar one"));
+  EXPECT_THAT(force("kind: bushing, first: crank, point: C, stiffness_Npm: [1, 1, 1]"),
+              HasSubstr("must be a general or planar one"));
 }
 
 // A bar joins two different coordinates of one kind.
 TEST(MechanismFile, AnAntiRollBarJoinsTwoOfOneKind) {
   const auto refusal = [](const std::string& pair) {
-    const auto mechanism = ParseMechanism("rodeira: mechanism/1\npoints: {A: {at_m: [0, 0, 0], fixed: true}, B: {at_m: [1, 0, 0]}}\n"
-                                          "bodies: {b: {kind: particle, points: [B], mass_kg: 1}}\n"
-                                          "angles: {turn: {rotor_kgm2: 1}}\ndistances: {way: {points: [A, B]}}\n"
-                                          "forces: {bar: {kind: anti_roll, coordinates: [" + pair + "], stiffness_Npm: 5}}\n", "bar.yaml");
+    const auto mechanism = ParseMechanism(
+        "rodeira: mechanism/1\npoints: {A: {at_m: [0, 0, 0], fixed: true}, B: {at_m: [1, 0, 0]}}\n"
+        "bodies: {b: {kind: particle, points: [B], mass_kg: 1}}\n"
+        "angles: {turn: {rotor_kgm2: 1}}\ndistances: {way: {points: [A, B]}}\n"
+        "forces: {bar: {kind: anti_roll, coordinates: [" +
+            pair + "], stiffness_Npm: 5}}\n",
+        "bar.yaml");
     EXPECT_FALSE(mechanism.ok()) << pair;
     return mechanism.ok() ? std::string() : mechanism.error().Text();
   };
@@ -69,7 +75,8 @@ TEST(MechanismFile, WhatCannotBeAssembledNamesTheConstraintFarthestOff) {
   // B would have to be 1 m from A and 0.2 m from C, which are 1.414 m apart.
   const std::string text = Refusal("length_m: 1", "length_m: 0.2");
   EXPECT_THAT(text, HasSubstr("cannot be assembled"));
-  EXPECT_TRUE(text.find("'tie'") != std::string::npos || text.find("'crank (length A-B)'") != std::string::npos) << text;
+  EXPECT_TRUE(text.find("'tie'") != std::string::npos || text.find("'crank (length A-B)'") != std::string::npos)
+      << text;
 }
 
 TEST(MechanismFile, RedundantConstraintsAreNamed) {

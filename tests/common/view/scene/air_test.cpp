@@ -18,12 +18,14 @@ Air At(double hour, double clouds = 0.0) {
 }
 double Brightness(const Eigen::Vector3f& colour) { return static_cast<double>(colour.sum()); }
 
-// At an equinox the sun rises due east at six, stands 90 - 42 degrees high in the south at noon, and sets due west at six.
+// At an equinox the sun rises due east at six, stands 90 - 42 degrees high in the south at noon, and sets due west at
+// six.
 TEST(Air, TheSunGoesAsAtAnEquinox) {
   EXPECT_NEAR((At(6.0).sun_W - Eigen::Vector3f(1.0F, 0.0F, 0.0F)).norm(), 0.0F, 1e-6F);
   EXPECT_NEAR((At(18.0).sun_W - Eigen::Vector3f(-1.0F, 0.0F, 0.0F)).norm(), 0.0F, 1e-6F);
   const double degree = std::numbers::pi / 180.0;
-  const Eigen::Vector3f noon(0.0F, static_cast<float>(-std::cos(48.0 * degree)), static_cast<float>(std::sin(48.0 * degree)));
+  const Eigen::Vector3f noon(0.0F, static_cast<float>(-std::cos(48.0 * degree)),
+                             static_cast<float>(std::sin(48.0 * degree)));
   EXPECT_NEAR((At(12.0).sun_W - noon).norm(), 0.0F, 1e-6F);
   EXPECT_NEAR(SunHeight_rad(0.0), -48.0 * degree, 1e-9);
   for (double hour = 0.0; hour < 24.0; hour += 0.37) {
@@ -48,7 +50,8 @@ TEST(Air, CloudsTakeTheSun) {
   EXPECT_EQ(At(12.0, 0.5).sun_light, At(12.0, 0.0).sun_light);
   EXPECT_LT(Brightness(At(12.0, 0.8).sun_light), 0.6 * Brightness(At(12.0, 0.0).sun_light));
   EXPECT_EQ(At(12.0, 1.0).sun_light, Eigen::Vector3f::Zero());
-  EXPECT_GT(Brightness(At(12.0, 1.0).base_light), Brightness(At(12.0, 0.0).base_light)) << "its light is spread, not lost";
+  EXPECT_GT(Brightness(At(12.0, 1.0).base_light), Brightness(At(12.0, 0.0).base_light))
+      << "its light is spread, not lost";
 }
 
 // Koschmieder's law with a threshold of a twentieth (the meteorological optical range): exp(-3) = 0.0498.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/view/scene/vehicles/cabin_body.hpp"
 #include "common/view/scene/camera/camera.hpp"
+#include "common/view/scene/vehicles/cabin_body.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -36,7 +36,8 @@ TEST(Dial, HasATickWhereItsNeedleWouldPoint) {
       EXPECT_TRUE(light(value, 0.81)) << dial.unit << value;
       EXPECT_TRUE(light(value, 0.90)) << dial.unit << value;
     }
-    for (double value = 0.5 * dial.ticks; value < dial.most; value += dial.ticks) EXPECT_FALSE(light(value, 0.88)) << dial.unit << value;
+    for (double value = 0.5 * dial.ticks; value < dial.most; value += dial.ticks)
+      EXPECT_FALSE(light(value, 0.88)) << dial.unit << value;
   }
 }
 
@@ -50,11 +51,13 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
     return at && at->x() >= 0.0 && at->x() < 1280.0 && at->y() >= 0.0 && at->y() < 720.0 ? at : std::nullopt;
   };
   for (const CabinDial& dial : CabinDials()) {
-    for (double share = 0.0; share <= 1.0; share += 0.25) EXPECT_TRUE(seen(NeedleEnd_E(dial, share * dial.dial.most))) << dial.dial.unit << share;
+    for (double share = 0.0; share <= 1.0; share += 0.25)
+      EXPECT_TRUE(seen(NeedleEnd_E(dial, share * dial.dial.most))) << dial.dial.unit << share;
   }
   EXPECT_TRUE(seen(GearPlace().middle_E));
   EXPECT_TRUE(seen(WheelMark_E(0.0)));
-  const auto road = camera.Project(car.p_WB_W + Eigen::Vector3d(9.0, 0.3, 0.0), 1280, 720);  // 9 m before the car's middle
+  const auto road =
+      camera.Project(car.p_WB_W + Eigen::Vector3d(9.0, 0.3, 0.0), 1280, 720);  // 9 m before the car's middle
   const Mesh dashboard = BuildDashboard(car.width_m, eye_B.y());
   for (std::size_t i = 0; i < dashboard.positions.size(); ++i) {
     const auto at = camera.Project(eye_B + dashboard.PositionW(i), 1280, 720);
@@ -62,7 +65,8 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
   }
 }
 
-// Nobody sits in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one mirrored at the car's middle.
+// Nobody sits in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one
+// mirrored at the car's middle.
 TEST(CabinBody, LeavesRoomForAHeadAndIsTheSameOnBothSides) {
   for (const auto& [width_m, height_m] : {std::pair(1.65, 1.42), std::pair(1.9, 1.9), std::pair(1.55, 1.15)}) {
     CarPose car;
@@ -73,12 +77,14 @@ TEST(CabinBody, LeavesRoomForAHeadAndIsTheSameOnBothSides) {
     const Mesh body = BuildCabinBody(shape);
     Eigen::Vector3d left = Eigen::Vector3d::Zero(), right = Eigen::Vector3d::Zero();
     for (std::size_t i = 0; i < body.triangles.size(); i += 3) {
-      const Eigen::Vector3d a = body.PositionW(body.triangles[i]), b = body.PositionW(body.triangles[i + 1]), c = body.PositionW(body.triangles[i + 2]);
+      const Eigen::Vector3d a = body.PositionW(body.triangles[i]), b = body.PositionW(body.triangles[i + 1]),
+                            c = body.PositionW(body.triangles[i + 2]);
       const Eigen::Vector3d across = (b - a).cross(c - a);
       EXPECT_GT(std::min({a.norm(), b.norm(), c.norm(), ((a + b + c) / 3.0).norm()}), 0.13);
       const double middle = (a.y() + b.y() + c.y()) / 3.0 + shape.eye_left_m;  // left of the car's middle
       (middle > 0.0 ? left : right) += across.cwiseAbs();
-      for (const Eigen::Vector3d& p : {a, b, c}) EXPECT_LT(std::fabs(p.y() + shape.eye_left_m), 0.5 * width_m) << "within the body";
+      for (const Eigen::Vector3d& p : {a, b, c})
+        EXPECT_LT(std::fabs(p.y() + shape.eye_left_m), 0.5 * width_m) << "within the body";
     }
     EXPECT_LT((left - right).norm(), 0.02 * left.norm());
   }

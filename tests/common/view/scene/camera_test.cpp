@@ -60,7 +60,8 @@ AgentPose LorryBehind(const CarPose& car, double gap_m, double left_m) {
   return lorry;
 }
 
-// However near a lorry comes from behind, and from whichever side: the eye is not in it, sees its own car, and does not leap.
+// However near a lorry comes from behind, and from whichever side: the eye is not in it, sees its own car, and does not
+// leap.
 TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
   const auto world = PlaneWithRoad();
   Moment moment;
@@ -73,10 +74,12 @@ TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
     moment.agents[0] = LorryBehind(car, gap_m, left_m);
     return MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W;
   };
-  const Eigen::Vector3d alone = ChaseCamera(car, *world).eye_W, roof = car.p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8 * car.height_m);
+  const Eigen::Vector3d alone = ChaseCamera(car, *world).eye_W,
+                        roof = car.p_WB_W + Eigen::Vector3d(0.0, 0.0, 0.8 * car.height_m);
   Eigen::Vector3d before = eye(0.5, 0.0);
   for (double gap_m = 0.5; gap_m < 12.0; gap_m += 0.05) {
-    const Eigen::Vector3d at = eye(gap_m, 0.0), in_lorry = moment.agents[0].q_WB.conjugate() * (at - moment.agents[0].p_WB_W);
+    const Eigen::Vector3d at = eye(gap_m, 0.0),
+                          in_lorry = moment.agents[0].q_WB.conjugate() * (at - moment.agents[0].p_WB_W);
     EXPECT_GT(in_lorry.x(), 0.5 * moment.agents[0].length_m + 0.2) << "before its front, " << gap_m;
     EXPECT_EQ(BodyOn(moment, {at, (roof - at).normalized()}), std::optional<std::size_t>(0)) << gap_m;
     EXPECT_LT((at - before).norm(), 0.08) << gap_m;
@@ -100,7 +103,8 @@ TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
   EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone) << "it drives ahead";
   moment.agents[0] = LorryBehind(car, 1.5, 0.0);
   moment.agents[0].height_m = 1.5;
-  EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone) << "over an ordinary car it looks away";
+  EXPECT_EQ(MakeCamera(CameraKind::kChase, moment, 0, {}, *world)->eye_W, alone)
+      << "over an ordinary car it looks away";
   EXPECT_FALSE(MakeCamera(CameraKind::kChase, moment, 2, {}, *world));
 }
 
@@ -118,7 +122,8 @@ TEST(Camera, TheDriverSitsOnTheLeftAndRollsWithTheCar) {
 // In every vehicle of the project, and in lorries: below the roof, and where heads are.
 TEST(Camera, TheDriversEyeIsUnderTheRoof) {
   CarPose car;
-  for (const auto& [height_m, eye_m] : {std::pair(1.15, 0.94), std::pair(1.42, 1.20), std::pair(2.0, 1.20), std::pair(3.4, 2.2)}) {
+  for (const auto& [height_m, eye_m] :
+       {std::pair(1.15, 0.94), std::pair(1.42, 1.20), std::pair(2.0, 1.20), std::pair(3.4, 2.2)}) {
     car.height_m = height_m;
     EXPECT_NEAR(DriversEye_B(car).z(), eye_m, 1e-9) << height_m;
     EXPECT_LT(DriversEye_B(car).z(), height_m - 0.2);
@@ -172,10 +177,16 @@ TEST(Camera, AFreeEyeTurnsAboutTheCarAndStaysOverTheGround) {
   aim.azimuth_rad = 0.0;
   aim.elevation_rad = 0.5;
   aim.distance_m = 10.0;
-  const auto eye_B = [&] { return Eigen::Vector3d(car.q_WB.conjugate() * (OrbitCamera(car, aim, *world).eye_W - car.p_WB_W)); };
-  EXPECT_LT((eye_B() - Eigen::Vector3d(-10.0 * std::cos(0.5), 0.0, 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(), 1e-9) << "behind";
+  const auto eye_B = [&] {
+    return Eigen::Vector3d(car.q_WB.conjugate() * (OrbitCamera(car, aim, *world).eye_W - car.p_WB_W));
+  };
+  EXPECT_LT((eye_B() - Eigen::Vector3d(-10.0 * std::cos(0.5), 0.0, 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(),
+            1e-9)
+      << "behind";
   aim.Turn(0.5 * 3.14159265358979323846, 0.0);
-  EXPECT_LT((eye_B() - Eigen::Vector3d(0.0, -10.0 * std::cos(0.5), 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(), 1e-9) << "over its right side";
+  EXPECT_LT((eye_B() - Eigen::Vector3d(0.0, -10.0 * std::cos(0.5), 0.5 * car.height_m + 10.0 * std::sin(0.5))).norm(),
+            1e-9)
+      << "over its right side";
   aim.Turn(0.0, -3.0);
   const Camera low = OrbitCamera(car, aim, *world);
   EXPECT_GE(low.eye_W.z(), world->At(low.eye_W.x(), low.eye_W.y()).z_m + 0.89);
@@ -189,8 +200,8 @@ TEST(Camera, AFreeEyeTurnsAboutTheCarAndStaysOverTheGround) {
   EXPECT_EQ(aim.distance_m, 2.5);
 }
 
-// Along all of N222 a car in its lane is in the middle of the picture, seen from beside the road, never from within 1 m of it; the eye
-// stands still for as long as the car is on its part of the road.
+// Along all of N222 a car in its lane is in the middle of the picture, seen from beside the road, never from within 1 m
+// of it; the eye stands still for as long as the car is on its part of the road.
 TEST(Camera, BesideTheRoadPostsTakeTurns) {
   const auto world = N222();
   const road::Road& road = N222Road();
@@ -245,12 +256,16 @@ TEST(Camera, AScreenBeforeTheEyeIsAPinholesPicture) {
 TEST(Camera, WhatIsSeenThroughAScreenLiesOnTheRayThroughIt) {
   const CarPose car = CarAt(-20.0, 5.0, 1.0, 1.2);
   const Eigen::Vector3d eye_B = car.q_WB.conjugate() * (DriverCamera(car).eye_W - car.p_WB_W);
-  for (const ScreenPlane& plane : {ScreenPlane{1.2, 0.7, 0.9, 0.0, 0.2, 0.1}, ScreenPlane{0.6, 0.34, 0.7, 0.8, 0.17, -0.2}, ScreenPlane{2.0, 1.5, 1.4, -1.3, 1.0, 0.0}}) {
+  for (const ScreenPlane& plane :
+       {ScreenPlane{1.2, 0.7, 0.9, 0.0, 0.2, 0.1}, ScreenPlane{0.6, 0.34, 0.7, 0.8, 0.17, -0.2},
+        ScreenPlane{2.0, 1.5, 1.4, -1.3, 1.0, 0.0}}) {
     const Camera camera = ScreenCamera(car, plane);
     const Eigen::AngleAxisd turn(plane.angle_rad, Eigen::Vector3d::UnitZ());
     for (const double u : {0.0, 0.3, 1.0}) {    // from the screen's left edge
       for (const double v : {0.0, 0.6, 1.0}) {  // from its upper edge
-        const Eigen::Vector3d on_screen = turn * Eigen::Vector3d(plane.distance_m, -(plane.aside_m + (u - 0.5) * plane.width_m), (1.0 - v) * plane.height_m - plane.eye_height_m);
+        const Eigen::Vector3d on_screen =
+            turn * Eigen::Vector3d(plane.distance_m, -(plane.aside_m + (u - 0.5) * plane.width_m),
+                                   (1.0 - v) * plane.height_m - plane.eye_height_m);
         const auto at = camera.Project(car.p_WB_W + car.q_WB * (eye_B + 37.0 * on_screen), 1600, 900);
         ASSERT_TRUE(at);
         EXPECT_NEAR(at->x(), 1600.0 * u, 1e-6);
@@ -264,11 +279,13 @@ TEST(Camera, WhatIsSeenThroughAScreenLiesOnTheRayThroughIt) {
 TEST(Camera, ThreeScreensHaveNoSeam) {
   const CarPose car = CarAt(0.0, 0.0, 0.0, 0.3);
   const double width = 1.2, distance = 0.9, angle = 2.0 * std::atan(0.5 * width / distance);
-  const Camera left = ScreenCamera(car, {width, 0.7, distance, angle, 0.3, 0.0}), middle = ScreenCamera(car, {width, 0.7, distance, 0.0, 0.3, 0.0});
+  const Camera left = ScreenCamera(car, {width, 0.7, distance, angle, 0.3, 0.0}),
+               middle = ScreenCamera(car, {width, 0.7, distance, 0.0, 0.3, 0.0});
   for (const double away_m : {3.0, 20.0, 400.0}) {
     for (const double up_m : {-0.5, 0.0, 2.0}) {
       const Eigen::Vector3d ray_B(distance, 0.5 * width, 0.0);
-      const Eigen::Vector3d p = middle.eye_W + car.q_WB * Eigen::Vector3d(away_m * ray_B + Eigen::Vector3d(0.0, 0.0, up_m));
+      const Eigen::Vector3d p =
+          middle.eye_W + car.q_WB * Eigen::Vector3d(away_m * ray_B + Eigen::Vector3d(0.0, 0.0, up_m));
       EXPECT_NEAR(middle.Project(p, 1920, 1080)->x(), 0.0, 1e-6);
       EXPECT_NEAR(left.Project(p, 1920, 1080)->x(), 1920.0, 1e-6);
       EXPECT_NEAR(left.Project(p, 1920, 1080)->y(), middle.Project(p, 1920, 1080)->y(), 1e-6);

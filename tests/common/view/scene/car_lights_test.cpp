@@ -24,7 +24,8 @@ TEST(CarLights, EachSwitchHasItsLamps) {
 
 // With headlights there are tail lights, and a brake that is pressed is seen beside them.
 TEST(CarLights, HeadlightsBringTailLights) {
-  for (const auto& [lights, dark] : {std::pair(CarLights{.dipped = true}, false), std::pair(CarLights{.main = true}, false), std::pair(CarLights{}, true)}) {
+  for (const auto& [lights, dark] : {std::pair(CarLights{.dipped = true}, false),
+                                     std::pair(CarLights{.main = true}, false), std::pair(CarLights{}, true)}) {
     const auto glows = GlowsOf(lights, dark, 0);
     EXPECT_GT(glows[At(Lamp::kHead)], 0.0F);
     EXPECT_GT(glows[At(Lamp::kBrake)], 0.0F);

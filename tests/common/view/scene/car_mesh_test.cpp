@@ -12,7 +12,9 @@ namespace rodeira::scene {
 namespace {
 
 using Place = std::tuple<long, long, long>;
-Place PlaceOf(const Eigen::Vector3f& p) { return {std::lround(p.x() * 1e5F), std::lround(p.y() * 1e5F), std::lround(p.z() * 1e5F)}; }
+Place PlaceOf(const Eigen::Vector3f& p) {
+  return {std::lround(p.x() * 1e5F), std::lround(p.y() * 1e5F), std::lround(p.z() * 1e5F)};
+}
 
 // Every edge is run through once each way: the surface is closed and all its faces look to the same side.
 void ExpectClosed(const Mesh& mesh, const char* what) {

@@ -15,7 +15,8 @@
 // The ground as it is drawn, against SUELO.
 namespace rodeira::scene {
 
-// What is asked of a level, in height, and how far beside it what is met may lie: a drawn line may be so far from the edge at which SUELO steps.
+// What is asked of a level, in height, and how far beside it what is met may lie: a drawn line may be so far from the
+// edge at which SUELO steps.
 struct Asked {
   std::size_t level = 0;
   double height_m = 0.005;
@@ -34,14 +35,15 @@ struct Correlation {
 inline bool MeetsNearby(const road::World& world, const Eigen::Vector3d& p, double within_m, double beside_m = 0.003) {
   for (int k = 0; k < 8; ++k) {
     const double angle = 0.785398 * k;
-    const road::SurfacePoint near = world.At(p.x() + beside_m * std::cos(angle), p.y() + beside_m * std::sin(angle), p.z() + 0.3);
+    const road::SurfacePoint near =
+        world.At(p.x() + beside_m * std::cos(angle), p.y() + beside_m * std::sin(angle), p.z() + 0.3);
     if (near.inside && std::fabs(near.z_m - p.z()) < within_m) return true;
   }
   return false;
 }
 
-// Whether SUELO's highest ground steps by more than 2 mm within some distance of a place: the way to 16 places around is halved towards its steeper half
-// until a thousandth of it is left, where ground that does not step rises by less.
+// Whether SUELO's highest ground steps by more than 2 mm within some distance of a place: the way to 16 places around
+// is halved towards its steeper half until a thousandth of it is left, where ground that does not step rises by less.
 inline bool StepsNearby(const road::World& world, const Eigen::Vector3d& p, double within_m) {
   const auto height_m = [&](const Eigen::Vector2d& at) {
     const road::SurfacePoint ground = world.At(at.x(), at.y());
@@ -54,15 +56,18 @@ inline bool StepsNearby(const road::World& world, const Eigen::Vector3d& p, doub
     for (int half = 0; half < 10; ++half) {
       const Eigen::Vector2d middle = 0.5 * (a + b);
       const double middle_m = height_m(middle);
-      if (std::fabs(middle_m - a_m) > std::fabs(b_m - middle_m)) b = middle, b_m = middle_m;
-      else a = middle, a_m = middle_m;
+      if (std::fabs(middle_m - a_m) > std::fabs(b_m - middle_m))
+        b = middle, b_m = middle_m;
+      else
+        a = middle, a_m = middle_m;
     }
     if (std::fabs(b_m - a_m) > 0.002) return true;
   }
   return false;
 }
 
-// How far the nearest of SUELO's surfaces there is from a height: land that comes up to a bridge's deck lies less than a hint can tell below it.
+// How far the nearest of SUELO's surfaces there is from a height: land that comes up to a bridge's deck lies less than
+// a hint can tell below it.
 inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
   double nearest_m = 1e9;
   for (road::SurfacePoint at = world.At(p.x(), p.y()); at.inside;) {
@@ -75,7 +80,8 @@ inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
 }
 
 // A point of the triangles whose areas add up to these sums: one of many that are spread evenly over all of them.
-inline Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles, const std::vector<double>& sums, std::uint64_t seed, std::uint64_t n) {
+inline Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
+                               const std::vector<double>& sums, std::uint64_t seed, std::uint64_t n) {
   const auto draw = [&](std::uint64_t what) { return base::RandomUniform({seed, n, what}, 0.0, 1.0); };
   const auto found = std::upper_bound(sums.begin(), sums.end(), draw(0) * sums.back());
   const auto& t = triangles[std::min(static_cast<std::size_t>(found - sums.begin()), triangles.size() - 1)];
@@ -84,11 +90,15 @@ inline Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>
   return t[0] + a * (t[1] - t[0]) + b * (t[2] - t[0]);
 }
 
-inline bool IsRoad(const Mesh& mesh) { return mesh.material == Material::kRoad || mesh.material == Material::kConcrete || mesh.material == Material::kGravel; }
+inline bool IsRoad(const Mesh& mesh) {
+  return mesh.material == Material::kRoad || mesh.material == Material::kConcrete || mesh.material == Material::kGravel;
+}
 
-// `count` points that count, on a level's triangles that count, evenly by area, against SUELO at the same place and level.
+// `count` points that count, on a level's triangles that count, evenly by area, against SUELO at the same place and
+// level.
 template <class Counts, class PointCounts>
-Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed, const Counts& counts, const Asked& asked, const PointCounts& point_counts) {
+Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed,
+                      const Counts& counts, const Asked& asked, const PointCounts& point_counts) {
   std::vector<std::array<Eigen::Vector3d, 3>> triangles;
   std::vector<double> sums;
   for (const GroundTile& tile : tiles) {
@@ -96,7 +106,8 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
       for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
         if (IsWall(mesh, i) || !counts(mesh, i)) continue;
         triangles.push_back(CornersOf(mesh, i));
-        const Eigen::Vector3d u = triangles.back()[1] - triangles.back()[0], v = triangles.back()[2] - triangles.back()[0];
+        const Eigen::Vector3d u = triangles.back()[1] - triangles.back()[0],
+                              v = triangles.back()[2] - triangles.back()[0];
         sums.push_back((sums.empty() ? 0.0 : sums.back()) + 0.5 * u.cross(v).norm());
       }
     }
@@ -122,11 +133,13 @@ Correlation Correlate(const road::World& world, const std::vector<GroundTile>& t
 
 // The finest level's.
 template <class Counts>
-Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed, const Counts& counts) {
+Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed,
+                      const Counts& counts) {
   return Correlate(world, tiles, count, seed, counts, Asked{}, [](const Eigen::Vector3d&) { return true; });
 }
 
-inline Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count, std::uint64_t seed) {
+inline Correlation Correlate(const road::World& world, const std::vector<GroundTile>& tiles, int count,
+                             std::uint64_t seed) {
   return Correlate(world, tiles, count, seed, [](const Mesh& mesh, std::size_t) { return IsRoad(mesh); });
 }
 

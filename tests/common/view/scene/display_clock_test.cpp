@@ -16,14 +16,16 @@ struct Shown {
 };
 
 // Samples every 20 ms of the simulation at `rate`, each late by up to `jitter_s`; a display of 60 pictures a second.
-std::vector<Shown> Watch(double rate, double jitter_s, double until_s, double pause_from_s = 1e9, double pause_s = 0.0) {
+std::vector<Shown> Watch(double rate, double jitter_s, double until_s, double pause_from_s = 1e9,
+                         double pause_s = 0.0) {
   DisplayClock clock;
   std::vector<Shown> shown;
   double newest = 0.0;
   int k = 0;
   const auto arrival = [&](int i) {
     const double due = i * 0.02 / rate;
-    return due + (due > pause_from_s ? pause_s : 0.0) + jitter_s * base::RandomUniform({7, static_cast<std::uint64_t>(i)});
+    return due + (due > pause_from_s ? pause_s : 0.0) +
+           jitter_s * base::RandomUniform({7, static_cast<std::uint64_t>(i)});
   };
   for (double wall = 0.0; wall < until_s; wall += 1.0 / 60.0) {
     for (; arrival(k) <= wall; ++k) {
@@ -74,8 +76,12 @@ TEST(DisplayClock, StandsDuringAPauseAndFindsBack) {
   double at_pause = 0.0;
   for (const Shown& at : shown) {
     if (at.wall_s < 11.0) at_pause = at.sample_s;
-    if (at.wall_s > 11.0 && at.wall_s < 14.9) { EXPECT_NEAR(at.sample_s, at_pause, 0.02); }
-    if (at.wall_s > 20.0) { EXPECT_NEAR(at.wall_s - 5.0 - at.sample_s, 0.02, 0.02); }
+    if (at.wall_s > 11.0 && at.wall_s < 14.9) {
+      EXPECT_NEAR(at.sample_s, at_pause, 0.02);
+    }
+    if (at.wall_s > 20.0) {
+      EXPECT_NEAR(at.wall_s - 5.0 - at.sample_s, 0.02, 0.02);
+    }
   }
 }
 

@@ -12,12 +12,17 @@ namespace rodeira::scene {
 namespace {
 
 std::shared_ptr<const road::World> WorldOn(const std::string& ground) {
-  const auto world = road::World::Parse("rodeira: world/2\nname: t\nground: " + ground + "\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 100}]\n    section: {lanes: [{id: -1, width_m: 3.5}]}\n", "t.yaml");
+  const auto world =
+      road::World::Parse("rodeira: world/2\nname: t\nground: " + ground +
+                             "\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: "
+                             "{length_m: 100}]\n    section: {lanes: [{id: -1, width_m: 3.5}]}\n",
+                         "t.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world ? world.value() : nullptr;
 }
 
-// Seven squares of nine, in the plane z = 2 + 0.01 x - 0.02 y: how often a place is covered by them and by what goes on, and at what height.
+// Seven squares of nine, in the plane z = 2 + 0.01 x - 0.02 y: how often a place is covered by them and by what goes
+// on, and at what height.
 TEST(FarPlane, CoversWhatTheSquaresLeaveOutOnce) {
   const auto world = WorldOn("{kind: plane, z_m: 2, slope_x: 0.01, slope_y: -0.02, surface: gravel}");
   ASSERT_NE(world, nullptr);
@@ -26,7 +31,8 @@ TEST(FarPlane, CoversWhatTheSquaresLeaveOutOnce) {
   EXPECT_EQ(mesh.material, Material::kGravel);
   double area_m2 = 0.0;
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const Eigen::Vector3d a = mesh.PositionW(mesh.triangles[i]), b = mesh.PositionW(mesh.triangles[i + 1]), c = mesh.PositionW(mesh.triangles[i + 2]);
+    const Eigen::Vector3d a = mesh.PositionW(mesh.triangles[i]), b = mesh.PositionW(mesh.triangles[i + 1]),
+                          c = mesh.PositionW(mesh.triangles[i + 2]);
     const double twice = (b - a).head<2>().x() * (c - a).y() - (b - a).y() * (c - a).x();
     EXPECT_GT(twice, 0.0) << "seen from above";
     area_m2 += 0.5 * twice;
@@ -38,7 +44,8 @@ TEST(FarPlane, CoversWhatTheSquaresLeaveOutOnce) {
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
       bool inside = true;
       for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector2d a = mesh.PositionW(mesh.triangles[i + k]).head<2>(), b = mesh.PositionW(mesh.triangles[i + (k + 1) % 3]).head<2>();
+        const Eigen::Vector2d a = mesh.PositionW(mesh.triangles[i + k]).head<2>(),
+                              b = mesh.PositionW(mesh.triangles[i + (k + 1) % 3]).head<2>();
         inside = inside && (b - a).x() * (p - a).y() - (b - a).y() * (p - a).x() >= 0.0;
       }
       times += inside ? 1 : 0;
@@ -48,7 +55,8 @@ TEST(FarPlane, CoversWhatTheSquaresLeaveOutOnce) {
   for (std::int64_t column = -3; column <= 3; ++column) {
     for (std::int64_t row = 2; row <= 8; ++row) {
       const bool known = std::find(tiles.begin(), tiles.end(), TileKey{column, row}) != tiles.end();
-      EXPECT_EQ(covered(TileKey{column, row}.south_west_W() + Eigen::Vector2d(100.0, 31.0)), known ? 0 : 1) << column << " " << row;
+      EXPECT_EQ(covered(TileKey{column, row}.south_west_W() + Eigen::Vector2d(100.0, 31.0)), known ? 0 : 1)
+          << column << " " << row;
     }
   }
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -24,8 +24,8 @@ namespace {
 using Place = std::array<double, 3>;
 Place PlaceOf(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
-// Every side of every triangle has one that goes back along it, but on the tile's own edge, at the end of the ground, and
-// at the free lower edge of a bridge's apron. So there is no hole, no T-junction and nothing that faces down.
+// Every side of every triangle has one that goes back along it, but on the tile's own edge, at the end of the ground,
+// and at the free lower edge of a bridge's apron. So there is no hole, no T-junction and nothing that faces down.
 TEST(Ground, IsClosed) {
   const auto world = OpenDriveWorld(BendUnderBridge());
   ASSERT_NE(world, nullptr);
@@ -48,9 +48,12 @@ TEST(Ground, IsClosed) {
       for (const auto& [side, count] : sides) {
         const auto back = sides.find({side.second, side.first});
         if (back != sides.end() && back->second == count) continue;
-        const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
+        const auto on_edge = [&](const Place& p) {
+          return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y();
+        };
         if (on_edge(side.first) && on_edge(side.second)) continue;
-        // The bridge's aprons hang 0.9 m below it: their lower edges and ends are free, and nothing else at that height is.
+        // The bridge's aprons hang 0.9 m below it: their lower edges and ends are free, and nothing else at that height
+        // is.
         const bool apron = side.first[2] > 14.5 && side.second[2] > 14.5;
         apron ? ++aprons : ++open;
       }
@@ -69,7 +72,8 @@ TEST(Ground, ABridgeHasAnUnderside) {
   const network::Structure& bridge = road.spec().structures.at(0);
   const Eigen::Vector2d middle = road.Surface(bridge.s_m + 0.5 * bridge.length_m, 0.0).p_W.head<2>();
   const network::LaneSection& section = road.spec().sections[0];
-  const double width_m = road.SpanAt(0, static_cast<int>(section.left.size()), 400.0)->outer_t_m - road.SpanAt(0, -static_cast<int>(section.right.size()), 400.0)->outer_t_m;
+  const double width_m = road.SpanAt(0, static_cast<int>(section.left.size()), 400.0)->outer_t_m -
+                         road.SpanAt(0, -static_cast<int>(section.right.size()), 400.0)->outer_t_m;
   const GroundPlan plan(world);
   for (std::size_t level = 0; level < kGroundLevels; ++level) {
     double area_m2 = 0.0;
@@ -95,10 +99,12 @@ TEST(Ground, ABridgeHasAnUnderside) {
   }
 }
 
-// What is not closed of a tile at one level: sides of triangles that none goes back along, but on the tile's own edge, and faces that look down.
+// What is not closed of a tile at one level: sides of triangles that none goes back along, but on the tile's own edge,
+// and faces that look down.
 struct Flaws {
   std::vector<Eigen::Vector3d> open;  // sides of the ground: where they begin
-  std::vector<Eigen::Vector3d> met;   // the same where some go back, but not as many: more than two sheets meet in a line
+  std::vector<Eigen::Vector3d>
+      met;         // the same where some go back, but not as many: more than two sheets meet in a line
   int free = 0;    // lower sides and ends of walls, which hang: aprons of bridges, cliffs beside them
   int turned = 0;  // triangles of the ground that face down, or whose corners' normals do
 };
@@ -128,20 +134,26 @@ Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
     }
   }
   const Eigen::Vector2d low = tile.key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
-  const auto on_edge = [&](const Place& p) { return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y(); };
+  const auto on_edge = [&](const Place& p) {
+    return p[0] == low.x() || p[1] == low.y() || p[0] == high.x() || p[1] == high.y();
+  };
   for (const auto& [side, found] : sides) {
     const auto back = sides.find({side.second, side.first});
     if (back != sides.end() && back->second.count == found.count) continue;
     if (on_edge(side.first) && on_edge(side.second)) continue;
-    if (found.wall) ++flaws.free;
-    else if (back != sides.end()) flaws.met.emplace_back(side.first[0], side.first[1], side.first[2]);
-    else flaws.open.emplace_back(side.first[0], side.first[1], side.first[2]);
+    if (found.wall)
+      ++flaws.free;
+    else if (back != sides.end())
+      flaws.met.emplace_back(side.first[0], side.first[1], side.first[2]);
+    else
+      flaws.open.emplace_back(side.first[0], side.first[1], side.first[2]);
   }
   return flaws;
 }
 
-// The same for the project's worlds at every level, on tiles drawn by lot and on all at bridges: there is no open side, also not where a deck begins: the
-// ground below it stops at an abutment, up to the deck's underside, and aprons at its sides meet the underside.
+// The same for the project's worlds at every level, on tiles drawn by lot and on all at bridges: there is no open side,
+// also not where a deck begins: the ground below it stops at an abutment, up to the deck's underside, and aprons at its
+// sides meet the underside.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 3;  // each of them at all levels
   for (const std::string name : {"haste", "motorway", "n222", "flat", "ring", "lights", "example/world"}) {
@@ -150,15 +162,19 @@ TEST(Ground, OfTheProjectsWorldsIsClosed) {
     std::vector<Eigen::Vector2d> bridges;
     for (const network::Road& road : world.value()->network()->roads()) {
       for (const network::Structure& structure : road.spec().structures) {
-        for (double s = structure.s_m; s <= structure.s_m + structure.length_m; s += 5.0) bridges.push_back(road.Surface(std::min(s, road.length_m()), 0.0).p_W.head<2>());
+        for (double s = structure.s_m; s <= structure.s_m + structure.length_m; s += 5.0)
+          bridges.push_back(road.Surface(std::min(s, road.length_m()), 0.0).p_W.head<2>());
       }
     }
     const GroundPlan plan(*world.value());
     std::set<TileKey> keys;
-    for (std::uint64_t n = 0; n < at_most; ++n) keys.insert(plan.tiles()[base::RandomBits({n, 23}) % plan.tiles().size()]);
+    for (std::uint64_t n = 0; n < at_most; ++n)
+      keys.insert(plan.tiles()[base::RandomBits({n, 23}) % plan.tiles().size()]);
     const auto is_near = [&](const TileKey& key) {
       const Eigen::Vector2d low = key.south_west_W(), high = low + Eigen::Vector2d::Constant(kTile_m);
-      return std::any_of(bridges.begin(), bridges.end(), [&](const Eigen::Vector2d& p) { return (p.array() > low.array() - 20.0).all() && (p.array() < high.array() + 20.0).all(); });
+      return std::any_of(bridges.begin(), bridges.end(), [&](const Eigen::Vector2d& p) {
+        return (p.array() > low.array() - 20.0).all() && (p.array() < high.array() + 20.0).all();
+      });
     };
     for (const TileKey& key : plan.tiles()) {
       if (is_near(key)) keys.insert(key);
@@ -169,18 +185,24 @@ TEST(Ground, OfTheProjectsWorldsIsClosed) {
       at_bridges += is_near(key);
       for (std::size_t level = 0; level < kGroundLevels; ++level) {
         const Flaws flaws = FlawsOf(tile, level);
-        const auto first = [](const std::vector<Eigen::Vector3d>& places) { return places.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : places.front(); };
-        EXPECT_EQ(flaws.met.size(), 0u) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": three sheets meet at " << first(flaws.met).transpose();
-        EXPECT_EQ(flaws.open.size(), 0u) << name << ", level " << level << ", tile " << key.column << " " << key.row << ": open at " << first(flaws.open).transpose();
+        const auto first = [](const std::vector<Eigen::Vector3d>& places) {
+          return places.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : places.front();
+        };
+        EXPECT_EQ(flaws.met.size(), 0u) << name << ", level " << level << ", tile " << key.column << " " << key.row
+                                        << ": three sheets meet at " << first(flaws.met).transpose();
+        EXPECT_EQ(flaws.open.size(), 0u) << name << ", level " << level << ", tile " << key.column << " " << key.row
+                                         << ": open at " << first(flaws.open).transpose();
         EXPECT_EQ(flaws.turned, 0) << name << ", level " << level << ", tile " << key.column << " " << key.row;
         EXPECT_EQ(flaws.free, 0) << name << ", level " << level << ", tile " << key.column << " " << key.row;
       }
     }
-    std::printf("%s: %zu of %zu tiles looked through at every level, %d of them at bridges: no open side\n", name.c_str(), keys.size(), plan.tiles().size(), at_bridges);
+    std::printf("%s: %zu of %zu tiles looked through at every level, %d of them at bridges: no open side\n",
+                name.c_str(), keys.size(), plan.tiles().size(), at_bridges);
   }
 }
 
-// Roads of real files cross and step anywhere, and walls hang there; the ground itself has no open side and nothing that faces down.
+// Roads of real files cross and step anywhere, and walls hang there; the ground itself has no open side and nothing
+// that faces down.
 TEST(Ground, OfRealFilesIsClosed) {
   for (const std::string& name : RealGrounds()) {
     if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
@@ -191,12 +213,17 @@ TEST(Ground, OfRealFilesIsClosed) {
       for (std::size_t level = 0; level < kGroundLevels; ++level) {
         const Flaws flaws = FlawsOf(tile, level);
         open += static_cast<int>(flaws.open.size() + flaws.met.size()), turned += flaws.turned, hang += flaws.free;
-        for (const Eigen::Vector3d& p : flaws.open) ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row << ": open at " << p.transpose();
-        for (const Eigen::Vector3d& p : flaws.met) ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row << ": three sheets meet at " << p.transpose();
+        for (const Eigen::Vector3d& p : flaws.open)
+          ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row
+                        << ": open at " << p.transpose();
+        for (const Eigen::Vector3d& p : flaws.met)
+          ADD_FAILURE() << name << ", level " << level << ", tile " << tile.key.column << " " << tile.key.row
+                        << ": three sheets meet at " << p.transpose();
       }
     }
     EXPECT_EQ(turned, 0) << name;
-    std::printf("%s: %d open sides, %d faces look down, %d sides of walls hang free\n", name.c_str(), open, turned, hang);
+    std::printf("%s: %d open sides, %d faces look down, %d sides of walls hang free\n", name.c_str(), open, turned,
+                hang);
   }
 }
 
@@ -227,7 +254,8 @@ EdgeSides SidesOn(const GroundTile& tile, std::size_t level, Edge edge) {
   return sides;
 }
 
-// All levels of all tiles have the same sides on a common edge, to the bit: then any two levels of two neighbours fit. How many neighbours there are.
+// All levels of all tiles have the same sides on a common edge, to the bit: then any two levels of two neighbours fit.
+// How many neighbours there are.
 int ExpectNeighboursFit(const road::World& world, const std::string& name, std::size_t least_sides) {
   const GroundPlan plan(world);
   std::vector<std::array<EdgeSides, 4>> edges(plan.tiles().size());
@@ -237,7 +265,8 @@ int ExpectNeighboursFit(const road::World& world, const std::string& name, std::
     for (const Edge edge : {kWest, kEast, kSouth, kNorth}) {
       edges[i][edge] = SidesOn(tile, 0, edge);
       for (std::size_t level = 1; level < kGroundLevels; ++level) {
-        if (SidesOn(tile, level, edge) != edges[i][edge]) differ[i] += fmt::format(" edge {} at level {}", static_cast<int>(edge), level);
+        if (SidesOn(tile, level, edge) != edges[i][edge])
+          differ[i] += fmt::format(" edge {} at level {}", static_cast<int>(edge), level);
       }
     }
   });
@@ -255,11 +284,13 @@ int ExpectNeighboursFit(const road::World& world, const std::string& name, std::
       EXPECT_GE(own.size(), least_sides) << name;
       sides += own.size();
       const auto at = std::mismatch(own.begin(), own.end(), other.begin(), other.end()).first;
-      EXPECT_TRUE(own == other) << name << ", tile " << key.column << " " << key.row << (column ? " and the next to the east" : " and the next to the north") << ", at "
+      EXPECT_TRUE(own == other) << name << ", tile " << key.column << " " << key.row
+                                << (column ? " and the next to the east" : " and the next to the north") << ", at "
                                 << (at == own.end() ? -1.0 : (*at)[0]);
     }
   }
-  std::printf("%s: %d pairs of neighbours have the same %zu sides on their common edges at all levels\n", name.c_str(), pairs, sides);
+  std::printf("%s: %d pairs of neighbours have the same %zu sides on their common edges at all levels\n", name.c_str(),
+              pairs, sides);
   return pairs;
 }
 
@@ -269,20 +300,27 @@ TEST(Ground, NeighboursFitAtEveryPairOfLevels) {
   EXPECT_GE(ExpectNeighboursFit(*world, "bend", 16), 21);
 }
 
-// Where land is the terrain's own triangles, and where slopes pass from one tile into another, each tile's edge has points of its own.
+// Where land is the terrain's own triangles, and where slopes pass from one tile into another, each tile's edge has
+// points of its own.
 TEST(Ground, NeighboursFitOnATerrain) {
   const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: slopes\nterrain:\n  generate: {seed: 6, columns: 81, rows: 81, spacing_m: 15, west_m: -600, south_m: -600, full_m: 50, flat_m: 8, relief: [{wavelength_m: 160, amplitude_m: 15}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -300, y_m: -100, heading_deg: 20}\n    axis: [line: {length_m: 200}, arc: {length_m: 300, radius_m: 250}]\n    z_m: 2\n    section: {template: rural}\n", "slopes.yaml");
+      "rodeira: world/2\nname: slopes\nterrain:\n  generate: {seed: 6, columns: 81, rows: 81, spacing_m: 15, west_m: "
+      "-600, south_m: -600, full_m: 50, flat_m: 8, relief: [{wavelength_m: 160, amplitude_m: 15}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -300, y_m: -100, heading_deg: 20}\n    axis: [line: {length_m: 200}, arc: "
+      "{length_m: 300, radius_m: 250}]\n    z_m: 2\n    section: {template: rural}\n",
+      "slopes.yaml");
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   EXPECT_GE(ExpectNeighboursFit(*parsed.value(), "slopes", 1), 40);
 }
 
-// The project's worlds and real files, the first RODEIRA_NEIGHBOUR_WORLDS (4) of them: those first on which neighbours did not fit.
+// The project's worlds and real files, the first RODEIRA_NEIGHBOUR_WORLDS (4) of them: those first on which neighbours
+// did not fit.
 TEST(Ground, NeighboursFitInTheProjectsWorldsAndRealFiles) {
   const auto worlds = std::filesystem::path(SourceDir()) / "configs/worlds";
-  std::vector<std::filesystem::path> all = {SharedXodr("esmini_tunnels"), SharedXodr("esmini_curves_elevation"), worlds / "example/world.yaml", worlds / "flat.yaml"};
-  for (const char* name : {"ring", "lights", "n222", "motorway", "haste"}) all.push_back(worlds / (std::string(name) + ".yaml"));
+  std::vector<std::filesystem::path> all = {SharedXodr("esmini_tunnels"), SharedXodr("esmini_curves_elevation"),
+                                            worlds / "example/world.yaml", worlds / "flat.yaml"};
+  for (const char* name : {"ring", "lights", "n222", "motorway", "haste"})
+    all.push_back(worlds / (std::string(name) + ".yaml"));
   std::set<std::filesystem::path> files;
   if (std::filesystem::exists(SharedXodr("esmini_tunnels"))) {
     for (const auto& file : std::filesystem::directory_iterator(SharedXodr("esmini_tunnels").parent_path())) {

@@ -1,4 +1,5 @@
-// How the drawn ground is lit: by normals that a picture can take at samples outside the triangle, and that are SUELO's where the ground turns sharply.
+// How the drawn ground is lit: by normals that a picture can take at samples outside the triangle, and that are SUELO's
+// where the ground turns sharply.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -15,9 +16,10 @@ namespace {
 constexpr double kWidth_m = 0.5;  // of what a pixel sees of the ground, some 25 m ahead of an eye over a road
 
 struct Lit {
-  int triangles = 0, creased = 0;   // creased: from whose own normal that of some corner differed, had they kept their corners'
-  double worst_change = 0.0;        // of the normal over half a metre across a triangle
-  double worst_apart_rad = 0.0;     // of a creased triangle's normal from SUELO's at its middle
+  int triangles = 0,
+      creased = 0;  // creased: from whose own normal that of some corner differed, had they kept their corners'
+  double worst_change = 0.0;     // of the normal over half a metre across a triangle
+  double worst_apart_rad = 0.0;  // of a creased triangle's normal from SUELO's at its middle
 };
 
 // N222's sharp bend, where the slopes of cuts and fills run out at the verge to no height at all.
@@ -56,8 +58,9 @@ Lit BendOfN222(std::size_t level) {
   return lit;
 }
 
-// As the normals of corners are the ground's on one side, a triangle a centimetre thick on the foot of a slope had normals 0.7 apart; taken at a sample half a
-// pixel outside it light was anything, down to none: rows of dark dots along every verge.
+// As the normals of corners are the ground's on one side, a triangle a centimetre thick on the foot of a slope had
+// normals 0.7 apart; taken at a sample half a pixel outside it light was anything, down to none: rows of dark dots
+// along every verge.
 TEST(GroundNormals, ChangeLittleWithinAPixel) {
   for (const std::size_t level : {0, 1, 2, 3}) {
     const Lit lit = BendOfN222(level);
@@ -70,7 +73,8 @@ TEST(GroundNormals, AreSueloSBesideACrease) {
   const Lit lit = BendOfN222(0);
   EXPECT_GT(lit.creased, 100);
   EXPECT_LE(lit.worst_apart_rad, 0.15);
-  std::printf("%d of %d triangles have one normal, %.3f rad from SUELO's at most\n", lit.creased, lit.triangles, lit.worst_apart_rad);
+  std::printf("%d of %d triangles have one normal, %.3f rad from SUELO's at most\n", lit.creased, lit.triangles,
+              lit.worst_apart_rad);
 }
 
 }  // namespace

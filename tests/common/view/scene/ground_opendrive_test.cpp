@@ -24,13 +24,15 @@ namespace {
 bool IsSteepNearby(const road::World& world, const Eigen::Vector3d& p, double within_m) {
   for (int k = 0; k < 128; ++k) {
     const double angle = M_PI / 8.0 * (k % 16), away_m = within_m * (1 + k / 16) / 8.0;
-    const road::SurfacePoint at = world.At(p.x() + away_m * std::cos(angle), p.y() + away_m * std::sin(angle), p.z() + 0.3);
+    const road::SurfacePoint at =
+        world.At(p.x() + away_m * std::cos(angle), p.y() + away_m * std::sin(angle), p.z() + 0.3);
     if (at.inside && std::hypot(at.slope_x, at.slope_y) > 1.0) return true;
   }
   return false;
 }
 
-// Narrower than a millimetre seen from above: between the edges of two roads' lanes that are nearly one line, at two heights. It stands upright.
+// Narrower than a millimetre seen from above: between the edges of two roads' lanes that are nearly one line, at two
+// heights. It stands upright.
 bool StandsUpright(const Mesh& mesh, std::size_t triangle) {
   const auto c = CornersOf(mesh, triangle);
   const Eigen::Vector3d u = c[1] - c[0], v = c[2] - c[0];
@@ -38,8 +40,9 @@ bool StandsUpright(const Mesh& mesh, std::size_t triangle) {
   return !(std::fabs(u.x() * v.y() - u.y() * v.x()) > 0.001 * longest_m);
 }
 
-// In files of other programs roads that overlap have heights of their own. Where edges of two meet while a third lies there at another height SUELO steps, or is as steep as one likes, and no
-// triangle of a few centimetres follows it. Everywhere else it is met.
+// In files of other programs roads that overlap have heights of their own. Where edges of two meet while a third lies
+// there at another height SUELO steps, or is as steep as one likes, and no triangle of a few centimetres follows it.
+// Everywhere else it is met.
 TEST(Ground, IsWhereTheTyresAreOnRealFilesButAtTheirSteps) {
   constexpr double kStep_m = 0.3;
   for (const std::string& name : RealGrounds()) {
@@ -61,18 +64,21 @@ TEST(Ground, IsWhereTheTyresAreOnRealFilesButAtTheirSteps) {
     EXPECT_EQ(found.far, 0) << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
     EXPECT_LT(at_steps, 0.002 * found.asked) << name;
     EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
-    std::printf("%s: %d points, %d more than 5 mm from SUELO, worst %.4f m, and %d more at its steps\n", name.c_str(), found.asked, found.far, found.worst_m, at_steps);
+    std::printf("%s: %d points, %d more than 5 mm from SUELO, worst %.4f m, and %d more at its steps\n", name.c_str(),
+                found.asked, found.far, found.worst_m, at_steps);
   }
 }
 
-// A road over a crest and through a hollow, along whose left lane the edge between two tiles runs: both draw it where SUELO is, in a world
-// without a terrain too.
+// A road over a crest and through a hollow, along whose left lane the edge between two tiles runs: both draw it where
+// SUELO is, in a world without a terrain too.
 TEST(Ground, IsWhereTheTyresAreOnTheEdgesOfTiles) {
   const std::string lane = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
   const auto world = OpenDriveWorld(fmt::format(
-      "<road id=\"1\" length=\"230\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"13\" hdg=\"{}\" length=\"230\"><line/></geometry></planView>"
+      "<road id=\"1\" length=\"230\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"13\" hdg=\"{}\" "
+      "length=\"230\"><line/></geometry></planView>"
       "<elevationProfile><elevation s=\"0\" a=\"3\" b=\"0.08\" c=\"-0.002\" d=\"0.00001\"/></elevationProfile>"
-      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</left><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">{}</right></laneSection></lanes></road>\n",
+      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</left><center><lane "
+      "id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\">{}</right></laneSection></lanes></road>\n",
       kTile_m + 1.7, 0.5 * M_PI, lane, lane));
   ASSERT_NE(world, nullptr);
   int sides = 0;
@@ -103,14 +109,22 @@ TEST(Ground, IsMetToTheLastPlaceWhereAWideRoadClimbsInABend) {
   const auto width = [](double a) { return fmt::format("<width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", a); };
   const auto side = [&](int sign) {
     std::string lanes;
-    for (const auto& [id, wide] : {std::pair(1, 3.0), std::pair(2, 5.0), std::pair(3, 20.0)}) lanes += fmt::format("<lane id=\"{}\" type=\"{}\">{}</lane>", sign * id, id == 1 ? "driving" : "border", width(wide));
+    for (const auto& [id, wide] : {std::pair(1, 3.0), std::pair(2, 5.0), std::pair(3, 20.0)})
+      lanes +=
+          fmt::format("<lane id=\"{}\" type=\"{}\">{}</lane>", sign * id, id == 1 ? "driving" : "border", width(wide));
     return lanes;
   };
   const auto world = OpenDriveWorld(
-      "<road id=\"1\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"350\" y=\"-50\" hdg=\"0\" length=\"100\"><spiral curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
-      "<geometry s=\"100\" x=\"440.45242379\" y=\"-18.97316983\" hdg=\"1\" length=\"100\"><spiral curvStart=\"0.02\" curvEnd=\"0\"/></geometry></planView>"
-      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"20\" a=\"0\" b=\"0\" c=\"0.006\" d=\"-0.00004\"/><elevation s=\"120\" a=\"20\" b=\"0\" c=\"-0.006\" d=\"0.00004\"/></elevationProfile>"
-      "<lanes><laneSection s=\"0\"><left>" + side(1) + "</left><center><lane id=\"0\"/></center><right>" + side(-1) + "</right></laneSection></lanes></road>\n");
+      "<road id=\"1\" length=\"200\" junction=\"-1\"><planView><geometry s=\"0\" x=\"350\" y=\"-50\" hdg=\"0\" "
+      "length=\"100\"><spiral curvStart=\"0\" curvEnd=\"0.02\"/></geometry>"
+      "<geometry s=\"100\" x=\"440.45242379\" y=\"-18.97316983\" hdg=\"1\" length=\"100\"><spiral curvStart=\"0.02\" "
+      "curvEnd=\"0\"/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/><elevation s=\"20\" a=\"0\" b=\"0\" "
+      "c=\"0.006\" d=\"-0.00004\"/><elevation s=\"120\" a=\"20\" b=\"0\" c=\"-0.006\" "
+      "d=\"0.00004\"/></elevationProfile>"
+      "<lanes><laneSection s=\"0\"><left>" +
+      side(1) + "</left><center><lane id=\"0\"/></center><right>" + side(-1) +
+      "</right></laneSection></lanes></road>\n");
   ASSERT_NE(world, nullptr);
   const std::vector<GroundTile> tiles = BuildAll(*world);
   const Correlation found = Correlate(*world, tiles, std::max(Points(), 100'000), 13);
@@ -118,13 +132,23 @@ TEST(Ground, IsMetToTheLastPlaceWhereAWideRoadClimbsInABend) {
   std::printf("%d points, worst %.4f m from SUELO\n", found.asked, found.worst_m);
 }
 
-// The land beside the roads of real files and under their decks, as far as SUELO knows it. Where edges of different heights touch it steps, and is drawn over a metre at
-// most; in the middle of bends it turns about a point, and is as steep there as one likes.
+// The land beside the roads of real files and under their decks, as far as SUELO knows it. Where edges of different
+// heights touch it steps, and is drawn over a metre at most; in the middle of bends it turns about a point, and is as
+// steep there as one likes.
 TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
   constexpr double kStep_m = 1.2;
-  std::vector<std::string> names{"esmini_curves_elevation", "esmini_e6mini", "esmini_tunnels", "carla_Town04", "esmini_fabriksgatan", "esmini_highway_exit", "esmini_multi_intersections",
-                                 "esmini_straight_500_superelevation_elevation_curve", "esmini_straight_500m_roadmarks", "esmini_straight_500m_signs",
-                                 "asamqc_lane_gap_issue119", "asamqc_positive_v18"};
+  std::vector<std::string> names{"esmini_curves_elevation",
+                                 "esmini_e6mini",
+                                 "esmini_tunnels",
+                                 "carla_Town04",
+                                 "esmini_fabriksgatan",
+                                 "esmini_highway_exit",
+                                 "esmini_multi_intersections",
+                                 "esmini_straight_500_superelevation_elevation_curve",
+                                 "esmini_straight_500m_roadmarks",
+                                 "esmini_straight_500m_signs",
+                                 "asamqc_lane_gap_issue119",
+                                 "asamqc_positive_v18"};
   names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_LAND_FILES", 3)));
   for (const std::string& name : names) {
     if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
@@ -163,7 +187,8 @@ TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
     EXPECT_EQ(asked, Points()) << name;
     EXPECT_LE(far, 0.0002 * asked) << name << ": worst " << worst_m << " m at " << where.transpose();
     EXPECT_LE(stepped, 0.001 * asked) << name;
-    std::printf("%s: %d points of land, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), asked, stepped, far, worst_m);
+    std::printf("%s: %d points of land, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), asked,
+                stepped, far, worst_m);
   }
 }
 

@@ -25,7 +25,8 @@ class LinesOfRoad {
   explicit LinesOfRoad(const network::Road& road) : road_(road) {
     for (const network::Marking& line : network::MarkingsOf(road)) {
       lines_.push_back({line, network::StrokesOf(road, line)});
-      for (const network::Stroke& stroke : lines_.back().strokes) area_m2_ += line.width_m * network::MarkingLength(road, line, stroke.from_s_m, stroke.to_s_m);
+      for (const network::Stroke& stroke : lines_.back().strokes)
+        area_m2_ += line.width_m * network::MarkingLength(road, line, stroke.from_s_m, stroke.to_s_m);
     }
   }
   std::size_t size() const { return lines_.size(); }
@@ -75,7 +76,8 @@ TEST(Ground, PaintLiesWhereTheFileSays) {
     const Mesh& marks = tile.levels[0].marks;
     for (std::size_t i = 0; i < marks.triangle_count(); ++i) {
       const auto c = triangles.emplace_back(CornersOf(marks, i));
-      const double area_m2 = 0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() - (c[1] - c[0]).y() * (c[2] - c[0]).x());
+      const double area_m2 =
+          0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() - (c[1] - c[0]).y() * (c[2] - c[0]).x());
       sums_m2.push_back(painted_m2 += area_m2);
       bool on_suelo = true;
       for (const Eigen::Vector3d& p : {c[0], c[1], c[2], Eigen::Vector3d((c[0] + c[1] + c[2]) / 3.0)}) {
@@ -95,8 +97,9 @@ TEST(Ground, PaintLiesWhereTheFileSays) {
   std::printf("%zu points of lines, worst %.5f m beside what the file says\n", 4 * triangles.size() + more, worst_m);
 }
 
-// The same on the project's own roads, hills, banks and bends included: nothing is painted beside the lines that the world says, and as much of
-// them as there is. What else is painted (zebra crossings, arrows, stop lines) is not on these two.
+// The same on the project's own roads, hills, banks and bends included: nothing is painted beside the lines that the
+// world says, and as much of them as there is. What else is painted (zebra crossings, arrows, stop lines) is not on
+// these two.
 TEST(Ground, PaintOfTheProjectsRoadsLiesWhereTheWorldSays) {
   for (const std::string name : {"n222", "motorway"}) {
     const auto loaded = road::World::Load(SourceDir() + "/configs/worlds/" + name + ".yaml");
@@ -113,7 +116,8 @@ TEST(Ground, PaintOfTheProjectsRoadsLiesWhereTheWorldSays) {
       const Mesh& marks = tile.levels[0].marks;
       for (std::size_t i = 0; i < marks.triangle_count(); ++i) {
         const auto c = triangles.emplace_back(CornersOf(marks, i));
-        sums_m2.push_back(painted_m2 += 0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() - (c[1] - c[0]).y() * (c[2] - c[0]).x()));
+        sums_m2.push_back(painted_m2 += 0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() -
+                                                        (c[1] - c[0]).y() * (c[2] - c[0]).x()));
       }
     }
     Eigen::Vector3d where = Eigen::Vector3d::Zero();
@@ -127,7 +131,8 @@ TEST(Ground, PaintOfTheProjectsRoadsLiesWhereTheWorldSays) {
     }
     EXPECT_LT(worst_m, 0.002) << name << " at " << where.transpose();
     EXPECT_NEAR(painted_m2 / expected_m2, 1.0, 0.01) << name;
-    std::printf("%s: %llu points of %.0f m2 of lines, worst %.5f m beside what the world says\n", name.c_str(), static_cast<unsigned long long>(points), painted_m2, worst_m);
+    std::printf("%s: %llu points of %.0f m2 of lines, worst %.5f m beside what the world says\n", name.c_str(),
+                static_cast<unsigned long long>(points), painted_m2, worst_m);
   }
 }
 

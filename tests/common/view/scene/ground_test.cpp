@@ -36,12 +36,18 @@ TEST(Ground, IsWhereTheTyresAre) {
   std::printf("%d points, %d at steps, worst %.4f m from SUELO\n", found.asked, found.stepped, found.worst_m);
 }
 
-// A road of 12 and 15 m radius through a hill and over a hollow: its verges, and its cuts and fills with the land around them.
+// A road of 12 and 15 m radius through a hill and over a hollow: its verges, and its cuts and fills with the land
+// around them.
 TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
   const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: hairpin\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: -100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 150, radius_m: 12}, line: {length_m: 20}, arc: {turn_deg: 120, radius_m: -15}, line: {length_m: 30}]\n"
-      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 70, z_m: 3, parabola_m: 60}, {s_m: 140, z_m: 4}]\n    section: {template: rural, verge: {width_m: 1.5}}\n", "hairpin.yaml");
+      "rodeira: world/2\nname: hairpin\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: "
+      "-100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 60}, arc: "
+      "{turn_deg: 150, radius_m: 12}, line: {length_m: 20}, arc: {turn_deg: 120, radius_m: -15}, line: {length_m: "
+      "30}]\n"
+      "    vertical: [{s_m: 0, z_m: 0}, {s_m: 70, z_m: 3, parabola_m: 60}, {s_m: 140, z_m: 4}]\n    section: "
+      "{template: rural, verge: {width_m: 1.5}}\n",
+      "hairpin.yaml");
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   const road::World& world = *parsed.value();
   const std::vector<GroundTile> tiles = BuildAll(world);
@@ -52,19 +58,26 @@ TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
     return !IsRoad(mesh) && world.At(middle.x(), middle.y()).inside && (place && place->distance_m == 0.0) == verge;
   };
   for (const bool verge : {true, false}) {
-    const Correlation found = Correlate(world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return beside(mesh, i, verge); }, kFinest, everywhere);
+    const Correlation found = Correlate(
+        world, tiles, Points(), 3, [&](const Mesh& mesh, std::size_t i) { return beside(mesh, i, verge); }, kFinest,
+        everywhere);
     EXPECT_EQ(found.asked, Points());
     EXPECT_LT(found.stepped, 0.001 * found.asked);
     EXPECT_EQ(found.far, 0) << "worst " << found.worst_m << " m at " << found.where.transpose();
-    std::printf("%s: %d points, worst %.4f m from SUELO\n", verge ? "verges" : "slopes and land", found.asked, found.worst_m);
+    std::printf("%s: %d points, worst %.4f m from SUELO\n", verge ? "verges" : "slopes and land", found.asked,
+                found.worst_m);
   }
 }
 
-// Beyond the slopes land is made of the terrain's own triangles: where a tile and those around it are whole within the terrain.
+// Beyond the slopes land is made of the terrain's own triangles: where a tile and those around it are whole within the
+// terrain.
 TEST(Ground, LandIsTheTerrainsOwnTriangles) {
   const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: -300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n", "land.yaml");
+      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: "
+      "-300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    "
+      "z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n",
+      "land.yaml");
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   const road::World& world = *parsed.value();
   const Correlation land = Correlate(world, BuildAll(world), Points(), 5, [&](const Mesh& mesh, std::size_t i) {
@@ -79,9 +92,14 @@ TEST(Ground, LandIsTheTerrainsOwnTriangles) {
 // A hump, a ramp and a sheet of ice, on a straight and in a bend.
 TEST(Ground, WhatIsLaidOnRoadsIsWhereTheTyresAre) {
   const auto parsed = road::World::Parse(
-      "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 80, radius_m: 40}]\n    z_m: 0\n"
-      "    section: {template: rural}\n    patches: [{from_s_m: 20, to_s_m: 30, from_t_m: -2.5, to_t_m: 1, friction: 0.1}, {from_s_m: 10, to_s_m: 14, from_t_m: -2, to_t_m: 2, material: soil, friction: 0.3}]\n"
-      "    bumps:\n      - {from_s_m: 40, to_s_m: 43.7, height_m: 0.1}\n      - {from_s_m: 80, to_s_m: 90, from_t_m: -3, to_t_m: 2, side_m: 0.2, heights: [{s_m: 0, z_m: 0}, {s_m: 2, z_m: 0.15}, {s_m: 8, z_m: 0.15}, {s_m: 10, z_m: 0}]}\n", "laid.yaml");
+      "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, "
+      "y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 60}, arc: {turn_deg: 80, radius_m: 40}]\n    z_m: 0\n"
+      "    section: {template: rural}\n    patches: [{from_s_m: 20, to_s_m: 30, from_t_m: -2.5, to_t_m: 1, friction: "
+      "0.1}, {from_s_m: 10, to_s_m: 14, from_t_m: -2, to_t_m: 2, material: soil, friction: 0.3}]\n"
+      "    bumps:\n      - {from_s_m: 40, to_s_m: 43.7, height_m: 0.1}\n      - {from_s_m: 80, to_s_m: 90, from_t_m: "
+      "-3, to_t_m: 2, side_m: 0.2, heights: [{s_m: 0, z_m: 0}, {s_m: 2, z_m: 0.15}, {s_m: 8, z_m: 0.15}, {s_m: 10, "
+      "z_m: 0}]}\n",
+      "laid.yaml");
   ASSERT_TRUE(parsed.ok()) << parsed.error().Text();
   const road::World& world = *parsed.value();
   const std::vector<GroundTile> tiles = BuildAll(world);
@@ -123,16 +141,21 @@ TEST(Ground, WhatIsLaidOnRoadsIsWhereTheTyresAre) {
 TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
   const std::string bump = "    bumps: [{from_s_m: 66, to_s_m: 71, height_m: 0.12}]\n";
   const auto text = [](const std::string& laid) {
-    return "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 160}]\n    z_m: 0\n"
-      "    section: {template: rural}\n    patches: [{from_s_m: 60, to_s_m: 84, from_t_m: -3, to_t_m: 3, friction: 0.1}]\n" + laid +
-      "  - id: b\n    place: {road: a, s_m: 80, turn_deg: 80, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n    section: {template: rural}\n"
-      "junctions:\n  - {id: j, roads: [{road: a, s_m: 80}, {road: b, s_m: 60}]}\n";
+    return "rodeira: world/2\nname: laid\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: "
+           "0, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 160}]\n    z_m: 0\n"
+           "    section: {template: rural}\n    patches: [{from_s_m: 60, to_s_m: 84, from_t_m: -3, to_t_m: 3, "
+           "friction: 0.1}]\n" +
+           laid +
+           "  - id: b\n    place: {road: a, s_m: 80, turn_deg: 80, own_s_m: 60}\n    axis: [line: {length_m: 120}]\n   "
+           " section: {template: rural}\n"
+           "junctions:\n  - {id: j, roads: [{road: a, s_m: 80}, {road: b, s_m: 60}]}\n";
   };
   const auto parsed = road::World::Parse(text(bump), "laid.yaml"), bare = road::World::Parse(text(""), "bare.yaml");
   ASSERT_TRUE(parsed.ok() && bare.ok());
   const road::World& world = *parsed.value();
   const std::vector<GroundTile> tiles = BuildAll(world);
-  const Eigen::Vector2d along(std::cos(20.0 * M_PI / 180.0), std::sin(20.0 * M_PI / 180.0)), top = Eigen::Vector2d(0.0, 10.0) + 68.5 * along;
+  const Eigen::Vector2d along(std::cos(20.0 * M_PI / 180.0), std::sin(20.0 * M_PI / 180.0)),
+      top = Eigen::Vector2d(0.0, 10.0) + 68.5 * along;
   EXPECT_NEAR(world.At(top.x(), top.y()).z_m - bare.value()->At(top.x(), top.y()).z_m, 0.12, 1e-9);
   const Correlation found = Correlate(world, tiles, Points(), 9, [&](const Mesh& mesh, std::size_t i) {
     const auto corners = CornersOf(mesh, i);
@@ -141,11 +164,13 @@ TEST(Ground, WhatIsLaidOnJunctionsIsWhereTheTyresAre) {
   EXPECT_EQ(found.asked, Points());
   EXPECT_EQ(found.stepped, 0);
   EXPECT_LT(found.worst_m, 0.005) << "at " << found.where.transpose();
-  std::printf("%d points of a junction, %d more than 5 mm from SUELO, worst %.4f m\n", found.asked, found.far, found.worst_m);
+  std::printf("%d points of a junction, %d more than 5 mm from SUELO, worst %.4f m\n", found.asked, found.far,
+              found.worst_m);
 }
 
-// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles drawn by lot. Made roughness and
-// the short waves of measured surfaces are not drawn: there SUELO is asked without them.
+// The project's own worlds: roads, verges, cuts, fills, land and what lies between the roads of a junction, on tiles
+// drawn by lot. Made roughness and the short waves of measured surfaces are not drawn: there SUELO is asked without
+// them.
 TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60);
   for (const std::string name : {"haste", "motorway", "n222", "example/world", "ring", "lights", "flat"}) {
@@ -156,38 +181,52 @@ TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
     const GroundPlan plan(*loaded.value());
     std::vector<std::size_t> drawn(plan.tiles().size());
     std::iota(drawn.begin(), drawn.end(), std::size_t{0});
-    std::sort(drawn.begin(), drawn.end(), [](std::size_t a, std::size_t b) { return base::RandomBits({a, 17}) < base::RandomBits({b, 17}); });
+    std::sort(drawn.begin(), drawn.end(), [](std::size_t a, std::size_t b) {
+      return base::RandomBits({a, 17}) < base::RandomBits({b, 17});
+    });
     drawn.resize(std::min<std::size_t>(drawn.size(), at_most));
     std::vector<GroundTile> tiles(drawn.size());
     ForEachAtOnce(tiles.size(), 0, [&](std::size_t i) { tiles[i] = plan.Build(plan.tiles()[drawn[i]]); });
     for (const bool road : {true, false}) {
       if (!road && name == "flat") continue;  // all of it is asphalt
-      const Correlation found = Correlate(world, tiles, Points(), 11, [&](const Mesh& mesh, std::size_t i) {
-        if (IsRoad(mesh) != road) return false;
-        const auto corners = CornersOf(mesh, i);
-        const auto there = [&](const Eigen::Vector3d& p) { return world.At(p.x(), p.y()).inside; };
-        return std::all_of(corners.begin(), corners.end(), there);  // around the terrain land goes on to the end of its tiles
-      }, kFinest, everywhere);
+      const Correlation found = Correlate(
+          world, tiles, Points(), 11,
+          [&](const Mesh& mesh, std::size_t i) {
+            if (IsRoad(mesh) != road) return false;
+            const auto corners = CornersOf(mesh, i);
+            const auto there = [&](const Eigen::Vector3d& p) { return world.At(p.x(), p.y()).inside; };
+            return std::all_of(corners.begin(), corners.end(),
+                               there);  // around the terrain land goes on to the end of its tiles
+          },
+          kFinest, everywhere);
       EXPECT_EQ(found.asked, Points());
-      // Where a bridge's deck comes down to land that its slopes leave standing there is a wall's foot, narrower than faces are.
-      EXPECT_LE(found.far, road ? 0.0 : 1e-5 * found.asked) << name << (road ? ", roads" : ", beside them") << ": worst " << found.worst_m << " m at " << found.where.transpose();
+      // Where a bridge's deck comes down to land that its slopes leave standing there is a wall's foot, narrower than
+      // faces are.
+      EXPECT_LE(found.far, road ? 0.0 : 1e-5 * found.asked)
+          << name << (road ? ", roads" : ", beside them") << ": worst " << found.worst_m << " m at "
+          << found.where.transpose();
       EXPECT_LT(found.stepped, 0.001 * found.asked) << name;
-      std::printf("%s, %s: %d points on %zu of %zu tiles, %d at steps, %d more than 3 mm from SUELO, worst %.4f m\n", name.c_str(), road ? "roads" : "beside them", found.asked,
-                  tiles.size(), plan.tiles().size(), found.stepped, found.far, found.worst_m);
+      std::printf("%s, %s: %d points on %zu of %zu tiles, %d at steps, %d more than 3 mm from SUELO, worst %.4f m\n",
+                  name.c_str(), road ? "roads" : "beside them", found.asked, tiles.size(), plan.tiles().size(),
+                  found.stepped, found.far, found.worst_m);
     }
   }
 }
 
-// Up to 2 m beside the outermost lanes, where cuts and fills are steepest and narrowest, also where the terrain is a plane: points of the whole
-// land hardly meet these strips.
+// Up to 2 m beside the outermost lanes, where cuts and fills are steepest and narrowest, also where the terrain is a
+// plane: points of the whole land hardly meet these strips.
 TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
   constexpr double kBeside_m = 2.0;
   const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 2;
   const std::string raised =
-      "rodeira: world/2\nname: raised\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: -200, y_m: 30, heading_deg: 10}\n"
-      "    axis: [line: {length_m: 200}, arc: {length_m: 150, radius_m: 120}]\n    vertical: [{s_m: 0, z_m: 0.4}, {s_m: 150, z_m: -1.5, parabola_m: 80}, {s_m: 350, z_m: 2}]\n    section: {template: rural}\n";
+      "rodeira: world/2\nname: raised\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: "
+      "-200, y_m: 30, heading_deg: 10}\n"
+      "    axis: [line: {length_m: 200}, arc: {length_m: 150, radius_m: 120}]\n    vertical: [{s_m: 0, z_m: 0.4}, "
+      "{s_m: 150, z_m: -1.5, parabola_m: 80}, {s_m: 350, z_m: 2}]\n    section: {template: rural}\n";
   for (const std::string name : {"raised", "ring", "lights", "flat", "n222", "motorway"}) {
-    const auto loaded = name == "raised" ? road::World::Parse(raised, "raised.yaml") : road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
+    const auto loaded =
+        name == "raised" ? road::World::Parse(raised, "raised.yaml")
+                         : road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
     const std::shared_ptr<const road::World> seen = loaded.value()->AsSeen();
     const GroundPlan plan(*loaded.value());
@@ -215,18 +254,24 @@ TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
     };
     const Correlation found = Correlate(*seen, tiles, Points(), 53, is_near, kFinest, is_beside);
     EXPECT_EQ(found.asked, Points()) << name;
-    // Where cuts of a centimetre begin beside a verge they are strips narrower than the 2 cm at which the ground is asked from either end of a side.
-    EXPECT_LE(found.far, 5e-5 * found.asked) << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
+    // Where cuts of a centimetre begin beside a verge they are strips narrower than the 2 cm at which the ground is
+    // asked from either end of a side.
+    EXPECT_LE(found.far, 5e-5 * found.asked)
+        << name << ": worst " << found.worst_m << " m at " << found.where.transpose();
     EXPECT_LT(found.worst_m, 0.01) << name << " at " << found.where.transpose();
     EXPECT_LT(found.stepped, 0.002 * found.asked) << name;
     const Correlation farther = Correlate(*seen, tiles, Points(), 53, is_near, Asked{}, is_beside);
-    EXPECT_LE(farther.far, 2e-5 * farther.asked) << name << ": worst " << farther.worst_m << " m at " << farther.where.transpose();
-    std::printf("%s: %d points up to 2 m beside the outermost lanes on %zu tiles, %d at steps, %d more than 3 mm from SUELO, worst %.4f m, %d more than 5 mm\n", name.c_str(), found.asked, tiles.size(), found.stepped,
-                found.far, found.worst_m, farther.far);
+    EXPECT_LE(farther.far, 2e-5 * farther.asked)
+        << name << ": worst " << farther.worst_m << " m at " << farther.where.transpose();
+    std::printf(
+        "%s: %d points up to 2 m beside the outermost lanes on %zu tiles, %d at steps, %d more than 3 mm from SUELO, "
+        "worst %.4f m, %d more than 5 mm\n",
+        name.c_str(), found.asked, tiles.size(), found.stepped, found.far, found.worst_m, farther.far);
   }
 }
 
-// Lines along a measured surface have points where it bends, and not only where the road itself does: the example's main road from 5 m before its measured 20 m to 5 m behind them.
+// Lines along a measured surface have points where it bends, and not only where the road itself does: the example's
+// main road from 5 m before its measured 20 m to 5 m behind them.
 TEST(Ground, LinesOverAMeasuredSurfaceAreWhereTheTyresAre) {
   const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/example/world.yaml");
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -246,7 +291,8 @@ TEST(Ground, LinesOverAMeasuredSurfaceAreWhereTheTyresAre) {
     const auto c = CornersOf(mesh, i);
     const Eigen::Vector3d middle = (c[0] + c[1] + c[2]) / 3.0;
     const auto place = seen->network()->Locate(middle.x(), middle.y(), middle.z());
-    return IsRoad(mesh) && place && place->distance_m == 0.0 && &seen->network()->roads()[place->lane.road] == &road && place->s_m > from_s_m && place->s_m < to_s_m;
+    return IsRoad(mesh) && place && place->distance_m == 0.0 && &seen->network()->roads()[place->lane.road] == &road &&
+           place->s_m > from_s_m && place->s_m < to_s_m;
   };
   const Correlation found = Correlate(*seen, tiles, 8 * Points(), 61, is_there, kFinest, everywhere);
   EXPECT_EQ(found.asked, 8 * Points());
@@ -254,20 +300,25 @@ TEST(Ground, LinesOverAMeasuredSurfaceAreWhereTheTyresAre) {
   std::printf("%d points, worst %.4f m from SUELO\n", found.asked, found.worst_m);
 }
 
-// A road of class E is drawn as the same road without any roughness, to the bit; of a measured surface of 8 cm with waves of 3 cm the 8 cm are seen.
+// A road of class E is drawn as the same road without any roughness, to the bit; of a measured surface of 8 cm with
+// waves of 3 cm the 8 cm are seen.
 TEST(Ground, WhatIsRoughIsDrawnEven) {
   const auto text = [](const std::string& surfaces) {
-    return "rodeira: world/2\nname: rough\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 10, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 200}]\n    z_m: 0\n"
-           "    section: {template: rural}\n" + surfaces;
+    return "rodeira: world/2\nname: rough\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: "
+           "10, y_m: 10, heading_deg: 20}\n    axis: [line: {length_m: 200}]\n    z_m: 0\n"
+           "    section: {template: rural}\n" +
+           surfaces;
   };
-  const auto even = road::World::Parse(text(""), "even.yaml"), rough = road::World::Parse(text("    surfaces: [{iso_8608: E, seed: 1}]\n"), "rough.yaml");
+  const auto even = road::World::Parse(text(""), "even.yaml"),
+             rough = road::World::Parse(text("    surfaces: [{iso_8608: E, seed: 1}]\n"), "rough.yaml");
   ASSERT_TRUE(even.ok() && rough.ok());
   EXPECT_EQ(even.value()->AsSeen(), even.value());
   const Eigen::Vector2d ahead(std::cos(20.0 * M_PI / 180.0), std::sin(20.0 * M_PI / 180.0));
   double highest_m = 0.0;
   for (double s_m = 10.0; s_m < 190.0; s_m += 0.7) {
     const Eigen::Vector2d p = Eigen::Vector2d(10.0, 10.0) + s_m * ahead;
-    highest_m = std::max(highest_m, std::fabs(rough.value()->At(p.x(), p.y()).z_m - even.value()->At(p.x(), p.y()).z_m));
+    highest_m =
+        std::max(highest_m, std::fabs(rough.value()->At(p.x(), p.y()).z_m - even.value()->At(p.x(), p.y()).z_m));
   }
   EXPECT_GT(highest_m, 0.05);  // tyres feel it
   const auto of_even = BuildAll(*even.value()), of_rough = BuildAll(*rough.value());
@@ -276,8 +327,10 @@ TEST(Ground, WhatIsRoughIsDrawnEven) {
     for (std::size_t level = 0; level < kGroundLevels; ++level) {
       ASSERT_EQ(of_even[i].levels[level].ground.size(), of_rough[i].levels[level].ground.size());
       for (std::size_t m = 0; m < of_even[i].levels[level].ground.size(); ++m) {
-        EXPECT_TRUE(of_even[i].levels[level].ground[m].positions == of_rough[i].levels[level].ground[m].positions) << "tile " << i << ", level " << level;
-        EXPECT_TRUE(of_even[i].levels[level].ground[m].triangles == of_rough[i].levels[level].ground[m].triangles) << "tile " << i << ", level " << level;
+        EXPECT_TRUE(of_even[i].levels[level].ground[m].positions == of_rough[i].levels[level].ground[m].positions)
+            << "tile " << i << ", level " << level;
+        EXPECT_TRUE(of_even[i].levels[level].ground[m].triangles == of_rough[i].levels[level].ground[m].triangles)
+            << "tile " << i << ", level " << level;
       }
     }
   }
@@ -288,7 +341,8 @@ TEST(Ground, WhatIsRoughIsDrawnEven) {
   crg.z = [](double u, double v) { return 0.08 + 0.03 * std::sin(2.0 * M_PI * u / 0.3) * std::cos(v); };
   const auto file = std::filesystem::temp_directory_path() / fmt::format("rodeira_rough_{}.crg", ::getpid());
   ASSERT_TRUE(base::WriteWhole(file, std::string_view(crg.Text())).ok());
-  const auto waves = road::World::Parse(text("    surfaces: [{crg: " + file.string() + ", from_s_m: 100, to_s_m: 120}]\n"), "waves.yaml");
+  const auto waves = road::World::Parse(
+      text("    surfaces: [{crg: " + file.string() + ", from_s_m: 100, to_s_m: 120}]\n"), "waves.yaml");
   std::filesystem::remove(file);
   ASSERT_TRUE(waves.ok()) << waves.error().Text();
   std::size_t count = 0, before = 0;
@@ -312,11 +366,12 @@ TEST(Ground, WhatIsRoughIsDrawnEven) {
   EXPECT_NEAR(lowest_m, 0.08, 0.003);
   EXPECT_NEAR(top_m, 0.08, 0.003);
   EXPECT_LT(count, before + 10'000);
-  std::printf("%zu triangles with a measured surface, %zu without; it is drawn from %.4f to %.4f m\n", count, before, lowest_m, top_m);
+  std::printf("%zu triangles with a measured surface, %zu without; it is drawn from %.4f to %.4f m\n", count, before,
+              lowest_m, top_m);
 }
 
-// 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go to
-// the other one.
+// 5 000 km away the same file gives the same ground, as exactly: only where a height lies between two steps it may go
+// to the other one.
 TEST(Ground, LosesNothingFarAway) {
   const double far_m = 20'000.0 * kTile_m;
   const auto here = OpenDriveWorld(BendUnderBridge()), there = OpenDriveWorld(BendUnderBridge(far_m, -far_m));
@@ -330,13 +385,15 @@ TEST(Ground, LosesNothingFarAway) {
     ASSERT_EQ(a.levels[0].ground.size(), b.levels[0].ground.size());
     for (std::size_t m = 0; m < a.levels[0].ground.size(); ++m) {
       const Mesh &p = a.levels[0].ground[m], &q = b.levels[0].ground[m];
-      EXPECT_NEAR(static_cast<double>(p.positions.size()), static_cast<double>(q.positions.size()), 0.01 * static_cast<double>(p.positions.size()));
+      EXPECT_NEAR(static_cast<double>(p.positions.size()), static_cast<double>(q.positions.size()),
+                  0.01 * static_cast<double>(p.positions.size()));
     }
   }
 }
 
 bool Same(const Mesh& a, const Mesh& b) {
-  return a.positions == b.positions && a.normals == b.normals && a.colours == b.colours && a.triangles == b.triangles && a.origin_W == b.origin_W;
+  return a.positions == b.positions && a.normals == b.normals && a.colours == b.colours && a.triangles == b.triangles &&
+         a.origin_W == b.origin_W;
 }
 void ExpectSame(const GroundLevel& a, const GroundLevel& b) {
   ASSERT_EQ(a.ground.size(), b.ground.size());
@@ -344,7 +401,9 @@ void ExpectSame(const GroundLevel& a, const GroundLevel& b) {
   ASSERT_EQ(a.repeated.size(), b.repeated.size());
   for (std::size_t m = 0; m < a.ground.size(); ++m) EXPECT_TRUE(Same(a.ground[m], b.ground[m]));
   for (std::size_t m = 0; m < a.things.size(); ++m) EXPECT_TRUE(Same(a.things[m], b.things[m]));
-  for (std::size_t m = 0; m < a.repeated.size(); ++m) EXPECT_TRUE(Same(a.repeated[m].model, b.repeated[m].model) && a.repeated[m].places.size() == b.repeated[m].places.size());
+  for (std::size_t m = 0; m < a.repeated.size(); ++m)
+    EXPECT_TRUE(Same(a.repeated[m].model, b.repeated[m].model) &&
+                a.repeated[m].places.size() == b.repeated[m].places.size());
   EXPECT_TRUE(Same(a.marks, b.marks));
 }
 
@@ -361,8 +420,11 @@ TEST(Ground, TheSameBitsForAnyNumberOfThreads) {
 // On a crossing, about a bridge, and on bare land, whose levels are alike where it has every post.
 TEST(Ground, ALevelAloneIsThatOfTheWholeTile) {
   const auto land = road::World::Parse(
-      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: -300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
-      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n", "land.yaml");
+      "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: "
+      "-300, south_m: -300, full_m: 60, flat_m: 10, relief: [{wavelength_m: 150, amplitude_m: 20}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -280, y_m: -200, heading_deg: 0}\n    axis: [line: {length_m: 120}]\n    "
+      "z_m: 0\n    section: {template: rural, slopes: {reach_m: 40}}\n",
+      "land.yaml");
   ASSERT_TRUE(land.ok()) << land.error().Text();
   const auto lights = road::World::Load(SourceDir() + "/configs/worlds/lights.yaml");
   ASSERT_TRUE(lights.ok()) << lights.error().Text();

@@ -19,15 +19,20 @@ inline std::vector<GroundTile> BuildAll(const road::World& world, unsigned threa
 }
 
 // Whether it is no ground: a wall, or the underside of a deck.
-inline bool IsWall(const Mesh& mesh, std::size_t triangle) { return mesh.normals[mesh.triangles[3 * triangle]].z() < 1e-6F; }
+inline bool IsWall(const Mesh& mesh, std::size_t triangle) {
+  return mesh.normals[mesh.triangles[3 * triangle]].z() < 1e-6F;
+}
 
 inline std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t triangle) {
-  return {mesh.PositionW(mesh.triangles[3 * triangle]), mesh.PositionW(mesh.triangles[3 * triangle + 1]), mesh.PositionW(mesh.triangles[3 * triangle + 2])};
+  return {mesh.PositionW(mesh.triangles[3 * triangle]), mesh.PositionW(mesh.triangles[3 * triangle + 1]),
+          mesh.PositionW(mesh.triangles[3 * triangle + 2])};
 }
 
 // Real files whose ground is looked at as a whole, RODEIRA_GROUND_FILES (2) of them.
 inline std::vector<std::string> RealGrounds() {
-  std::vector<std::string> names{"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini", "esmini_highway_exit", "carla_Town04", "esmini_multi_intersections", "esmini_tunnels", "asamqc_positive_v18", "asamqc_lane_gap_issue119"};
+  std::vector<std::string> names{"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini",
+                                 "esmini_highway_exit",     "carla_Town04",        "esmini_multi_intersections",
+                                 "esmini_tunnels",          "asamqc_positive_v18", "asamqc_lane_gap_issue119"};
   names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_GROUND_FILES", 2)));
   return names;
 }

@@ -37,7 +37,8 @@ TEST(HeatMap, ColoursGoFromRedThroughYellowToGreen) {
   EXPECT_TRUE(is(7.0, 0, 255));
 }
 
-// A car that drives evenly, and one that stands, for ten seconds: distance, time and the identity q = k v in every square.
+// A car that drives evenly, and one that stands, for ten seconds: distance, time and the identity q = k v in every
+// square.
 TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
   const auto world = PlaneWithRoad();
   HeatMap map(*world);
@@ -47,7 +48,8 @@ TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
   double time_s = 0.0, distance_m = 0.0;
   for (const auto& [key, cell] : map.cells()) {
     time_s += cell.time_s, distance_m += cell.distance_m;
-    const double q = *map.Value(HeatKind::kFlow, cell), k = *map.Value(HeatKind::kDensity, cell), v_kmh = 3.6 * cell.distance_m / cell.time_s;
+    const double q = *map.Value(HeatKind::kFlow, cell), k = *map.Value(HeatKind::kDensity, cell),
+                 v_kmh = 3.6 * cell.distance_m / cell.time_s;
     EXPECT_NEAR(q, k * v_kmh, 1e-6 * std::max(q, 1.0));
     EXPECT_FALSE(map.Value(HeatKind::kFuel, cell)) << "the traffic does not say what it burns";
   }
@@ -62,7 +64,8 @@ TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
   EXPECT_EQ(*map.Value(HeatKind::kSpeed, stood), 0.0);
 }
 
-// 7.2 l/h at 72 km/h is 10 l for 100 km, in every square; who says nothing of its fuel counts for the other statistics alone.
+// 7.2 l/h at 72 km/h is 10 l for 100 km, in every square; who says nothing of its fuel counts for the other statistics
+// alone.
 TEST(HeatMap, WhatTheTrafficSaysThatItBurns) {
   const auto world = PlaneWithRoad();
   HeatMap map(*world);
@@ -87,7 +90,8 @@ TEST(HeatMap, GreenIsTheLimitOfTheLane) {
   const road::Road& road = world->roads()[0];
   HeatMap map(*world);
   const double speed = 0.5 * 70.0 / 3.6;
-  for (int i = 0; i <= 100; ++i) map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1, 20.0))}));
+  for (int i = 0; i <= 100; ++i)
+    map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1, 20.0))}));
   for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kSpeed, cell), 50.0, 0.5);
   const HeatRaster raster = MakeHeatRaster(map, HeatKind::kSpeed, road.Position(20.0, 0.0));
   std::size_t coloured = 0;
@@ -97,14 +101,16 @@ TEST(HeatMap, GreenIsTheLimitOfTheLane) {
       if (texel[1] == 0) continue;
       ++coloured;
       EXPECT_NEAR(texel[0], 32768, 400) << "half of the limit is yellow";
-      const double x = raster.west_m + 4.0 * (static_cast<double>(column) + 0.5), y = raster.south_m + 4.0 * (static_cast<double>(row) + 0.5);
+      const double x = raster.west_m + 4.0 * (static_cast<double>(column) + 0.5),
+                   y = raster.south_m + 4.0 * (static_cast<double>(row) + 0.5);
       EXPECT_NEAR(raster.lowest_m + raster.range_m * texel[1] / 65535.0, world->At(x, y).z_m, 0.25);
     }
   }
   EXPECT_EQ(coloured, map.cells().size());
 }
 
-// Over one square a road at 4.9 to 5.1 m, where the map's levels meet, and a bridge 6 m over it: two surfaces, each with its own flow.
+// Over one square a road at 4.9 to 5.1 m, where the map's levels meet, and a bridge 6 m over it: two surfaces, each
+// with its own flow.
 TEST(HeatRaster, ABridgeAndTheRoadBelowAreTwoSurfacesOfASquare) {
   const auto world = PlaneWithRoad();
   HeatMap map(*world);
@@ -128,7 +134,8 @@ TEST(HeatRaster, ABridgeAndTheRoadBelowAreTwoSurfacesOfASquare) {
     EXPECT_NEAR(texel[2], 65535 * 5.0 / (100.0 / 3.6), 50.0) << "5 m/s above";
     EXPECT_NEAR(raster.lowest_m + raster.range_m * texel[3] / 65535.0, 11.0, 0.01);
   }
-  EXPECT_EQ(MakeHeatRaster(map, HeatKind::kFuel, {0.0, -70.0, 5.0}).At(3, row)[1], 0) << "nothing is known of their fuel";
+  EXPECT_EQ(MakeHeatRaster(map, HeatKind::kFuel, {0.0, -70.0, 5.0}).At(3, row)[1], 0)
+      << "nothing is known of their fuel";
   EXPECT_EQ(MakeHeatRaster(map, HeatKind::kSpeed, {9'000.0, -70.0, 5.0}).columns, 0u) << "too far off";
 }
 

@@ -21,7 +21,8 @@ CarPose Car() {
 std::optional<double> At(Mirror mirror, double behind_m, double left_m) {
   const CarPose car = Car();
   const int width_px = 300, height_px = static_cast<int>(300 / ShapeOf(mirror));
-  const auto at = MirrorCamera(car, mirror).Project(car.p_WB_W + car.q_WB * Eigen::Vector3d(-behind_m, left_m, 0.9), width_px, height_px);
+  const auto at = MirrorCamera(car, mirror)
+                      .Project(car.p_WB_W + car.q_WB * Eigen::Vector3d(-behind_m, left_m, 0.9), width_px, height_px);
   if (!at || at->x() < 0.0 || at->x() > width_px || at->y() < 0.0 || at->y() > height_px) return std::nullopt;
   return at->x();
 }
@@ -52,16 +53,20 @@ TEST(Mirror, HasAPlaceOfItsOwnInPicturesOfAnyShape) {
       for (const Mirror other : kAllMirrors) {
         if (other == mirror) continue;
         const MirrorPlace there = PlaceOf(other, aspect);
-        EXPECT_TRUE(place.right <= there.left || there.right <= place.left || place.high <= there.low || there.high <= place.low) << NameOf(mirror) << " " << NameOf(other) << " " << aspect;
+        EXPECT_TRUE(place.right <= there.left || there.right <= place.left || place.high <= there.low ||
+                    there.high <= place.low)
+            << NameOf(mirror) << " " << NameOf(other) << " " << aspect;
       }
     }
   }
 }
 
-// Which mirrors are on each of so many screens, 0.7 m before the eye and as wide: "left inside right", a dash where one is not.
+// Which mirrors are on each of so many screens, 0.7 m before the eye and as wide: "left inside right", a dash where one
+// is not.
 std::string On(const std::vector<std::pair<double, double>>& angles_deg_and_asides_m) {
   std::vector<ScreenPlane> screens;
-  for (const auto& [angle_deg, aside_m] : angles_deg_and_asides_m) screens.push_back({0.7, 0.4, 0.7, angle_deg * 3.14159265358979 / 180.0, 0.2, aside_m});
+  for (const auto& [angle_deg, aside_m] : angles_deg_and_asides_m)
+    screens.push_back({0.7, 0.4, 0.7, angle_deg * 3.14159265358979 / 180.0, 0.2, aside_m});
   std::string all;
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const auto on = MirrorsOn(screens, i);
@@ -81,7 +86,8 @@ TEST(Mirror, IsOnTheScreenWhereItIsLookedFor) {
   EXPECT_EQ(On({{100.0, 0.0}, {50.0, 0.0}, {0.0, 0.0}, {-50.0, 0.0}, {-100.0, 0.0}}), "--- l-- -i- --r ---");
 }
 
-// By hand: the default car's mirrors seen from its driver's eye, by the angle to the left and below the horizon, on a flat screen.
+// By hand: the default car's mirrors seen from its driver's eye, by the angle to the left and below the horizon, on a
+// flat screen.
 TEST(Mirror, StandsOnAScreenWhereItIsOnTheCar) {
   const CarPose pose = Car();
   const Body car(pose);
@@ -89,13 +95,16 @@ TEST(Mirror, StandsOnAScreenWhereItIsOnTheCar) {
   constexpr double kAspect = 16.0 / 9.0, kWide_m = 0.708, kHigh_m = 0.398, kAway_m = 0.7, kEye_m = 0.22;
   for (const double side : {1.0, -1.0}) {
     const Mirror mirror = side > 0.0 ? Mirror::kLeft : Mirror::kRight;
-    const double forward_m = car.front_m - 0.33 * car.length_m - eye_B.x(), aside_m = side * (0.5 * car.width_m + 0.12) - eye_B.y(), up_m = 0.69 * car.height_m - eye_B.z();
+    const double forward_m = car.front_m - 0.33 * car.length_m - eye_B.x(),
+                 aside_m = side * (0.5 * car.width_m + 0.12) - eye_B.y(), up_m = 0.69 * car.height_m - eye_B.z();
     const double look_rad = std::atan2(aside_m, forward_m), screen_rad = side * 53.66 * 3.14159265358979 / 180.0;
     const MirrorPlace place = PlaceOn({kWide_m, kHigh_m, kAway_m, screen_rad, kEye_m, 0.0}, car, mirror, kAspect);
     const double right_m = 0.5 * kWide_m - kAway_m * std::tan(look_rad - screen_rad);
     const double low_m = kEye_m + kAway_m * up_m / (std::hypot(forward_m, aside_m) * std::cos(look_rad - screen_rad));
     EXPECT_NEAR(0.5 * (place.left + place.right), right_m / kWide_m, 1e-9) << NameOf(mirror);
-    EXPECT_NEAR(0.5 * (place.low + place.high), std::max(low_m / kHigh_m, 0.5 * (place.high - place.low) + 0.012 * kAspect), 1e-9) << NameOf(mirror);
+    EXPECT_NEAR(0.5 * (place.low + place.high),
+                std::max(low_m / kHigh_m, 0.5 * (place.high - place.low) + 0.012 * kAspect), 1e-9)
+        << NameOf(mirror);
     EXPECT_NEAR((place.right - place.left) * kAspect / (place.high - place.low), ShapeOf(mirror), 1e-9);
   }
 }
@@ -106,7 +115,9 @@ TEST(Mirror, IsWholeOnItsScreen) {
   for (double screen_deg = -180.0; screen_deg <= 180.0; screen_deg += 7.5) {
     for (const double eye_m : {-0.5, 0.2, 1.0}) {
       for (const Mirror mirror : kAllMirrors) {
-        const MirrorPlace place = PlaceOn({0.708, 0.398, 0.7, screen_deg * 3.14159265358979 / 180.0, eye_m, 0.0}, car, mirror, 16.0 / 9.0), usual = PlaceOf(mirror, 16.0 / 9.0);
+        const MirrorPlace place = PlaceOn({0.708, 0.398, 0.7, screen_deg * 3.14159265358979 / 180.0, eye_m, 0.0}, car,
+                                          mirror, 16.0 / 9.0),
+                          usual = PlaceOf(mirror, 16.0 / 9.0);
         EXPECT_GE(std::min(place.left, place.low), 0.0) << screen_deg;
         EXPECT_LE(std::max(place.right, place.high), 1.0) << screen_deg;
         EXPECT_NEAR(place.right - place.left, usual.right - usual.left, 1e-12);

@@ -13,7 +13,9 @@ namespace {
 Moment Circling(double time_s) {
   Moment moment;
   moment.time_ns = std::llround(time_s * 1e9);
-  const auto on_circle = [&](double radius, double radps) { return Eigen::Vector3d(radius * std::cos(radps * time_s), radius * std::sin(radps * time_s), 0.1 * time_s); };
+  const auto on_circle = [&](double radius, double radps) {
+    return Eigen::Vector3d(radius * std::cos(radps * time_s), radius * std::sin(radps * time_s), 0.1 * time_s);
+  };
   CarPose car;
   car.p_WB_W = on_circle(40.0, 0.75);
   car.q_WB = Attitude(0.75 * time_s + geometry::kPi / 2.0, 0.0, 0.0);
@@ -48,7 +50,8 @@ TEST(Moment, BetweenLiesTheMotion) {
     EXPECT_LT((between.cars[0].p_WB_W - truth.cars[0].p_WB_W).norm(), 0.0012);
     EXPECT_LT(between.cars[0].q_WB.angularDistance(truth.cars[0].q_WB), 1e-7);
     EXPECT_LT((between.agents[0].p_WB_W - truth.agents[0].p_WB_W).norm(), 0.0012);
-    EXPECT_NEAR(std::fabs(geometry::WrapAngle(between.cars[0].wheels[2].spin_rad - truth.cars[0].wheels[2].spin_rad)), 0.0, 1e-9);
+    EXPECT_NEAR(std::fabs(geometry::WrapAngle(between.cars[0].wheels[2].spin_rad - truth.cars[0].wheels[2].spin_rad)),
+                0.0, 1e-9);
     EXPECT_EQ(between.time_ns, truth.time_ns);
   }
 }
@@ -57,7 +60,8 @@ TEST(Moment, BetweenLiesTheMotion) {
 TEST(Moment, FastWheelsTurnAsFastAsTheyDid) {
   const Moment a = Circling(1.0), b = Circling(1.05);  // 5.15 rad
   const Moment between = Interpolate(a, b, 0.5), truth = Circling(1.025);
-  EXPECT_NEAR(std::fabs(geometry::WrapAngle(between.cars[0].wheels[0].spin_rad - truth.cars[0].wheels[0].spin_rad)), 0.0, 1e-9);
+  EXPECT_NEAR(std::fabs(geometry::WrapAngle(between.cars[0].wheels[0].spin_rad - truth.cars[0].wheels[0].spin_rad)),
+              0.0, 1e-9);
 }
 
 TEST(Moment, WhoComesOrGoesIsNotDrawnBetween) {

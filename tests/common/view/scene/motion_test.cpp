@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "common/core/base/random.hpp"
-#include "common/world/road/world.hpp"
 #include "common/view/scene/camera/camera.hpp"
 #include "common/view/scene/playback/display_clock.hpp"
 #include "common/view/scene/playback/picture_pace.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::scene {
@@ -42,8 +42,9 @@ Moment At(double time_s) {
   return moment;
 }
 
-// When a window begins its pictures: it draws for so long, shows, which waits for the display's next refresh where that holds it, and for its pace.
-// `refresh_Hz`: the display's, 0 where showing never waits, whatever it says of itself. It wakes a tenth of a millisecond late.
+// When a window begins its pictures: it draws for so long, shows, which waits for the display's next refresh where that
+// holds it, and for its pace. `refresh_Hz`: the display's, 0 where showing never waits, whatever it says of itself. It
+// wakes a tenth of a millisecond late.
 std::vector<double> BeginsOf(const DisplayBeat& beat, double refresh_Hz, double drawing_s) {
   constexpr double kWakes_s = 1e-4;
   PicturePace pace;
@@ -65,11 +66,14 @@ void Watch(const Display& display, Seen seen) {
   DisplayClock clock;
   PoseHistory history;
   int k = 0;
-  const auto arrival = [&](int i) { return i * display.period_s + kLate_s * base::RandomUniform({5, static_cast<std::uint64_t>(i)}); };
+  const auto arrival = [&](int i) {
+    return i * display.period_s + kLate_s * base::RandomUniform({5, static_cast<std::uint64_t>(i)});
+  };
   for (const double wall_s : BeginsOf({display.rate_Hz, true}, display.rate_Hz, 0.7 / display.rate_Hz)) {
     for (; arrival(k) <= wall_s; ++k) {
       history.Add(At(k * display.period_s));
-      clock.Arrived(arrival(k), static_cast<double>(history.newest_ns()) * 1e-9, static_cast<double>(history.interval_ns()) * 1e-9);
+      clock.Arrived(arrival(k), static_cast<double>(history.newest_ns()) * 1e-9,
+                    static_cast<double>(history.interval_ns()) * 1e-9);
     }
     if (!history.empty()) seen(wall_s, history.At(clock.Now(wall_s) * 1e9));
   }
@@ -102,7 +106,8 @@ TEST_P(Motion, CameraCarAndTrafficMoveTogether) {
     std::optional<Vector3d> eye, agent;
     Watch(GetParam(), [&](double, const Moment& moment) {
       const Body body = *BodyAt(moment, 0);
-      const Vector3d to_eye = MakeCamera(kind, body, {}, *world).eye_W - body.p_WB_W, to_agent = moment.agents[0].p_WB_W - body.p_WB_W;
+      const Vector3d to_eye = MakeCamera(kind, body, {}, *world).eye_W - body.p_WB_W,
+                     to_agent = moment.agents[0].p_WB_W - body.p_WB_W;
       if (!eye) eye = to_eye, agent = to_agent;
       worst_m = std::max({worst_m, (to_eye - *eye).norm(), (to_agent - *agent).norm()});
     });
@@ -116,7 +121,8 @@ TEST(PicturePace, AWindowThatTheDisplayHoldsMissesNoRefresh) {
     for (const double share : {0.05, 0.5, 0.95}) {
       for (const double said_Hz : {rate_Hz - 0.9, rate_Hz, rate_Hz + 0.9}) {  // whole numbers are said
         const auto begins = BeginsOf({said_Hz, true}, rate_Hz, share / rate_Hz);
-        ASSERT_NEAR(static_cast<double>(begins.size()), kEnd_s * rate_Hz, 1.5) << rate_Hz << " Hz, drawing takes " << share << " of a period";
+        ASSERT_NEAR(static_cast<double>(begins.size()), kEnd_s * rate_Hz, 1.5)
+            << rate_Hz << " Hz, drawing takes " << share << " of a period";
         for (std::size_t i = 1; i < begins.size(); ++i) EXPECT_NEAR(begins[i] - begins[i - 1], 1.0 / rate_Hz, 1e-9);
       }
     }
@@ -125,9 +131,11 @@ TEST(PicturePace, AWindowThatTheDisplayHoldsMissesNoRefresh) {
 
 TEST(PicturePace, WithoutTheDisplaysHoldAWindowKeepsItsRate) {
   for (const double rate_Hz : {60.0, 144.0}) {
-    EXPECT_NEAR(static_cast<double>(BeginsOf({rate_Hz, false}, 0.0, 0.003).size()), kEnd_s * rate_Hz, 2.0) << "although it wakes late each time";
+    EXPECT_NEAR(static_cast<double>(BeginsOf({rate_Hz, false}, 0.0, 0.003).size()), kEnd_s * rate_Hz, 2.0)
+        << "although it wakes late each time";
   }
-  for (const double unknown_Hz : {0.0, 1.0, 65535.0}) EXPECT_NEAR(static_cast<double>(BeginsOf({unknown_Hz, false}, 0.0, 0.003).size()), kEnd_s * 60.0, 2.0);
+  for (const double unknown_Hz : {0.0, 1.0, 65535.0})
+    EXPECT_NEAR(static_cast<double>(BeginsOf({unknown_Hz, false}, 0.0, 0.003).size()), kEnd_s * 60.0, 2.0);
 }
 
 TEST(PicturePace, ADisplayThatDoesNotKeepItsWordCostsATenthMore) {
@@ -145,7 +153,8 @@ TEST(PicturePace, WhoDrawsTooSlowlyWaitsForNobody) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Displays, Motion,
-                         ::testing::Values(Display{60.0, 0.007}, Display{60.0, 0.010}, Display{60.0, 0.020}, Display{144.0, 0.007}, Display{144.0, 0.010}, Display{144.0, 0.020}));
+                         ::testing::Values(Display{60.0, 0.007}, Display{60.0, 0.010}, Display{60.0, 0.020},
+                                           Display{144.0, 0.007}, Display{144.0, 0.010}, Display{144.0, 0.020}));
 
 }  // namespace
 }  // namespace rodeira::scene

@@ -26,12 +26,13 @@ TEST(Person, HasItsHeightAndStandsOnTheGround) {
   }
 }
 
-// Feet that bear do not slide: over half a turn of the published wheel the body goes half its circumference, and one leg swings from fully before
-// to fully behind, by which its foot goes as far.
+// Feet that bear do not slide: over half a turn of the published wheel the body goes half its circumference, and one
+// leg swings from fully before to fully behind, by which its foot goes as far.
 TEST(Person, StepsAsFarAsItWalks) {
   const double leg_m = LegLength_m(1.75);
   for (const double radius_m : {0.15, 0.2, 0.24}) {
-    const double before = LegSwing_rad(0.5 * std::numbers::pi, radius_m, leg_m), behind = LegSwing_rad(1.5 * std::numbers::pi, radius_m, leg_m);
+    const double before = LegSwing_rad(0.5 * std::numbers::pi, radius_m, leg_m),
+                 behind = LegSwing_rad(1.5 * std::numbers::pi, radius_m, leg_m);
     EXPECT_NEAR(leg_m * (std::sin(before) - std::sin(behind)), std::numbers::pi * radius_m, 1e-9);
   }
   EXPECT_LT(LegSwing_rad(0.5 * std::numbers::pi, 2.0, leg_m), 0.6) << "nobody does the splits";

@@ -18,7 +18,8 @@ TEST(Pick, TheRayOfAPlaceLeadsThroughWhatIsSeenThere) {
   car.p_WB_W = {30.0, -12.0, 4.0};
   car.q_WB = Attitude(0.8, 0.02, 0.01);
   for (const Camera& camera : Cameras(car)) {
-    for (const Eigen::Vector3d& p_B : {Eigen::Vector3d(12.0, 1.0, 0.5), Eigen::Vector3d(25.0, -3.0, 0.0), Eigen::Vector3d(8.0, 3.0, 1.5)}) {
+    for (const Eigen::Vector3d& p_B :
+         {Eigen::Vector3d(12.0, 1.0, 0.5), Eigen::Vector3d(25.0, -3.0, 0.0), Eigen::Vector3d(8.0, 3.0, 1.5)}) {
       const Eigen::Vector3d p_W = car.p_WB_W + car.q_WB * p_B;
       const auto at = camera.Project(p_W, kWidth, kHeight);
       if (!at) continue;
@@ -40,11 +41,16 @@ TEST(Pick, TheFirstCarOnTheRayIsMeant) {
     moment.agents.push_back(agent);
   }
   const Camera camera = DriverCamera(moment.cars[0]);
-  const auto at = [&](const Eigen::Vector3d& p_W) { return BodyOn(moment, RayAt(camera, *camera.Project(p_W, kWidth, kHeight), kWidth, kHeight)); };
-  EXPECT_EQ(BodyOn(moment, RayAt(camera, *camera.Project({20.0, 0.3, 0.7}, kWidth, kHeight), kWidth, kHeight), 0), 2u) << "without the car in which the eye is";
+  const auto at = [&](const Eigen::Vector3d& p_W) {
+    return BodyOn(moment, RayAt(camera, *camera.Project(p_W, kWidth, kHeight), kWidth, kHeight));
+  };
+  EXPECT_EQ(BodyOn(moment, RayAt(camera, *camera.Project({20.0, 0.3, 0.7}, kWidth, kHeight), kWidth, kHeight), 0), 2u)
+      << "without the car in which the eye is";
   Moment traffic = moment;
   traffic.cars.clear();
-  const auto among = [&](const Eigen::Vector3d& p_W) { return BodyOn(traffic, RayAt(camera, *camera.Project(p_W, kWidth, kHeight), kWidth, kHeight)); };
+  const auto among = [&](const Eigen::Vector3d& p_W) {
+    return BodyOn(traffic, RayAt(camera, *camera.Project(p_W, kWidth, kHeight), kWidth, kHeight));
+  };
   EXPECT_EQ(at({20.0, 0.3, 0.7}), 0u);
   EXPECT_EQ(among({20.0, 0.3, 0.7}), 1u) << "the nearer one, though it comes later";
   traffic.agents.pop_back();

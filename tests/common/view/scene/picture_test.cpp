@@ -18,13 +18,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kExample = fs::path(SourceDir()) / "configs/worlds/example";  // worn.png has 64 x 64 pixels, fields.png 256 x 208
+const fs::path kExample =
+    fs::path(SourceDir()) / "configs/worlds/example";  // worn.png has 64 x 64 pixels, fields.png 256 x 208
 
 // A road on a plane, whose lanes may be of a material with a picture.
 std::shared_ptr<const road::World> Plane(const std::string& ground, const std::string& lanes = "", double x_m = 0.0) {
   const auto world = road::World::Parse(
-      fmt::format("rodeira: world/2\nname: pictures\nground: {{kind: plane, z_m: 1, surface: grass{}}}\nmaterials: {{worn: {{surface: asphalt, texture: worn.png, texture_m: 3}}}}\nroads:\n"
-                  "  - id: a\n    start: {{x_m: {}, y_m: 20, heading_deg: 0}}\n    axis: [line: {{length_m: 60}}]\n    z_m: 1\n    section: {{template: rural{}}}\n", ground, x_m, lanes),
+      fmt::format("rodeira: world/2\nname: pictures\nground: {{kind: plane, z_m: 1, surface: grass{}}}\nmaterials: "
+                  "{{worn: {{surface: asphalt, texture: worn.png, texture_m: 3}}}}\nroads:\n"
+                  "  - id: a\n    start: {{x_m: {}, y_m: 20, heading_deg: 0}}\n    axis: [line: {{length_m: 60}}]\n    "
+                  "z_m: 1\n    section: {{template: rural{}}}\n",
+                  ground, x_m, lanes),
       kExample / "made.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.ok() ? world.value() : nullptr;
@@ -45,7 +49,8 @@ std::vector<Mesh> Pictured(const road::World& world) {
 }
 
 TEST(Pictures, ADrapedOneReachesFromEdgeToEdge) {
-  const auto world = Plane(", texture: {file: fields.png, kind: draped, west_m: -100, south_m: -50, east_m: 300, north_m: 150}");
+  const auto world =
+      Plane(", texture: {file: fields.png, kind: draped, west_m: -100, south_m: -50, east_m: 300, north_m: 150}");
   ASSERT_NE(world, nullptr);
   const auto meshes = Pictured(*world);
   ASSERT_FALSE(meshes.empty());
@@ -77,22 +82,27 @@ TEST(Pictures, ARepeatedOneIsWholePicturesAwayFarFromTheOrigin) {
     ASSERT_FALSE(meshes.empty());
     for (const Mesh& mesh : meshes) {
       EXPECT_TRUE(mesh.repeats);
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) ExpectSame(mesh.on_face[i], mesh.PositionW(i).head<2>().cwiseQuotient(Eigen::Vector2d(64.0, 52.0)));
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        ExpectSame(mesh.on_face[i], mesh.PositionW(i).head<2>().cwiseQuotient(Eigen::Vector2d(64.0, 52.0)));
     }
   }
 }
 
-// Along a bend to the left of 60 m about (0, 80), from its foot at the origin's x: by the angle about its centre and the distance from it. The right lane
-// is driven along s, the left one against it: its picture lies the other way round. Where traffic keeps left it is the right lane's that does.
+// Along a bend to the left of 60 m about (0, 80), from its foot at the origin's x: by the angle about its centre and
+// the distance from it. The right lane is driven along s, the left one against it: its picture lies the other way
+// round. Where traffic keeps left it is the right lane's that does.
 TEST(Pictures, ALanesOwnGoesAlongItAsItIsDriven) {
   for (const bool left_hand : {false, true}) {
     for (const int id : {-1, 1}) {
       for (const double x : {0.0, 5e6}) {
         const auto world = road::World::Parse(
-            fmt::format("rodeira: world/2\nname: bend\nrule: {}\nground: {{kind: plane, z_m: 1, surface: grass}}\nmaterials: {{worn: {{surface: asphalt, texture: worn.png, texture_m: 3}}}}\nroads:\n"
-                        "  - id: a\n    start: {{x_m: {}, y_m: 20, heading_deg: 0}}\n    axis: [arc: {{length_m: 120, radius_m: 60}}]\n    z_m: 1\n"
-                        "    section: {{template: rural, lanes: [{{id: -1, width_m: 3.5{}}}, {{id: 1, width_m: 3.5{}}}]}}\n",
-                        left_hand ? "left" : "right", x, id < 0 ? ", material: worn" : "", id > 0 ? ", material: worn" : ""),
+            fmt::format(
+                "rodeira: world/2\nname: bend\nrule: {}\nground: {{kind: plane, z_m: 1, surface: grass}}\nmaterials: "
+                "{{worn: {{surface: asphalt, texture: worn.png, texture_m: 3}}}}\nroads:\n"
+                "  - id: a\n    start: {{x_m: {}, y_m: 20, heading_deg: 0}}\n    axis: [arc: {{length_m: 120, "
+                "radius_m: 60}}]\n    z_m: 1\n"
+                "    section: {{template: rural, lanes: [{{id: -1, width_m: 3.5{}}}, {{id: 1, width_m: 3.5{}}}]}}\n",
+                left_hand ? "left" : "right", x, id < 0 ? ", material: worn" : "", id > 0 ? ", material: worn" : ""),
             kExample / "made.yaml");
         ASSERT_TRUE(world.ok()) << world.error().Text();
         const auto meshes = Pictured(*world.value());
@@ -118,12 +128,16 @@ TEST(Pictures, ALanesOwnGoesAlongItAsItIsDriven) {
   }
 }
 
-// A road that climbs out of a circle over its own beginning, banked: the picture goes on along it where it lies over itself.
+// A road that climbs out of a circle over its own beginning, banked: the picture goes on along it where it lies over
+// itself.
 TEST(Pictures, WhereARoadPassesItselfEachPlaceIsItsOwn) {
   const auto world = road::World::Parse(
-      "rodeira: world/2\nname: spiral\nground: {kind: plane, z_m: -30, surface: grass}\nmaterials: {worn: {surface: asphalt, texture: worn.png, texture_m: 3}}\nroads:\n"
-      "  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [arc: {length_m: 460, radius_m: 60}]\n    vertical: [{s_m: 0, z_m: 0}, {s_m: 460, z_m: 23}]\n"
-      "    section: {template: rural, lanes: [{id: -1, width_m: 3.5, material: worn}, {id: 1, width_m: 3.5}]}\n    bridges: [{from_s_m: 0, to_s_m: 460}]\n",
+      "rodeira: world/2\nname: spiral\nground: {kind: plane, z_m: -30, surface: grass}\nmaterials: {worn: {surface: "
+      "asphalt, texture: worn.png, texture_m: 3}}\nroads:\n"
+      "  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [arc: {length_m: 460, radius_m: 60}]\n    "
+      "vertical: [{s_m: 0, z_m: 0}, {s_m: 460, z_m: 23}]\n"
+      "    section: {template: rural, lanes: [{id: -1, width_m: 3.5, material: worn}, {id: 1, width_m: 3.5}]}\n    "
+      "bridges: [{from_s_m: 0, to_s_m: 460}]\n",
       kExample / "made.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   double most_s = 0.0;
@@ -152,7 +166,8 @@ TEST(Pictures, AGeotypicalOneKeepsItsShape) {
 
 TEST(Pictures, OverATerrainWithoutARectangleItCoversAllOfIt) {
   const auto world = road::World::Parse(
-      "rodeira: world/1\nname: hills\nterrain:\n  texture: {file: fields.png, kind: draped}\n  generate: {seed: 1, columns: 21, rows: 11, spacing_m: 10, west_m: -50, south_m: 30, relief: []}\n",
+      "rodeira: world/1\nname: hills\nterrain:\n  texture: {file: fields.png, kind: draped}\n  generate: {seed: 1, "
+      "columns: 21, rows: 11, spacing_m: 10, west_m: -50, south_m: 30, relief: []}\n",
       kExample / "made.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const terrain::LaidPicture& picture = *world.value()->ground_picture();
@@ -165,22 +180,27 @@ TEST(Pictures, OverATerrainWithoutARectangleItCoversAllOfIt) {
   for (const TerrainTile& tile : scene.terrain) {
     for (const Mesh& mesh : tile.levels) {
       ASSERT_EQ(mesh.material, Material::kPicture);
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) EXPECT_NEAR(mesh.on_face[i].x(), (mesh.PositionW(i).x() + 50.0) / 200.0, 1e-6);
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_NEAR(mesh.on_face[i].x(), (mesh.PositionW(i).x() + 50.0) / 200.0, 1e-6);
     }
   }
 }
 
-// Pictures change nothing that is driven on: the content hash does not know them. What is seen does, by their bytes, not by their paths.
+// Pictures change nothing that is driven on: the content hash does not know them. What is seen does, by their bytes,
+// not by their paths.
 TEST(Pictures, OnlyTheHashOfWhatIsSeenKnowsThem) {
-  const auto bare = Plane(""), repeated = Plane(", texture: {file: fields.png, repeat_m: 64}"), wider = Plane(", texture: {file: fields.png, repeat_m: 65}"),
-             other = Plane(", texture: {file: worn.png, repeat_m: 64}"), worn = Plane("", kWorn), left = Plane("", ", lanes: [{id: -1, width_m: 3.5}, {id: 1, width_m: 3.5, material: worn}]");
+  const auto bare = Plane(""), repeated = Plane(", texture: {file: fields.png, repeat_m: 64}"),
+             wider = Plane(", texture: {file: fields.png, repeat_m: 65}"),
+             other = Plane(", texture: {file: worn.png, repeat_m: 64}"), worn = Plane("", kWorn),
+             left = Plane("", ", lanes: [{id: -1, width_m: 3.5}, {id: 1, width_m: 3.5, material: worn}]");
   for (const auto& world : {repeated, wider, other, worn, left}) EXPECT_EQ(world->content_hash(), bare->content_hash());
   std::set<base::Digest> seen;
   for (const auto& world : {bare, repeated, wider, other, worn, left}) seen.insert(SeenDigest(*world));
   EXPECT_EQ(seen.size(), 6u);
   const cli::TemporaryFolder folder;
   fs::copy_file(kExample / "fields.png", folder.path() / "fields.png");
-  const auto moved = Plane(fmt::format(", texture: {{file: {}, repeat_m: 64}}", (folder.path() / "fields.png").string()));
+  const auto moved =
+      Plane(fmt::format(", texture: {{file: {}, repeat_m: 64}}", (folder.path() / "fields.png").string()));
   EXPECT_EQ(SeenDigest(*moved), SeenDigest(*repeated));
   std::ofstream(folder.path() / "fields.png", std::ios::app) << "more";
   EXPECT_NE(SeenDigest(*moved), SeenDigest(*repeated));
@@ -188,7 +208,9 @@ TEST(Pictures, OnlyTheHashOfWhatIsSeenKnowsThem) {
 
 // Each surface has a look of its own where no picture lies.
 TEST(Pictures, SurfacesWithoutOneLookDifferent) {
-  const auto world = Plane("", ", lanes: [{id: -1, width_m: 3.5, material: concrete}, {id: 1, width_m: 3.5}], shoulders: {left: {width_m: 2, material: gravel}}");
+  const auto world = Plane("",
+                           ", lanes: [{id: -1, width_m: 3.5, material: concrete}, {id: 1, width_m: 3.5}], shoulders: "
+                           "{left: {width_m: 2, material: gravel}}");
   ASSERT_NE(world, nullptr);
   std::set<Material> materials;
   const WorldScene scene = BuildWorldScene(*world);

@@ -19,7 +19,8 @@ TEST(Placing, ARayMeetsAPlaneWhereItsFormulaSays) {
   ground::PlaneGround plane({3.0, -2.0, 7.0}, 0.08, -0.05);
   const Vector3d normal(-0.08, 0.05, 1.0);
   const double level = normal.dot(Vector3d(3.0, -2.0, 7.0));
-  for (const Vector3d& along : {Vector3d(0.0, 0.0, -1.0), Vector3d(1.0, 0.3, -0.4), Vector3d(-2.0, 1.0, -0.35), Vector3d(0.2, -5.0, -0.4)}) {
+  for (const Vector3d& along :
+       {Vector3d(0.0, 0.0, -1.0), Vector3d(1.0, 0.3, -0.4), Vector3d(-2.0, 1.0, -0.35), Vector3d(0.2, -5.0, -0.4)}) {
     const Ray ray{{10.0, 20.0, 40.0}, along.normalized()};
     const auto met = GroundOn(plane, ray);
     ASSERT_TRUE(met) << along.transpose();
@@ -58,7 +59,8 @@ TEST(Placing, BeyondTheWorldThereIsNoGround) {
   const auto world = N222();
   const auto ground = world->MakeGround();
   const auto extents = world->extents();
-  EXPECT_FALSE(GroundOn(*ground, Through({extents.east_m + 300.0, extents.north_m + 300.0, 900.0}, {extents.east_m + 301.0, extents.north_m + 300.0, 0.0})));
+  EXPECT_FALSE(GroundOn(*ground, Through({extents.east_m + 300.0, extents.north_m + 300.0, 900.0},
+                                         {extents.east_m + 301.0, extents.north_m + 300.0, 0.0})));
 }
 
 TEST(Placing, ACarStandsInTheDirectionOfItsLanesTraffic) {
@@ -70,7 +72,9 @@ TEST(Placing, ACarStandsInTheDirectionOfItsLanesTraffic) {
       const Vector3d p = road.Position(s, road.LaneCentre(id, s));
       const CarPlace place = PlaceAt(*world, p, 0.3);
       EXPECT_TRUE(place.on_lane);
-      EXPECT_NEAR(std::remainder(place.heading_rad - along - (id > 0 ? geometry::kPi : 0.0), 2.0 * geometry::kPi), 0.0, 1e-6) << s << " " << id;
+      EXPECT_NEAR(std::remainder(place.heading_rad - along - (id > 0 ? geometry::kPi : 0.0), 2.0 * geometry::kPi), 0.0,
+                  1e-6)
+          << s << " " << id;
       EXPECT_EQ(place.x_m, p.x());
     }
   }

@@ -21,7 +21,8 @@ class Plan {
       const Eigen::Vector3d across = (triangle.p[1] - triangle.p[0]).cross(triangle.p[2] - triangle.p[0]);
       area_m2_ += 0.5 * across.z();
       if (across.z() < 0.0) ++downward_;
-      Eigen::Vector3d low = triangle.p[0].cwiseMin(triangle.p[1]).cwiseMin(triangle.p[2]), high = triangle.p[0].cwiseMax(triangle.p[1]).cwiseMax(triangle.p[2]);
+      Eigen::Vector3d low = triangle.p[0].cwiseMin(triangle.p[1]).cwiseMin(triangle.p[2]),
+                      high = triangle.p[0].cwiseMax(triangle.p[1]).cwiseMax(triangle.p[2]);
       for (long c = Bin(low.x()); c <= Bin(high.x()); ++c) {
         for (long r = Bin(low.y()); r <= Bin(high.y()); ++r) bins_[Key(c, r)].push_back(triangles_.size());
       }
@@ -54,8 +55,12 @@ class Plan {
   };
   static constexpr double kBin_m = 8.0;
   static long Bin(double x) { return static_cast<long>(std::floor(x / kBin_m)); }
-  static std::uint64_t Key(long c, long r) { return (static_cast<std::uint64_t>(c) << 32) ^ (static_cast<std::uint64_t>(r) & 0xffffffffU); }
-  static double Side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double y) { return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x()); }
+  static std::uint64_t Key(long c, long r) {
+    return (static_cast<std::uint64_t>(c) << 32) ^ (static_cast<std::uint64_t>(r) & 0xffffffffU);
+  }
+  static double Side(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double x, double y) {
+    return (b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x());
+  }
 
   std::vector<Triangle> triangles_;
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> bins_;

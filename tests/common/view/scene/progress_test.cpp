@@ -49,7 +49,8 @@ TEST(Progress, ItGoesTileByTile) {
   const Heard heard = ShareOf("lights.yaml", &scene);
   ASSERT_GE(scene.ground.size(), 6u);
   double widest = 0.0;
-  for (std::size_t i = 1; i < heard.shares.size(); ++i) widest = std::max(widest, heard.shares[i] - heard.shares[i - 1]);
+  for (std::size_t i = 1; i < heard.shares.size(); ++i)
+    widest = std::max(widest, heard.shares[i] - heard.shares[i - 1]);
   EXPECT_LT(widest, 0.6);
 }
 
@@ -57,10 +58,12 @@ TEST(Progress, EachPieceOfWorkIsCountedOnce) {
   for (const unsigned threads : {1u, 4u}) {
     std::vector<std::size_t> told;
     std::atomic<std::size_t> worked{0};
-    ForEachAtOnce(100, threads, [&](std::size_t) { ++worked; }, [&](std::size_t done) {
-      EXPECT_LE(done, worked.load());
-      told.push_back(done);
-    });
+    ForEachAtOnce(
+        100, threads, [&](std::size_t) { ++worked; },
+        [&](std::size_t done) {
+          EXPECT_LE(done, worked.load());
+          told.push_back(done);
+        });
     EXPECT_EQ(worked.load(), 100u);
     EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
     EXPECT_EQ(told.back(), 100u);

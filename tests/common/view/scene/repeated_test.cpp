@@ -24,7 +24,8 @@ TEST(Repeated, AModelIsTurnedAndGrownAtItsPlace) {
   repeated.model.Add({0.0, 0.0, 0.0}, Vector3d::UnitZ(), Colour::Of(0x708090));
   repeated.model.AddTriangle(0, 1, 2);
   repeated.origin_W = {128.0, 64.0, 0.0};
-  repeated.places = {{{{130.0, 60.0, 7.0}, {0.0, 1.0}}, 2.0, 10.0, {}}, {{{100.0, 60.0, 8.0}, {1.0, 0.0}}, 1.0, 1.0, {}}};  // a quarter turn to the left
+  repeated.places = {{{{130.0, 60.0, 7.0}, {0.0, 1.0}}, 2.0, 10.0, {}},
+                     {{{100.0, 60.0, 8.0}, {1.0, 0.0}}, 1.0, 1.0, {}}};  // a quarter turn to the left
   const std::vector<Mesh> merged = Merged({&repeated, 1});
   ASSERT_EQ(merged.size(), 1U);
   ASSERT_EQ(merged[0].triangle_count(), 2U);
@@ -56,13 +57,15 @@ TEST(Repeated, LeavesHaveTheirTreesColourAndTrunksTheirOwn) {
   EXPECT_TRUE(bark && dark && light);
   for (const TreeKind kind : {TreeKind::kRound, TreeKind::kCone, TreeKind::kBush}) {
     for (int level = 0; level < 3; ++level) {
-      for (const float share : TreeModel(kind, level).light) EXPECT_TRUE(share < 0.0F || 4.0F * share == std::floor(4.0F * share)) << "a graphics card gets quarters";
+      for (const float share : TreeModel(kind, level).light)
+        EXPECT_TRUE(share < 0.0F || 4.0F * share == std::floor(4.0F * share)) << "a graphics card gets quarters";
     }
   }
 }
 
 TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
-  const auto world = OpenDriveWorld(R"(<road id="1" length="200" junction="-1"><planView><geometry s="0" x="20" y="100" hdg="0" length="200"><line/></geometry></planView>
+  const auto world = OpenDriveWorld(
+      R"(<road id="1" length="200" junction="-1"><planView><geometry s="0" x="20" y="100" hdg="0" length="200"><line/></geometry></planView>
     <lanes><laneSection s="0"><center><lane id="0"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes>
     <objects><object id="t" type="tree" s="0" t="-12" zOffset="0" radius="3" height="7"><repeat s="0" length="190" distance="10" tStart="-12" tEnd="-12"/></object>
     <object id="p" type="guide-post" s="0" t="-6" zOffset="0" height="1"><repeat s="0" length="180" distance="20" tStart="-6" tEnd="-6"/></object>
@@ -82,7 +85,8 @@ TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
   EXPECT_EQ(places_of(3), (std::multiset<std::size_t>{}));
   const DrawnThings drawn = DrawThings(tile, key, 0);
   ASSERT_EQ(drawn.meshes.size(), 1U);
-  for (std::size_t i = 0; i < drawn.meshes[0].positions.size(); ++i) EXPECT_GT(drawn.meshes[0].PositionW(i).y(), 100.0) << "the lamps alone";
+  for (std::size_t i = 0; i < drawn.meshes[0].positions.size(); ++i)
+    EXPECT_GT(drawn.meshes[0].PositionW(i).y(), 100.0) << "the lamps alone";
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The lines and rows of points that a road is drawn by, against its formulas between the points: chord errors, and how far apart points lie.
+// The lines and rows of points that a road is drawn by, against its formulas between the points: chord errors, and how
+// far apart points lie.
 #include "common/view/scene/breaklines/road_lines.hpp"
 
 #include <fmt/format.h>
@@ -32,8 +33,8 @@ struct RoadPlace {
   double s_m, t_m, z_m;  // z: of its surface
 };
 
-// The road's own place over or under a point. By its plan alone, the nearest foot of all panels, so that it is found beside the road's edges too; where a road leans,
-// as SUELO finds it, and then nothing beside its edges.
+// The road's own place over or under a point. By its plan alone, the nearest foot of all panels, so that it is found
+// beside the road's edges too; where a road leans, as SUELO finds it, and then nothing beside its edges.
 std::optional<RoadPlace> PlaceOn(const network::Network& network, std::uint32_t index, const Eigen::Vector3d& p_W) {
   const network::Road& road = network.roads()[index];
   if (road.rolled()) {
@@ -42,7 +43,9 @@ std::optional<RoadPlace> PlaceOn(const network::Network& network, std::uint32_t 
     std::optional<RoadPlace> nearest;
     for (const network::Surfacing& surface : surfaces) {
       const double z_m = surface.sample.p_W.z();
-      if (surface.place.lane.road != index || surface.place.distance_m > 0.0 || (nearest && std::fabs(nearest->z_m - p_W.z()) <= std::fabs(z_m - p_W.z()))) continue;
+      if (surface.place.lane.road != index || surface.place.distance_m > 0.0 ||
+          (nearest && std::fabs(nearest->z_m - p_W.z()) <= std::fabs(z_m - p_W.z())))
+        continue;
       nearest = RoadPlace{surface.place.s_m, surface.place.t_m, z_m};
     }
     return nearest;
@@ -51,14 +54,16 @@ std::optional<RoadPlace> PlaceOn(const network::Network& network, std::uint32_t 
   for (const geometry::AxisPanel& panel : road.axis().panels()) {
     if ((panel.middle_W - p_W.head<2>()).norm() > panel.half_m + 40.0) continue;
     const geometry::AxisFoot foot = road.axis().Foot(panel, p_W.head<2>());
-    if (std::hypot(foot.t_m, foot.beyond_m) < std::hypot(t, beyond)) t = foot.t_m, beyond = foot.beyond_m, s = panel.middle_s_m + foot.u_m;
+    if (std::hypot(foot.t_m, foot.beyond_m) < std::hypot(t, beyond))
+      t = foot.t_m, beyond = foot.beyond_m, s = panel.middle_s_m + foot.u_m;
   }
   if (std::fabs(beyond) > 1e-6 || s < 0.0 || s > road.length_m()) return std::nullopt;
   return RoadPlace{s, t, road.Surface(s, t).p_W.z()};
 }
 
-// Dense places on the chords between neighbouring points of a road's lines: how far the nearest edge of a lane is from them across the road, and the
-// road's surface above or below. Lines across the road and those between lanes' edges are held in height alone.
+// Dense places on the chords between neighbouring points of a road's lines: how far the nearest edge of a lane is from
+// them across the road, and the road's surface above or below. Lines across the road and those between lanes' edges are
+// held in height alone.
 void Look(const network::Network& network, std::uint32_t index, const Tolerance& tolerance, Worst& worst) {
   const network::Road& road = network.roads()[index];
   const network::LaneSection* section = nullptr;
@@ -74,7 +79,9 @@ void Look(const network::Network& network, std::uint32_t index, const Tolerance&
         section = &road.SectionAt(s);
         ++worst.asked;
         const double off_m = std::fabs(place->z_m - p.z());
-        if (off_m > worst.height_m) worst.height_m = off_m, worst.where = fmt::format("road {}, s {:.3f}, t {:.4f}, {}/16 of a chord of {:.3f} m", road.id(), s, t, k, chord.norm());
+        if (off_m > worst.height_m)
+          worst.height_m = off_m, worst.where = fmt::format("road {}, s {:.3f}, t {:.4f}, {}/16 of a chord of {:.3f} m",
+                                                            road.id(), s, t, k, chord.norm());
         const geometry::CubicPoint centre = road.CentreAt(s);
         double nearest = std::fabs(t - centre.value), width = 1e9;
         for (const auto* side : {&section->left, &section->right}) {
@@ -102,12 +109,14 @@ TEST(RoadLines, KeepTheChordErrorOfTheirLevel) {
         // In a junction the ground is the junction's, and so is what is drawn (JunctionMesh).
         if (network.roads()[index].spec().junction.empty()) Look(network, index, kAsked[level], worst);
       }
-      if (level < 2) {  // coarser ones are farther off than a tenth of a narrow lane, so that this does not tell its edge from another line
+      if (level < 2) {  // coarser ones are farther off than a tenth of a narrow lane, so that this does not tell its
+                        // edge from another line
         EXPECT_LE(worst.plan_m, kAsked[level].plan_m) << name << ", level " << level;
       }
       EXPECT_LE(worst.height_m, kAsked[level].height_m) << name << ", level " << level << ": " << worst.where;
       EXPECT_GT(worst.asked, 100u) << name;
-      std::printf("%s, level %zu: %zu places, worst %.2f mm in plan, %.2f mm in height\n", name.c_str(), level, worst.asked, 1e3 * worst.plan_m, 1e3 * worst.height_m);
+      std::printf("%s, level %zu: %zu places, worst %.2f mm in plan, %.2f mm in height\n", name.c_str(), level,
+                  worst.asked, 1e3 * worst.plan_m, 1e3 * worst.height_m);
     }
   }
 }

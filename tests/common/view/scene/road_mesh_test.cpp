@@ -107,7 +107,8 @@ TEST_P(RoadMesh, PaintsWhatSueloCallsPaint) {
   int differ = 0, painted = 0;
   for (std::uint64_t k = 0; k < 40'000; ++k) {
     const double s = base::RandomUniform({3, k}, 0.0, road.length_m());
-    const road::Mark& mark = road.marks()[static_cast<std::size_t>(base::RandomUniform({4, k}, 0.0, static_cast<double>(road.marks().size())))];
+    const road::Mark& mark = road.marks()[static_cast<std::size_t>(
+        base::RandomUniform({4, k}, 0.0, static_cast<double>(road.marks().size())))];
     const double t = mark.t_m + base::RandomUniform({5, k}, -1.0, 1.0) * mark.width_m;
     const Eigen::Vector3d p = road.Position(s, t);
     const bool on_picture = !marks.HeightsOver(p.x(), p.y()).empty();
@@ -132,7 +133,9 @@ TEST(RoadMarks, DashesHaveTheirLength) {
     for (std::size_t t = 0; t < tile.marks.triangle_count(); ++t) {
       if (!(tile.marks.colours[tile.marks.triangles[3 * t]] == Colour::Of(0xe5b52e))) continue;
       const Eigen::Vector3d a = tile.marks.PositionW(tile.marks.triangles[3 * t]);
-      yellow_m2 += 0.5 * (tile.marks.PositionW(tile.marks.triangles[3 * t + 1]) - a).cross(tile.marks.PositionW(tile.marks.triangles[3 * t + 2]) - a).norm();
+      yellow_m2 += 0.5 * (tile.marks.PositionW(tile.marks.triangles[3 * t + 1]) - a)
+                             .cross(tile.marks.PositionW(tile.marks.triangles[3 * t + 2]) - a)
+                             .norm();
     }
   }
   // 120 m hold 15 whole dashes of 3 m on gaps of 5 m; the paint is 0.12 m wide.

@@ -1,4 +1,5 @@
-// Crossings, stop lines and arrows painted on roads: against areas in closed form, the Vienna Convention's measures and symmetry.
+// Crossings, stop lines and arrows painted on roads: against areas in closed form, the Vienna Convention's measures and
+// symmetry.
 #include "common/view/scene/road_markings/road_paint.hpp"
 
 #include <gtest/gtest.h>
@@ -6,9 +7,9 @@
 #include <cmath>
 
 #include "common/core/geometry/plane.hpp"
-#include "common/world/network/network.hpp"
-#include "common/view/scene/visual_world/ground_tile.hpp"
 #include "common/view/scene/road_markings/stencils.hpp"
+#include "common/view/scene/visual_world/ground_tile.hpp"
+#include "common/world/network/network.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
 
 namespace rodeira::scene {
@@ -18,7 +19,8 @@ using Eigen::Vector2d;
 
 double AreaOf(const Polygon2& polygon) {
   double area = 0.0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) area += 0.5 * geometry::Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    area += 0.5 * geometry::Cross(polygon[i], polygon[(i + 1) % polygon.size()]);
   return area;
 }
 
@@ -28,13 +30,20 @@ double AreaOf(const std::vector<Polygon2>& shape) {
   return area;
 }
 
-Polygon2 Box(double length, double width) { return {{-0.5 * length, -0.5 * width}, {0.5 * length, -0.5 * width}, {0.5 * length, 0.5 * width}, {-0.5 * length, 0.5 * width}}; }
+Polygon2 Box(double length, double width) {
+  return {{-0.5 * length, -0.5 * width},
+          {0.5 * length, -0.5 * width},
+          {0.5 * length, 0.5 * width},
+          {-0.5 * length, 0.5 * width}};
+}
 
 TEST(Stencils, AZebraHasTheConventionsStripesEvenlyOnBothSides) {
-  static_assert(kStripeGap_m >= kStripe_m && kStripeGap_m <= 2.0 * kStripe_m && kStripe_m + kStripeGap_m >= 1.0 && kStripe_m + kStripeGap_m <= 1.4);
+  static_assert(kStripeGap_m >= kStripe_m && kStripeGap_m <= 2.0 * kStripe_m && kStripe_m + kStripeGap_m >= 1.0 &&
+                kStripe_m + kStripeGap_m <= 1.4);
   for (const double width : {0.4, 3.5, 7.0, 7.5, 10.49, 10.5}) {
     const auto stripes = ZebraShape(Box(4.0, width));
-    const double count = std::max(1.0, std::floor(width + 0.5));  // stripes and gaps of half a metre: one stripe more than gaps
+    const double count =
+        std::max(1.0, std::floor(width + 0.5));  // stripes and gaps of half a metre: one stripe more than gaps
     ASSERT_EQ(stripes.size(), static_cast<std::size_t>(count)) << width;
     EXPECT_NEAR(AreaOf(stripes), 4.0 * std::min(width, 0.5 * count), 1e-12);
     EXPECT_NEAR(stripes.front()[0].y(), -stripes.back()[2].y(), 1e-12);
@@ -54,13 +63,15 @@ TEST(Stencils, StripesEndAtASlantedOutline) {
 TEST(Stencils, ArrowsFillTheirRectangleAndLeftIsRightInAMirror) {
   for (int bits = 1; bits < 8; ++bits) {
     const ArrowWays ways{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0};
-    const auto shape = ArrowShape(ways, 5.0, 1.0), mirrored = ArrowShape({ways.right, ways.straight, ways.left}, 5.0, 1.0);
+    const auto shape = ArrowShape(ways, 5.0, 1.0),
+               mirrored = ArrowShape({ways.right, ways.straight, ways.left}, 5.0, 1.0);
     double front = -9.0, back = 9.0, left = -9.0, right = 9.0;
     for (const Polygon2& polygon : shape) {
       for (std::size_t i = 0; i < polygon.size(); ++i) {
         const Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()], &c = polygon[(i + 2) % polygon.size()];
         EXPECT_GT(geometry::Cross(b - a, c - b), 0.0) << bits;  // convex, counter-clockwise
-        front = std::max(front, a.x()), back = std::min(back, a.x()), left = std::max(left, a.y()), right = std::min(right, a.y());
+        front = std::max(front, a.x()), back = std::min(back, a.x()), left = std::max(left, a.y()),
+        right = std::min(right, a.y());
       }
     }
     EXPECT_NEAR(front, 2.5, 1e-12) << bits;
@@ -79,10 +90,13 @@ TEST(Stencils, ArrowsFillTheirRectangleAndLeftIsRightInAMirror) {
 // A level road to the east from (10, 20), a lane of 3.5 m on each side, without any marks of its own.
 std::shared_ptr<const road::World> WorldWith(const std::string& more) {
   const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
-  return OpenDriveWorld(fmt::format(
-      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"10\" y=\"20\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
-      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane id=\"0\"/></center>"
-      "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes>{}</road>\n", width, width, more));
+  return OpenDriveWorld(
+      fmt::format("<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"10\" y=\"20\" "
+                  "hdg=\"0\" length=\"100\"><line/></geometry></planView>"
+                  "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane "
+                  "id=\"0\"/></center>"
+                  "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes>{}</road>\n",
+                  width, width, more));
 }
 
 struct Painted {
@@ -120,7 +134,8 @@ void ExpectBox(const Painted& painted, double west, double south, double east, d
 }
 
 TEST(RoadPaint, ACrosswalkIsAZebra) {
-  const auto world = WorldWith(R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0" length="4" width="7"/></objects>)");
+  const auto world = WorldWith(
+      R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0" length="4" width="7"/></objects>)");
   ASSERT_NE(world, nullptr);
   for (const std::size_t level : {0u, 2u}) {
     const Painted painted = PaintOf(*world, level);
@@ -132,7 +147,8 @@ TEST(RoadPaint, ACrosswalkIsAZebra) {
 
 TEST(RoadPaint, AnOutlineTurnedAcrossTheRoadHasStripesAlongItNevertheless) {
   // The object looks to the left; its outline is 7 m along that and 3 m across, with a point in the hull's inside.
-  const auto world = WorldWith(R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0" hdg="1.5707963267948966"><outline>
+  const auto world =
+      WorldWith(R"(<objects><object id="z" type="crosswalk" s="50" t="0" zOffset="0" hdg="1.5707963267948966"><outline>
     <cornerLocal u="-3.5" v="-1.5" z="0" height="0"/><cornerLocal u="3.5" v="-1.5" z="0" height="0"/><cornerLocal u="1" v="0" z="0" height="0"/>
     <cornerLocal u="3.5" v="1.5" z="0" height="0"/><cornerLocal u="-3.5" v="1.5" z="0" height="0"/></outline></object>
     <object id="v" type="crosswalk" subtype="virtual" s="20" t="0" zOffset="0" length="4" width="7"/></objects>)");
@@ -143,7 +159,8 @@ TEST(RoadPaint, AnOutlineTurnedAcrossTheRoadHasStripesAlongItNevertheless) {
 }
 
 TEST(RoadPaint, ACrossingThatIsASignalStaysOnItsRoadsLanes) {
-  const auto world = WorldWith(R"(<signals><signal id="z" s="0" t="0" zOffset="0" orientation="+" dynamic="no" type="1000003" subtype="-1" country="OpenDRIVE" value="4" height="0.01" width="10.4"/></signals>)");
+  const auto world = WorldWith(
+      R"(<signals><signal id="z" s="0" t="0" zOffset="0" orientation="+" dynamic="no" type="1000003" subtype="-1" country="OpenDRIVE" value="4" height="0.01" width="10.4"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 7.0 * 0.5 * 4.0, 1e-2);
@@ -151,9 +168,11 @@ TEST(RoadPaint, ACrossingThatIsASignalStaysOnItsRoadsLanes) {
 }
 
 TEST(RoadPaint, AParkingPlaceHasItsLines) {
-  // 5 m to the north and 2.5 m across, its middle on the left lane: its left side lies to the west; a line round its rear from corner to corner, 2.5 + 5 m, of which
-  // 0.5 m at the beginning and 1 m at the end stay bare, in strokes of 1 m and gaps of 0.5 m.
-  const auto world = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="0" hdg="1.5707963267948966">
+  // 5 m to the north and 2.5 m across, its middle on the left lane: its left side lies to the west; a line round its
+  // rear from corner to corner, 2.5 + 5 m, of which 0.5 m at the beginning and 1 m at the end stay bare, in strokes of
+  // 1 m and gaps of 0.5 m.
+  const auto world = WorldWith(
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="0" hdg="1.5707963267948966">
       <outline><cornerLocal id="0" u="-2.5" v="1.25" height="0"/><cornerLocal id="1" u="-2.5" v="-1.25" height="0"/><cornerLocal id="2" u="2.5" v="-1.25" height="0"/></outline>
       <markings><marking side="left" width="0.2"/><marking width="0.1" lineLength="1" spaceLength="0.5" startOffset="0.5" stopOffset="1"><cornerReference id="0"/><cornerReference id="1"/>
       <cornerReference id="2"/></marking></markings></object></objects>)");
@@ -161,42 +180,55 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
   const Painted painted = PaintOf(*world);
   // Strokes begin at 0.5, 2, 3.5, 5 and end a metre later, the last line ends at 6.5: 4 strokes of 1 m.
   EXPECT_NEAR(painted.area_m2, 5.0 * 0.2 + 4.0 * 1.0 * 0.1, 2e-3);
-  // West: half the left line's width beyond it. East: half the other's. From the left line's ends, but south half the width of what lies along the rear.
+  // West: half the left line's width beyond it. East: half the other's. From the left line's ends, but south half the
+  // width of what lies along the rear.
   ExpectBox(painted, 60.0 - 1.25 - 0.1, 20.0 - 2.5 - 0.05, 60.0 + 1.25 + 0.05, 20.0 + 2.5);
   EXPECT_TRUE(Things(*world).tiles().empty());
 }
 
-// Whoever parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height that a file gives it makes no body of it.
+// Whoever parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height that a
+// file gives it makes no body of it.
 TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
-  const auto world = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4"><material roadMarkColor="yellow"/></object></objects>)");
+  const auto world = WorldWith(
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4"><material roadMarkColor="yellow"/></object></objects>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 5.0 * 2.5 - 4.76 * 2.26, 2e-3);
   ExpectBox(painted, 57.5, 18.75, 62.5, 21.25);
   EXPECT_TRUE(Things(*world).tiles().empty());
-  // A rhomboid of base 2.5 and height 5, slanted by 45 degrees: its inner one has the same shape, 0.12 m within each side.
-  const auto slanted = WorldWith(R"(<objects><object id="p" type="parkingSpace" s="50" t="0"><outlines><outline id="0" closed="true"><cornerLocal u="-2.5" v="-2.5" z="0" height="4"/><cornerLocal u="0" v="-2.5" z="0" height="4"/>
+  // A rhomboid of base 2.5 and height 5, slanted by 45 degrees: its inner one has the same shape, 0.12 m within each
+  // side.
+  const auto slanted = WorldWith(
+      R"(<objects><object id="p" type="parkingSpace" s="50" t="0"><outlines><outline id="0" closed="true"><cornerLocal u="-2.5" v="-2.5" z="0" height="4"/><cornerLocal u="0" v="-2.5" z="0" height="4"/>
       <cornerLocal u="5" v="2.5" z="0" height="4"/><cornerLocal u="2.5" v="2.5" z="0" height="4"/></outline></outlines></object></objects>)");
   const double base = 2.5 - 2.0 * 0.12 * std::sqrt(2.0), height = 5.0 - 0.24;
   EXPECT_NEAR(PaintOf(*slanted).area_m2, 2.5 * 5.0 - base * height, 2e-3);
   EXPECT_TRUE(Things(*slanted).tiles().empty());
 }
 
-// A flat island of 6 x 3 m with a kerb of 0.2 m: grass within the kerb, and both together the whole of it, whichever way round its corners run.
+// A flat island of 6 x 3 m with a kerb of 0.2 m: grass within the kerb, and both together the whole of it, whichever
+// way round its corners run.
 TEST(RoadPaint, AFlatIslandHasItsFrameAndItsFilling) {
   for (const bool turned : {false, true}) {
-    const std::string a = R"(<cornerRoad s="47" t="-1" dz="0" height="0" id="0"/>)", b = R"(<cornerRoad s="53" t="-1" dz="0" height="0" id="1"/>)", c = R"(<cornerRoad s="53" t="2" dz="0" height="0" id="2"/>)",
+    const std::string a = R"(<cornerRoad s="47" t="-1" dz="0" height="0" id="0"/>)",
+                      b = R"(<cornerRoad s="53" t="-1" dz="0" height="0" id="1"/>)",
+                      c = R"(<cornerRoad s="53" t="2" dz="0" height="0" id="2"/>)",
                       d = R"(<cornerRoad s="47" t="2" dz="0" height="0" id="3"/>)";
     const auto island = [&](const std::string& fill, const std::string& borders) {
-      return WorldWith("<objects><object id=\"i\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\" " + fill + ">" + (turned ? d + c + b + a : a + b + c + d) + "</outline></outlines>" + borders + "</object></objects>");
+      return WorldWith(
+          "<objects><object id=\"i\" type=\"trafficIsland\" s=\"50\" t=\"0\"><outlines><outline id=\"0\" " + fill +
+          ">" + (turned ? d + c + b + a : a + b + c + d) + "</outline></outlines>" + borders + "</object></objects>");
     };
-    const std::string whole = R"(<borders><border outlineId="0" type="curb" width="0.2" useCompleteOutline="true"/></borders>)";
+    const std::string whole =
+        R"(<borders><border outlineId="0" type="curb" width="0.2" useCompleteOutline="true"/></borders>)";
     const Painted both = PaintOf(*island("fillType=\"grass\"", whole)), frame = PaintOf(*island("", whole));
     EXPECT_NEAR(both.area_m2, 18.0, 2e-3) << turned;
     EXPECT_NEAR(frame.area_m2, 18.0 - 5.6 * 2.6, 2e-3) << turned;
     ExpectBox(both, 57.0, 19.0, 63.0, 22.0);
     // From corner 0 to 1 and 2: 6 m and 3 m of 0.2 m, mitred where they meet.
-    const Painted part = PaintOf(*island("", R"(<borders><border outlineId="0" type="concrete" width="0.2" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/><cornerReference id="2"/></border></borders>)"));
+    const Painted part = PaintOf(*island(
+        "",
+        R"(<borders><border outlineId="0" type="concrete" width="0.2" useCompleteOutline="false"><cornerReference id="0"/><cornerReference id="1"/><cornerReference id="2"/></border></borders>)"));
     EXPECT_NEAR(part.area_m2, 9.0 * 0.2 - 0.04, 2e-3) << turned;
     ExpectBox(part, 57.0, 19.0, 63.0, 22.0);
   }
@@ -218,7 +250,8 @@ TEST(Stencils, AGiveWayLineHasWholeStrokesEvenlyOnBothSides) {
 }
 
 TEST(RoadPaint, AGiveWayLineIsStrokesAcrossItsLane) {
-  const auto world = WorldWith(R"(<signals><signal id="l" s="40" t="0" zOffset="0" orientation="-" dynamic="no" type="341" subtype="-1" country="DE" width="3.5"/></signals>)");
+  const auto world = WorldWith(
+      R"(<signals><signal id="l" s="40" t="0" zOffset="0" orientation="-" dynamic="no" type="341" subtype="-1" country="DE" width="3.5"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 4.0 * 0.5 * 0.4, 1e-2);  // four strokes and three gaps are 2.9 m
@@ -227,7 +260,9 @@ TEST(RoadPaint, AGiveWayLineIsStrokesAcrossItsLane) {
 
 TEST(RoadPaint, AStopLineLiesOnTheSideOfItsTraffic) {
   for (const auto& [t, south] : {std::pair(0.0, 20.0), std::pair(1.75, 20.0)}) {  // t at its left end, or in its middle
-    const auto world = WorldWith(fmt::format(R"(<signals><signal id="l" s="40" t="{}" zOffset="0" orientation="-" dynamic="no" type="294" subtype="-1" country="DE" height="0.03" width="3.5"/></signals>)", t));
+    const auto world = WorldWith(fmt::format(
+        R"(<signals><signal id="l" s="40" t="{}" zOffset="0" orientation="-" dynamic="no" type="294" subtype="-1" country="DE" height="0.03" width="3.5"/></signals>)",
+        t));
     ASSERT_NE(world, nullptr);
     const Painted painted = PaintOf(*world);
     EXPECT_NEAR(painted.area_m2, kStopLine_m * 3.5, 1e-2);
@@ -236,13 +271,15 @@ TEST(RoadPaint, AStopLineLiesOnTheSideOfItsTraffic) {
 }
 
 TEST(RoadPaint, ArrowsPointToTheLeftOfTheirTraffic) {
-  const auto world = WorldWith(R"(<signals><signal id="a" s="40" t="1.75" zOffset="0" orientation="-" dynamic="no" type="-1" subtype="-1" country="OpenDRIVE" name="SgRMArrowLeft.flt" height="0.03" width="0.75"/></signals>)");
+  const auto world = WorldWith(
+      R"(<signals><signal id="a" s="40" t="1.75" zOffset="0" orientation="-" dynamic="no" type="-1" subtype="-1" country="OpenDRIVE" name="SgRMArrowLeft.flt" height="0.03" width="0.75"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Painted west = PaintOf(*world);  // against s: to the west, whose left is the south
   ExpectBox(west, 47.5, 21.75 - 0.375, 52.5, 21.75 + 0.075);
   EXPECT_NEAR(west.area_m2, AreaOf(ArrowShape({true, false, false}, 5.0, 0.75)), 5e-3);
   EXPECT_LT(west.middle.y(), 21.75);
-  const auto object = WorldWith(R"(<objects><object id="a" type="roadMark" subtype="arrowLeft" s="40" t="-1.75" zOffset="0" length="5" width="0.75"/></objects>)");
+  const auto object = WorldWith(
+      R"(<objects><object id="a" type="roadMark" subtype="arrowLeft" s="40" t="-1.75" zOffset="0" length="5" width="0.75"/></objects>)");
   ASSERT_NE(object, nullptr);
   const Painted east = PaintOf(*object);
   ExpectBox(east, 47.5, 18.25 - 0.075, 52.5, 18.25 + 0.375);

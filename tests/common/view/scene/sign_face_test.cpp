@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include "common/world/design/furniture_reader.hpp"
 #include "common/view/scene/raster/lettering.hpp"
+#include "common/world/design/furniture_reader.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -68,7 +68,8 @@ TEST(Lettering, IsCentredHasItsHeightAndIsNarrowedToFit) {
   };
   EXPECT_EQ(ink("bou"), ink("BOU"));
   EXPECT_EQ(ink("ç"), ink("Ç"));
-  for (const auto& [plain, accented] : {std::pair("C", "Ç"), std::pair("A", "ã"), std::pair("E", "É"), std::pair("O", "ô"), std::pair("N", "ñ"), std::pair("U", "ü")}) {
+  for (const auto& [plain, accented] : {std::pair("C", "Ç"), std::pair("A", "ã"), std::pair("E", "É"),
+                                        std::pair("O", "ô"), std::pair("N", "ñ"), std::pair("U", "ü")}) {
     EXPECT_GT(ink(accented), ink(plain) + 0.005) << accented;
   }
 }
@@ -84,7 +85,8 @@ TEST(SignFace, EverySignOfWorldFilesHasAPictureOfItsOwn) {
   std::set<std::vector<std::uint8_t>> pictures;
   for (const std::string& kind : FaceKinds()) {
     std::vector<std::uint8_t> bytes;
-    for (const Colour& pixel : DrawFace(kind.ends_with("speed_limit") ? kind + " 30" : kind).pixels) bytes.insert(bytes.end(), {pixel.red, pixel.green, pixel.blue});
+    for (const Colour& pixel : DrawFace(kind.ends_with("speed_limit") ? kind + " 30" : kind).pixels)
+      bytes.insert(bytes.end(), {pixel.red, pixel.green, pixel.blue});
     EXPECT_TRUE(pictures.insert(bytes).second) << kind << " looks like another one";
   }
 }
@@ -110,7 +112,8 @@ TEST(SignFace, NumbersOfTheCatalogueAndWhatIsNotInIt) {
 }
 
 TEST(SignFace, LeftAndRightMirrorOneAnother) {
-  for (const auto& [left, right] : {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"), std::pair("bends_left_first", "bends_right_first")}) {
+  for (const auto& [left, right] : {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"),
+                                    std::pair("bends_left_first", "bends_right_first")}) {
     const Raster a = DrawFace(left), b = DrawFace(right);
     int apart = 0;
     for (int y = 0; y < a.height_px; ++y) {
@@ -128,15 +131,17 @@ TEST(SignFace, ColoursOfTheConvention) {
   const auto is_red = [](Colour c) { return c.red > 150 && c.green < 60 && c.blue < 60; };
   const auto is_white = [](Colour c) { return c.red > 220 && c.green > 220 && c.blue > 220; };
   const auto is_blue = [](Colour c) { return c.blue > 120 && c.red < 60; };
-  const auto at = [](const char* face, double x, double y) { return DrawFace(face).At(static_cast<int>(64.0 * (x + 1.0)), static_cast<int>(64.0 * (y + 1.0))); };
-  EXPECT_TRUE(is_red(at("speed_limit 50", 0.0, 0.88)));     // C, 14: a red ring, its ground white
+  const auto at = [](const char* face, double x, double y) {
+    return DrawFace(face).At(static_cast<int>(64.0 * (x + 1.0)), static_cast<int>(64.0 * (y + 1.0)));
+  };
+  EXPECT_TRUE(is_red(at("speed_limit 50", 0.0, 0.88)));  // C, 14: a red ring, its ground white
   EXPECT_TRUE(is_white(at("speed_limit 50", 0.0, 0.62)));
-  EXPECT_TRUE(is_white(at("no_entry", 0.0, 0.0)));          // C, 1: a white bar
+  EXPECT_TRUE(is_white(at("no_entry", 0.0, 0.0)));  // C, 1: a white bar
   EXPECT_TRUE(is_red(at("no_entry", 0.0, 0.5)));
-  EXPECT_TRUE(is_white(at("give_way", 0.0, 0.3)));          // B, 1: point downward
+  EXPECT_TRUE(is_white(at("give_way", 0.0, 0.3)));  // B, 1: point downward
   EXPECT_TRUE(is_red(at("give_way", 0.0, 0.93)));
-  EXPECT_TRUE(is_red(at("stop", 0.0, 0.7)));                // B, 2a: STOP on red
-  EXPECT_GT(at("priority_road", 0.3, 0.2).red, 220);        // B, 3: yellow inside
+  EXPECT_TRUE(is_red(at("stop", 0.0, 0.7)));          // B, 2a: STOP on red
+  EXPECT_GT(at("priority_road", 0.3, 0.2).red, 220);  // B, 3: yellow inside
   EXPECT_LT(at("priority_road", 0.3, 0.2).blue, 60);
   EXPECT_TRUE(is_blue(at("roundabout", 0.0, 0.0)));
   EXPECT_TRUE(is_blue(at("motorway", -0.8, 0.8)));

@@ -34,7 +34,8 @@ TEST(SunView, MovesByWholePixels) {
   const Vector3d first = kSide_px * MakeSunView(to_sun, Vector3d::Zero(), kSide_m, kSide_px).ToMap(tree);
   double most = 0.0;
   for (int i = 1; i < 200; ++i) {
-    const Vector3d moved = kSide_px * MakeSunView(to_sun, {0.013 * i, 0.007 * i, 0.0}, kSide_m, kSide_px).ToMap(tree) - first;
+    const Vector3d moved =
+        kSide_px * MakeSunView(to_sun, {0.013 * i, 0.007 * i, 0.0}, kSide_m, kSide_px).ToMap(tree) - first;
     for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(moved[axis], std::round(moved[axis]), 1e-6);
     most = std::max(most, moved.head<2>().norm());
   }

@@ -38,7 +38,8 @@ Level Look(const road::World& world, std::size_t level) {
 
 class TerrainMesh : public testing::TestWithParam<std::tuple<std::shared_ptr<const road::World> (*)(), std::size_t>> {};
 INSTANTIATE_TEST_SUITE_P(WorldsAndLevels, TerrainMesh,
-                         testing::Combine(testing::Values(N222OfVersion1, PlaneWithRoad), testing::Values(std::size_t{0}, std::size_t{1}, std::size_t{2})));
+                         testing::Combine(testing::Values(N222OfVersion1, PlaneWithRoad),
+                                          testing::Values(std::size_t{0}, std::size_t{1}, std::size_t{2})));
 
 // Together, terrain and road are the whole rectangle: no hole, nothing twice.
 TEST_P(TerrainMesh, FillsExactlyWhatTheRoadLeaves) {
@@ -77,7 +78,8 @@ TEST_P(TerrainMesh, MeetsTheRoadsEdge) {
       for (const double z : look.road.HeightsOver(p.x(), p.y())) heights.push_back(z);
       ASSERT_GE(heights.size(), 1U) << "a hole at s = " << s;
       const double terrain_z = world->TerrainAt(p.x(), p.y()).z_m;
-      for (const double z : heights) ASSERT_NEAR(z, terrain_z, 0.05) << "s = " << s << ", " << out << " m beyond the edge";
+      for (const double z : heights)
+        ASSERT_NEAR(z, terrain_z, 0.05) << "s = " << s << ", " << out << " m beyond the edge";
       ++checked;
     }
   }
@@ -164,7 +166,8 @@ TEST(RibbonCover, CuttingKeepsTheArea) {
     // A rectangle, turned.
     const double angle = draw(6), x = draw(7), y = draw(8), a = 0.3 * draw(9) + 0.1, b = 0.3 * draw(10) + 0.1;
     const Eigen::Vector2d u(std::cos(angle), std::sin(angle)), v(-u.y(), u.x()), at(x, y);
-    const std::array<Eigen::Vector2d, 4> hole = {at - a * u - b * v, at + a * u - b * v, at + a * u + b * v, at - a * u + b * v};
+    const std::array<Eigen::Vector2d, 4> hole = {at - a * u - b * v, at + a * u - b * v, at + a * u + b * v,
+                                                 at - a * u + b * v};
     double outside = 0.0;
     const auto pieces = Subtract(triangle, hole);
     for (const Polygon& piece : pieces) outside += Area(piece);
@@ -174,7 +177,8 @@ TEST(RibbonCover, CuttingKeepsTheArea) {
     for (std::uint64_t i = 0; i < kPoints; ++i) {
       double p = base::RandomUniform({10, k, i, 0}), q = base::RandomUniform({10, k, i, 1});
       if (p + q > 1.0) p = 1.0 - p, q = 1.0 - q;
-      const Eigen::Vector2d point = triangle[0] + p * (triangle[1] - triangle[0]) + q * (triangle[2] - triangle[0]) - at;
+      const Eigen::Vector2d point =
+          triangle[0] + p * (triangle[1] - triangle[0]) + q * (triangle[2] - triangle[0]) - at;
       in += std::fabs(point.dot(u)) < a && std::fabs(point.dot(v)) < b;
     }
     const double share = static_cast<double>(in) / kPoints;

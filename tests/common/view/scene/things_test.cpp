@@ -18,14 +18,17 @@ namespace {
 using Eigen::Vector3d;
 
 // A road with one lane a side, straight to the east or on a circle to the left, and what stands at it.
-std::shared_ptr<const road::World> WorldWith(const std::string& more, const std::string& geometry = "<line/>", double length_m = 200.0) {
+std::shared_ptr<const road::World> WorldWith(const std::string& more, const std::string& geometry = "<line/>",
+                                             double length_m = 200.0) {
   const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
-  return OpenDriveWorld(fmt::format(
-      "<road id=\"1\" length=\"{}\" junction=\"-1\"><planView><geometry s=\"0\" x=\"10\" y=\"20\" hdg=\"0\" length=\"{}\">{}</geometry></planView>"
-      "<elevationProfile><elevation s=\"0\" a=\"5\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
-      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane id=\"0\"/></center>"
-      "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes>{}</road>\n",
-      length_m, length_m, geometry, width, width, more));
+  return OpenDriveWorld(
+      fmt::format("<road id=\"1\" length=\"{}\" junction=\"-1\"><planView><geometry s=\"0\" x=\"10\" y=\"20\" "
+                  "hdg=\"0\" length=\"{}\">{}</geometry></planView>"
+                  "<elevationProfile><elevation s=\"0\" a=\"5\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
+                  "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane "
+                  "id=\"0\"/></center>"
+                  "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes>{}</road>\n",
+                  length_m, length_m, geometry, width, width, more));
 }
 
 std::vector<Mesh> DrawAll(const Things& things, int level) {
@@ -48,7 +51,8 @@ std::size_t Triangles(const Things& things, int level) {
 double Volume(const Mesh& mesh) {
   double volume = 0.0;
   for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-    const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]), c = mesh.PositionW(mesh.triangles[3 * i + 2]);
+    const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]),
+                   c = mesh.PositionW(mesh.triangles[3 * i + 2]);
     volume += (a.z() + b.z() + c.z()) / 6.0 * (b - a).cross(c - a).z();
   }
   return volume;
@@ -56,7 +60,8 @@ double Volume(const Mesh& mesh) {
 
 // A filling station has a roof on posts that a lorry passes under, fits its box, and stands where it was put.
 TEST(Things, AFillingStationStandsInItsBox) {
-  const auto world = WorldWith(R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24" width="14" height="6"/></objects>)");
+  const auto world = WorldWith(
+      R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24" width="14" height="6"/></objects>)");
   ASSERT_NE(world, nullptr);
   const Things things(*world);
   Vector3d low = Vector3d::Constant(1e9), high = -low;
@@ -74,7 +79,8 @@ TEST(Things, AFillingStationStandsInItsBox) {
 }
 
 TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
-  const auto world = WorldWith(R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
+  const auto world = WorldWith(
+      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
   ASSERT_NE(world, nullptr);
   const Things things(*world);
   int faces = 0;
@@ -92,16 +98,19 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
       EXPECT_NEAR((mesh.normals[i] - Eigen::Vector3f(-1.0F, 0.0F, 0.0F)).norm(), 0.0F, 1e-6F);
     }
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-      const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]), c = mesh.PositionW(mesh.triangles[3 * i + 2]);
+      const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]),
+                     c = mesh.PositionW(mesh.triangles[3 * i + 2]);
       EXPECT_LT((b - a).cross(c - a).x(), 0.0);  // seen from the west
     }
   }
   EXPECT_EQ(faces, 1);
 }
 
-// A board of two signs and a display for those who drive to the east: it stands on its posts, what is on it lies a centimetre before it, to the left or right as its readers see it, on no post of its own.
+// A board of two signs and a display for those who drive to the east: it stands on its posts, what is on it lies a
+// centimetre before it, to the left or right as its readers see it, on no post of its own.
 TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
-  const auto world = WorldWith(R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1" width="2" height="1.5">
+  const auto world = WorldWith(
+      R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1" width="2" height="1.5">
     <staticBoard><sign id="l" country="DE" type="274" subtype="-1" value="70" unit="km/h" v="0.5" z="0.2" width="0.6" height="0.6"/><sign id="r" country="DE" type="206" subtype="-1" v="-0.5" z="0.3" width="0.6" height="0.6"/></staticBoard>
     <vmsBoard displayType="text" v="0" z="1" displayWidth="1.8" displayHeight="0.4"/></signal></signals>)");
   ASSERT_NE(world, nullptr);
@@ -127,10 +136,14 @@ TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
 
 TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
   const auto world = OpenDriveWorld(
-      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView>"
+      "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+      "length=\"100\"><line/></geometry></planView>"
       "<elevationProfile><elevation s=\"0\" a=\"7\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
-      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
-      "<signals><signal id=\"a\" s=\"30\" t=\"-5\" zOffset=\"2\" orientation=\"+\" dynamic=\"no\" type=\"206\" subtype=\"-1\" country=\"DE\"><positionInertial x=\"40\" y=\"-1\" z=\"12.5\" hdg=\"0\"/></signal></signals></road>\n");
+      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width "
+      "sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>"
+      "<signals><signal id=\"a\" s=\"30\" t=\"-5\" zOffset=\"2\" orientation=\"+\" dynamic=\"no\" type=\"206\" "
+      "subtype=\"-1\" country=\"DE\"><positionInertial x=\"40\" y=\"-1\" z=\"12.5\" "
+      "hdg=\"0\"/></signal></signals></road>\n");
   ASSERT_NE(world, nullptr);
   const Things things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
@@ -171,14 +184,17 @@ TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
 TEST(Things, ARailFollowsItsBendWithoutAGap) {
   // Half a circle of 50 m to the left about (10, 70), its rail 5 m to the right: 55 m from the middle.
   const double length = 150.0;
-  const auto world = WorldWith(R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="150" distance="0" tStart="-5" tEnd="-5"/></object></objects>)",
-                               "<arc curvature=\"0.02\"/>", length);
+  const auto world = WorldWith(
+      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="150" distance="0" tStart="-5" tEnd="-5"/></object></objects>)",
+      "<arc curvature=\"0.02\"/>", length);
   ASSERT_NE(world, nullptr);
   const Things things(*world);
   EXPECT_GT(things.tiles().size(), 0u);
   std::vector<RailPiece> pieces;
   for (const auto& [key, tile] : things.tiles()) pieces.insert(pieces.end(), tile.rails.begin(), tile.rails.end());
-  const auto angle = [](const RailPiece& piece) { return std::atan2(piece.foot_W[0].x() - 10.0, 70.0 - piece.foot_W[0].y()); };
+  const auto angle = [](const RailPiece& piece) {
+    return std::atan2(piece.foot_W[0].x() - 10.0, 70.0 - piece.foot_W[0].y());
+  };
   std::sort(pieces.begin(), pieces.end(), [&](const RailPiece& a, const RailPiece& b) { return angle(a) < angle(b); });
   double chords = 0.0;
   const Vector3d middle(10.0, 70.0, 5.0);
@@ -205,7 +221,8 @@ TEST(Things, ARailFollowsItsBendWithoutAGap) {
 
 TEST(Things, BodiesHaveTheirDeclaredVolumes) {
   EXPECT_NEAR(Volume(PlainModel({4.0, 3.0, 2.5}, 0.0, {}, 0)), 30.0, 1e-5);
-  EXPECT_NEAR(Volume(PlainModel({0.0, 0.0, 2.0}, 1.5, {}, 0)), 2.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * 2.25, 1e-5);  // ten sides
+  EXPECT_NEAR(Volume(PlainModel({0.0, 0.0, 2.0}, 1.5, {}, 0)),
+              2.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * 2.25, 1e-5);  // ten sides
   // An L of 6 x 4 m less 3 x 2 m, once each way round.
   const std::vector<Vector3d> corners = {{0, 0, 0}, {6, 0, 0}, {6, 2, 0}, {3, 2, 0}, {3, 4, 0}, {0, 4, 0}};
   const std::vector<double> heights(6, 3.0);
@@ -249,7 +266,8 @@ TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
 
 // An island 0.15 m high with a kerb: the frame stands a centimetre over the filling, and both fill the outline.
 TEST(Things, AnIslandHasItsKerbAndItsFilling) {
-  const auto world = WorldWith(R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines><outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/><cornerLocal u="3" v="-1" z="0" height="0.15"/>
+  const auto world = WorldWith(
+      R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines><outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/><cornerLocal u="3" v="-1" z="0" height="0.15"/>
       <cornerLocal u="3" v="1" z="0" height="0.15"/><cornerLocal u="-3" v="1" z="0" height="0.15"/></outline></outlines><borders><border outlineId="0" type="curb" width="0.25" useCompleteOutline="true"/></borders></object></objects>)");
   ASSERT_NE(world, nullptr);
   const Things things(*world);
@@ -263,8 +281,10 @@ TEST(Things, AnIslandHasItsKerbAndItsFilling) {
     const bool filling = thing.heights_m[0] == 0.15;
     for (Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
       mesh.origin_W.z() -= 5.0;  // the road's height: its lower face, which is missing, comes to lie on 0
-      if (filling) filled_m3 += Volume(mesh);
-      else kerb_m2 += Volume(mesh) / 0.16;
+      if (filling)
+        filled_m3 += Volume(mesh);
+      else
+        kerb_m2 += Volume(mesh) / 0.16;
     }
     EXPECT_TRUE(thing.top.has_value());
   }
@@ -274,7 +294,8 @@ TEST(Things, AnIslandHasItsKerbAndItsFilling) {
 
 // ASAM's example of a mast with an arm over the road: tapered round bars, and nothing of its box.
 TEST(Things, AMastIsItsSkeleton) {
-  const auto world = WorldWith(R"(<objects><object id="m" type="pole" s="50" t="-5" height="4" length="0.3" width="5"><skeleton>
+  const auto world =
+      WorldWith(R"(<objects><object id="m" type="pole" s="50" t="-5" height="4" length="0.3" width="5"><skeleton>
       <polyline id="1"><vertexRoad s="50" t="-5" dz="0" radius="0.15"/><vertexRoad s="50" t="-5" dz="4" radius="0.1"/></polyline>
       <polyline id="2"><vertexLocal u="0" v="0" z="3.5" width="0.1" length="0.2"/><vertexLocal u="0" v="4" z="3.5" width="0.1" length="0.2"/></polyline></skeleton></object></objects>)");
   ASSERT_NE(world, nullptr);
@@ -288,14 +309,17 @@ TEST(Things, AMastIsItsSkeleton) {
     low = Vector3d::Constant(1e9), high = -low;
     double volume = 0.0;
     for (const Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
-      for (std::size_t i = 0; i < mesh.positions.size(); ++i) low = low.cwiseMin(mesh.PositionW(i)), high = high.cwiseMax(mesh.PositionW(i));
+      for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        low = low.cwiseMin(mesh.PositionW(i)), high = high.cwiseMax(mesh.PositionW(i));
       volume += Volume(mesh);
     }
     return volume;
   };
   Vector3d low, high;
   // A frustum of ten sides.
-  EXPECT_NEAR(extent(0, low, high), 4.0 / 3.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * (0.15 * 0.15 + 0.15 * 0.1 + 0.1 * 0.1), 5e-4);  // float32, 60 m from the origin
+  EXPECT_NEAR(extent(0, low, high),
+              4.0 / 3.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * (0.15 * 0.15 + 0.15 * 0.1 + 0.1 * 0.1),
+              5e-4);  // float32, 60 m from the origin
   EXPECT_NEAR((low - Vector3d(60.0 - 0.15, 15.0 - 0.15, 5.0)).norm(), 0.0, 0.01);
   EXPECT_NEAR(high.z(), 9.0, 1e-4);
   // The arm lies along v: its width along u, its length upright.
@@ -306,16 +330,19 @@ TEST(Things, AMastIsItsSkeleton) {
 
 // A wall beside half a circle, said to leave the road's line: straight from its beginning to its end.
 TEST(Things, ARailThatLeavesTheRoadsLineIsStraight) {
-  const auto world = WorldWith(R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object></objects>)",
-                               "<arc curvature=\"0.02\"/>", 150.0);
+  const auto world = WorldWith(
+      R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object></objects>)",
+      "<arc curvature=\"0.02\"/>", 150.0);
   ASSERT_NE(world, nullptr);
   const Things things(*world);
-  const Eigen::Vector2d begin(10.0, 15.0), end(10.0 + 55.0 * std::sin(2.0), 70.0 - 55.0 * std::cos(2.0)), way = (end - begin).normalized();
+  const Eigen::Vector2d begin(10.0, 15.0), end(10.0 + 55.0 * std::sin(2.0), 70.0 - 55.0 * std::cos(2.0)),
+      way = (end - begin).normalized();
   double chords = 0.0;
   for (const auto& [key, tile] : things.tiles()) {
     for (const RailPiece& piece : tile.rails) {
       chords += (piece.foot_W[1] - piece.foot_W[0]).head<2>().norm();
-      for (const Vector3d& foot : piece.foot_W) EXPECT_NEAR((foot.head<2>() - begin).dot(Eigen::Vector2d(-way.y(), way.x())), 0.0, 1e-9);
+      for (const Vector3d& foot : piece.foot_W)
+        EXPECT_NEAR((foot.head<2>() - begin).dot(Eigen::Vector2d(-way.y(), way.x())), 0.0, 1e-9);
     }
   }
   EXPECT_NEAR(chords, (end - begin).norm(), 1e-9);

@@ -1,4 +1,5 @@
-// Tunnels as they are seen: a tube around the road at every level of detail, that leaves it clear; portals where it begins and ends.
+// Tunnels as they are seen: a tube around the road at every level of detail, that leaves it clear; portals where it
+// begins and ends.
 #include "common/view/scene/road_furniture/tubes.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +21,13 @@ using Eigen::Vector3d;
 
 // A tunnel that bends and climbs 20 m under a plane.
 std::shared_ptr<const road::World> UnderAPlane(const char* tunnels = "    tunnels: [{from_s_m: 60, to_s_m: 200}]\n") {
-  const auto world = road::World::Parse(std::string("rodeira: world/2\nname: t\nground: {kind: plane, z_m: 20, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 10, y_m: -20, heading_deg: 30}\n    axis: [line: {length_m: 110}, arc: {radius_m: 60, turn_deg: 100}]\n"
-                                                    "    vertical: [{s_m: 0, z_m: 0}, {s_m: 210, z_m: 6}]\n    section: {template: rural}\n") + tunnels, "t.yaml");
+  const auto world = road::World::Parse(
+      std::string("rodeira: world/2\nname: t\nground: {kind: plane, z_m: 20, surface: grass}\nroads:\n  - id: a\n    "
+                  "start: {x_m: 10, y_m: -20, heading_deg: 30}\n    axis: [line: {length_m: 110}, arc: {radius_m: 60, "
+                  "turn_deg: 100}]\n"
+                  "    vertical: [{s_m: 0, z_m: 0}, {s_m: 210, z_m: 6}]\n    section: {template: rural}\n") +
+          tunnels,
+      "t.yaml");
   EXPECT_TRUE(world.ok()) << (world.ok() ? "" : world.error().Text());
   return world.ok() ? world.value() : nullptr;
 }
@@ -40,7 +46,8 @@ std::optional<double> FirstFace(const std::vector<Mesh>& meshes, const Vector3d&
   std::optional<double> first;
   for (const Mesh& mesh : meshes) {
     for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
-      const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]), c = mesh.PositionW(mesh.triangles[3 * i + 2]);
+      const Vector3d a = mesh.PositionW(mesh.triangles[3 * i]), b = mesh.PositionW(mesh.triangles[3 * i + 1]),
+                     c = mesh.PositionW(mesh.triangles[3 * i + 2]);
       const Vector3d normal = (b - a).cross(c - a);
       const double towards = normal.dot(ray);
       if (!(towards < -1e-12)) continue;  // the renderer leaves out what is seen from behind
@@ -48,7 +55,10 @@ std::optional<double> FirstFace(const std::vector<Mesh>& meshes, const Vector3d&
       if (away < 0.0 || (first && away >= *first)) continue;
       const Vector3d p = from + away * ray;
       const double slack = -1e-6 * normal.norm();
-      if ((b - a).cross(p - a).dot(normal) >= slack * normal.norm() && (c - b).cross(p - b).dot(normal) >= slack * normal.norm() && (a - c).cross(p - c).dot(normal) >= slack * normal.norm()) first = away;
+      if ((b - a).cross(p - a).dot(normal) >= slack * normal.norm() &&
+          (c - b).cross(p - b).dot(normal) >= slack * normal.norm() &&
+          (a - c).cross(p - c).dot(normal) >= slack * normal.norm())
+        first = away;
     }
   }
   return first;
@@ -64,7 +74,8 @@ TEST(Tubes, FromWithinOneSeesWallsAndACeilingAllAroundAtEveryLevel) {
     const std::vector<Mesh> drawn = DrawnAt(*world, level);
     for (double s = 60.3; s < 200.0; s += 3.1) {
       const geometry::PlanPoint axis = road.axis().Evaluate(s);
-      const Vector3d across(axis.left_W().x(), axis.left_W().y(), 0.0), eye = road.Surface(s, -1.75).p_W + 1.2 * Vector3d::UnitZ();
+      const Vector3d across(axis.left_W().x(), axis.left_W().y(), 0.0),
+          eye = road.Surface(s, -1.75).p_W + 1.2 * Vector3d::UnitZ();
       for (double up_deg = -5.0; up_deg <= 185.0; up_deg += 5.0) {
         const double up = up_deg * geometry::kPi / 180.0;
         const Vector3d ray = std::cos(up) * across + std::sin(up) * Vector3d::UnitZ();
@@ -72,7 +83,9 @@ TEST(Tubes, FromWithinOneSeesWallsAndACeilingAllAroundAtEveryLevel) {
         ASSERT_TRUE(away) << "level " << level << ", s = " << s << ", " << up_deg << " deg from the left";
         const double t = -1.75 + *away * std::cos(up), z = 1.2 + *away * std::sin(up);
         // A wall 6 cm within the road's edge, a ceiling 4.5 to 5 m over the road, or the haunch between them.
-        const bool wall = std::fabs(t - (left - 0.06)) < 0.03 || std::fabs(t - (right + 0.06)) < 0.03, ceiling = z > 4.4 && z < 5.0, haunch = z > 3.9 && (t < right + 0.7 || t > left - 0.7);
+        const bool wall = std::fabs(t - (left - 0.06)) < 0.03 || std::fabs(t - (right + 0.06))<0.03, ceiling = z> 4.4 &&
+                                                                     z<5.0, haunch = z> 3.9 &&
+                                                                     (t < right + 0.7 || t > left - 0.7);
         EXPECT_TRUE(wall || ceiling || haunch) << "level " << level << ", s = " << s << ": t = " << t << ", z = " << z;
       }
       for (const double t : {right + 0.7, -1.75, 0.0, 1.75, left - 0.7}) {
@@ -84,12 +97,15 @@ TEST(Tubes, FromWithinOneSeesWallsAndACeilingAllAroundAtEveryLevel) {
       }
     }
     // Before the mouths nothing is around; nothing hangs into the way through them.
-    for (const double s : {50.0, 205.0}) EXPECT_FALSE(FirstFace(drawn, road.Surface(s, 0.0).p_W, Vector3d::UnitZ())) << s;
+    for (const double s : {50.0, 205.0})
+      EXPECT_FALSE(FirstFace(drawn, road.Surface(s, 0.0).p_W, Vector3d::UnitZ())) << s;
     const Vector3d before = road.Surface(50.0, -1.75).p_W + 1.2 * Vector3d::UnitZ();
-    const auto ahead = FirstFace(drawn, before, (road.Surface(110.0, -1.75).p_W - road.Surface(50.0, -1.75).p_W).normalized());
+    const auto ahead =
+        FirstFace(drawn, before, (road.Surface(110.0, -1.75).p_W - road.Surface(50.0, -1.75).p_W).normalized());
     EXPECT_TRUE(!ahead || *ahead > 60.0);
     // The portal's front, over the opening and beside it.
-    for (const auto& [t, up] : {std::pair(0.0, 5.2), std::pair(left + 0.5, 2.0), std::pair(right - 0.5, 2.0), std::pair(right - 0.5, 5.2)}) {
+    for (const auto& [t, up] :
+         {std::pair(0.0, 5.2), std::pair(left + 0.5, 2.0), std::pair(right - 0.5, 2.0), std::pair(right - 0.5, 5.2)}) {
       const Vector3d along = (road.Surface(60.0, 0.0).p_W - road.Surface(50.0, 0.0).p_W) / 10.0;
       const auto front = FirstFace(drawn, road.Surface(50.0, t).p_W + up * Vector3d::UnitZ(), along);
       ASSERT_TRUE(front) << level << " " << t << " " << up;
@@ -119,16 +135,29 @@ TEST(Tubes, ATilesDigestTellsOfThem) {
   EXPECT_GT(differ, 0u);
 }
 
-// OpenDRIVE: two roads, one behind the other, in one tunnel, and one abreast of the second: a portal at each end and none between, a wall along all of it
-// but where the road abreast lies.
+// OpenDRIVE: two roads, one behind the other, in one tunnel, and one abreast of the second: a portal at each end and
+// none between, a wall along all of it but where the road abreast lies.
 TEST(Tubes, GoOnFromRoadToRoadAndLeaveRoadsBesideThemOpen) {
-  const auto road = [](const char* id, double x, double y, double length, const char* link, double from, double tunnel) {
-    return fmt::format("<road id=\"{}\" length=\"{}\" junction=\"-1\">{}<planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"0\" length=\"{}\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
-                       "<right><lane id=\"-1\" type=\"driving\">{}<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes><objects><tunnel id=\"t{}\" s=\"{}\" length=\"{}\" type=\"standard\"/></objects></road>\n",
-                       id, length, link, x, y, length, *id == '1' ? "<link><successor id=\"-1\"/></link>" : *id == '2' ? "<link><predecessor id=\"-1\"/></link>" : "", id, from, tunnel);
+  const auto road = [](const char* id, double x, double y, double length, const char* link, double from,
+                       double tunnel) {
+    return fmt::format(
+        "<road id=\"{}\" length=\"{}\" junction=\"-1\">{}<planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"0\" "
+        "length=\"{}\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
+        "<right><lane id=\"-1\" type=\"driving\">{}<width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" "
+        "d=\"0\"/></lane></right></laneSection></lanes><objects><tunnel id=\"t{}\" s=\"{}\" length=\"{}\" "
+        "type=\"standard\"/></objects></road>\n",
+        id, length, link, x, y, length,
+        *id == '1'   ? "<link><successor id=\"-1\"/></link>"
+        : *id == '2' ? "<link><predecessor id=\"-1\"/></link>"
+                     : "",
+        id, from, tunnel);
   };
-  const auto world = OpenDriveWorld(road("1", 0.0, 0.0, 100.0, "<link><successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/></link>", 40.0, 60.0) +
-                                    road("2", 100.0, 0.0, 100.0, "<link><predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/></link>", 0.0, 70.0) + road("3", 120.0, -4.0, 30.0, "", 0.0, 0.0));
+  const auto world = OpenDriveWorld(
+      road("1", 0.0, 0.0, 100.0,
+           "<link><successor elementType=\"road\" elementId=\"2\" contactPoint=\"start\"/></link>", 40.0, 60.0) +
+      road("2", 100.0, 0.0, 100.0,
+           "<link><predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/></link>", 0.0, 70.0) +
+      road("3", 120.0, -4.0, 30.0, "", 0.0, 0.0));
   ASSERT_NE(world, nullptr);
   const auto pieces = network::PlaceTubes(*world->network());
   ASSERT_FALSE(pieces.empty());

@@ -33,7 +33,8 @@ roads:
     marks:
       - {t_m: 0, width_m: 0.12, kind: dashed, stroke_m: 3, gap_m: 5, colour: yellow}
       - {t_m: 3.1, width_m: 0.12, kind: continuous}
-)", "plane_with_road.yaml");
+)",
+                                               "plane_with_road.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.value();
 }

@@ -14,7 +14,8 @@ std::vector<float> Played(const Heard& heard, double seconds, std::size_t block 
   Synth synth;
   std::vector<float> begin(2 * 4800), all(2 * static_cast<std::size_t>(seconds * kRate_Hz));
   synth.Render(heard, begin);
-  for (std::size_t at = 0; at < all.size(); at += 2 * block) synth.Render(heard, std::span(all).subspan(at, std::min(2 * block, all.size() - at)));
+  for (std::size_t at = 0; at < all.size(); at += 2 * block)
+    synth.Render(heard, std::span(all).subspan(at, std::min(2 * block, all.size() - at)));
   return all;
 }
 // Amplitude at a frequency (Goertzel's sum) of one side.
@@ -22,7 +23,8 @@ double At(const std::vector<float>& stereo, double frequency_Hz, int side = 0) {
   double cosine = 0.0, sine = 0.0;
   const std::size_t count = stereo.size() / 2;
   for (std::size_t i = 0; i < count; ++i) {
-    const double angle = 2.0 * std::numbers::pi * frequency_Hz * static_cast<double>(i) / kRate_Hz, value = static_cast<double>(stereo[2 * i + static_cast<std::size_t>(side)]);
+    const double angle = 2.0 * std::numbers::pi * frequency_Hz * static_cast<double>(i) / kRate_Hz,
+                 value = static_cast<double>(stereo[2 * i + static_cast<std::size_t>(side)]);
     cosine += value * std::cos(angle);
     sine += value * std::sin(angle);
   }
@@ -30,7 +32,8 @@ double At(const std::vector<float>& stereo, double frequency_Hz, int side = 0) {
 }
 double Loudness(const std::vector<float>& stereo, int side = 0) {
   double sum = 0.0;
-  for (std::size_t i = static_cast<std::size_t>(side); i < stereo.size(); i += 2) sum += static_cast<double>(stereo[i]) * static_cast<double>(stereo[i]);
+  for (std::size_t i = static_cast<std::size_t>(side); i < stereo.size(); i += 2)
+    sum += static_cast<double>(stereo[i]) * static_cast<double>(stereo[i]);
   return std::sqrt(2.0 * sum / static_cast<double>(stereo.size()));
 }
 Heard Engine(double rpm, double load) {
@@ -134,7 +137,8 @@ TEST(Synth, BlocksDoNotMatter) {
   EXPECT_EQ(Played(heard, 0.5, 480), Played(heard, 0.5, 1000));
 }
 
-// Engines that rev, cars that come and go, full volume at once: no step from sample to sample that was not there before.
+// Engines that rev, cars that come and go, full volume at once: no step from sample to sample that was not there
+// before.
 TEST(Synth, NothingClicks) {
   Synth synth;
   std::vector<float> block(2 * 800);

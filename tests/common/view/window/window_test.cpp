@@ -101,7 +101,9 @@ TEST_F(AWindow, ClosingIsToldAndCanBeRefused) {
 }
 
 TEST_F(AWindow, APictureIsWrittenAsPng) {
-  const Image seen = Show([] { ImGui::GetBackgroundDrawList()->AddCircleFilled(ImVec2(100.0f, 100.0f), 30.0f, IM_COL32(0, 90, 200, 255)); });
+  const Image seen = Show([] {
+    ImGui::GetBackgroundDrawList()->AddCircleFilled(ImVec2(100.0f, 100.0f), 30.0f, IM_COL32(0, 90, 200, 255));
+  });
   auto folder = base::TemporaryFolder::Make("window");
   ASSERT_TRUE(folder.ok());
   const auto path = folder.value().path() / "seen.png";
@@ -129,7 +131,8 @@ TEST_F(AWindow, GreekAndPortugueseAreWritten) {
   window_.reset();
   if (FontFile().empty()) GTEST_SKIP() << "the package fonts-dejavu-core is not here";
   // No two words look alike, as they would with a mark in place of letters that the font lacks.
-  const char* words[] = {"Οδός", "Πάτρα", "πάτρα", "ὁδός", "São João", "Sao Joao", "Coruña", "Город", "a → b", "…", "??", "????", "?????"};
+  const char* words[] = {"Οδός",  "Πάτρα", "πάτρα", "ὁδός", "São João", "Sao Joao", "Coruña",
+                         "Город", "a → b", "…",     "??",   "????",     "?????"};
   std::vector<Image> pictures;
   for (const char* word : words) pictures.push_back(Written(FontFile(), word));
   for (std::size_t i = 0; i < pictures.size(); ++i) {
@@ -141,7 +144,8 @@ TEST_F(AWindow, WithoutTheFontItsOwnLettersAreThere) {
   window_.reset();
   auto folder = base::TemporaryFolder::Make("font");
   ASSERT_TRUE(folder.ok());
-  for (const std::filesystem::path& font : {std::filesystem::path(), folder.value().path() / "none.ttf", folder.value().path()}) {
+  for (const std::filesystem::path& font :
+       {std::filesystem::path(), folder.value().path() / "none.ttf", folder.value().path()}) {
     EXPECT_NE(Written(font, "road"), Written(font, "lane")) << font;
     EXPECT_NE(Written(font, "São"), Written(font, "Sao")) << font;
     EXPECT_EQ(Written(font, "ω"), Written(font, "ψ")) << font;
@@ -151,7 +155,8 @@ TEST_F(AWindow, WithoutTheFontItsOwnLettersAreThere) {
 TEST(Window, WithoutADisplayThereIsASentence) {
   const char* names[] = {"DISPLAY", "WAYLAND_DISPLAY"};
   std::string kept[2];
-  for (int i = 0; i < 2; ++i) kept[i] = std::getenv(names[i]) != nullptr ? std::getenv(names[i]) : "", ::unsetenv(names[i]);
+  for (int i = 0; i < 2; ++i)
+    kept[i] = std::getenv(names[i]) != nullptr ? std::getenv(names[i]) : "", ::unsetenv(names[i]);
   const auto opened = Window::Open({Kind::kWindow, kWidth, kHeight, "test"});
   for (int i = 0; i < 2; ++i) {
     if (!kept[i].empty()) ::setenv(names[i], kept[i].c_str(), 1);
@@ -168,11 +173,14 @@ TEST(Window, ADisplayThatDoesNotAnswerIsNamed) {
   ::unsetenv("WAYLAND_DISPLAY");
   ::setenv("DISPLAY", ":5517", 1);  // nobody has so many
   const auto opened = Window::Open({Kind::kWindow, kWidth, kHeight, "test"});
-  if (kept.empty()) ::unsetenv("DISPLAY");
-  else ::setenv("DISPLAY", kept.c_str(), 1);
+  if (kept.empty())
+    ::unsetenv("DISPLAY");
+  else
+    ::setenv("DISPLAY", kept.c_str(), 1);
   if (!kept_wayland.empty()) ::setenv("WAYLAND_DISPLAY", kept_wayland.c_str(), 1);
   ASSERT_FALSE(opened.ok());
-  EXPECT_NE(opened.error().Text().find("no display answers (DISPLAY=:5517"), std::string::npos) << opened.error().Text();
+  EXPECT_NE(opened.error().Text().find("no display answers (DISPLAY=:5517"), std::string::npos)
+      << opened.error().Text();
   EXPECT_EQ(opened.error().exit_status(), 2);
 }
 

@@ -51,7 +51,8 @@ void ExpectTheSame(const std::string& text, double from, double to) {
   const network::Road part = Cut(whole, from, to, "part");
   EXPECT_NEAR(part.length_m(), to - from, 1e-7);
   for (std::uint64_t i = 0; i < 2000; ++i) {
-    const double s = base::RandomUniform({i, 1}, 0.001, part.length_m() - 0.001), t = base::RandomUniform({i, 2}, -6.0, 6.0);
+    const double s = base::RandomUniform({i, 1}, 0.001, part.length_m() - 0.001),
+                 t = base::RandomUniform({i, 2}, -6.0, 6.0);
     const network::SurfaceSample ours = part.Surface(s, t), theirs = whole.Surface(s + from, t);
     ASSERT_NEAR((ours.p_W - theirs.p_W).norm(), 0.0, 1e-7) << s << " " << t;
     ASSERT_NEAR((ours.ds_W - theirs.ds_W).norm() + (ours.dt_W - theirs.dt_W).norm(), 0.0, 1e-6) << s << " " << t;
@@ -59,7 +60,8 @@ void ExpectTheSame(const std::string& text, double from, double to) {
 }
 
 TEST(Cut, APartIsTheRoadThere) {
-  for (const auto& [from, to] : {std::pair(0.0, 77.0), {77.0, 101.5}, {101.5, 260.25}, {200.0, 310.0}}) ExpectTheSame(kRoad, from, to);
+  for (const auto& [from, to] : {std::pair(0.0, 77.0), {77.0, 101.5}, {101.5, 260.25}, {200.0, 310.0}})
+    ExpectTheSame(kRoad, from, to);
 }
 
 TEST(Cut, APartOfASplineToo) {
@@ -80,7 +82,8 @@ TEST(Cut, PaintAndFurnitureStayWhereTheyWere) {
   const network::Road part = Cut(whole, 100.0, 220.0, "part");
   for (double s = 0.05; s < 119.9; s += 0.1) EXPECT_EQ(painted(part, s), painted(whole, s + 100.0)) << s;
   ASSERT_EQ(part.spec().objects.size(), 1u);
-  // Beside lane -2, which grows, the row has several pieces: its posts stand at s = 105, 115 … 215 of the road, each once, and where they stood.
+  // Beside lane -2, which grows, the row has several pieces: its posts stand at s = 105, 115 … 215 of the road, each
+  // once, and where they stood.
   network::NetworkSpec both;
   both.roads = {whole, part};
   const network::Network network(std::move(both));

@@ -58,7 +58,8 @@ TEST(Junction, RoadsAreCutAndJoined) {
   ASSERT_EQ(network.junctions().size(), 2u);
   std::set<std::string> ids;
   for (const network::Road& road : network.roads()) ids.insert(road.id());
-  for (const char* id : {"main/1", "main/2", "main/3", "cross/1", "cross/2", "end/1", "j1/main", "j1/cross", "j2/main"}) EXPECT_TRUE(ids.contains(id)) << id;
+  for (const char* id : {"main/1", "main/2", "main/3", "cross/1", "cross/2", "end/1", "j1/main", "j1/cross", "j2/main"})
+    EXPECT_TRUE(ids.contains(id)) << id;
   // Two roads cross: from each of four arms two turns and straight on. One ends: from its arm two, to it two.
   EXPECT_EQ(network.junctions()[0].connections.size(), 12u);
   EXPECT_EQ(network.junctions()[1].connections.size(), 6u);
@@ -80,7 +81,8 @@ TEST(Junction, LanesGoOnWithoutAStep) {
       for (const network::LaneEnd& next : end == End::kStart ? network.AtStart(key) : network.AtEnd(key)) {
         ++joints;
         const network::Road& other = network.roads()[next.lane.road];
-        const double s = end == End::kStart ? 0.0 : road.length_m(), other_s = next.end == End::kStart ? 0.0 : other.length_m();
+        const double s = end == End::kStart ? 0.0 : road.length_m(),
+                     other_s = next.end == End::kStart ? 0.0 : other.length_m();
         for (const bool outer : {false, true}) {
           const auto span = *network.Span(key, s), beyond = *network.Span(next.lane, other_s);
           const auto at = [](const network::Road& r, double where, double t) { return r.Surface(where, t).p_W; };
@@ -97,8 +99,8 @@ TEST(Junction, LanesGoOnWithoutAStep) {
   EXPECT_GT(joints, 60);
 }
 
-// The ways through lie on the one surface, as well as cubics along a way and across its lanes can follow it (docs/roads.md says how
-// far off they are; SUELO answers by the surface itself).
+// The ways through lie on the one surface, as well as cubics along a way and across its lanes can follow it
+// (docs/roads.md says how far off they are; SUELO answers by the surface itself).
 TEST(Junction, WaysLieOnTheSurface) {
   const network::Network& network = *Made().network;
   for (const network::Road& way : network.roads()) {
@@ -109,10 +111,12 @@ TEST(Junction, WaysLieOnTheSurface) {
       const auto& lanes = way.spec().sections[0];
       const network::Lane& lane = lanes.left.empty() || i % 2 == 0 ? lanes.right[0] : lanes.left[0];
       const auto span = *lanes.Span(lane.id, way.CentreAt(s), s);
-      const double t = base::RandomUniform({i, 2}, std::min(span.inner_t_m, span.outer_t_m), std::max(span.inner_t_m, span.outer_t_m));
+      const double t = base::RandomUniform({i, 2}, std::min(span.inner_t_m, span.outer_t_m),
+                                           std::max(span.inner_t_m, span.outer_t_m));
       const Eigen::Vector3d p = way.Surface(s, t).p_W;
       EXPECT_NEAR(p.z(), surface.At(p.head<2>()).z_m, 0.01) << way.id() << " " << s << " " << t;
-      EXPECT_TRUE(surface.Contains(p.head<2>()) || s < 0.01 || s > way.length_m() - 0.01) << way.id() << " " << s << " " << t;
+      EXPECT_TRUE(surface.Contains(p.head<2>()) || s < 0.01 || s > way.length_m() - 0.01)
+          << way.id() << " " << s << " " << t;
     }
   }
 }
@@ -137,7 +141,8 @@ TEST(Junction, TheSurfaceIsEachRoadAtItsEnd) {
     if (!surface.Contains(p)) continue;
     const auto z = [&](double dx, double dy) { return surface.At(p + Eigen::Vector2d(dx, dy)).z_m; };
     const JunctionHeight at = surface.At(p);
-    if (std::fabs(z(h, 0) + z(-h, 0) - 2.0 * at.z_m) + std::fabs(z(0, h) + z(0, -h) - 2.0 * at.z_m) > 1e-8) continue;  // on a crown
+    if (std::fabs(z(h, 0) + z(-h, 0) - 2.0 * at.z_m) + std::fabs(z(0, h) + z(0, -h) - 2.0 * at.z_m) > 1e-8)
+      continue;  // on a crown
     EXPECT_NEAR(at.slope_x, (z(h, 0) - z(-h, 0)) / (2.0 * h), 1e-5);
     EXPECT_NEAR(at.slope_y, (z(0, h) - z(0, -h)) / (2.0 * h), 1e-5);
   }
@@ -213,7 +218,8 @@ TEST(Junction, HasLightsWithTheirTimes) {
   }
   for (const network::Road& road : network.roads()) {
     if (road.id() != "main/1" && road.id() != "cross/1") continue;
-    EXPECT_TRUE(std::all_of(road.spec().signals.begin(), road.spec().signals.end(), [](const auto& signal) { return signal.dynamic; }));
+    EXPECT_TRUE(std::all_of(road.spec().signals.begin(), road.spec().signals.end(),
+                            [](const auto& signal) { return signal.dynamic; }));
   }
   const auto told = [&](const std::string& phases) {
     std::string wrong = kRoads;
@@ -221,7 +227,8 @@ TEST(Junction, HasLightsWithTheirTimes) {
     return FirstProblem(wrong);
   };
   EXPECT_THAT(told("[{green: [main], for_s: 9}]"), HasSubstr("road 'cross' is green in no phase of junction 'j1'"));
-  EXPECT_THAT(told("[{green: [main], for_s: 9}, {green: [cros], for_s: 9}]"), HasSubstr("no road 'cros' meets junction 'j1'"));
+  EXPECT_THAT(told("[{green: [main], for_s: 9}, {green: [cros], for_s: 9}]"),
+              HasSubstr("no road 'cros' meets junction 'j1'"));
   EXPECT_THAT(told("[{green: [main], for_s: 9}, {green: [cross]}]"), HasSubstr("for_s"));
 }
 
@@ -232,17 +239,23 @@ TEST(Junction, WhatDoesNotMeetIsTold) {
     changed.replace(changed.find(from), from.size(), to);
     return FirstProblem(changed);
   };
-  EXPECT_THAT(with("{road: cross, s_m: 120}]", "{road: cross, s_m: 150}]"), HasSubstr("road 'cross' is 30.00 m away from road 'main' there"));
-  EXPECT_THAT(with("turn_deg: -95", "turn_deg: -20"), HasSubstr("at an angle of 20.0 degrees; at least 34.4 was expected"));
-  EXPECT_THAT(with("axis: [line: {length_m: 150}]", "axis: [line: {length_m: 15}]"), HasSubstr("junction 'j2' reaches from"));
-  EXPECT_THAT(with("{road: end, end: start}", "{road: ent, end: start}"), HasSubstr("there is no road 'ent'; did you mean 'end'?"));
+  EXPECT_THAT(with("{road: cross, s_m: 120}]", "{road: cross, s_m: 150}]"),
+              HasSubstr("road 'cross' is 30.00 m away from road 'main' there"));
+  EXPECT_THAT(with("turn_deg: -95", "turn_deg: -20"),
+              HasSubstr("at an angle of 20.0 degrees; at least 34.4 was expected"));
+  EXPECT_THAT(with("axis: [line: {length_m: 150}]", "axis: [line: {length_m: 15}]"),
+              HasSubstr("junction 'j2' reaches from"));
+  EXPECT_THAT(with("{road: end, end: start}", "{road: ent, end: start}"),
+              HasSubstr("there is no road 'ent'; did you mean 'end'?"));
 }
 
-// Five roads that all begin at one junction, 20 m of which lie in it or so: nobody said where to start, so it is 10 m behind the junction.
+// Five roads that all begin at one junction, 20 m of which lie in it or so: nobody said where to start, so it is 10 m
+// behind the junction.
 std::string FiveRoads(const std::string& start) {
   std::string text = "rodeira: world/2\n" + start + "roads:\n", meetings;
   for (int i = 0; i < 5; ++i) {
-    text += "  - {id: r" + std::to_string(i) + ", start: {x_m: 0, y_m: 0, heading_deg: " + std::to_string(72 * i) + "}, axis: [line: {length_m: 80}], z_m: 0, section: {template: rural}}\n";
+    text += "  - {id: r" + std::to_string(i) + ", start: {x_m: 0, y_m: 0, heading_deg: " + std::to_string(72 * i) +
+            "}, axis: [line: {length_m: 80}], z_m: 0, section: {template: rural}}\n";
     meetings += (i == 0 ? "" : ", ") + std::string("{road: r") + std::to_string(i) + ", end: start}";
   }
   return text + "junctions:\n  - {id: j, roads: [" + meetings + "]}\n";
@@ -270,7 +283,8 @@ TEST(Start, LiesOutsideOfJunctionsUnlessItIsSaid) {
   EXPECT_GT(behind, 20.0);
   const auto [refused, told] = text_of("start: {s_m: 10}\n");
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0].Text(), HasSubstr(fmt::format("'start.s_m' 10 of road 'r0' lies in a junction; {:.1f} is behind it", behind)));
+  EXPECT_THAT(told[0].Text(),
+              HasSubstr(fmt::format("'start.s_m' 10 of road 'r0' lies in a junction; {:.1f} is behind it", behind)));
 }
 
 }  // namespace

@@ -17,8 +17,10 @@ constexpr double kLong_m = 120.0;
 
 std::string RoadWith(const std::string& lines) {
   return "rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 120}]\n    z_m: 0\n"
-         "    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 100, width_m: 4}]}, {id: 1, width_m: 3}], offset_m: 0.5}\n"
-         "    lines:\n" + lines;
+         "    section: {lanes: [{id: -1, widths: [{s_m: 0, width_m: 3}, {s_m: 100, width_m: 4}]}, {id: 1, width_m: "
+         "3}], offset_m: 0.5}\n"
+         "    lines:\n" +
+         lines;
 }
 
 // What of a road is painted.
@@ -60,7 +62,8 @@ TEST_P(LineKinds, ArePaintedAsTheyAreSaid) {
     const auto& [stroke_m, gap_m] = kind.lines[i];
     EXPECT_EQ(painted.lines[i].width_m, kind.width_m);
     EXPECT_EQ(painted.lines[i].colour, "white");
-    const double aside_m = kind.lines.size() == 1 ? 0.0 : (i == 0 ? 0.5 : -0.5) * (0.12 + kind.width_m);  // 0.12 between the two
+    const double aside_m =
+        kind.lines.size() == 1 ? 0.0 : (i == 0 ? 0.5 : -0.5) * (0.12 + kind.width_m);  // 0.12 between the two
     EXPECT_NEAR(Middle(painted, i, 50.0), 1.0 + aside_m, 1e-12);
     const auto& strokes = painted.strokes[i];
     if (gap_m == 0.0) {
@@ -76,15 +79,19 @@ TEST_P(LineKinds, ArePaintedAsTheyAreSaid) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LineKinds,
-                         testing::Values(Kind{"continuous", 0.12, {{0, 0}}}, Kind{"dashed", 0.12, {{4, 8}}}, Kind{"double", 0.12, {{0, 0}, {0, 0}}},
-                                         Kind{"double_dashed", 0.12, {{4, 8}, {4, 8}}}, Kind{"mixed", 0.12, {{0, 0}, {4, 8}}}, Kind{"none", 0.12, {}},
-                                         Kind{"boundary", 0.15, {{0, 0}}}, Kind{"single", 0.12, {{0, 0}}}, Kind{"dashed_same", 0.12, {{3, 9}}},
-                                         Kind{"dashed_speed_ctrl", 0.3, {{1.5, 1.5}}}, Kind{"dashed_warn", 0.12, {{5, 2}}}),
-                         [](const auto& kind) { return std::string(kind.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, LineKinds,
+    testing::Values(Kind{"continuous", 0.12, {{0, 0}}}, Kind{"dashed", 0.12, {{4, 8}}},
+                    Kind{"double", 0.12, {{0, 0}, {0, 0}}}, Kind{"double_dashed", 0.12, {{4, 8}, {4, 8}}},
+                    Kind{"mixed", 0.12, {{0, 0}, {4, 8}}}, Kind{"none", 0.12, {}}, Kind{"boundary", 0.15, {{0, 0}}},
+                    Kind{"single", 0.12, {{0, 0}}}, Kind{"dashed_same", 0.12, {{3, 9}}},
+                    Kind{"dashed_speed_ctrl", 0.3, {{1.5, 1.5}}}, Kind{"dashed_warn", 0.12, {{5, 2}}}),
+    [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(Lines, OfAMixedOneEachHalfIsSaid) {
-  const Painted painted = PaintedBy("      - {t_m: 0, kind: mixed, left: dashed, right: continuous, apart_m: 0.2, stroke_m: 2, gap_m: 3, width_m: 0.1}\n");
+  const Painted painted = PaintedBy(
+      "      - {t_m: 0, kind: mixed, left: dashed, right: continuous, apart_m: 0.2, stroke_m: 2, gap_m: 3, width_m: "
+      "0.1}\n");
   ASSERT_EQ(painted.lines.size(), 2u);
   EXPECT_NEAR(Middle(painted, 0, 10.0), 0.15, 1e-12);
   EXPECT_EQ(painted.lines[0].stroke_m, 2.0);
@@ -103,7 +110,9 @@ TEST(Lines, HaveTheirColour) {
 
 // Dashes are counted from the line's own beginning.
 TEST(Lines, BeginAndEndWhereTheyAreSaid) {
-  const Painted painted = PaintedBy("      - {t_m: 0, kind: dashed, from_s_m: 30, to_s_m: 70}\n      - {t_m: 1, kind: continuous, from_s_m: 15.5, to_s_m: 16}\n");
+  const Painted painted = PaintedBy(
+      "      - {t_m: 0, kind: dashed, from_s_m: 30, to_s_m: 70}\n      - {t_m: 1, kind: continuous, from_s_m: 15.5, "
+      "to_s_m: 16}\n");
   ASSERT_EQ(painted.strokes.size(), 2u);
   ASSERT_EQ(painted.strokes[0].size(), 4u);
   EXPECT_NEAR(painted.strokes[0].front().from_s_m, 30.0, 1e-9);
@@ -112,13 +121,16 @@ TEST(Lines, BeginAndEndWhereTheyAreSaid) {
   ASSERT_EQ(painted.strokes[1].size(), 1u);
   EXPECT_NEAR(painted.strokes[1][0].from_s_m, 15.5, 1e-9);
   EXPECT_NEAR(painted.strokes[1][0].to_s_m, 16.0, 1e-9);
-  EXPECT_THAT(FirstProblem(RoadWith("      - {t_m: 0, kind: dashed, from_s_m: 30, to_s_m: 20}\n")), HasSubstr("a line must end after its beginning"));
+  EXPECT_THAT(FirstProblem(RoadWith("      - {t_m: 0, kind: dashed, from_s_m: 30, to_s_m: 20}\n")),
+              HasSubstr("a line must end after its beginning"));
 }
 
 // On a lane's outer edge wherever that goes, where both sides meet, or between points; moved to the left by 'offset_m'.
 TEST(Lines, LieWhereTheyAreSaid) {
-  const Painted painted = PaintedBy("      - {lane: -1, kind: continuous, offset_m: 0.2}\n      - {lane: 1, kind: continuous}\n      - {lane: 0, kind: continuous}\n"
-                                    "      - {ts: [{s_m: 20, t_m: 1}, {s_m: 40, t_m: 2}], kind: continuous, offset_m: -0.5}\n");
+  const Painted painted = PaintedBy(
+      "      - {lane: -1, kind: continuous, offset_m: 0.2}\n      - {lane: 1, kind: continuous}\n      - {lane: 0, "
+      "kind: continuous}\n"
+      "      - {ts: [{s_m: 20, t_m: 1}, {s_m: 40, t_m: 2}], kind: continuous, offset_m: -0.5}\n");
   ASSERT_EQ(painted.lines.size(), 4u);
   EXPECT_NEAR(Middle(painted, 0, 0.0), 0.5 - 3.0 + 0.2, 1e-12);
   EXPECT_NEAR(Middle(painted, 0, 50.0), 0.5 - 3.5 + 0.2, 1e-12);  // half of the way from 3 to 4 m

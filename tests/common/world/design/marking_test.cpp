@@ -13,8 +13,10 @@ namespace {
 using testing::HasSubstr;
 
 std::string RoadWith(const std::string& markings) {
-  return "rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 100}]\n    z_m: 0\n    section: {lanes: [{id: -2, type: sidewalk, width_m: 2}, {id: -1, width_m: 3.5}, {id: 1, width_m: 3}]}\n"
-         "    markings:\n" + markings;
+  return "rodeira: world/2\nroads:\n  - id: a\n    axis: [line: {length_m: 100}]\n    z_m: 0\n    section: {lanes: "
+         "[{id: -2, type: sidewalk, width_m: 2}, {id: -1, width_m: 3.5}, {id: 1, width_m: 3}]}\n"
+         "    markings:\n" +
+         markings;
 }
 
 const network::RoadSpec& SpecOf(const Design& design) { return design.network->roads()[0].spec(); }
@@ -52,7 +54,8 @@ TEST(Markings, AStopLineIsBeforeThoseWhomItIsFor) {
     EXPECT_EQ(SpecOf(design).lines.size(), 1u);
     return SpecOf(design).lines.at(0);
   };
-  const network::PaintedLine along = only(""), against = only(", for: against, length_m: 0.4"), lane = only(", lane: 1");
+  const network::PaintedLine along = only(""), against = only(", for: against, length_m: 0.4"),
+                             lane = only(", lane: 1");
   EXPECT_NEAR(along.t.Value(50.0), -1.75, 1e-12);
   EXPECT_NEAR(along.width_m, 3.3, 1e-12);
   EXPECT_EQ(along.to_s_m - along.from_s_m, 0.5);
@@ -63,7 +66,9 @@ TEST(Markings, AStopLineIsBeforeThoseWhomItIsFor) {
 }
 
 TEST(Markings, AnArrowLooksWhereItsLaneIsDriven) {
-  const Design design = SoundDesign(RoadWith("      - {type: arrow, s_m: 60, lane: -1, ways: [right, straight]}\n      - {type: arrow, s_m: 60, lane: 1, ways: [left], length_m: 6}\n"));
+  const Design design =
+      SoundDesign(RoadWith("      - {type: arrow, s_m: 60, lane: -1, ways: [right, straight]}\n      - {type: arrow, "
+                           "s_m: 60, lane: 1, ways: [left], length_m: 6}\n"));
   const auto& objects = SpecOf(design).objects;
   ASSERT_EQ(objects.size(), 2u);
   EXPECT_EQ(objects[0].type, "roadMark");
@@ -76,8 +81,10 @@ TEST(Markings, AnArrowLooksWhereItsLaneIsDriven) {
 }
 
 TEST(Markings, WhatDoesNotFitIsToldWithItsLine) {
-  EXPECT_THAT(FirstProblem(RoadWith("      - {type: arrow, s_m: 60, lane: -1, ways: [up]}\n")), HasSubstr("made.yaml:8: 'up' is no way that an arrow points; left, straight or right was expected"));
-  EXPECT_THAT(FirstProblem(RoadWith("      - {type: stop_line, s_m: 60, lane: -9}\n")), HasSubstr("made.yaml:8: the road has no lane -9"));
+  EXPECT_THAT(FirstProblem(RoadWith("      - {type: arrow, s_m: 60, lane: -1, ways: [up]}\n")),
+              HasSubstr("made.yaml:8: 'up' is no way that an arrow points; left, straight or right was expected"));
+  EXPECT_THAT(FirstProblem(RoadWith("      - {type: stop_line, s_m: 60, lane: -9}\n")),
+              HasSubstr("made.yaml:8: the road has no lane -9"));
   EXPECT_THAT(FirstProblem(RoadWith("      - {type: zebra, s_m: 60}\n")), HasSubstr("crossing"));
   EXPECT_THAT(FirstProblem(RoadWith("      - {type: crossing, s_m: 160}\n")), HasSubstr("made.yaml:8"));
 }

@@ -13,7 +13,8 @@
 #include "common/world/traffic_map/heights.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 
-// A closed town of count × count crossings, streets of 200 m, priority to the right, no way out: who is there stays there.
+// A closed town of count × count crossings, streets of 200 m, priority to the right, no way out: who is there stays
+// there.
 namespace rodeira::lanes {
 
 class ClosedGrid {
@@ -25,7 +26,8 @@ class ClosedGrid {
   static std::shared_ptr<const network::Network> Make(int count, bool lit = false) {
     ClosedGrid grid;
     grid.Lay(count);
-    const auto heights = traffic_map::ParseHeights("rodeira: motors/1\n" + (lit ? "lights:\n" + grid.lights_ : ""), "grid.motors.yaml");
+    const auto heights =
+        traffic_map::ParseHeights("rodeira: motors/1\n" + (lit ? "lights:\n" + grid.lights_ : ""), "grid.motors.yaml");
     RODEIRA_ASSERT(heights.ok());
     const auto file = traffic_map::ParseMap(grid.text_ + grid.lanes_ + grid.connections_ + "s,10\ni\n", "grid.motors");
     RODEIRA_ASSERT(file.ok());
@@ -53,19 +55,28 @@ class ClosedGrid {
   };
 
   // On the right-hand lane of an arm, so far from the node, driving away from it or to it.
-  static Pose Away(double x, double y, double angle, double far_m) { return Pose{x, y, angle}.Moved(far_m, -0.5 * kLane_m); }
-  static Pose Towards(double x, double y, double angle, double far_m) { return Pose{x, y, angle + std::numbers::pi}.Moved(-far_m, -0.5 * kLane_m); }
+  static Pose Away(double x, double y, double angle, double far_m) {
+    return Pose{x, y, angle}.Moved(far_m, -0.5 * kLane_m);
+  }
+  static Pose Towards(double x, double y, double angle, double far_m) {
+    return Pose{x, y, angle + std::numbers::pi}.Moved(-far_m, -0.5 * kLane_m);
+  }
 
   int Curve(const Pose& a, const Pose& b) {
-    const double turn = std::remainder(b.heading - a.heading, 2.0 * std::numbers::pi), chord = std::hypot(b.x - a.x, b.y - a.y);
-    const double handle = std::fabs(turn) < 1e-6 ? chord / 3.0 : 4.0 / 3.0 * std::tan(std::fabs(turn) / 4.0) * chord / (2.0 * std::sin(std::fabs(turn) / 2.0));
+    const double turn = std::remainder(b.heading - a.heading, 2.0 * std::numbers::pi),
+                 chord = std::hypot(b.x - a.x, b.y - a.y);
+    const double handle = std::fabs(turn) < 1e-6 ? chord / 3.0
+                                                 : 4.0 / 3.0 * std::tan(std::fabs(turn) / 4.0) * chord /
+                                                       (2.0 * std::sin(std::fabs(turn) / 2.0));
     text_ += fmt::format("p,{}", ++curves_);
-    for (const Pose& p : {a, a.Moved(handle, 0.0), b.Moved(-handle, 0.0), b}) text_ += fmt::format(",{:.3f},0,{:.3f}", p.x, p.y);
+    for (const Pose& p : {a, a.Moved(handle, 0.0), b.Moved(-handle, 0.0), b})
+      text_ += fmt::format(",{:.3f},0,{:.3f}", p.x, p.y);
     text_ += "\n";
     return curves_;
   }
   int Lane(const Pose& a, const Pose& b) {
-    const int left = Curve(a.Moved(0.0, 0.5 * kLane_m), b.Moved(0.0, 0.5 * kLane_m)), right = Curve(a.Moved(0.0, -0.5 * kLane_m), b.Moved(0.0, -0.5 * kLane_m));
+    const int left = Curve(a.Moved(0.0, 0.5 * kLane_m), b.Moved(0.0, 0.5 * kLane_m)),
+              right = Curve(a.Moved(0.0, -0.5 * kLane_m), b.Moved(0.0, -0.5 * kLane_m));
     ++count_;
     lanes_ += fmt::format("l,{},{},False,0,{},False,0,{}\n", count_, left, right, count_ <= 2 ? count_ : 0);
     return count_;
@@ -79,8 +90,10 @@ class ClosedGrid {
           const int ox = x + (east ? 1 : 0), oy = y + (east ? 0 : 1);
           if (ox >= count || oy >= count) continue;
           const double angle = east ? 0.0 : 0.5 * std::numbers::pi, back = angle + std::numbers::pi;
-          const int there = Lane(Away(kStreet_m * x, kStreet_m * y, angle, kReach_m), Away(kStreet_m * x, kStreet_m * y, angle, kStreet_m - kReach_m));
-          const int here = Lane(Away(kStreet_m * ox, kStreet_m * oy, back, kReach_m), Away(kStreet_m * ox, kStreet_m * oy, back, kStreet_m - kReach_m));
+          const int there = Lane(Away(kStreet_m * x, kStreet_m * y, angle, kReach_m),
+                                 Away(kStreet_m * x, kStreet_m * y, angle, kStreet_m - kReach_m));
+          const int here = Lane(Away(kStreet_m * ox, kStreet_m * oy, back, kReach_m),
+                                Away(kStreet_m * ox, kStreet_m * oy, back, kStreet_m - kReach_m));
           at(x, y).push_back({angle, here, there});
           at(ox, oy).push_back({back, there, here});
         }
@@ -90,12 +103,15 @@ class ClosedGrid {
       for (int y = 0; y < count; ++y) {
         std::vector<int> along, across;
         for (const Arm& arm : at(x, y)) (std::fabs(std::sin(arm.angle)) < 0.5 ? along : across).push_back(arm.arrives);
-        lights_ += fmt::format("  - {{phases: [{{green: [{}], for_s: 20}}, {{green: [{}], for_s: 20}}]}}\n", fmt::join(along, ", "), fmt::join(across, ", "));
+        lights_ += fmt::format("  - {{phases: [{{green: [{}], for_s: 20}}, {{green: [{}], for_s: 20}}]}}\n",
+                               fmt::join(along, ", "), fmt::join(across, ", "));
         for (const Arm& from : at(x, y)) {
           for (const Arm& to : at(x, y)) {
             if (from.leaves == to.leaves) continue;
-            const int turn = Lane(Towards(kStreet_m * x, kStreet_m * y, from.angle, kReach_m), Away(kStreet_m * x, kStreet_m * y, to.angle, kReach_m));
-            connections_ += fmt::format("c,{},{},False,0,0,0\nc,{},{},False,0,0,0\n", from.arrives, turn, turn, to.leaves);
+            const int turn = Lane(Towards(kStreet_m * x, kStreet_m * y, from.angle, kReach_m),
+                                  Away(kStreet_m * x, kStreet_m * y, to.angle, kReach_m));
+            connections_ +=
+                fmt::format("c,{},{},False,0,0,0\nc,{},{},False,0,0,0\n", from.arrives, turn, turn, to.leaves);
           }
         }
       }

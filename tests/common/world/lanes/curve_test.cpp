@@ -23,15 +23,16 @@ TEST(LaneCurve, IsTheMiddleOfTheLane) {
         const Eigen::Vector3d exact = network->Centre(track.lane, track.curve.StationAt(d));
         const Eigen::Vector3d away = track.curve.At(d).p_W - exact;
         const Eigen::Vector2d ahead = track.curve.At(d).ahead_W;
-        EXPECT_NEAR(geometry::Cross(ahead, away.head<2>()), 0.0, 1e-4) << name << " road " << track.lane.road << " d " << d;
+        EXPECT_NEAR(geometry::Cross(ahead, away.head<2>()), 0.0, 1e-4)
+            << name << " road " << track.lane.road << " d " << d;
         EXPECT_NEAR(away.z(), 0.0, 1e-3);
       }
     }
   }
 }
 
-// d is the length: the sum of short chords, whose own error is h²κ²/24 of it. The maps' pieces are fitted within 5 mm, and where
-// two meet the direction may jump.
+// d is the length: the sum of short chords, whose own error is h²κ²/24 of it. The maps' pieces are fitted within 5 mm,
+// and where two meet the direction may jump.
 TEST(LaneCurve, MeasuresItsOwnLength) {
   const auto network = MapNetwork("roundabout");
   const Graph graph(*network);
@@ -76,7 +77,9 @@ TEST(LaneCurve, FindsTheFootOfAPointBesideIt) {
         const Eigen::Vector2d p = at.p_W.head<2>() + offset * at.left_W();
         std::size_t nearest = 0;
         for (std::size_t i = 0; i < track.curve.nodes().size(); ++i) {
-          if ((track.curve.nodes()[i].p_W.head<2>() - p).norm() < (track.curve.nodes()[nearest].p_W.head<2>() - p).norm()) nearest = i;
+          if ((track.curve.nodes()[i].p_W.head<2>() - p).norm() <
+              (track.curve.nodes()[nearest].p_W.head<2>() - p).norm())
+            nearest = i;
         }
         const Curve::Foot foot = track.curve.FootNear(p, nearest);
         EXPECT_NEAR(foot.d_m, d, 1e-3);
@@ -93,7 +96,8 @@ TEST(Swath, HoldsTheRectangleOnACircle) {
     const double r = std::sqrt(R * R - 0.25 * car.wheelbase_m * car.wheelbase_m);
     double most = 0.0;
     for (double x = -0.5 * car.length_m; x <= 0.5 * car.length_m + 1e-9; x += car.length_m / 400.0) {
-      for (const double y : {-0.5 * car.width_m, 0.5 * car.width_m}) most = std::max(most, std::fabs(std::hypot(r + y, x) - R));
+      for (const double y : {-0.5 * car.width_m, 0.5 * car.width_m})
+        most = std::max(most, std::fabs(std::hypot(r + y, x) - R));
     }
     EXPECT_NEAR(HalfSwath_m(1.0 / R), most, 1e-9) << R;
     EXPECT_EQ(HalfSwath_m(-1.0 / R), HalfSwath_m(1.0 / R));

@@ -53,7 +53,8 @@ TEST(FootCrossings, AnObjectLiesSquareAcross) {
 }
 
 TEST(FootCrossings, ASignLiesAcrossAllLanes) {
-  IsSquare(On(R"(<signals><signal s="50" t="-4" id="1" dynamic="no" orientation="+" zOffset="2" type="293" subtype="-1" country="DE"/></signals>)"));
+  IsSquare(On(
+      R"(<signals><signal s="50" t="-4" id="1" dynamic="no" orientation="+" zOffset="2" type="293" subtype="-1" country="DE"/></signals>)"));
 }
 
 TEST(FootCrossings, AnOutlineMayBeSkewed) {
@@ -63,13 +64,18 @@ TEST(FootCrossings, AnOutlineMayBeSkewed) {
   ASSERT_EQ(crossings.size(), 1u);
   EXPECT_NEAR(std::fabs(crossings[0].across_W.x() / crossings[0].across_W.y()), 4.0 / 7.0, 1e-9);
   ASSERT_EQ(crossings[0].passes.size(), 2u);
-  for (const FootPass& pass : crossings[0].passes) EXPECT_NEAR(0.5 * (pass.in_m + pass.out_m), 49.0, 0.3);  // 50 m less 1.75 m · 4/7, whichever way
+  for (const FootPass& pass : crossings[0].passes)
+    EXPECT_NEAR(0.5 * (pass.in_m + pass.out_m), 49.0, 0.3);  // 50 m less 1.75 m · 4/7, whichever way
 }
 
 TEST(FootCrossings, NothingElseIsOne) {
   EXPECT_TRUE(On("").empty());
-  EXPECT_TRUE(On(R"(<objects><object id="z" type="crosswalk" s="500" t="0" zOffset="0" length="4" width="7"/></objects>)").empty());
-  EXPECT_TRUE(On(R"(<objects><object id="z" type="crosswalk" s="50" t="60" zOffset="0" length="4" width="7"/></objects>)").empty());
+  EXPECT_TRUE(
+      On(R"(<objects><object id="z" type="crosswalk" s="500" t="0" zOffset="0" length="4" width="7"/></objects>)")
+          .empty());
+  EXPECT_TRUE(
+      On(R"(<objects><object id="z" type="crosswalk" s="50" t="60" zOffset="0" length="4" width="7"/></objects>)")
+          .empty());
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace {
 
 TEST(LaneGraph, HasTheMapsLanesAndConnections) {
   for (const std::string& name : MapNames()) {
-    const auto map = traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
+    const auto map =
+        traffic_map::LoadLaneMap(std::filesystem::path(SourceDir()) / "configs/maps" / (name + ".motors")).value();
     const auto network = MapNetwork(name);
     const Graph graph(*network);
     ASSERT_EQ(graph.tracks().size(), map.lanes.size()) << name;
@@ -34,11 +35,17 @@ TEST(LaneGraph, HasTheMapsLanesAndConnections) {
   }
 }
 
-// A network's lanes may say where vehicles begin and end: then its edge is no entry, and a lane on which they end goes on into nothing.
+// A network's lanes may say where vehicles begin and end: then its edge is no entry, and a lane on which they end goes
+// on into nothing.
 TEST(LaneGraph, BeginsAndEndsWhereItsLanesSay) {
   opendrive::RoadText road;
-  const auto lane = [](const std::string& more) { return "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>" + more + "</lane>"; };
-  const auto says = [](const char* what) { return fmt::format("<userData code=\"rodeira:traffic\" value=\"{}\"/>", what); };
+  const auto lane = [](const std::string& more) {
+    return "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>" + more +
+           "</lane>";
+  };
+  const auto says = [](const char* what) {
+    return fmt::format("<userData code=\"rodeira:traffic\" value=\"{}\"/>", what);
+  };
   road.left = "";
   road.right = lane(says("begins") + says("ends"));
   const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
@@ -72,9 +79,14 @@ TEST(LaneGraph, LinksMeetWithinTheFilesGaps) {
 // A driving lane that a file leaves to buses is none for cars: nobody is beside it, and nobody goes on into it.
 TEST(LaneGraph, LanesThatAreClosedToCarsAreNotDriven) {
   opendrive::RoadText road;
-  const auto lane = [](int id, const std::string& access) { return fmt::format("<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{}</lane>", id, access); };
+  const auto lane = [](int id, const std::string& access) {
+    return fmt::format(
+        "<lane id=\"{}\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>{}</lane>", id,
+        access);
+  };
   for (const bool closed : {false, true}) {
-    road.right = lane(-1, "") + lane(-2, closed ? "<access sOffset=\"0\" rule=\"allow\" restriction=\"bus\"/>" : "<access sOffset=\"0\" rule=\"deny\" restriction=\"truck\"/>");
+    road.right = lane(-1, "") + lane(-2, closed ? "<access sOffset=\"0\" rule=\"allow\" restriction=\"bus\"/>"
+                                                : "<access sOffset=\"0\" rule=\"deny\" restriction=\"truck\"/>");
     const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
     const Graph graph(*network);
     EXPECT_EQ(graph.tracks().size(), closed ? 2u : 3u);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "common/core/base/assert.hpp"
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/world/opendrive/import.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "tests/tree.hpp"
 
 // Networks to try things on: the project's maps, and the real files where they lie beside the project.

@@ -41,7 +41,8 @@ TEST(Lights, StandAtTheEndsOfTheirLanes) {
     ++lit;
     EXPECT_NEAR(lights[0].d_m, graph[track].length_m(), 0.01);
     EXPECT_EQ(lights[0].signal, "light " + road);
-    for (const Link& link : graph[track].next) EXPECT_EQ(LightFor(graph, link.to, 5.0)->controller, lights[0].controller);
+    for (const Link& link : graph[track].next)
+      EXPECT_EQ(LightFor(graph, link.to, 5.0)->controller, lights[0].controller);
   }
   EXPECT_EQ(lit, 4u);
 }
@@ -49,13 +50,16 @@ TEST(Lights, StandAtTheEndsOfTheirLanes) {
 // Who comes towards one may be green, too; who comes from the side may not, not even at the other's amber.
 TEST(Lights, ConflictingGreensAreNamed) {
   EXPECT_EQ(Said(*Crossing("- phases: [{green: [1, 5], for_s: 20}, {green: [3, 7], for_s: 20}]\n")), "");
-  EXPECT_EQ(Said(*Crossing("- phases: [{green: [1], for_s: 9}, {green: [3], for_s: 9}, {green: [5], for_s: 9}, {green: [7], for_s: 9}]\n")), "");
+  EXPECT_EQ(Said(*Crossing("- phases: [{green: [1], for_s: 9}, {green: [3], for_s: 9}, {green: [5], for_s: 9}, {green: "
+                           "[7], for_s: 9}]\n")),
+            "");
   const std::string together = Said(*Crossing("- phases: [{green: [1, 5, 3], for_s: 20}, {green: [7], for_s: 20}]\n"));
   EXPECT_THAT(together, HasSubstr("'lane 1' (signal light 1, road '1', lane -1)"));
   EXPECT_THAT(together, HasSubstr("'lane 3' (signal light 3, road '3', lane -1)"));
   EXPECT_THAT(together, HasSubstr("green or amber together, and their ways"));
   const std::string early =
-      Said(*Crossing("- phases: [{green: [1, 5], for_s: 20}, {green: [9], for_s: 30}]\n- {offset_s: 22, phases: [{green: [3, 7], for_s: 20}, {green: [10], for_s: 30}]}\n"));
+      Said(*Crossing("- phases: [{green: [1, 5], for_s: 20}, {green: [9], for_s: 30}]\n- {offset_s: 22, phases: "
+                     "[{green: [3, 7], for_s: 20}, {green: [10], for_s: 30}]}\n"));
   EXPECT_THAT(early, HasSubstr("green or amber together"));
 }
 

@@ -1,4 +1,5 @@
-// Who has the right of way where two lanes meet, by signs, by the file, and by the rules of right-hand and of left-hand traffic.
+// Who has the right of way where two lanes meet, by signs, by the file, and by the rules of right-hand and of left-hand
+// traffic.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,13 +13,15 @@ namespace rodeira::lanes {
 namespace {
 
 struct Made {
-  explicit Made(std::shared_ptr<const network::Network> from) : network(std::move(from)), graph(*network), zones(graph) {}
+  explicit Made(std::shared_ptr<const network::Network> from)
+      : network(std::move(from)), graph(*network), zones(graph) {}
   const std::string& RoadOf(std::uint32_t track) const { return network->roads()[graph[track].lane.road].id(); }
   // Zones of two ways through a junction, by which the one who drives on the one has to wait for the other.
   template <class Tell>
   void EachMeeting(const Tell& tell) const {
     for (const Zone& zone : zones.zones()) {
-      if (zone.kind != ZoneKind::kDiverge && graph[zone.track[0]].junction >= 0 && graph[zone.track[1]].junction >= 0) tell(zone);
+      if (zone.kind != ZoneKind::kDiverge && graph[zone.track[0]].junction >= 0 && graph[zone.track[1]].junction >= 0)
+        tell(zone);
     }
   }
 
@@ -34,11 +37,14 @@ class Crossing : public testing::TestWithParam<bool> {
   // By which arm a way comes: 0 from the east, 1 from the north, 2 from the west, 3 from the south.
   static int ArmOf(const Track& track) {
     const Eigen::Vector3d& at = track.curve.nodes().front().p_W;
-    return static_cast<int>(std::lround((std::atan2(Up() * at.y(), at.x()) + 2.0 * std::numbers::pi) / (0.5 * std::numbers::pi))) % 4;
+    return static_cast<int>(
+               std::lround((std::atan2(Up() * at.y(), at.x()) + 2.0 * std::numbers::pi) / (0.5 * std::numbers::pi))) %
+           4;
   }
   // 1: to the left, 0: straight on, -1: to the right.
   static int TurnOf(const Track& track) {
-    const Eigen::Vector2d from = track.curve.nodes().front().along_W.head<2>(), to = track.curve.nodes().back().along_W.head<2>();
+    const Eigen::Vector2d from = track.curve.nodes().front().along_W.head<2>(),
+                          to = track.curve.nodes().back().along_W.head<2>();
     return static_cast<int>(std::lround(Up() * (from.x() * to.y() - from.y() * to.x())));
   }
   static double Up() { return GetParam() ? -1.0 : 1.0; }
@@ -75,9 +81,20 @@ TEST_P(Crossing, SignsGoBeforeTheRules) {
       const char *on_arm, *on_other;  // signs; "": none
       int first;                      // the arm that goes first of these two
     };
-    for (const Case& c : {Case{"205", "", other}, {"", "205", arm}, {"206", "", other}, {"", "206", arm}, {"301", "", arm}, {"", "301", other},
-                          {"306", "205", arm}, {"205", "206", arm}, {"206", "205", other},
-                          {"=yield", "", other}, {"", "=stop", arm}, {"=priorityRoad", "205", arm}, {"", "=priorityRoad", other}, {"=4way", "=priorityRoad", other}}) {
+    for (const Case& c : {Case{"205", "", other},
+                          {"", "205", arm},
+                          {"206", "", other},
+                          {"", "206", arm},
+                          {"301", "", arm},
+                          {"", "301", other},
+                          {"306", "205", arm},
+                          {"205", "206", arm},
+                          {"206", "205", other},
+                          {"=yield", "", other},
+                          {"", "=stop", arm},
+                          {"=priorityRoad", "205", arm},
+                          {"", "=priorityRoad", other},
+                          {"=4way", "=priorityRoad", other}}) {
       Drawn drawn(MapText("lights", false));
       if (*c.on_arm != 0) drawn.Sign(ComesBy(arm), c.on_arm);
       if (*c.on_other != 0) drawn.Sign(ComesBy(other), c.on_other);
@@ -87,7 +104,8 @@ TEST_P(Crossing, SignsGoBeforeTheRules) {
         const std::array<int, 2> arms{ArmOf(made.graph[zone.track[0]]), ArmOf(made.graph[zone.track[1]])};
         if (std::minmax(arms[0], arms[1]) != std::minmax(arm, other)) return;
         ++met;
-        EXPECT_EQ(arms[static_cast<std::size_t>(zone.first)], c.first) << arm << " '" << c.on_arm << "', " << other << " '" << c.on_other << "'";
+        EXPECT_EQ(arms[static_cast<std::size_t>(zone.first)], c.first)
+            << arm << " '" << c.on_arm << "', " << other << " '" << c.on_other << "'";
         EXPECT_TRUE(zone.signed_);
       });
       EXPECT_GE(met, 5);
@@ -101,7 +119,8 @@ TEST_P(Crossing, BetweenTwoEqualSignsTheRulesDecide) {
   for (int arm = 0; arm < 4; ++arm) drawn.Sign(ComesBy(arm), "205");
   const Made without = Read(plain), with = Read(drawn);
   ASSERT_EQ(with.zones.zones().size(), without.zones.zones().size());
-  for (std::size_t i = 0; i < with.zones.zones().size(); ++i) EXPECT_EQ(with.zones.zones()[i].first, without.zones.zones()[i].first) << i;
+  for (std::size_t i = 0; i < with.zones.zones().size(); ++i)
+    EXPECT_EQ(with.zones.zones()[i].first, without.zones.zones()[i].first) << i;
 }
 
 TEST_P(Crossing, AFilesJunctionPrioritiesGoBeforeTheRulesAndAfterSigns) {
@@ -117,12 +136,14 @@ TEST_P(Crossing, AFilesJunctionPrioritiesGoBeforeTheRulesAndAfterSigns) {
     ++turned;
     Drawn named(MapText("lights", false)), told(MapText("lights", false));
     named.Priority(rules.RoadOf(zone.track[1 - first]), rules.RoadOf(zone.track[first]));
-    told.Priority(rules.RoadOf(zone.track[1 - first]), rules.RoadOf(zone.track[first])).Sign(ComesBy(ArmOf(yields)), "205");
+    told.Priority(rules.RoadOf(zone.track[1 - first]), rules.RoadOf(zone.track[first]))
+        .Sign(ComesBy(ArmOf(yields)), "205");
     for (const bool sign : {false, true}) {
       const Made made = Read(sign ? told : named);
       for (const Zone& now : made.zones.zones()) {
         if (now.track != zone.track || std::fabs(now.in_m[0] - zone.in_m[0]) > 0.1) continue;
-        EXPECT_EQ(now.first, sign ? zone.first : 1 - zone.first) << made.RoadOf(zone.track[0]) << " and " << made.RoadOf(zone.track[1]);
+        EXPECT_EQ(now.first, sign ? zone.first : 1 - zone.first)
+            << made.RoadOf(zone.track[0]) << " and " << made.RoadOf(zone.track[1]);
         EXPECT_TRUE(now.signed_);
       }
     }
@@ -136,7 +157,8 @@ TEST_P(Crossing, ARoundaboutsRingGoesBeforeWhoEnters) {
   const Made made = Read(drawn);
   const auto on_ring = [&](std::uint32_t track) {
     const auto& nodes = made.graph[track].curve.nodes();
-    return std::all_of(nodes.begin(), nodes.end(), [&](const Curve::Node& node) { return std::fabs(node.p_W.head<2>().norm() - kRing_m) < 0.5; });
+    return std::all_of(nodes.begin(), nodes.end(),
+                       [&](const Curve::Node& node) { return std::fabs(node.p_W.head<2>().norm() - kRing_m) < 0.5; });
   };
   const auto enters = [&](std::uint32_t track) {
     const auto& nodes = made.graph[track].curve.nodes();
@@ -147,13 +169,15 @@ TEST_P(Crossing, ARoundaboutsRingGoesBeforeWhoEnters) {
     for (const std::size_t side : {0, 1}) {
       if (!on_ring(zone.track[side]) || !enters(zone.track[1 - side])) continue;
       ++met;
-      EXPECT_EQ(zone.first, static_cast<int>(side)) << made.RoadOf(zone.track[side]) << " and " << made.RoadOf(zone.track[1 - side]);
+      EXPECT_EQ(zone.first, static_cast<int>(side))
+          << made.RoadOf(zone.track[side]) << " and " << made.RoadOf(zone.track[1 - side]);
     }
   }
   EXPECT_GE(met, 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Hands, Crossing, testing::Bool(), [](const auto& which) { return which.param ? "LeftHand" : "RightHand"; });
+INSTANTIATE_TEST_SUITE_P(Hands, Crossing, testing::Bool(),
+                         [](const auto& which) { return which.param ? "LeftHand" : "RightHand"; });
 
 // All of the project's maps, signs and lights among them: in the mirror nothing changes but the side.
 TEST(RightOfWay, IsMirroredInLeftHandTraffic) {

@@ -19,14 +19,16 @@ struct Box {
 
 Box CarAt(const Curve& curve, double d) {
   const LargestCar car;
-  const Eigen::Vector2d front = curve.At(d + 0.5 * car.wheelbase_m).p_W.head<2>(), rear = curve.At(d - 0.5 * car.wheelbase_m).p_W.head<2>();
+  const Eigen::Vector2d front = curve.At(d + 0.5 * car.wheelbase_m).p_W.head<2>(),
+                        rear = curve.At(d - 0.5 * car.wheelbase_m).p_W.head<2>();
   return {0.5 * (front + rear), (front - rear).normalized()};
 }
 
 bool Touch(const Box& a, const Box& b) {
   const LargestCar car;
   const auto reach = [&](const Box& box, const Eigen::Vector2d& axis) {
-    return 0.5 * (car.length_m * std::fabs(box.along.dot(axis)) + car.width_m * std::fabs(box.along.x() * axis.y() - box.along.y() * axis.x()));
+    return 0.5 * (car.length_m * std::fabs(box.along.dot(axis)) +
+                  car.width_m * std::fabs(box.along.x() * axis.y() - box.along.y() * axis.x()));
   };
   for (const Box* box : {&a, &b}) {
     for (const Eigen::Vector2d& axis : {box->along, Eigen::Vector2d(-box->along.y(), box->along.x())}) {
@@ -36,8 +38,8 @@ bool Touch(const Box& a, const Box& b) {
   return true;
 }
 
-// Brute force: wherever two of the largest cars on two tracks touch, each has a part within a zone of the pair. (On one track
-// and its continuation cars follow one another.)
+// Brute force: wherever two of the largest cars on two tracks touch, each has a part within a zone of the pair. (On one
+// track and its continuation cars follow one another.)
 TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
   const double half = 0.5 * LargestCar{}.length_m;
   std::size_t touches = 0;
@@ -68,7 +70,8 @@ TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
             for (const ZoneSide& part : zones.Of(a)) {
               const Zone& zone = zones[part.zone];
               if (zone.track[1] != b) continue;
-              held = held || (x + half > zone.in_m[0] && x - half < zone.out_m[0] && y + half > zone.in_m[1] && y - half < zone.out_m[1]);
+              held = held || (x + half > zone.in_m[0] && x - half < zone.out_m[0] && y + half > zone.in_m[1] &&
+                              y - half < zone.out_m[1]);
             }
             ASSERT_TRUE(held) << name << ": tracks " << a << " at " << x << " and " << b << " at " << y;
           }
@@ -79,7 +82,8 @@ TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
   EXPECT_GT(touches, 1000u);
 }
 
-// On a straight road a car of one direction that would swing out so far that it reaches one of the other direction makes a zone with it; not one that swings to the kerb.
+// On a straight road a car of one direction that would swing out so far that it reaches one of the other direction
+// makes a zone with it; not one that swings to the kerb.
 TEST(Zones, KnowWhoSwingsOutToTheirSide) {
   const auto network = opendrive::MustRead(opendrive::Document(opendrive::RoadText().Text()));
   const Graph graph(*network);
@@ -109,7 +113,8 @@ TEST(Zones, LevelsDoNotMeet) {
   }
 }
 
-// Ways that come together are told from ways that part where the last or the first of both are sections of a few decimetres, which begin and end in one place either way.
+// Ways that come together are told from ways that part where the last or the first of both are sections of a few
+// decimetres, which begin and end in one place either way.
 TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
   for (const double cut_m : {0.1, 0.2, 0.4}) {
     const auto network = ShortSections(cut_m);
@@ -119,8 +124,10 @@ TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
     for (const Zone& zone : zones.zones()) {
       const auto lane = [&](std::size_t side) { return graph[zone.track[side]].lane.lane; };
       const auto road = [&](std::size_t side) { return network->roads()[graph[zone.track[side]].lane.road].id(); };
-      if (lane(0) != lane(1) || road(0) != "4" || road(1) != "5") continue;  // they come towards one another, or lead there
-      const std::string told = road(0) + " and " + road(1) + ", tracks " + std::to_string(zone.track[0]) + " and " + std::to_string(zone.track[1]);
+      if (lane(0) != lane(1) || road(0) != "4" || road(1) != "5")
+        continue;  // they come towards one another, or lead there
+      const std::string told = road(0) + " and " + road(1) + ", tracks " + std::to_string(zone.track[0]) + " and " +
+                               std::to_string(zone.track[1]);
       EXPECT_EQ(zone.kind, lane(0) < 0 ? ZoneKind::kMerge : ZoneKind::kDiverge) << told;
       ++(lane(0) < 0 ? together : part);
     }
@@ -138,7 +145,9 @@ TEST(Zones, WhoHasAStopIsNotFirst) {
   for (const Zone& zone : zones.zones()) {
     ASSERT_TRUE(zone.first == 0 || zone.first == 1);
     if (zone.kind == ZoneKind::kDiverge) continue;
-    const auto stops = [&](std::size_t side) { return SignFor(graph, zone.track[side], zone.in_m[side]) == Sign::kStop; };
+    const auto stops = [&](std::size_t side) {
+      return SignFor(graph, zone.track[side], zone.in_m[side]) == Sign::kStop;
+    };
     if (stops(0) == stops(1)) continue;
     ++one_has;
     EXPECT_TRUE(zone.signed_);

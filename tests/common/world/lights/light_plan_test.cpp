@@ -25,13 +25,15 @@ std::pair<LightPlan, std::string> Read(const std::string& text) {
 
 // The table of a plan, written by hand: a second of each.
 TEST(LightPlan, ShowsWhatItsTableSays) {
-  const auto [plan, problem] = Read("offset_s: 2\nphases:\n- {green: [a], for_s: 4}\n- {green: [b, c], for_s: 3}\n- {green: [c], for_s: 2}\n");
+  const auto [plan, problem] =
+      Read("offset_s: 2\nphases:\n- {green: [a], for_s: 4}\n- {green: [b, c], for_s: 3}\n- {green: [c], for_s: 2}\n");
   ASSERT_EQ(problem, "");
   EXPECT_DOUBLE_EQ(plan.cycle_s(), 24.0);
   const auto row = [&](const char* name) {
     const LightTimes times = *TimesOf(plan, name);
     std::string letters;
-    for (int t = 0; t < 24; ++t) letters += "rxga"[static_cast<int>(ColourAt(times, t * 1'000'000'000LL + 500'000'000LL))];
+    for (int t = 0; t < 24; ++t)
+      letters += "rxga"[static_cast<int>(ColourAt(times, t * 1'000'000'000LL + 500'000'000LL))];
     return letters;
   };
   //                      0         1         2
@@ -42,7 +44,8 @@ TEST(LightPlan, ShowsWhatItsTableSays) {
 }
 
 TEST(LightPlan, GreenGoesOnRoundTheEndOfTheCycleAndForEver) {
-  const auto [plan, problem] = Read("phases:\n- {green: [a, all], for_s: 10}\n- {green: [b, all], for_s: 10}\n- {green: [a, all], for_s: 10}\n");
+  const auto [plan, problem] =
+      Read("phases:\n- {green: [a, all], for_s: 10}\n- {green: [b, all], for_s: 10}\n- {green: [a, all], for_s: 10}\n");
   ASSERT_EQ(problem, "");
   const LightTimes a = *TimesOf(plan, "a"), all = *TimesOf(plan, "all");
   EXPECT_DOUBLE_EQ(a.green_from_s, 30.0);  // the third phase, and the first one of the next cycle
@@ -54,7 +57,8 @@ TEST(LightPlan, GreenGoesOnRoundTheEndOfTheCycleAndForEver) {
 TEST(LightPlan, RefusesWithASentence) {
   for (const auto& [text, sentence] :
        {std::pair("phases: []\n", "there is no phase"), std::pair("phases:\n- {green: [a], for_s: 0}\n", "for_s"),
-        std::pair("phases:\n- {green: [a], for_s: 5}\n- {green: [b], for_s: 5}\n- {green: [a], for_s: 5}\n- {green: [b], for_s: 5}\n",
+        std::pair("phases:\n- {green: [a], for_s: 5}\n- {green: [b], for_s: 5}\n- {green: [a], for_s: 5}\n- {green: "
+                  "[b], for_s: 5}\n",
                   "'a' becomes green more than once in a cycle"),
         std::pair("phases:\n- {green: [a, a], for_s: 5}\n", "'a' is named twice"),
         std::pair("red_amber_s: 9\nphases:\n- {green: [a], for_s: 5}\n", "'red_amber_s' is longer"),
@@ -68,7 +72,9 @@ TEST(LightTimes, MeetGreenIsWhatOneSees) {
   std::mt19937 random(3);
   int met = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    const auto draw = [&](int low, int high) { return static_cast<double>(low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1))); };
+    const auto draw = [&](int low, int high) {
+      return static_cast<double>(low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1)));
+    };
     const double cycle = draw(12, 30);
     LightTimes a{cycle, draw(0, 11), draw(0, 6), draw(1, 3), 1.0}, b{cycle, draw(0, 11), draw(0, 6), draw(1, 3), 1.0};
     if (trial % 20 == 0) a.green_s = cycle;

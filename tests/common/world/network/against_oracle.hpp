@@ -7,8 +7,8 @@
 
 namespace rodeira::network {
 
-// Asks both where points on and about the roads lie, RODEIRA_ORACLE_POINTS of them, half of them with a height where `heights`: the same road,
-// lane, s, t and distance wherever the oracle's choice is not open, and that it seldom is.
+// Asks both where points on and about the roads lie, RODEIRA_ORACLE_POINTS of them, half of them with a height where
+// `heights`: the same road, lane, s, t and distance wherever the oracle's choice is not open, and that it seldom is.
 void ExpectAgreement(const Network& network, const FileOracle& oracle, bool heights, const std::string& name);
 
 }  // namespace rodeira::network

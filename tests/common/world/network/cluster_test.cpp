@@ -20,7 +20,8 @@ using opendrive::RoadText;
 bool SameBits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 // Whether `count` points about a middle were answered together, and then as they are alone.
-bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double size_m, std::size_t count, std::uint64_t seed) {
+bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double size_m, std::size_t count,
+                 std::uint64_t seed) {
   Cluster cluster;
   cluster.feet.count = count;
   for (std::size_t i = 0; i < count; ++i) {
@@ -38,10 +39,13 @@ bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double s
     EXPECT_EQ(place.lane, (LaneKey{cluster.road, cluster.section, cluster.LaneOf(i)}));
     EXPECT_EQ(cluster.leans, network.roads()[cluster.road].Leans(place.s_m));
     const double pace = 1.0 - cluster.feet.curvature_1pm[i] * cluster.feet.t_m[i];
-    const double ds_x = cluster.leans ? cluster.ds_x[i] : pace * cluster.feet.tangent_x[i], ds_y = cluster.leans ? cluster.ds_y[i] : pace * cluster.feet.tangent_y[i];
-    const double dt_x = cluster.leans ? cluster.dt_x[i] : -cluster.feet.tangent_y[i], dt_y = cluster.leans ? cluster.dt_y[i] : cluster.feet.tangent_x[i];
-    EXPECT_TRUE(SameBits(cluster.s_m[i], place.s_m) && SameBits(cluster.feet.t_m[i], place.t_m) && SameBits(cluster.z_m[i], sample.p_W.z()) &&
-                SameBits(cluster.z_by_s[i], sample.ds_W.z()) && SameBits(cluster.z_by_t[i], sample.dt_W.z()) && SameBits(dt_x, sample.dt_W.x()) &&
+    const double ds_x = cluster.leans ? cluster.ds_x[i] : pace * cluster.feet.tangent_x[i],
+                 ds_y = cluster.leans ? cluster.ds_y[i] : pace * cluster.feet.tangent_y[i];
+    const double dt_x = cluster.leans ? cluster.dt_x[i] : -cluster.feet.tangent_y[i],
+                 dt_y = cluster.leans ? cluster.dt_y[i] : cluster.feet.tangent_x[i];
+    EXPECT_TRUE(SameBits(cluster.s_m[i], place.s_m) && SameBits(cluster.feet.t_m[i], place.t_m) &&
+                SameBits(cluster.z_m[i], sample.p_W.z()) && SameBits(cluster.z_by_s[i], sample.ds_W.z()) &&
+                SameBits(cluster.z_by_t[i], sample.dt_W.z()) && SameBits(dt_x, sample.dt_W.x()) &&
                 SameBits(dt_y, sample.dt_W.y()) && SameBits(ds_x, sample.ds_W.x()) && SameBits(ds_y, sample.ds_W.y()))
         << "road " << network.roads()[cluster.road].id() << " s " << place.s_m << " t " << place.t_m;
     if (testing::Test::HasFailure()) return true;
@@ -71,7 +75,8 @@ RoadText Varied() {
       R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40"><line/></geometry>)"
       R"(<geometry s="40" x="38.2134595650" y="11.8208082664" hdg="0.3" length="40"><spiral curvStart="0" curvEnd="0.02"/></geometry>)"
       R"(<geometry s="80" x="74.2618295399" y="28.4910729499" hdg="0.7" length="60"><arc curvature="0.02"/></geometry>)";
-  road.elevation = R"(<elevation s="0" a="3" b="0.02" c="0" d="0"/><elevation s="50" a="4" b="0.02" c="-0.0004" d="0.000001"/>)";
+  road.elevation =
+      R"(<elevation s="0" a="3" b="0.02" c="0" d="0"/><elevation s="50" a="4" b="0.02" c="-0.0004" d="0.000001"/>)";
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0.01" c="0" d="0"/></lane>)"
               R"(<lane id="2" type="shoulder"><width sOffset="0" a="1.5" b="0" c="0" d="0"/></lane>)";
   road.lateral = R"(<crossfall side="both" s="0" a="0.02" b="0.0001" c="0" d="0"/>)";
@@ -86,11 +91,15 @@ TEST(Cluster, IsItsPointsOnLinesClothoidsAndArcs) {
 
 // Steady and changing banks on steady and changing grades, steep enough for the library's sine too.
 TEST(Cluster, IsItsPointsOnBankedRoads) {
-  const char* kBanks[] = {R"(<superelevation s="0" a="0.06" b="0" c="0" d="0"/>)", R"(<superelevation s="0" a="0.02" b="0.001" c="-0.00001" d="1e-8"/>)",
-                          R"(<superelevation s="0" a="-0.5" b="0" c="0" d="0"/>)", R"(<superelevation s="0" a="0.25" b="0.001" c="0" d="0"/>)",
-                          R"(<superelevation s="0" a="0" b="0" c="0" d="0"/><superelevation s="60" a="0" b="0.001" c="0" d="0"/>)",
-                          R"(<superelevation s="0" a="0.3" b="0" c="0" d="0"/><superelevation s="60" a="0.3" b="-0.01" c="0" d="0"/>)"};
-  const char* kGrades[] = {"", R"(<elevation s="0" a="3" b="-0.06" c="0" d="0"/>)", R"(<elevation s="0" a="3" b="0.05" c="-0.0004" d="0.000001"/>)"};
+  const char* kBanks[] = {
+      R"(<superelevation s="0" a="0.06" b="0" c="0" d="0"/>)",
+      R"(<superelevation s="0" a="0.02" b="0.001" c="-0.00001" d="1e-8"/>)",
+      R"(<superelevation s="0" a="-0.5" b="0" c="0" d="0"/>)",
+      R"(<superelevation s="0" a="0.25" b="0.001" c="0" d="0"/>)",
+      R"(<superelevation s="0" a="0" b="0" c="0" d="0"/><superelevation s="60" a="0" b="0.001" c="0" d="0"/>)",
+      R"(<superelevation s="0" a="0.3" b="0" c="0" d="0"/><superelevation s="60" a="0.3" b="-0.01" c="0" d="0"/>)"};
+  const char* kGrades[] = {"", R"(<elevation s="0" a="3" b="-0.06" c="0" d="0"/>)",
+                           R"(<elevation s="0" a="3" b="0.05" c="-0.0004" d="0.000001"/>)"};
   for (const char* bank : kBanks) {
     for (const char* grade : kGrades) {
       RoadText road = Varied();
@@ -101,15 +110,16 @@ TEST(Cluster, IsItsPointsOnBankedRoads) {
       EXPECT_GT(ShareTogether(*import.value().network, 0.3, 3.0, 600), 0.7) << bank << grade;
       for (std::uint64_t i = 0; i < 200; ++i) {  // where another bank begins
         const double s = 60.0 + base::RandomUniform({i, 5}, -0.5, 0.5), t = base::RandomUniform({i, 6}, -3.0, 3.0);
-        AskTogether(*import.value().network, import.value().network->roads()[0].Surface(s, t).p_W.head<2>(), 0.2, 60, i);
+        AskTogether(*import.value().network, import.value().network->roads()[0].Surface(s, t).p_W.head<2>(), 0.2, 60,
+                    i);
       }
       if (HasFailure()) return;
     }
   }
 }
 
-// A road that winds so tightly that its lanes reach over its centres of curvature on one side, and the bands of neighbouring panels over one
-// another's; plain, climbing, banked.
+// A road that winds so tightly that its lanes reach over its centres of curvature on one side, and the bands of
+// neighbouring panels over one another's; plain, climbing, banked.
 TEST(Cluster, IsItsPointsWhereAPanelEnds) {
   for (const char* lateral : {"", R"(<superelevation s="0" a="0.06" b="-0.002" c="0" d="0"/>)"}) {
     RoadText road = Varied();
@@ -129,7 +139,8 @@ TEST(Cluster, IsItsPointsWhereAPanelEnds) {
     int together = 0, asked = 0;
     for (const geometry::AxisPanel& panel : on.axis().panels()) {
       for (std::uint64_t i = 0; i < 60; ++i) {
-        const double s = panel.end_s_m() + base::RandomUniform({i, panel.detail, 1}, -0.8, 0.8), t = base::RandomUniform({i, panel.detail, 2}, -13.0, 13.0);
+        const double s = panel.end_s_m() + base::RandomUniform({i, panel.detail, 1}, -0.8, 0.8),
+                     t = base::RandomUniform({i, panel.detail, 2}, -13.0, 13.0);
         if (s < 0.0 || s > on.length_m()) continue;
         ++asked;
         together += AskTogether(network, on.Surface(s, t).p_W.head<2>(), 0.25, 20, i);
@@ -143,7 +154,8 @@ TEST(Cluster, IsItsPointsWhereAPanelEnds) {
 // Inside of a kink two panels of a road hold the same points, and the nearer one answers.
 TEST(Cluster, IsItsPointsAtAKink) {
   RoadText road;
-  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.3" length="50"><line/></geometry>)";
+  road.geometry =
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.3" length="50"><line/></geometry>)";
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="14" b="0" c="0" d="0"/></lane>)";
   auto import = opendrive::Read(Document(road.Text()), "sample.xodr", {1.0, 1.0, false});
   ASSERT_TRUE(import.ok()) << import.error().Text();

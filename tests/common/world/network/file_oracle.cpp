@@ -42,12 +42,14 @@ Eigen::Vector2d FileOracle::Element::Direction(double at) const {
 }
 
 Eigen::Vector2d FileOracle::Element::From(const Sample& sample, double at) const {
-  return sample.p + Integral(sample.at, at, cubic ? p_end / 4000.0 : 0.05, Eigen::Vector2d(0.0, 0.0), [&](double x) { return Direction(x); });
+  return sample.p + Integral(sample.at, at, cubic ? p_end / 4000.0 : 0.05, Eigen::Vector2d(0.0, 0.0),
+                             [&](double x) { return Direction(x); });
 }
 
 double FileOracle::Element::StationFrom(const Sample& sample, double at) const {
   if (!cubic) return s_m + at;
-  return sample.s_m + length_m / own_length * Integral(sample.at, at, p_end / 4000.0, 0.0, [&](double x) { return Direction(x).norm(); });
+  return sample.s_m + length_m / own_length *
+                          Integral(sample.at, at, p_end / 4000.0, 0.0, [&](double x) { return Direction(x).norm(); });
 }
 
 void FileOracle::Element::Cut() {
@@ -70,17 +72,21 @@ FileOracle::FileOracle(const std::string& text) {
   }
   const auto pieces = [](const pugi::xml_node& parent, const char* name, const char* from, double moved) {
     Pieces result;
-    for (const pugi::xml_node& node : parent.children(name)) result.push_back({moved + Number(node, from), Number(node, "a"), Number(node, "b"), Number(node, "c"), Number(node, "d")});
+    for (const pugi::xml_node& node : parent.children(name))
+      result.push_back(
+          {moved + Number(node, from), Number(node, "a"), Number(node, "b"), Number(node, "c"), Number(node, "d")});
     return result;
   };
   for (const pugi::xml_node& node : document.child("OpenDRIVE").children("road")) {
     OneRoad road;
     road.id = node.attribute("id").as_string();
     road.length_m = Number(node, "length");
-    road.linked_before = node.child("link").child("predecessor"), road.linked_behind = node.child("link").child("successor");
+    road.linked_before = node.child("link").child("predecessor"),
+    road.linked_behind = node.child("link").child("successor");
     for (const pugi::xml_node& geometry : node.child("planView").children("geometry")) {
       Element element;
-      element.s_m = Number(geometry, "s"), element.length_m = Number(geometry, "length"), element.heading_rad = Number(geometry, "hdg");
+      element.s_m = Number(geometry, "s"), element.length_m = Number(geometry, "length"),
+      element.heading_rad = Number(geometry, "hdg");
       element.start = {Number(geometry, "x"), Number(geometry, "y")};
       if (const auto arc = geometry.child("arc")) element.curvature = Number(arc, "curvature");
       if (const auto spiral = geometry.child("spiral")) {
@@ -95,7 +101,8 @@ FileOracle::FileOracle(const std::string& text) {
         double low = 0.0, high = element.length_m;
         for (int i = 0; i < 200; ++i) {
           const double middle = 0.5 * (low + high);
-          const double long_m = Integral(0.0, middle, element.length_m / 2000.0, 0.0, [&](double x) { return element.Direction(x).norm(); });
+          const double long_m = Integral(0.0, middle, element.length_m / 2000.0, 0.0,
+                                         [&](double x) { return element.Direction(x).norm(); });
           (long_m < element.length_m ? low : high) = middle;
         }
         element.p_end = 0.5 * (low + high);
@@ -127,13 +134,16 @@ FileOracle::FileOracle(const std::string& text) {
       for (const char* side : {"left", "right"}) {
         for (const pugi::xml_node& lane : part.child(side).children("lane")) {
           has_borders_ = has_borders_ || lane.child("border");
-          for (const pugi::xml_node& height : lane.children("height")) has_heights_ = has_heights_ || Number(height, "inner") != 0.0 || Number(height, "outer") != 0.0;
+          for (const pugi::xml_node& height : lane.children("height"))
+            has_heights_ = has_heights_ || Number(height, "inner") != 0.0 || Number(height, "outer") != 0.0;
           auto& list = side[0] == 'l' ? section.left : section.right;
-          list.push_back({lane.attribute("id").as_int(), lane.attribute("type").as_string(), pieces(lane, "width", "sOffset", section.s_m)});
+          list.push_back({lane.attribute("id").as_int(), lane.attribute("type").as_string(),
+                          pieces(lane, "width", "sOffset", section.s_m)});
         }
       }
       const auto outward = [](const OneLane& a, const OneLane& b) { return std::abs(a.id) < std::abs(b.id); };
-      std::sort(section.left.begin(), section.left.end(), outward), std::sort(section.right.begin(), section.right.end(), outward);
+      std::sort(section.left.begin(), section.left.end(), outward),
+          std::sort(section.right.begin(), section.right.end(), outward);
       road.sections.push_back(std::move(section));
     }
     roads_.push_back(std::move(road));
@@ -151,7 +161,8 @@ double FileOracle::At(const Pieces& pieces, double s_m) {
 }
 
 bool FileOracle::Changes(const Pieces& pieces, double s_m) {
-  return std::any_of(pieces.begin(), pieces.end(), [&](const Piece& piece) { return std::fabs(piece.s_m - s_m) < kNear_m; });
+  return std::any_of(pieces.begin(), pieces.end(),
+                     [&](const Piece& piece) { return std::fabs(piece.s_m - s_m) < kNear_m; });
 }
 
 Eigen::Vector3d FileOracle::On(std::size_t road_index, double s_m) const {
@@ -165,8 +176,8 @@ Eigen::Vector3d FileOracle::On(std::size_t road_index, double s_m) const {
   return {nearest->p.x(), nearest->p.y(), At(road.elevation, nearest->s_m)};
 }
 
-void FileOracle::See(const OneRoad& road, std::size_t index, const Sample& from, double at, bool end, const Eigen::Vector2d& p, std::optional<double> z_m,
-                     std::vector<Foot>& feet) const {
+void FileOracle::See(const OneRoad& road, std::size_t index, const Sample& from, double at, bool end,
+                     const Eigen::Vector2d& p, std::optional<double> z_m, std::vector<Foot>& feet) const {
   const Element& element = road.elements[index];
   Foot foot;
   foot.road = road.id;
@@ -180,7 +191,8 @@ void FileOracle::See(const OneRoad& road, std::size_t index, const Sample& from,
   while (k + 1 < road.sections.size() && road.sections[k + 1].s_m <= foot.s_m) ++k;
   const Section& section = road.sections[k];
   const double centre = At(road.offset, foot.s_m);
-  foot.near_change = std::any_of(road.sections.begin() + 1, road.sections.end(), [&](const Section& other) { return std::fabs(other.s_m - foot.s_m) < kNear_m; }) ||
+  foot.near_change = std::any_of(road.sections.begin() + 1, road.sections.end(),
+                                 [&](const Section& other) { return std::fabs(other.s_m - foot.s_m) < kNear_m; }) ||
                      Changes(road.offset, foot.s_m) || std::fabs(foot.t_m - centre) < kNear_m;
   const bool to_left = foot.t_m >= centre;
   const double sign = to_left ? 1.0 : -1.0, wanted = sign * (foot.t_m - centre);
@@ -189,14 +201,16 @@ void FileOracle::See(const OneRoad& road, std::size_t index, const Sample& from,
     inner = reached;
     reached += std::max(0.0, At(lane.width, foot.s_m));
     foot.near_change = foot.near_change || std::fabs(wanted - reached) < kNear_m || Changes(lane.width, foot.s_m);
-    static const std::set<std::string> kDriven = {"driving", "bidirectional", "entry", "exit", "onRamp", "offRamp", "connectingRamp", "slipLane",
-                                                  "shared", "bus", "taxi", "HOV", "mwyEntry", "mwyExit"};
+    static const std::set<std::string> kDriven = {
+        "driving",  "bidirectional", "entry", "exit", "onRamp", "offRamp",  "connectingRamp",
+        "slipLane", "shared",        "bus",   "taxi", "HOV",    "mwyEntry", "mwyExit"};
     foot.lane = lane.id, foot.drivable = kDriven.contains(lane.type);
     foot.from_centre_m = std::fabs(wanted - 0.5 * (inner + reached));
     if (wanted <= reached && reached > inner) break;
   }
   const double aside = std::max(0.0, wanted - reached);
-  // At a road's own end that leads nowhere nothing is closed; between elements that meet without a gap no more than rounding.
+  // At a road's own end that leads nowhere nothing is closed; between elements that meet without a gap no more than
+  // rounding.
   const bool first = index == 0 && at == 0.0, last = index + 1 == road.elements.size() && at != 0.0;
   const bool closed = first ? road.linked_before : (last ? road.linked_behind : true);
   foot.outside_m = beyond > (closed ? kClosed_m : kNear_m) ? std::hypot(aside, beyond) : aside;
@@ -214,7 +228,9 @@ FileOracle::Answer FileOracle::Locate(const Eigen::Vector2d& p, std::optional<do
     for (std::size_t e = 0; e < road.elements.size(); ++e) {
       const Element& element = road.elements[e];
       const auto& samples = element.samples;
-      const auto ahead = [&](const Sample& from, double at) { return (p - element.From(from, at)).dot(element.Direction(at)); };
+      const auto ahead = [&](const Sample& from, double at) {
+        return (p - element.From(from, at)).dot(element.Direction(at));
+      };
       double behind = 0.0;
       for (std::size_t i = 0; i < samples.size(); ++i) {
         const double here = (p - samples[i].p).dot(element.Direction(samples[i].at));
@@ -226,7 +242,8 @@ FileOracle::Answer FileOracle::Locate(const Eigen::Vector2d& p, std::optional<do
           }
           See(road, e, samples[i - 1], 0.5 * (low + high), false, p, z_m, feet);
         }
-        if ((i == 0 && here <= 0.0) || (i + 1 == samples.size() && here >= 0.0)) See(road, e, samples[i], samples[i].at, true, p, z_m, feet);
+        if ((i == 0 && here <= 0.0) || (i + 1 == samples.size() && here >= 0.0))
+          See(road, e, samples[i], samples[i].at, true, p, z_m, feet);
         behind = here;
       }
     }

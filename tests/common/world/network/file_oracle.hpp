@@ -9,9 +9,10 @@
 
 namespace rodeira::network {
 
-// Where a point lies, told from an OpenDRIVE file alone by other means than Network: nothing of the product's code is in it. Reference lines
-// are curves of heading and length, integrated numerically and sampled each half metre; a foot is sought between samples by halving, on every
-// element of every road. For files without superelevation, whose roads have widths (no borders) and heights by `elevation` alone.
+// Where a point lies, told from an OpenDRIVE file alone by other means than Network: nothing of the product's code is
+// in it. Reference lines are curves of heading and length, integrated numerically and sampled each half metre; a foot
+// is sought between samples by halving, on every element of every road. For files without superelevation, whose roads
+// have widths (no borders) and heights by `elevation` alone.
 class FileOracle {
  public:
   // Fails the test where the file cannot be read.
@@ -25,7 +26,8 @@ class FileOracle {
     double distance_m = 0.0;  // with the height
     bool past_end = false, drivable = false;
     double from_centre_m = 0.0;
-    // Less than kNear_m from where something changes that is chosen by: the edge of a lane, a section, the end of an element.
+    // Less than kNear_m from where something changes that is chosen by: the edge of a lane, a section, the end of an
+    // element.
     bool near_change = false;
   };
   static constexpr double kNear_m = 1e-6;
@@ -62,10 +64,10 @@ class FileOracle {
     bool cubic = false;
     double curvature = 0.0, curvature_rate = 0.0;  // of a clothoid
     double u[4] = {0.0, 1.0, 0.0, 0.0}, v[4] = {0.0, 0.0, 0.0, 0.0};
-    double p_end = 1.0, own_length = 0.0;          // of a cubic
+    double p_end = 1.0, own_length = 0.0;  // of a cubic
     std::vector<Sample> samples;
 
-    Eigen::Vector2d Direction(double at) const;   // dp/d(at)
+    Eigen::Vector2d Direction(double at) const;  // dp/d(at)
     Eigen::Vector2d From(const Sample& sample, double at) const;
     double StationFrom(const Sample& sample, double at) const;
     void Cut();
@@ -90,8 +92,8 @@ class FileOracle {
 
   static double At(const Pieces& pieces, double s_m);
   static bool Changes(const Pieces& pieces, double s_m);
-  void See(const OneRoad& road, std::size_t element, const Sample& from, double at, bool end, const Eigen::Vector2d& p, std::optional<double> z_m,
-           std::vector<Foot>& feet) const;
+  void See(const OneRoad& road, std::size_t element, const Sample& from, double at, bool end, const Eigen::Vector2d& p,
+           std::optional<double> z_m, std::vector<Foot>& feet) const;
 
   std::vector<OneRoad> roads_;
   bool has_lateral_ = false, has_borders_ = false, has_heights_ = false;

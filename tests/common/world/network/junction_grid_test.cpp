@@ -1,4 +1,5 @@
-// The heights of a junction's own: what OpenDRIVE 1.8 says of its grid, against polynomials; the way from a road onto it.
+// The heights of a junction's own: what OpenDRIVE 1.8 says of its grid, against polynomials; the way from a road onto
+// it.
 #include "common/world/network/junction_grid.hpp"
 
 #include <gtest/gtest.h>
@@ -43,12 +44,16 @@ Eigen::Vector2d At(const geometry::PlanAxis& line, double s, double t) {
 }
 
 TEST(JunctionGrid, IsACubicInBothDirectionsWhereFourHeightsLie) {
-  const Polynomial z = [](double s, double t) { return 3.0 + 0.1 * s - 0.2 * t + 0.03 * s * t - 0.004 * s * s * t + 0.001 * s * s * s - 0.0007 * t * t * t + 1e-5 * s * s * s * t * t * t; };
+  const Polynomial z = [](double s, double t) {
+    return 3.0 + 0.1 * s - 0.2 * t + 0.03 * s * t - 0.004 * s * s * t + 0.001 * s * s * s - 0.0007 * t * t * t +
+           1e-5 * s * s * s * t * t * t;
+  };
   for (const double curvature : {0.0, 0.02}) {
     const JunctionGrid grid = Grid(5, 3, 2, z, curvature);
     const geometry::PlanAxis line = Line(curvature);
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      const double s = base::RandomUniform({i, 1}, kStart_m + kSpacing_m, kStart_m + 3.0 * kSpacing_m), t = base::RandomUniform({i, 2}, -kSpacing_m, 2.0 * kSpacing_m);
+      const double s = base::RandomUniform({i, 1}, kStart_m + kSpacing_m, kStart_m + 3.0 * kSpacing_m),
+                   t = base::RandomUniform({i, 2}, -kSpacing_m, 2.0 * kSpacing_m);
       EXPECT_NEAR(grid.At(At(line, s, t)).z_m, z(s, t), 1e-10) << s << " " << t;
     }
   }
@@ -58,7 +63,8 @@ TEST(JunctionGrid, IsStraightWhereThereAreNoFour) {
   const Polynomial z = [](double s, double t) { return 5.0 + 0.3 * s - 0.1 * t + 0.02 * s * t; };
   const JunctionGrid grid = Grid(2, 1, 1, z);
   for (std::uint64_t i = 0; i < 200; ++i) {
-    const double s = base::RandomUniform({i, 1}, kStart_m, kStart_m + kSpacing_m), t = base::RandomUniform({i, 2}, -kSpacing_m, kSpacing_m);
+    const double s = base::RandomUniform({i, 1}, kStart_m, kStart_m + kSpacing_m),
+                 t = base::RandomUniform({i, 2}, -kSpacing_m, kSpacing_m);
     const Eigen::Vector2d p = At(Line(), s, t);
     EXPECT_TRUE(grid.Covers(p));
     EXPECT_NEAR(grid.At(p).z_m, z(s, t), 1e-12);
@@ -89,7 +95,8 @@ TEST(JunctionGrid, HasNoStepBetweenItsSquares) {
   for (std::uint64_t i = 0; i < 2000; ++i) {
     const bool across = i % 2 == 0;
     const double lineward = static_cast<double>(1 + i / 2 % 5), other = base::RandomUniform({i, 3}, 0.0, 1.0);
-    const double s = across ? kSpacing_m * lineward : kSpacing_m * (lineward + other), t = across ? kSpacing_m * (2.0 * other - 1.0) : 0.0;
+    const double s = across ? kSpacing_m * lineward : kSpacing_m * (lineward + other),
+                 t = across ? kSpacing_m * (2.0 * other - 1.0) : 0.0;
     const double one = grid.At(At(line, s - (across ? 1e-9 : 0.0), t - (across ? 0.0 : 1e-9))).z_m;
     const double two = grid.At(At(line, s + (across ? 1e-9 : 0.0), t + (across ? 0.0 : 1e-9))).z_m;
     EXPECT_NEAR(one, two, 1e-8) << s << " " << t;
@@ -102,7 +109,8 @@ TEST(JunctionGrid, ItsSlopesAreTheDerivatives) {
   constexpr double kStep_m = 1e-5;
   for (std::uint64_t i = 0; i < 500; ++i) {
     // Not where squares meet: there slopes change.
-    const double s = kSpacing_m * (static_cast<double>(i % 6) + base::RandomUniform({i, 1}, 0.1, 0.9)), t = kSpacing_m * (static_cast<double>(i % 2) - base::RandomUniform({i, 2}, 0.1, 0.9));
+    const double s = kSpacing_m * (static_cast<double>(i % 6) + base::RandomUniform({i, 1}, 0.1, 0.9)),
+                 t = kSpacing_m * (static_cast<double>(i % 2) - base::RandomUniform({i, 2}, 0.1, 0.9));
     const Eigen::Vector2d p = At(line, s, t), x(kStep_m, 0.0), y(0.0, kStep_m);
     const GroundHeight at = grid.At(p);
     EXPECT_NEAR(at.slope_x, (grid.At(p + x).z_m - grid.At(p - x).z_m) / (2.0 * kStep_m), 1e-8);

@@ -47,7 +47,8 @@ TEST(Links, LeadThroughAJunctionAndBack) {
   const auto key = [&](const char* road, int lane) { return LaneKey{*network->FindRoad(road), 0, lane}; };
   const auto ends = [](std::span<const LaneEnd> list) { return std::vector<LaneEnd>(list.begin(), list.end()); };
   using List = std::vector<LaneEnd>;
-  EXPECT_EQ(ends(network->Successors(key("1", -1))), (List{{key("10", -1), End::kStart}, {key("11", -1), End::kStart}}));
+  EXPECT_EQ(ends(network->Successors(key("1", -1))),
+            (List{{key("10", -1), End::kStart}, {key("11", -1), End::kStart}}));
   EXPECT_EQ(ends(network->Predecessors(key("2", -1))), (List{{key("10", -1), End::kEnd}}));
   EXPECT_EQ(ends(network->Successors(key("10", -1))), (List{{key("2", -1), End::kStart}}));
   EXPECT_EQ(ends(network->Predecessors(key("11", -1))), (List{{key("1", -1), End::kEnd}}));

@@ -95,7 +95,8 @@ TEST(Locate, SmallGapsBetweenElementsAreClosed) {
   }
 }
 
-// The same with the index, with any hint, and without any index: bit by bit. RODEIRA_NETWORK_POINTS asks for more points.
+// The same with the index, with any hint, and without any index: bit by bit. RODEIRA_NETWORK_POINTS asks for more
+// points.
 void ExpectTheIndexChangesNothing(const Network& network, const std::string& name) {
   const std::uint64_t points = Setting("RODEIRA_NETWORK_POINTS", 3000);
   Hint warm;
@@ -111,14 +112,15 @@ void ExpectTheIndexChangesNothing(const Network& network, const std::string& nam
     if (i % 2 == 0) z = about.z() + base::RandomUniform({i, 5}, -8.0, 8.0);
     const auto slow = network.LocateSlowly(x, y, z);
     Hint strange{static_cast<std::uint32_t>(base::RandomBits({i, 6}) % 5000)};
-    for (const auto& fast : {network.Locate(x, y, z), network.Locate(x, y, z, &warm), network.Locate(x, y, z, &strange)}) {
+    for (const auto& fast :
+         {network.Locate(x, y, z), network.Locate(x, y, z, &warm), network.Locate(x, y, z, &strange)}) {
       ASSERT_TRUE(fast.has_value() && slow.has_value());
-      ASSERT_TRUE(fast->lane == slow->lane && fast->s_m == slow->s_m && fast->t_m == slow->t_m && fast->z_m == slow->z_m &&
-                  fast->distance_m == slow->distance_m)
-          << name << " (" << x << ", " << y << ", " << z.value_or(NAN) << "): road " << network.roads()[fast->lane.road].id()
-          << " s " << fast->s_m << " t " << fast->t_m << " distance " << fast->distance_m << "; slowly road "
-          << network.roads()[slow->lane.road].id() << " s " << slow->s_m << " t " << slow->t_m << " distance "
-          << slow->distance_m;
+      ASSERT_TRUE(fast->lane == slow->lane && fast->s_m == slow->s_m && fast->t_m == slow->t_m &&
+                  fast->z_m == slow->z_m && fast->distance_m == slow->distance_m)
+          << name << " (" << x << ", " << y << ", " << z.value_or(NAN) << "): road "
+          << network.roads()[fast->lane.road].id() << " s " << fast->s_m << " t " << fast->t_m << " distance "
+          << fast->distance_m << "; slowly road " << network.roads()[slow->lane.road].id() << " s " << slow->s_m
+          << " t " << slow->t_m << " distance " << slow->distance_m;
     }
   }
 }

@@ -8,7 +8,8 @@
 namespace rodeira::network {
 namespace {
 
-// An arc to the left of radius 50 m with one lane of 4 m on each side; the right one's outer edge is 54 m from the middle.
+// An arc to the left of radius 50 m with one lane of 4 m on each side; the right one's outer edge is 54 m from the
+// middle.
 Road Arc(std::vector<RoadMark> marks) {
   geometry::PlanElement arc;
   arc.length_m = 200.0;
@@ -59,13 +60,16 @@ TEST(Marking, DashesHaveTheirLengthOnTheLineItself) {
 
 // Records that cut a broken mark in two do not show: the pattern is that of one record.
 TEST(Marking, DashesGoOnFromRecordToRecord) {
-  const Road whole = Arc({Mark(0.0, "broken")}), cut = Arc({Mark(0.0, "broken"), Mark(37.0, "broken"), Mark(90.5, "broken")});
+  const Road whole = Arc({Mark(0.0, "broken")}),
+             cut = Arc({Mark(0.0, "broken"), Mark(37.0, "broken"), Mark(90.5, "broken")});
   const auto painted = [](const Road& road) {
     std::vector<Stroke> all;
     for (const Marking& line : MarkingsOf(road)) {
       for (const Stroke& stroke : StrokesOf(road, line)) {
-        if (!all.empty() && stroke.from_s_m - all.back().to_s_m < 1e-6) all.back().to_s_m = stroke.to_s_m;
-        else all.push_back(stroke);
+        if (!all.empty() && stroke.from_s_m - all.back().to_s_m < 1e-6)
+          all.back().to_s_m = stroke.to_s_m;
+        else
+          all.push_back(stroke);
       }
     }
     return all;
@@ -111,7 +115,8 @@ TEST(Marking, ExplicitLinesStandWhereTheySay) {
 }
 
 TEST(Marking, SomeTypesPaintNothing) {
-  for (const char* type : {"none", "curb", "edge", "grass"}) EXPECT_TRUE(MarkingsOf(Arc({Mark(0.0, type)})).empty()) << type;
+  for (const char* type : {"none", "curb", "edge", "grass"})
+    EXPECT_TRUE(MarkingsOf(Arc({Mark(0.0, type)})).empty()) << type;
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ Eigen::Vector3d OnCircle(double s_m, double t_m) {
 
 TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
   RoadText road = Circle();
-  road.more = R"(<objects><object id="o" type="tree" s="1" t="1" zOffset="9" radius="2" height="3" hdg="0.25"><repeat s="10" length="40" distance="7" tStart="6" tEnd="8" zOffsetStart="0" zOffsetEnd="1" heightStart="5" heightEnd="9"/></object></objects>)";
+  road.more =
+      R"(<objects><object id="o" type="tree" s="1" t="1" zOffset="9" radius="2" height="3" hdg="0.25"><repeat s="10" length="40" distance="7" tStart="6" tEnd="8" zOffsetStart="0" zOffsetEnd="1" heightStart="5" heightEnd="9"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   EXPECT_TRUE(furniture.runs.empty());
@@ -50,10 +51,12 @@ TEST(Placing, ARowHasItsCountItsSpacingAndItsTaper) {
   }
 }
 
-// On the chord from (s 10, t 6) to (s 50, t -4) of the circle, evenly, heading along it; s and t are those of the circle under it.
+// On the chord from (s 10, t 6) to (s 50, t -4) of the circle, evenly, heading along it; s and t are those of the
+// circle under it.
 TEST(Placing, ARowThatLeavesTheRoadsLineStandsOnItsChord) {
   RoadText road = Circle();
-  road.more = R"(<objects><object id="o" type="tree" s="1" t="1" height="3" hdg="0.25"><repeat s="10" length="40" distance="8" tStart="6" tEnd="-4" detachFromReferenceLine="true"/></object></objects>)";
+  road.more =
+      R"(<objects><object id="o" type="tree" s="1" t="1" height="3" hdg="0.25"><repeat s="10" length="40" distance="8" tStart="6" tEnd="-4" detachFromReferenceLine="true"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 6u);
@@ -71,25 +74,31 @@ TEST(Placing, ARowThatLeavesTheRoadsLineStandsOnItsChord) {
 
 TEST(Placing, ARunThatLeavesTheRoadsLineIsItsChord) {
   RoadText road = Circle();
-  road.more = R"(<objects><object id="o" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" detachFromReferenceLine="true"/></object>
+  road.more =
+      R"(<objects><object id="o" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" detachFromReferenceLine="true"/></object>
     <object id="q" type="barrier" s="1" t="1" height="1"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.runs.size(), 2u);
   const Eigen::Vector3d begin = OnCircle(10.0, 6.0), end = OnCircle(50.0, 6.0);
   for (const double share : {0.0, 0.3, 0.5, 1.0}) {
-    const PlacedRun::Point straight = furniture.runs[0].At(network->roads()[0], share), bent = furniture.runs[1].At(network->roads()[0], share);
+    const PlacedRun::Point straight = furniture.runs[0].At(network->roads()[0], share),
+                           bent = furniture.runs[1].At(network->roads()[0], share);
     EXPECT_NEAR((straight.p_W - (begin + share * (end - begin))).norm(), 0.0, 1e-9);
     EXPECT_NEAR(straight.left_W.dot((end - begin).head<2>()), 0.0, 1e-9);
     EXPECT_NEAR((bent.p_W - OnCircle(10.0 + 40.0 * share, 6.0)).norm(), 0.0, 1e-9);
   }
   // Half of 0.8 rad to each side on 44 m: the chord's middle lies 44 (1 - cos 0.4) m nearer to the centre.
-  EXPECT_NEAR((furniture.runs[0].At(network->roads()[0], 0.5).p_W - furniture.runs[1].At(network->roads()[0], 0.5).p_W).head<2>().norm(), 44.0 * (1.0 - std::cos(0.4)), 1e-9);
+  EXPECT_NEAR((furniture.runs[0].At(network->roads()[0], 0.5).p_W - furniture.runs[1].At(network->roads()[0], 0.5).p_W)
+                  .head<2>()
+                  .norm(),
+              44.0 * (1.0 - std::cos(0.4)), 1e-9);
 }
 
 TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
   RoadText road = Circle();
-  road.more = R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>
+  road.more =
+      R"(<objects><object id="o" type="building" s="1" t="1" length="3" width="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" lengthStart="4" lengthEnd="8"/></object>
     <object id="p" type="tree" s="1" t="1" radius="2" height="3"><repeat s="10" length="40" distance="20" tStart="6" tEnd="6" radiusStart="1" radiusEnd="3"/></object>
     <object id="q" type="pole" s="1" t="1" radius="0.2" height="3"><repeat s="10" length="40" distance="0" tStart="6" tEnd="6" radiusStart="0.1" radiusEnd="0.3"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
@@ -107,7 +116,8 @@ TEST(Placing, LengthsAndRadiiTaperAsTheirRepeatSays) {
 
 TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
   RoadText road;
-  road.more = R"(<objects><object id="a" type="pole" s="0" t="5" height="1"><repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
+  road.more =
+      R"(<objects><object id="a" type="pole" s="0" t="5" height="1"><repeat s="0" length="0.9" distance="0.3" tStart="5" tEnd="5"/></object>
     <object id="b" type="pole" s="0" t="5" height="1"><repeat s="90" length="40" distance="5" tStart="5" tEnd="5"/></object></objects>)";
   const Furniture furniture = PlaceFurniture(*MustRead(Document(road.Text())));
   ASSERT_EQ(furniture.things.size(), 4u + 3u);  // 0, 0.3, 0.6, 0.9; 90, 95, 100
@@ -117,7 +127,8 @@ TEST(Placing, AWholeNumberOfSpacesCountsItsEndAndARoadsEndCutsARow) {
 
 TEST(Placing, ARailGoesOnToTheRoadsEndAtMost) {
   RoadText road;
-  road.more = R"(<objects><object id="a" type="barrier" s="0" t="5" height="0.7" width="0.3"><repeat s="60" length="80" distance="0" tStart="4" tEnd="6" zOffsetStart="0" zOffsetEnd="0.8"/></object></objects>)";
+  road.more =
+      R"(<objects><object id="a" type="barrier" s="0" t="5" height="0.7" width="0.3"><repeat s="60" length="80" distance="0" tStart="4" tEnd="6" zOffsetStart="0" zOffsetEnd="0.8"/></object></objects>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   EXPECT_TRUE(furniture.things.empty());
@@ -134,14 +145,17 @@ TEST(Placing, ARailGoesOnToTheRoadsEndAtMost) {
 
 TEST(Placing, FacesLookAgainstTheTrafficThatTheyAreFor) {
   RoadText road = Circle();
-  road.more = R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
+  road.more =
+      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
     <signal id="b" s="30" t="5" zOffset="2" orientation="-" dynamic="no" type="274" subtype="-1" country="DE" hOffset="0.1"/>
     <signal id="c" s="30" t="5" zOffset="2" orientation="none" dynamic="no" type="274" subtype="-1" country="DE"/></signals>)";
   const auto network = MustRead(Document(road.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   ASSERT_EQ(furniture.things.size(), 3u);
   const Eigen::Vector2d along(std::cos(30.0 / kRadius_m), std::sin(30.0 / kRadius_m));
-  const auto looks = [&](std::size_t i) { return Eigen::Vector2d(std::cos(furniture.things[i].heading_rad), std::sin(furniture.things[i].heading_rad)); };
+  const auto looks = [&](std::size_t i) {
+    return Eigen::Vector2d(std::cos(furniture.things[i].heading_rad), std::sin(furniture.things[i].heading_rad));
+  };
   EXPECT_NEAR(looks(0).dot(along), -std::cos(0.1), 1e-12);
   EXPECT_NEAR(looks(1).dot(along), std::cos(0.1), 1e-12);
   EXPECT_NEAR(looks(2).dot(along), -1.0, 1e-12);
@@ -159,7 +173,8 @@ TEST(Placing, ASignIsSeenWhereItSays) {
   RoadText road = Circle(), other;
   other.id = "2";
   other.geometry = R"(<geometry s="0" x="500" y="0" hdg="1.5707963267948966" length="100"><line/></geometry>)";
-  road.more = R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="40" t="-6" zOffset="1" hOffset="0.1"/></signal>
+  road.more =
+      R"(<signals><signal id="a" s="30" t="-5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="2" s="40" t="-6" zOffset="1" hOffset="0.1"/></signal>
     <signal id="b" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionInertial x="31" y="32" z="12.5" hdg="0.7"/></signal>
     <signal id="c" s="30" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"><positionRoad roadId="9" s="40" t="-6"/></signal></signals>)";
   const auto network = MustRead(Document(road.Text() + other.Text()));
@@ -187,12 +202,14 @@ TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {
   RoadText one, two;
   two.id = "2";
   two.geometry = R"(<geometry s="0" x="0" y="500" hdg="0" length="100"><line/></geometry>)";
-  one.more = two.more = R"(<objects><object id="z" type="pole" s="80" t="5" height="1"/><object id="a" type="pole" s="8" t="5" height="1"/></objects>
+  one.more = two.more =
+      R"(<objects><object id="z" type="pole" s="80" t="5" height="1"/><object id="a" type="pole" s="8" t="5" height="1"/></objects>
     <signals><signal id="s" s="50" t="5" zOffset="2" orientation="+" dynamic="no" type="206" subtype="-1" country="DE"/></signals>)";
   const auto network = MustRead(Document(one.Text() + two.Text()));
   const Furniture furniture = PlaceFurniture(*network);
   std::string order;
-  for (const Placed& placed : furniture.things) order += std::to_string(placed.road) + (placed.signal != nullptr ? placed.signal->id : placed.object->id);
+  for (const Placed& placed : furniture.things)
+    order += std::to_string(placed.road) + (placed.signal != nullptr ? placed.signal->id : placed.object->id);
   EXPECT_EQ(order, "0s0z0a1s1z1a");
 }
 
@@ -200,8 +217,10 @@ TEST(Placing, ByRoadThenSignalsThenObjectsAsWritten) {
 TEST(Placing, SignalsAreForTheTrafficOfTheirLanes) {
   RoadText road = Circle(), other;
   road.left = R"(<lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
-  road.right = R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
-  road.more = R"(<signals><signal id="along" s="60" t="-8" type="274" orientation="+"/><signal id="against" s="20" t="5" type="274" orientation="-"/><signal id="all" s="40" t="5" type="276" orientation="none"/>
+  road.right =
+      R"(<lane id="-1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane><lane id="-2" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
+  road.more =
+      R"(<signals><signal id="along" s="60" t="-8" type="274" orientation="+"/><signal id="against" s="20" t="5" type="274" orientation="-"/><signal id="all" s="40" t="5" type="276" orientation="none"/>
       <signal id="second" s="10" t="-8" type="101" orientation="+"><validity fromLane="-2" toLane="-2"/></signal>
       <signalReference s="30" t="0" id="there" orientation="+"/><signalReference s="35" t="0" id="nowhere" orientation="+"/></signals>)";
   other.id = "2";

@@ -26,7 +26,8 @@ Road Bend() {
   return Road(std::move(spec), *geometry::PlanAxis::Make(elements));
 }
 
-// The line's length from one station to another, by chords of a millimetre; one cuts a corner of 0.3 rad short by 1e-5 m.
+// The line's length from one station to another, by chords of a millimetre; one cuts a corner of 0.3 rad short by 1e-5
+// m.
 double Walked(const Road& road, const PaintedLine& line, double from_s_m, double to_s_m) {
   const auto at = [&](double s) {
     const geometry::PlanPoint axis = road.axis().Evaluate(s);
@@ -46,7 +47,14 @@ double Walked(const Road& road, const PaintedLine& line, double from_s_m, double
 TEST(Strokes, AreEquallyLongOnTheLineItself) {
   const Road road = Bend();
   // It lies on the inner side, crosses the axis, and goes on at the outer side.
-  const PaintedLine line{12.5, 180.0, geometry::CubicTable({{0.0, 6.0, 0.0, 0.0, 0.0}, {60.0, 6.0, -0.3, 0.0, 0.0}, {100.0, -6.0, 0.0, 0.0, 0.0}}), 0.1, 3.0, 5.0, "white"};
+  const PaintedLine line{
+      12.5,
+      180.0,
+      geometry::CubicTable({{0.0, 6.0, 0.0, 0.0, 0.0}, {60.0, 6.0, -0.3, 0.0, 0.0}, {100.0, -6.0, 0.0, 0.0, 0.0}}),
+      0.1,
+      3.0,
+      5.0,
+      "white"};
   const auto strokes = Strokes(road, line);
   ASSERT_GT(strokes.size(), 15u);
   EXPECT_EQ(strokes.front().from_s_m, 12.5);

@@ -40,16 +40,16 @@ TEST(Surface, SuperelevationTurnsTheSectionAboutTheClimbingLine) {
   road.elevation = R"(<elevation s="0" a="2" b="0.3" c="0" d="0"/>)";
   road.lateral = R"(<superelevation s="0" a="0.25" b="0" c="0" d="0"/>)";
   const auto network = MustRead(Document(road.Text()));
-  const Eigen::Matrix3d frame =
-      (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(-std::atan(grade), Eigen::Vector3d::UnitY()) *
-       Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d frame = (Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(-std::atan(grade), Eigen::Vector3d::UnitY()) *
+                                 Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
+                                    .toRotationMatrix();
   for (const double t : {-3.0, 1.5, 3.5}) {
     const Eigen::Vector3d line(40.0 * std::cos(heading), 40.0 * std::sin(heading), 2.0 + grade * 40.0);
     const SurfaceSample at = network->roads()[0].Surface(40.0, t);
     EXPECT_NEAR((at.p_W - (line + t * frame.col(1))).norm(), 0.0, 1e-12);
     EXPECT_NEAR((at.ds_W.cross(at.dt_W).normalized() - frame.col(2)).norm(), 0.0, 1e-12);  // the plane's normal
-    EXPECT_GT(t * (at.p_W.z() - line.z()), 0.0);                                           // positive: the left side is higher
+    EXPECT_GT(t * (at.p_W.z() - line.z()), 0.0);  // positive: the left side is higher
   }
 }
 
@@ -86,7 +86,8 @@ TEST(Surface, ShapesCrossfallsAndStrips) {
   EXPECT_NEAR(network->roads()[0].Surface(10.0, 3.0).p_W.z(), -3.0 * std::tan(0.02), 1e-12);
   EXPECT_NEAR(network->roads()[0].Surface(10.0, -3.0).p_W.z(), 3.0 * std::tan(0.03), 1e-12);
 
-  road.lateral = R"(<crossSectionSurface><tOffset><coefficients s="0" a="0.5" b="0" c="0" d="0"/></tOffset><surfaceStrips>
+  road.lateral =
+      R"(<crossSectionSurface><tOffset><coefficients s="0" a="0.5" b="0" c="0" d="0"/></tOffset><surfaceStrips>
     <strip id="1" mode="independent"><width><coefficients s="0" a="2" b="0" c="0" d="0"/></width><linear><coefficients s="0" a="-0.02" b="0" c="0" d="0"/></linear></strip>
     <strip id="2" mode="relative"><quadratic><coefficients s="0" a="0.1" b="0" c="0" d="0"/></quadratic></strip>
     <strip id="-1" mode="independent"><constant><coefficients s="0" a="0.3" b="0.001" c="0" d="0"/></constant></strip></surfaceStrips></crossSectionSurface>)";
@@ -99,7 +100,8 @@ TEST(Surface, ShapesCrossfallsAndStrips) {
 // Everything at once, so that every derivative has something to say.
 std::string Rich() {
   RoadText road;
-  road.geometry = R"(<geometry s="0" x="3" y="-4" hdg="2.5" length="60"><spiral curvStart="0.001" curvEnd="0.02"/></geometry>)";
+  road.geometry =
+      R"(<geometry s="0" x="3" y="-4" hdg="2.5" length="60"><spiral curvStart="0.001" curvEnd="0.02"/></geometry>)";
   road.length = 60.0;
   road.elevation = R"(<elevation s="0" a="10" b="0.05" c="0.001" d="-0.00001"/>)";
   road.lateral = R"(<superelevation s="0" a="0.02" b="0.002" c="-0.00001" d="0"/>
@@ -122,8 +124,8 @@ TEST(Surface, DerivativesAreThoseOfTheSurface) {
     const double s = base::RandomUniform({i, 1}, 0.1, 59.9), t = base::RandomUniform({i, 2}, -2.5, 7.0);
     double outside;
     const LaneSpan span = road.SectionAt(s).At(t, road.CentreAt(s), s, outside);
-    if (outside > 0.0 || std::fabs(t) < 1e-3 || std::fabs(t - span.inner_t_m) < 1e-3 || std::fabs(t - span.outer_t_m) < 1e-3 ||
-        std::fabs(s - 50.0) < 1e-3)
+    if (outside > 0.0 || std::fabs(t) < 1e-3 || std::fabs(t - span.inner_t_m) < 1e-3 ||
+        std::fabs(t - span.outer_t_m) < 1e-3 || std::fabs(s - 50.0) < 1e-3)
       continue;
     level += span.lane->level ? 1 : 0;
     const SurfaceSample at = road.Surface(s, t);
@@ -150,8 +152,10 @@ TEST(Surface, LocateLeadsBackAlsoWhereTheRoadIsRolled) {
   }
 }
 
-// A line, a bend and a clothoid of 40 m each, whose lines an integration of the heading gives, and whose sections are turned by rotations.
-Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometry::Cubic& height, const geometry::Cubic& roll) {
+// A line, a bend and a clothoid of 40 m each, whose lines an integration of the heading gives, and whose sections are
+// turned by rotations.
+Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometry::Cubic& height,
+                       const geometry::Cubic& roll) {
   Eigen::Vector2d line(0.0, 0.0);
   const auto heading = [&](double u) { return 0.3 + k0 * u + 0.5 * rate * u * u; };
   constexpr int kParts = 800;
@@ -162,7 +166,8 @@ Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometr
       line += weight * step / 6.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     }
   }
-  const Eigen::Matrix3d frame = (Eigen::AngleAxisd(heading(s), Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(-std::atan(height.Slope(s)), Eigen::Vector3d::UnitY()) *
+  const Eigen::Matrix3d frame = (Eigen::AngleAxisd(heading(s), Eigen::Vector3d::UnitZ()) *
+                                 Eigen::AngleAxisd(-std::atan(height.Slope(s)), Eigen::Vector3d::UnitY()) *
                                  Eigen::AngleAxisd(roll.Value(s), Eigen::Vector3d::UnitX()))
                                     .toRotationMatrix();
   return Eigen::Vector3d(line.x(), line.y(), height.Value(s)) + t * frame.col(1);
@@ -171,15 +176,20 @@ Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometr
 TEST(Surface, APointOfABankIsFoundWhereRotationsPutIt) {
   const char* kElements[] = {"<line/>", R"(<arc curvature="0.02"/>)", R"(<spiral curvStart="-0.01" curvEnd="0.02"/>)"};
   const double kCurvature[] = {0.0, 0.02, -0.01}, kRate[] = {0.0, 0.0, 0.03 / 40.0};
-  const geometry::Cubic kHeights[] = {{0.0, 3.0, 0.0, 0.0, 0.0}, {0.0, 3.0, 0.12, 0.0, 0.0}, {0.0, 3.0, 0.2, -0.004, 1e-5}};
-  const geometry::Cubic kRolls[] = {{0.0, 0.08, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.0, 0.0, 0.0}, {0.0, -0.05, 0.001, 2e-4, -2e-6}};
-  const auto record = [](const char* kind, const geometry::Cubic& cubic) { return fmt::format(R"(<{} s="0" a="{}" b="{}" c="{}" d="{}"/>)", kind, cubic.a, cubic.b, cubic.c, cubic.d); };
+  const geometry::Cubic kHeights[] = {
+      {0.0, 3.0, 0.0, 0.0, 0.0}, {0.0, 3.0, 0.12, 0.0, 0.0}, {0.0, 3.0, 0.2, -0.004, 1e-5}};
+  const geometry::Cubic kRolls[] = {
+      {0.0, 0.08, 0.0, 0.0, 0.0}, {0.0, -0.6, 0.0, 0.0, 0.0}, {0.0, -0.05, 0.001, 2e-4, -2e-6}};
+  const auto record = [](const char* kind, const geometry::Cubic& cubic) {
+    return fmt::format(R"(<{} s="0" a="{}" b="{}" c="{}" d="{}"/>)", kind, cubic.a, cubic.b, cubic.c, cubic.d);
+  };
   for (std::size_t element = 0; element < std::size(kElements); ++element) {
     for (const geometry::Cubic& height : kHeights) {
       for (const geometry::Cubic& roll : kRolls) {
         RoadText road;
         road.length = 40.0;
-        road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40">{}</geometry>)", kElements[element]);
+        road.geometry =
+            fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0.3" length="40">{}</geometry>)", kElements[element]);
         road.elevation = record("elevation", height);
         road.lateral = record("superelevation", roll);
         const auto network = MustRead(Document(road.Text()));

@@ -1,4 +1,5 @@
-// Boards that hold several signs: ASAM OpenDRIVE 1.8, 14.7. What is on one has its place and is for whom the board is, unless it says so itself.
+// Boards that hold several signs: ASAM OpenDRIVE 1.8, 14.7. What is on one has its place and is for whom the board is,
+// unless it says so itself.
 #include <gmock/gmock.h>
 
 #include "tests/common/world/opendrive/sample.hpp"
@@ -19,7 +20,8 @@ std::vector<std::string> Said(const Import& import) {
 }
 
 TEST(Boards, SignsAreSignalsAtTheirPlacesOnTheBoard) {
-  const Import import = WithSignals(R"(<signal s="40" t="-6" id="534" name="board" dynamic="no" orientation="+" zOffset="2" country="OpenDRIVE" type="staticBoard" subtype="-1" height="2.0" width="1.5">
+  const Import import = WithSignals(
+      R"(<signal s="40" t="-6" id="534" name="board" dynamic="no" orientation="+" zOffset="2" country="OpenDRIVE" type="staticBoard" subtype="-1" height="2.0" width="1.5">
     <validity fromLane="-2" toLane="-1"/><dependency id="9"/>
     <staticBoard><sign id="535" country="DE" type="274" subtype="-1" v="-0.5" z="1.5" width="0.5" height="0.5" value="60" unit="km/h"><validity fromLane="-1" toLane="-1"/><signalDependency id="536"/></sign>
     <sign id="536" country="DE" type="206" subtype="-1" v="0.3" z="0.9" width="0.42" height="0.42"/></staticBoard></signal>)");
@@ -66,7 +68,8 @@ TEST(Boards, DisplaysAreDarkPiecesOfTheirBoards) {
 
 // Files that say nothing of a board's type or measures: what is on it needs something to be on.
 TEST(Boards, ABoardIsOneByWhatIsOnItAndAsLarge) {
-  const Import import = WithSignals(R"(<signal s="40" t="-6" id="1" dynamic="no" orientation="+" type="-1" subtype="-1"><staticBoard><sign id="2" country="DE" type="206" subtype="-1" v="0.75" z="1.0" width="0.5" height="0.4"/><sign id="3" country="DE" type="205" subtype="-1" v="-0.2" z="0"/></staticBoard></signal>)");
+  const Import import = WithSignals(
+      R"(<signal s="40" t="-6" id="1" dynamic="no" orientation="+" type="-1" subtype="-1"><staticBoard><sign id="2" country="DE" type="206" subtype="-1" v="0.75" z="1.0" width="0.5" height="0.4"/><sign id="3" country="DE" type="205" subtype="-1" v="-0.2" z="0"/></staticBoard></signal>)");
   const auto& signals = import.network->roads()[0].spec().signals;
   ASSERT_EQ(signals.size(), 3u);
   EXPECT_TRUE(network::IsBoard(signals[0]));

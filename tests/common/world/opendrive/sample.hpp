@@ -26,14 +26,18 @@ struct RoadText {
   std::string geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry>";
   std::string elevation, lateral, offset;
   std::string left = "<lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
-  std::string right = "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
+  std::string right =
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
   std::string more;
 
   std::string Text() const {
-    return fmt::format("<road id=\"{}\" length=\"{}\" {}>\n<link>{}</link>\n<planView>{}</planView>\n<elevationProfile>{}</elevationProfile>\n"
-                       "<lateralProfile>{}</lateralProfile>\n<lanes>{}<laneSection s=\"0\">\n<left>{}</left>\n<center><lane id=\"0\" type=\"none\"/></center>\n"
-                       "<right>{}</right></laneSection></lanes>\n{}</road>\n",
-                       id, length, attributes, link, geometry, elevation, lateral, offset, left, right, more);
+    return fmt::format(
+        "<road id=\"{}\" length=\"{}\" "
+        "{}>\n<link>{}</link>\n<planView>{}</planView>\n<elevationProfile>{}</elevationProfile>\n"
+        "<lateralProfile>{}</lateralProfile>\n<lanes>{}<laneSection s=\"0\">\n<left>{}</left>\n<center><lane id=\"0\" "
+        "type=\"none\"/></center>\n"
+        "<right>{}</right></laneSection></lanes>\n{}</road>\n",
+        id, length, attributes, link, geometry, elevation, lateral, offset, left, right, more);
   }
 };
 

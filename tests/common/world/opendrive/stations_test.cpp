@@ -29,40 +29,59 @@ std::string LaneOf(const std::string& records) { return "<lane id=\"-1\" type=\"
 TEST(Stations, RecordsBehindTheRoadsEndAreToldAsCountingNowhere) {
   RoadText road;
   road.elevation = R"(<elevation s="0" a="0"/><elevation s="600" a="1"/>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.elevation.s: road 1, s 600: <elevation> begins at s 600, behind the end of its road (100 m): it counts nowhere"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
+              ElementsAre("road.elevation.s: road 1, s 600: <elevation> begins at s 600, behind the end of its road "
+                          "(100 m): it counts nowhere"));
   road = {};
   road.lateral = R"(<superelevation s="0" a="0"/><superelevation s="101" a="0"/>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.lateral.superelevation.s: road 1, s 101: <superelevation> begins at s 101, behind the end of its road (100 m): it counts nowhere"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
+              ElementsAre("road.lateral.superelevation.s: road 1, s 101: <superelevation> begins at s 101, behind the "
+                          "end of its road (100 m): it counts nowhere"));
   road = {};
   road.more = R"(<type s="150" type="town"/>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.type.s: road 1, s 150: <type> begins at s 150, behind the end of its road (100 m): it counts nowhere"));
+  EXPECT_THAT(
+      WhatIsSaidOf(road.Text()).warnings,
+      ElementsAre(
+          "road.type.s: road 1, s 150: <type> begins at s 150, behind the end of its road (100 m): it counts nowhere"));
 }
 
 TEST(Stations, RecordsBelowZeroAreErrors) {
   RoadText road;
   road.elevation = R"(<elevation s="-50" a="0"/>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).errors, ElementsAre("road.elevation.s: road 1, s -50: <elevation> begins at s -50; 0 or more was expected"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).errors,
+              ElementsAre("road.elevation.s: road 1, s -50: <elevation> begins at s -50; 0 or more was expected"));
   road = {};
   road.right = LaneOf(R"(<width sOffset="-1" a="3.5"/>)");
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).errors, ElementsAre("road.lane.width.s_offset: road 1, lane -1, s 0: <width> begins at sOffset -1; 0 or more was expected"));
+  EXPECT_THAT(
+      WhatIsSaidOf(road.Text()).errors,
+      ElementsAre(
+          "road.lane.width.s_offset: road 1, lane -1, s 0: <width> begins at sOffset -1; 0 or more was expected"));
 }
 
 // In a section that ends before the road does it is the section's end that counts.
 TEST(Stations, OfALaneItIsItsSectionThatCounts) {
   RoadText road;
-  road.right = LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="60" max="10"/>)") + R"(</right></laneSection><laneSection s="50"><left><lane id="1" type="driving"><width sOffset="0" a="3.5"/></lane></left>
+  road.right =
+      LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="60" max="10"/>)") +
+      R"(</right></laneSection><laneSection s="50"><left><lane id="1" type="driving"><width sOffset="0" a="3.5"/></lane></left>
 <center><lane id="0" type="none"/></center><right>)" +
-               LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="40" max="10"/>)");
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.lane.speed.s_offset: road 1, lane -1, s 0: <speed> begins at sOffset 60, behind the end of its lane section (50 m): it counts nowhere"));
+      LaneOf(R"(<width sOffset="0" a="3.5"/><speed sOffset="40" max="10"/>)");
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
+              ElementsAre("road.lane.speed.s_offset: road 1, lane -1, s 0: <speed> begins at sOffset 60, behind the "
+                          "end of its lane section (50 m): it counts nowhere"));
 }
 
 TEST(Stations, AFirstRecordBehindTheBeginningIsToldOnlyWhereItSaysSomething) {
   RoadText road;
   road.right = LaneOf(R"(<width sOffset="10" a="3.5"/>)");
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.lane.width.first: road 1, lane -1, s 0: the first <width> begins at sOffset 10; 0 was expected: up to there it is read backwards"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
+              ElementsAre("road.lane.width.first: road 1, lane -1, s 0: the first <width> begins at sOffset 10; 0 was "
+                          "expected: up to there it is read backwards"));
   road = {};
   road.offset = R"(<laneOffset s="20" a="0" b="0.1"/>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.laneOffset.first: road 1: the first <laneOffset> begins at s 20; 0 was expected: up to there it is read backwards"));
+  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
+              ElementsAre("road.laneOffset.first: road 1: the first <laneOffset> begins at s 20; 0 was expected: up to "
+                          "there it is read backwards"));
   road.offset = R"(<laneOffset s="20" a="0"/>)";
   EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, IsEmpty());
 }
@@ -71,21 +90,28 @@ TEST(Stations, ThingsBesideTheirRoadAreTold) {
   RoadText road;
   road.more = R"(<objects><object id="a" type="tree" s="900" t="5"/><object id="b" type="tree" s="-3" t="5"/></objects>
 <signals><signal id="c" s="5000" t="4" type="206" country="DE" dynamic="no"/></signals>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings, ElementsAre("road.object.s: road 1, s 900: the object 'a' is at s 900, and its road goes from 0 to 100 m (2 such)",
-                                                              "road.signal.s: road 1, s 5000: the signal 'c' is at s 5000, and its road goes from 0 to 100 m"));
+  EXPECT_THAT(
+      WhatIsSaidOf(road.Text()).warnings,
+      ElementsAre(
+          "road.object.s: road 1, s 900: the object 'a' is at s 900, and its road goes from 0 to 100 m (2 such)",
+          "road.signal.s: road 1, s 5000: the signal 'c' is at s 5000, and its road goes from 0 to 100 m"));
 }
 
 TEST(Stations, ARepeatOfLessThanNothingIsAnError) {
   RoadText road;
-  road.more = R"(<objects><object id="a" type="tree" s="9" t="5"><repeat s="9" length="-5" distance="1"/></object></objects>)";
-  EXPECT_THAT(WhatIsSaidOf(road.Text()).errors, ElementsAre("road.object.repeat.length: road 1, s 9: <repeat> has a length of -5; 0 or more was expected"));
+  road.more =
+      R"(<objects><object id="a" type="tree" s="9" t="5"><repeat s="9" length="-5" distance="1"/></object></objects>)";
+  EXPECT_THAT(
+      WhatIsSaidOf(road.Text()).errors,
+      ElementsAre("road.object.repeat.length: road 1, s 9: <repeat> has a length of -5; 0 or more was expected"));
 }
 
 TEST(Stations, AnIdThatStandsTwiceIsToldWithTheFirstPlace) {
   RoadText road;
   road.more = R"(<objects><object id="a" type="tree" s="9" t="5"/><object id="a" type="tree" s="19" t="5"/></objects>)";
   EXPECT_THAT(WhatIsSaidOf(road.Text()).warnings,
-              ElementsAre("ids.id_unique_in_class.object: road 1, s 19: the id 'a' stands at two objects, the first at road 1; ids of its own were expected for each"));
+              ElementsAre("ids.id_unique_in_class.object: road 1, s 19: the id 'a' stands at two objects, the first at "
+                          "road 1; ids of its own were expected for each"));
 }
 
 // Of the real files two have ids that stand twice, as their authors wrote them; nothing else is told of any.
@@ -97,7 +123,8 @@ TEST(Stations, RealFilesBeginWhereTheirRoadsAre) {
     ASSERT_TRUE(import.ok());
     EXPECT_TRUE(import.value().errors.empty()) << file;
     for (const Finding& warning : import.value().warnings) {
-      const bool is_of_stations = warning.rule.ends_with(".s") || warning.rule.ends_with(".s_offset") || warning.rule.ends_with(".first");
+      const bool is_of_stations =
+          warning.rule.ends_with(".s") || warning.rule.ends_with(".s_offset") || warning.rule.ends_with(".first");
       EXPECT_FALSE(is_of_stations) << file << ": " << warning.Text();
     }
   }

@@ -44,11 +44,14 @@ TEST(Unknown, NothingIsSaidOfAFileThatIsRight) { EXPECT_THAT(WarningsOf(Document
 TEST(Unknown, AMisspeltElementIsToldWithTheOneThatWasMeant) {
   RoadText road;
   road.right = R"(<lane id="-1" type="driving"><widht sOffset="0" a="3.5" b="0" c="0" d="0"/></lane>)";
-  EXPECT_THAT(WarningsOf(Document(road.Text())), ElementsAre("not_known: OpenDRIVE knows no <widht> of <lane>; did you mean 'width'?",
-                                                            "road.lane.width.missing: a lane of type 'driving' has neither <width> nor <border>: it is read as 0 m wide"));
+  EXPECT_THAT(WarningsOf(Document(road.Text())),
+              ElementsAre("not_known: OpenDRIVE knows no <widht> of <lane>; did you mean 'width'?",
+                          "road.lane.width.missing: a lane of type 'driving' has neither <width> nor <border>: it is "
+                          "read as 0 m wide"));
   road = {};
   road.elevation = R"(<elevatio s="0" a="1" b="0" c="0" d="0"/>)";
-  EXPECT_THAT(WarningsOf(Document(road.Text())), ElementsAre("not_known: OpenDRIVE knows no <elevatio> of <elevationProfile>; did you mean 'elevation'?"));
+  EXPECT_THAT(WarningsOf(Document(road.Text())),
+              ElementsAre("not_known: OpenDRIVE knows no <elevatio> of <elevationProfile>; did you mean 'elevation'?"));
 }
 
 TEST(Unknown, EachKindIsSaidOnceWithItsLineAndHowOften) {
@@ -58,23 +61,30 @@ TEST(Unknown, EachKindIsSaidOnceWithItsLineAndHowOften) {
   const std::string text = Document(road.Text());
   const Import import = MustImport(text);
   ASSERT_EQ(import.warnings.size(), 1u);
-  EXPECT_EQ(import.warnings[0].Text(), "not_known: OpenDRIVE knows no <roadMrk> of <lane>; did you mean 'roadMark'? (2 times)");
-  EXPECT_EQ(import.warnings[0].line, static_cast<std::size_t>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("<roadMrk")), '\n')));
+  EXPECT_EQ(import.warnings[0].Text(),
+            "not_known: OpenDRIVE knows no <roadMrk> of <lane>; did you mean 'roadMark'? (2 times)");
+  EXPECT_EQ(import.warnings[0].line,
+            static_cast<std::size_t>(
+                1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("<roadMrk")), '\n')));
 }
 
 TEST(Unknown, AttributesAndWordsAreLookedAt) {
   RoadText road;
-  road.right = R"(<lane id="-1" type="driving" levle="true"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="soild" color="xstandard" laneChange="BOTH"/></lane>)";
-  EXPECT_THAT(WarningsOf(Document(road.Text())),
-              testing::UnorderedElementsAre("not_known: <lane> of <right> has an attribute 'levle', which OpenDRIVE does not know; did you mean 'level'?",
-                                            "not_known: the attribute 'type' of <roadMark> is 'soild'; did you mean 'solid'?",
-                                            "not_known: the attribute 'color' of <roadMark> is 'xstandard'; did you mean 'standard'?"));
+  road.right =
+      R"(<lane id="-1" type="driving" levle="true"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="soild" color="xstandard" laneChange="BOTH"/></lane>)";
+  EXPECT_THAT(
+      WarningsOf(Document(road.Text())),
+      testing::UnorderedElementsAre(
+          "not_known: <lane> of <right> has an attribute 'levle', which OpenDRIVE does not know; did you mean 'level'?",
+          "not_known: the attribute 'type' of <roadMark> is 'soild'; did you mean 'solid'?",
+          "not_known: the attribute 'color' of <roadMark> is 'xstandard'; did you mean 'standard'?"));
 }
 
 // What users add is theirs, whatever it is called.
 TEST(Unknown, DataOfUsersIsNotLookedAt) {
   RoadText road;
-  road.more = R"(<userData code="x" value="y"><vectorScene program="z" widht="1"><laneSectoin/></vectorScene></userData>)";
+  road.more =
+      R"(<userData code="x" value="y"><vectorScene program="z" widht="1"><laneSectoin/></vectorScene></userData>)";
   EXPECT_THAT(WarningsOf(Document(road.Text())), IsEmpty());
 }
 
@@ -86,7 +96,8 @@ TEST(Unknown, WhatMayStandOnceIsRefusedTwice) {
     ASSERT_TRUE(import.ok());
     ASSERT_FALSE(import.value().errors.empty()) << twice;
     const std::string name = twice.substr(0, twice.find_first_of(">/"));
-    EXPECT_EQ(import.value().errors.front().Text(), "core.once: road 1: a second " + name + "> of <road> was found; at most one was expected");
+    EXPECT_EQ(import.value().errors.front().Text(),
+              "core.once: road 1: a second " + name + "> of <road> was found; at most one was expected");
     EXPECT_GT(import.value().errors.front().line, 0u);
   }
 }
@@ -94,9 +105,12 @@ TEST(Unknown, WhatMayStandOnceIsRefusedTwice) {
 // A line that goes over into an arc of 20 m at once.
 TEST(Curvature, JumpsAreToldOnceAFile) {
   RoadText road;
-  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0" length="20"><arc curvature="0.05"/></geometry>)"
-                  R"(<geometry s="70" x="66.829419696157930" y="9.193953882637205" hdg="1" length="30"><arc curvature="0.04"/></geometry>)";
-  EXPECT_THAT(WarningsOf(Document(road.Text())), ElementsAre("road.geometry.curvature: road 1, s 50: the curvature jumps by 0.05000 1/m, the largest of 2 jumps of the road"));
+  road.geometry =
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0" length="20"><arc curvature="0.05"/></geometry>)"
+      R"(<geometry s="70" x="66.829419696157930" y="9.193953882637205" hdg="1" length="30"><arc curvature="0.04"/></geometry>)";
+  EXPECT_THAT(WarningsOf(Document(road.Text())),
+              ElementsAre("road.geometry.curvature: road 1, s 50: the curvature jumps by 0.05000 1/m, the largest of 2 "
+                          "jumps of the road"));
 }
 
 }  // namespace

@@ -72,12 +72,14 @@ struct Step {
   Eigen::Vector2d at_W = Eigen::Vector2d::Zero();
 };
 
-// The greatest step between two points: what lies between them is halved as long as more than half a millimetre of their difference of
-// height may be a step and no slope or kink, down to a micrometre.
-void FindSteps(const World& world, const Eigen::Vector2d& p, const SurfacePoint& at_p, const Eigen::Vector2d& q, const SurfacePoint& at_q, Step& greatest) {
+// The greatest step between two points: what lies between them is halved as long as more than half a millimetre of
+// their difference of height may be a step and no slope or kink, down to a micrometre.
+void FindSteps(const World& world, const Eigen::Vector2d& p, const SurfacePoint& at_p, const Eigen::Vector2d& q,
+               const SurfacePoint& at_q, Step& greatest) {
   const Eigen::Vector2d way = q - p;
   const double rise_m = at_q.z_m - at_p.z_m;
-  const double before_m = at_p.slope_x * way.x() + at_p.slope_y * way.y(), behind_m = at_q.slope_x * way.x() + at_q.slope_y * way.y();
+  const double before_m = at_p.slope_x * way.x() + at_p.slope_y * way.y(),
+               behind_m = at_q.slope_x * way.x() + at_q.slope_y * way.y();
   if (std::fabs(rise_m - 0.5 * (before_m + behind_m)) + 0.5 * std::fabs(before_m - behind_m) < 5e-4) return;
   if (way.norm() < 1e-6) {
     if (std::fabs(rise_m) > greatest.height_m) greatest = {std::fabs(rise_m), p};
@@ -96,8 +98,10 @@ bool OnKerb(const World& world, const Eigen::Vector2d& p) {
   return lane != nullptr && !lane->heights.empty();
 }
 
-// The same along a straight walk, each height asked near the one before. Kerbs, and ends of bridges, where one falls off, are passed over.
-Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double every_m, double hint_m) {
+// The same along a straight walk, each height asked near the one before. Kerbs, and ends of bridges, where one falls
+// off, are passed over.
+Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double every_m,
+                  double hint_m) {
   Step greatest;
   const int pieces = static_cast<int>(std::ceil((to - from).norm() / every_m));
   Eigen::Vector2d p = from;
@@ -108,22 +112,25 @@ Step GreatestStep(const World& world, const Eigen::Vector2d& from, const Eigen::
     if (!at_q.inside) break;
     Step step = greatest;
     FindSteps(world, p, at_p, q, at_q, step);
-    if (step.height_m > greatest.height_m && !OnBridge(world, p) && !OnBridge(world, q) && !OnKerb(world, p) && !OnKerb(world, q)) greatest = step;
+    if (step.height_m > greatest.height_m && !OnBridge(world, p) && !OnBridge(world, q) && !OnKerb(world, p) &&
+        !OnKerb(world, q))
+      greatest = step;
     p = q;
     at_p = at_q;
   }
   return greatest;
 }
 
-// Along random straight lines over everything there is no step of a millimetre: not at verges, junctions, seams between roads, nor
-// where slopes meet the terrain.
+// Along random straight lines over everything there is no step of a millimetre: not at verges, junctions, seams between
+// roads, nor where slopes meet the terrain.
 TEST(BuiltWorld, TheGroundHasNoSteps) {
   const World& world = *Hilly();
   Step greatest;
   for (std::uint64_t i = 0; i < 400; ++i) {
     const Eigen::Vector2d from(base::RandomUniform({i, 1}, -40.0, 520.0), base::RandomUniform({i, 2}, -160.0, 300.0));
     const double angle = base::RandomUniform({i, 3}, 0.0, 6.28);
-    const Step step = GreatestStep(world, from, from + 60.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.02, i % 2 == 0 ? -1e9 : 1e9);
+    const Step step = GreatestStep(world, from, from + 60.0 * Eigen::Vector2d(std::cos(angle), std::sin(angle)), 0.02,
+                                   i % 2 == 0 ? -1e9 : 1e9);
     if (step.height_m > greatest.height_m) greatest = step;
   }
   EXPECT_LE(greatest.height_m, 1e-3) << "at " << greatest.at_W.transpose();
@@ -156,7 +163,8 @@ TEST(BuiltWorld, JunctionsMeetTheGroundAndTheRoads) {
   const World& world = *Hilly();
   const network::Junction& junction = world.network()->junctions()[0];
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2d& corner : junction.outline_W) middle += corner / static_cast<double>(junction.outline_W.size());
+  for (const Eigen::Vector2d& corner : junction.outline_W)
+    middle += corner / static_cast<double>(junction.outline_W.size());
   for (std::size_t i = 0; i < junction.outline_W.size(); ++i) {
     const Eigen::Vector2d a = junction.outline_W[i], b = junction.outline_W[(i + 1) % junction.outline_W.size()];
     const Eigen::Vector2d along = (b - a).normalized(), out(along.y(), -along.x());
@@ -186,8 +194,9 @@ TEST(BuiltWorld, SlopesAreTheDerivatives) {
   EXPECT_LT(wrong, asked / 100);  // on edges of triangles and of lanes, where slopes jump
 }
 
-// Cuts and fills keep their slopes, and where they would go beyond the terrain it is the terrain. Near the crossings one road's
-// cut meets another's fill, and edges turn round corners: there it is asked only elsewhere that nothing is a step.
+// Cuts and fills keep their slopes, and where they would go beyond the terrain it is the terrain. Near the crossings
+// one road's cut meets another's fill, and edges turn round corners: there it is asked only elsewhere that nothing is a
+// step.
 TEST(BuiltWorld, CutsAndFillsAreNoSteeperThanSaid) {
   const World& world = *Hilly();
   int shaped = 0, untouched = 0;
@@ -197,7 +206,8 @@ TEST(BuiltWorld, CutsAndFillsAreNoSteeperThanSaid) {
     const double x = base::RandomUniform({i, 1}, -60.0, 560.0), y = base::RandomUniform({i, 2}, -170.0, 330.0);
     const auto place = world.network()->Locate(x, y);
     if (!place || place->distance_m <= 0.0 || place->distance_m > 45.0) continue;
-    if ((Eigen::Vector2d(x, y) - bridge).norm() < 17.0) continue;  // under it and at its ends, where what two roads want does not agree
+    if ((Eigen::Vector2d(x, y) - bridge).norm() < 17.0)
+      continue;  // under it and at its ends, where what two roads want does not agree
     const SurfacePoint at = world.At(x, y, -1e9), terrain = world.TerrainAt(x, y);
     if (!at.inside) continue;
     if (at.z_m == terrain.z_m) {
@@ -227,30 +237,36 @@ TEST(BuiltWorld, UnderABridgeThereIsARoadAndAboveItAnother) {
   EXPECT_EQ(ground->At(low.x(), low.y(), layers[0].z_m).z_m, layers[0].z_m);
 }
 
-// On the road, at its edges, in the junction, under and on the bridge, beside; with hints and without, on a ground that was asked before.
+// On the road, at its edges, in the junction, under and on the bridge, beside; with hints and without, on a ground that
+// was asked before.
 TEST(BuiltWorld, APatchIsItsPointsBitByBit) {
   const World& world = *Hilly();
   const RoadChain chain = ChainsOf(*world.network())[0];
   const auto asked = world.MakeGround(), fresh = world.MakeGround();
   for (std::uint64_t i = 0; i < 60; ++i) {
-    const double place = i % 3 == 0 ? base::RandomUniform({i, 0}, 125.0, 155.0) : i % 3 == 1 ? base::RandomUniform({i, 0}, 322.0, 338.0) : base::RandomUniform({i, 0}, 1.0, 480.0);
+    const double place = i % 3 == 0   ? base::RandomUniform({i, 0}, 125.0, 155.0)
+                         : i % 3 == 1 ? base::RandomUniform({i, 0}, 322.0, 338.0)
+                                      : base::RandomUniform({i, 0}, 1.0, 480.0);
     const auto [road, s] = chain.At(*world.network(), place);
     const Eigen::Vector3d p = road->Surface(s, base::RandomUniform({i, 1}, -9.0, 9.0)).p_W;
-    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), i % 5 == 0 ? 6.0 : 0.2, 0.18, 11, 9, i % 2 == 0 ? kNone : p.z() + 0.1};
+    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), i % 5 == 0 ? 6.0 : 0.2, 0.18,
+                                    11,    9,     i % 2 == 0 ? kNone : p.z() + 0.1};
     std::vector<ground::GroundPoint> points(patch.size());
     asked->Patch(patch, points);
     for (std::size_t k = points.size(); k-- > 0;) {  // backward
-      const ground::GroundQuery query = ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
+      const ground::GroundQuery query =
+          ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
       const ground::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m);
       ASSERT_EQ(points[k].inside, alone.inside);
-      EXPECT_TRUE(points[k].z_m == alone.z_m && points[k].normal_W == alone.normal_W && points[k].friction == alone.friction && points[k].surface == alone.surface)
+      EXPECT_TRUE(points[k].z_m == alone.z_m && points[k].normal_W == alone.normal_W &&
+                  points[k].friction == alone.friction && points[k].surface == alone.surface)
           << "patch " << i << " point " << k;
     }
   }
 }
 
-// What is asked together is to the bit what each point is told alone, on lines, arcs and clothoids, over lanes, crown, paint and seams; and most
-// tyres' patches are asked together.
+// What is asked together is to the bit what each point is told alone, on lines, arcs and clothoids, over lanes, crown,
+// paint and seams; and most tyres' patches are asked together.
 TEST(BuiltWorld, PointsTogetherArePointsAlone) {
   const auto world = MustParse(R"(rodeira: world/2
 name: bends
@@ -267,16 +283,20 @@ roads:
 )");
   ASSERT_NE(world, nullptr);
   const std::shared_ptr<const network::Network> network(world, world->network());
-  const BuiltGround built(network, {}, kUsualFriction, SurfaceDetail(), {nullptr, world->plane(), ground::Surface::kGrass, 0.5});
+  const BuiltGround built(network, {}, kUsualFriction, SurfaceDetail(),
+                          {nullptr, world->plane(), ground::Surface::kGrass, 0.5});
   const auto ground = world->MakeGround();
   const network::Road& road = network->roads()[0];
-  const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
   int together = 0, painted = 0;
   constexpr int kPatches = 400;
   for (std::uint64_t i = 0; i < kPatches; ++i) {
     const double s = base::RandomUniform({i, 0}, 0.5, road.length_m() - 0.5);
     const Eigen::Vector3d p = road.Surface(s, base::RandomUniform({i, 1}, -4.0, 5.0)).p_W;
-    const ground::GroundPatch patch{p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), 0.2, 0.18, 14, 14, i % 2 == 0 ? kNone : p.z()};
+    const ground::GroundPatch patch{
+        p.x(), p.y(), base::RandomUniform({i, 2}, -3.0, 3.0), 0.2, 0.18, 14, 14, i % 2 == 0 ? kNone : p.z()};
     std::vector<ground::GroundQuery> queries;
     for (int k = 0; k < 196; ++k) queries.push_back(ground::PatchPoint(patch, k / 14, k % 14));
     std::vector<ground::GroundPoint> points(queries.size());
@@ -286,8 +306,10 @@ roads:
       const ground::GroundPoint alone = ground->At(queries[k].x_m, queries[k].y_m, queries[k].z_hint_m);
       painted += alone.surface == ground::Surface::kRoadMark;
       ASSERT_TRUE(alone.inside && points[k].inside);
-      ASSERT_TRUE(same(points[k].z_m, alone.z_m) && same(points[k].normal_W.x(), alone.normal_W.x()) && same(points[k].normal_W.y(), alone.normal_W.y()) &&
-                  same(points[k].normal_W.z(), alone.normal_W.z()) && same(points[k].friction, alone.friction) && points[k].surface == alone.surface)
+      ASSERT_TRUE(same(points[k].z_m, alone.z_m) && same(points[k].normal_W.x(), alone.normal_W.x()) &&
+                  same(points[k].normal_W.y(), alone.normal_W.y()) &&
+                  same(points[k].normal_W.z(), alone.normal_W.z()) && same(points[k].friction, alone.friction) &&
+                  points[k].surface == alone.surface)
           << "patch " << i << " point " << k << " s " << s;
     }
   }
@@ -296,9 +318,12 @@ roads:
 }
 
 TEST(BuiltWorld, RoughnessStandsOnTheRoadAndFadesAtItsEnds) {
-  const std::string text = "rodeira: world/2\nname: r\nground: {kind: plane, surface: asphalt}\nroads:\n  - id: a\n    axis: [line: {length_m: 400}]\n"
-                           "    section: {template: rural, crossfall: {kind: crown, fall: 0}, verge: {width_m: 0}}\n";
-  const auto even = MustParse(text), uneven = MustParse(text + "    surfaces: [{iso_8608: C, seed: 3, from_s_m: 100, to_s_m: 300}]\n");
+  const std::string text =
+      "rodeira: world/2\nname: r\nground: {kind: plane, surface: asphalt}\nroads:\n  - id: a\n    axis: [line: "
+      "{length_m: 400}]\n"
+      "    section: {template: rural, crossfall: {kind: crown, fall: 0}, verge: {width_m: 0}}\n";
+  const auto even = MustParse(text),
+             uneven = MustParse(text + "    surfaces: [{iso_8608: C, seed: 3, from_s_m: 100, to_s_m: 300}]\n");
   EXPECT_NE(even->content_hash(), uneven->content_hash());
   const surface::Roughness oracle({256e-6, 3});
   for (double s = 101.5; s < 298.0; s += 7.3) {
@@ -313,13 +338,19 @@ TEST(BuiltWorld, RoughnessStandsOnTheRoadAndFadesAtItsEnds) {
 TEST(BuiltWorld, IncludedFilesAreReadAndTheirMistakesToldWithTheirPlaces) {
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-include-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  const auto write = [&](const char* name, std::string_view text) { ASSERT_TRUE(base::WriteWhole(folder / name, text).ok()); };
-  write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\ninclude: [roads.yaml]\ntemplates:\n  wide: {lanes: [{id: -1, width_m: 5}]}\n");
-  write("roads.yaml", "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {length_m: 50}], section: {template: wide}}\n");
+  const auto write = [&](const char* name, std::string_view text) {
+    ASSERT_TRUE(base::WriteWhole(folder / name, text).ok());
+  };
+  write("w.yaml",
+        "rodeira: world/2\nname: w\nground: {kind: plane}\ninclude: [roads.yaml]\ntemplates:\n  wide: {lanes: [{id: "
+        "-1, width_m: 5}]}\n");
+  write("roads.yaml",
+        "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {length_m: 50}], section: {template: wide}}\n");
   const auto world = World::Load(folder / "w.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   EXPECT_EQ(world.value()->network()->roads()[0].id(), "a");
-  write("roads.yaml", "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {lenth_m: 50}], section: {template: wide}}\n");
+  write("roads.yaml",
+        "rodeira: world/2\nroads:\n  - {id: a, axis: [line: {lenth_m: 50}], section: {template: wide}}\n");
   EXPECT_THAT(WorldProblems(folder / "w.yaml").front().Text(), HasSubstr("roads.yaml:3: unknown key"));
   std::filesystem::remove_all(folder);
 }
@@ -335,14 +366,16 @@ TEST_P(JunctionsOfTheProject, HaveNoSteps) {
   double worst_m = 0.0;
   for (const network::Junction& junction : world.network()->junctions()) {
     Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& corner : junction.outline_W) middle += corner / static_cast<double>(junction.outline_W.size());
+    for (const Eigen::Vector2d& corner : junction.outline_W)
+      middle += corner / static_cast<double>(junction.outline_W.size());
     double reach_m = 0.0;
     for (const Eigen::Vector2d& corner : junction.outline_W) reach_m = std::max(reach_m, (corner - middle).norm());
     ASSERT_GT(reach_m, 3.0);
     Step greatest;
     for (std::uint64_t i = 0; i < 200; ++i) {
       const auto at_random = [&](std::uint64_t what) {
-        const double angle = base::RandomUniform({i, what}, 0.0, 2.0 * M_PI), far_m = (reach_m + 5.0) * std::sqrt(base::RandomUniform({i, what + 1}, 0.0, 1.0));
+        const double angle = base::RandomUniform({i, what}, 0.0, 2.0 * M_PI),
+                     far_m = (reach_m + 5.0) * std::sqrt(base::RandomUniform({i, what + 1}, 0.0, 1.0));
         return Eigen::Vector2d(middle + far_m * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
       };
       const Step step = GreatestStep(world, at_random(1), at_random(3), 0.02, kNone);
@@ -355,7 +388,9 @@ TEST_P(JunctionsOfTheProject, HaveNoSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, JunctionsOfTheProject, testing::Values("haste.yaml", "example/world.yaml", "lights.yaml"),
-                         [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find_first_of("./")); });
+                         [](const auto& file) {
+                           return std::string(file.param).substr(0, std::string(file.param).find_first_of("./"));
+                         });
 
 }  // namespace
 }  // namespace rodeira::road

@@ -1,4 +1,5 @@
-// What a world file says of a road's section, superelevation and kerbs, as SUELO answers it: against closed forms in x and y.
+// What a world file says of a road's section, superelevation and kerbs, as SUELO answers it: against closed forms in x
+// and y.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,9 +11,14 @@ namespace rodeira::road {
 namespace {
 
 // A road on a plane far below it, 8 m to each side, level across but for `section`'s keys.
-std::shared_ptr<const World> RoadOf(const std::string& axis, const std::string& keys, const std::string& section = "crossfall: {kind: crown, fall: 0}") {
-  return MustParse("rodeira: world/2\nname: w\nground: {kind: plane, z_m: -20}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [" + axis + "]\n" + keys +
-                   "    section: {lanes: [{id: -1, width_m: 8}, {id: 1, width_m: 8}], verge: {width_m: 0}, lines: [], " + section + "}\n");
+std::shared_ptr<const World> RoadOf(const std::string& axis, const std::string& keys,
+                                    const std::string& section = "crossfall: {kind: crown, fall: 0}") {
+  return MustParse(
+      "rodeira: world/2\nname: w\nground: {kind: plane, z_m: -20}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, "
+      "heading_deg: 0}\n    axis: [" +
+      axis + "]\n" + keys +
+      "    section: {lanes: [{id: -1, width_m: 8}, {id: 1, width_m: 8}], verge: {width_m: 0}, lines: [], " + section +
+      "}\n");
 }
 
 constexpr const char* kTurned = "    superelevation: [{s_m: 100, slope: 0.06}, {s_m: 180, slope: -0.04}]\n";
@@ -29,8 +35,8 @@ Angle AngleAt(double s_m) {
   return {first + (last - first) * (3.0 * u * u - 2.0 * u * u * u), (last - first) * 6.0 * u * (1.0 - u) / 80.0};
 }
 
-// Level and straight to the east, the road's point t to the left stands over y = t cos(angle), and t sin(angle) higher than the axis: z = z0 + y tan(angle).
-// Positive: the left (north) side is higher.
+// Level and straight to the east, the road's point t to the left stands over y = t cos(angle), and t sin(angle) higher
+// than the axis: z = z0 + y tan(angle). Positive: the left (north) side is higher.
 TEST(Superelevation, OfALevelStraightIsAsHighAsItSays) {
   const auto world = RoadOf("line: {length_m: 300}", std::string("    z_m: 10\n") + kTurned);
   for (const double x : {20.0, 60.0, 110.0, 120.0, 140.0, 155.5, 179.0, 200.0, 290.0}) {
@@ -53,7 +59,8 @@ TEST(Superelevation, OfALevelStraightIsAsHighAsItSays) {
 
 // It is turned about the climbing axis: with grade g z = z0 + g x + y tan(angle) sqrt(1 + g^2), in the constant parts.
 TEST(Superelevation, OfAClimbingStraightIsTurnedAboutTheAxis) {
-  const auto world = RoadOf("line: {length_m: 300}", std::string("    vertical: [{s_m: 0, z_m: 5}, {s_m: 300, z_m: 35}]\n") + kTurned);
+  const auto world =
+      RoadOf("line: {length_m: 300}", std::string("    vertical: [{s_m: 0, z_m: 5}, {s_m: 300, z_m: 35}]\n") + kTurned);
   for (const double x : {20.0, 60.0, 200.0, 290.0}) {
     for (const double y : {-7.5, -2.0, 2.0, 7.5}) {
       const double slope = std::tan(AngleAt(x).rad) * std::sqrt(1.01);
@@ -65,9 +72,11 @@ TEST(Superelevation, OfAClimbingStraightIsTurnedAboutTheAxis) {
   }
 }
 
-// A bend to the left about (0, 50), its outer (right) side higher: at the radius r the road is (r - 50) 0.05 over its axis, a cone.
+// A bend to the left about (0, 50), its outer (right) side higher: at the radius r the road is (r - 50) 0.05 over its
+// axis, a cone.
 TEST(Superelevation, OfABendIsACone) {
-  const auto world = RoadOf("arc: {length_m: 150, radius_m: 50}", "    z_m: 3\n    superelevation: [{s_m: 0, slope: -0.05}]\n");
+  const auto world =
+      RoadOf("arc: {length_m: 150, radius_m: 50}", "    z_m: 3\n    superelevation: [{s_m: 0, slope: -0.05}]\n");
   for (const double turn : {0.2, 1.0, 2.0, 2.9}) {
     for (const double r : {42.5, 47.0, 50.5, 53.0, 57.5}) {
       const double x = r * std::sin(turn), y = 50.0 - r * std::cos(turn);
@@ -81,22 +90,27 @@ TEST(Superelevation, OfABendIsACone) {
 
 // A crossfall is counted vertically on the turned section: on both sides 0.02 of the distance along it.
 TEST(Superelevation, ACrownStandsOnTheTurnedSection) {
-  const auto world = RoadOf("line: {length_m: 300}", std::string("    z_m: 10\n") + kTurned, "crossfall: {kind: crown, fall: 0.02}");
+  const auto world =
+      RoadOf("line: {length_m: 300}", std::string("    z_m: 10\n") + kTurned, "crossfall: {kind: crown, fall: 0.02}");
   for (const double x : {50.0, 120.0, 140.0, 250.0}) {
     for (const double y : {-7.0, -2.0, 2.0, 7.0}) {
       const double angle = AngleAt(x).rad;
-      EXPECT_NEAR(world->At(x, y).z_m, 10.0 + y * std::tan(angle) - 0.02 * std::fabs(y) / std::cos(angle), 1e-9) << x << " " << y;
+      EXPECT_NEAR(world->At(x, y).z_m, 10.0 + y * std::tan(angle) - 0.02 * std::fabs(y) / std::cos(angle), 1e-9)
+          << x << " " << y;
     }
   }
 }
 
-// Kerbs on both sides of a crowned road, from the axis outward: 3.5 m of carriageway that falls by 0.02, a pavement 0.12 m higher that rises outward by 0.01,
-// on the left a sunken kerb back to 0.04. Both sides of each kerb, a micrometre from its edge.
+// Kerbs on both sides of a crowned road, from the axis outward: 3.5 m of carriageway that falls by 0.02, a pavement
+// 0.12 m higher that rises outward by 0.01, on the left a sunken kerb back to 0.04. Both sides of each kerb, a
+// micrometre from its edge.
 TEST(Kerbs, StepWhereTheyStand) {
   const auto world = MustParse(
-      "rodeira: world/2\nname: w\nground: {kind: plane, z_m: 1}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 100}]\n    z_m: 1\n"
+      "rodeira: world/2\nname: w\nground: {kind: plane, z_m: 1}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, "
+      "heading_deg: 0}\n    axis: [line: {length_m: 100}]\n    z_m: 1\n"
       "    section:\n      crossfall: {kind: crown, fall: 0.02}\n      verge: {width_m: 1, fall: 0}\n      lines: []\n"
-      "      lanes: [{id: -1, width_m: 3.5}, {id: -2, type: sidewalk, width_m: 2, kerb_m: 0.12, fall: -0.01}, {id: 1, width_m: 3.5}, {id: 2, type: sidewalk, width_m: 2, kerb_m: 0.12, fall: -0.01},\n"
+      "      lanes: [{id: -1, width_m: 3.5}, {id: -2, type: sidewalk, width_m: 2, kerb_m: 0.12, fall: -0.01}, {id: 1, "
+      "width_m: 3.5}, {id: 2, type: sidewalk, width_m: 2, kerb_m: 0.12, fall: -0.01},\n"
       "              {id: 3, type: biking, width_m: 1.5, kerb_m: -0.08, fall: 0}]\n");
   const auto suelo = world->MakeGround();
   const double low = 1.0 - 3.5 * 0.02, kept = 1e-6;

@@ -19,8 +19,8 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kEvery_m = 0.1;     // of edges' points
-constexpr double kNoSteeper = 0.8;   // of what they reach: so far slopes go straight on
+constexpr double kEvery_m = 0.1;    // of edges' points
+constexpr double kNoSteeper = 0.8;  // of what they reach: so far slopes go straight on
 constexpr double kFromJunctions_m = 75.0, kFromEdges_m = 0.5;
 
 // Points of the outermost edges of all roads that stand on the ground, in squares as wide as slopes reach at most.
@@ -66,7 +66,8 @@ class Edges {
         for (const Point& edge : square->second) {
           const double away_m = (edge.p_W.head<2>() - p_W).norm();
           if (away_m >= edge.slopes.reach_m) continue;
-          const double low_m = edge.p_W.z() - away_m / edge.slopes.fill, high_m = edge.p_W.z() + away_m / edge.slopes.cut;
+          const double low_m = edge.p_W.z() - away_m / edge.slopes.fill,
+                       high_m = edge.p_W.z() + away_m / edge.slopes.cut;
           if (low_m > bounds.low_m) bounds.low_m = low_m, bounds.low_away = away_m / edge.slopes.reach_m;
           if (high_m < bounds.high_m) bounds.high_m = high_m, bounds.high_away = away_m / edge.slopes.reach_m;
         }
@@ -82,12 +83,14 @@ class Edges {
     network::Earthwork slopes;
   };
   static std::pair<std::int64_t, std::int64_t> Square(const Eigen::Vector2d& p_W) {
-    return {static_cast<std::int64_t>(std::floor(p_W.x() / kSquare_m)), static_cast<std::int64_t>(std::floor(p_W.y() / kSquare_m))};
+    return {static_cast<std::int64_t>(std::floor(p_W.x() / kSquare_m)),
+            static_cast<std::int64_t>(std::floor(p_W.y() / kSquare_m))};
   }
   std::map<std::pair<std::int64_t, std::int64_t>, std::vector<Point>> squares_;
 };
 
-// The terrain, held between the greatest of all lower bounds and the least of all upper ones, each found from all points of all edges within reach.
+// The terrain, held between the greatest of all lower bounds and the least of all upper ones, each found from all
+// points of all edges within reach.
 void ExpectTheTightestBounds(const std::string& name, int least_cuts, int least_fills) {
   const auto loaded = World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -102,14 +105,18 @@ void ExpectTheTightestBounds(const std::string& name, int least_cuts, int least_
   int cuts = 0, fills = 0, bare = 0;
   double worst_m = 0.0;
   std::vector<double> lengths_m;
-  for (const network::Road& road : network.roads()) lengths_m.push_back(road.length_m() + (lengths_m.empty() ? 0.0 : lengths_m.back()));
+  for (const network::Road& road : network.roads())
+    lengths_m.push_back(road.length_m() + (lengths_m.empty() ? 0.0 : lengths_m.back()));
   for (std::uint64_t n = 0; n < 30'000; ++n) {
     const double along_m = base::RandomUniform({n, 61}, 0.0, lengths_m.back());
     const auto drawn = std::upper_bound(lengths_m.begin(), lengths_m.end() - 1, along_m);
     const network::Road& road = network.roads()[static_cast<std::size_t>(drawn - lengths_m.begin())];
     const geometry::PlanPoint at = road.axis().Evaluate(*drawn - along_m);
     const Eigen::Vector2d p = at.p_W + base::RandomUniform({n, 63}, -30.0, 30.0) * at.left_W();
-    if (std::any_of(junctions.begin(), junctions.end(), [&](const Eigen::Vector2d& q) { return (q - p).squaredNorm() < kFromJunctions_m * kFromJunctions_m; })) continue;
+    if (std::any_of(junctions.begin(), junctions.end(), [&](const Eigen::Vector2d& q) {
+          return (q - p).squaredNorm() < kFromJunctions_m * kFromJunctions_m;
+        }))
+      continue;
     const auto place = network.Locate(p.x(), p.y());
     if (!place || place->distance_m < kFromEdges_m) continue;
     const SurfacePoint ground = world.At(p.x(), p.y()), terrain = world.TerrainAt(p.x(), p.y());
@@ -117,18 +124,23 @@ void ExpectTheTightestBounds(const std::string& name, int least_cuts, int least_
     const Edges::Bounds bounds = edges.At(p);
     if (bounds.low_m > bounds.high_m) continue;
     const double expected_m = std::clamp(terrain.z_m, bounds.low_m, bounds.high_m);
-    if (expected_m != terrain.z_m && (expected_m == bounds.low_m ? bounds.low_away : bounds.high_away) > kNoSteeper) continue;
-    if (expected_m == terrain.z_m && ground.z_m == terrain.z_m) ++bare;
-    else ++(ground.z_m < terrain.z_m ? cuts : fills);
+    if (expected_m != terrain.z_m && (expected_m == bounds.low_m ? bounds.low_away : bounds.high_away) > kNoSteeper)
+      continue;
+    if (expected_m == terrain.z_m && ground.z_m == terrain.z_m)
+      ++bare;
+    else
+      ++(ground.z_m < terrain.z_m ? cuts : fills);
     const double off_m = std::fabs(ground.z_m - expected_m);
     worst_m = std::max(worst_m, off_m);
-    // Of each panel its nearest point counts; where the road climbs by g a point ahead of it holds tighter by up to the distance times g squared.
+    // Of each panel its nearest point counts; where the road climbs by g a point ahead of it holds tighter by up to the
+    // distance times g squared.
     EXPECT_LT(off_m, 0.05) << name << ": " << p.transpose();
   }
   EXPECT_GT(cuts, least_cuts) << name;
   EXPECT_GT(fills, least_fills) << name;
   EXPECT_GT(bare, 10'000) << name;
-  std::printf("%s: %d places in cuts, %d on fills, %d on the terrain itself, worst %.4f m\n", name.c_str(), cuts, fills, bare, worst_m);
+  std::printf("%s: %d places in cuts, %d on fills, %d on the terrain itself, worst %.4f m\n", name.c_str(), cuts, fills,
+              bare, worst_m);
 }
 
 TEST(Earthworks, AreTheTightestBoundsOfAllEdges) {

@@ -26,14 +26,16 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = SourceDir();
 
-// Where the keys that a reader asks for stand in a world file: below these mappings and lists, or (with a '.' behind) in them themselves. Lists' numbers are left out; what an author names is '*'.
+// Where the keys that a reader asks for stand in a world file: below these mappings and lists, or (with a '.' behind)
+// in them themselves. Lists' numbers are left out; what an author names is '*'.
 const std::map<std::string, std::vector<std::string>> kPlaces = {
     {"design/axis_reader.cpp", {"roads.", "roads.start", "roads.axis", "roads.points"}},
     {"design/behind_end.cpp", {"roads.", "roads.section"}},
     {"design/beside.cpp", {"roads.signs", "roads.objects"}},
     {"design/context.cpp", {"materials"}},
     {"design/design_reader.cpp", {".", "roads.predecessor", "roads.successor", "start"}},
-    {"design/furniture_reader.cpp", {"roads.", "roads.signs", "roads.objects", "roads.bridges", "roads.tunnels", "roads.surfaces"}},
+    {"design/furniture_reader.cpp",
+     {"roads.", "roads.signs", "roads.objects", "roads.bridges", "roads.tunnels", "roads.surfaces"}},
     {"design/junction_reader.cpp", {".", "junctions"}},
     {"design/laid_reader.cpp", {"roads.", "roads.patches", "roads.bumps"}},
     {"design/line_reader.cpp", {"roads.", "roads.lines"}},
@@ -53,9 +55,11 @@ const std::map<std::string, std::vector<std::string>> kPlaces = {
     {"lights/light_plan.cpp", {"junctions.lights"}},
 };
 
-// What the readers of version 2 ask for, as it stands in the program: of each file the keys. What is a scenario's alone is left out.
+// What the readers of version 2 ask for, as it stands in the program: of each file the keys. What is a scenario's alone
+// is left out.
 std::map<std::string, std::set<std::string>> AskedKeys() {
-  const std::regex asked(R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\((?:[a-z_]+, )?"([a-z_0-9]+)")re");
+  const std::regex asked(
+      R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\((?:[a-z_]+, )?"([a-z_0-9]+)")re");
   const std::regex tables(R"re(Read(?:Table|Knots)\([^"]*"([a-z_]+)", "([a-z_]+)"(?:, "([a-z_]+)")?)re");
   std::vector<std::string> files = {"road/world_reader.cpp", "road/picture_reader.cpp", "lights/light_plan.cpp"};
   for (const auto& entry : fs::directory_iterator(kRoot / "common/world/design")) {
@@ -86,7 +90,8 @@ void Collect(const YAML::Node& node, const std::string& way, std::set<std::pair<
     const std::string key = item.first.as<std::string>();
     keys.emplace(way, key);
     const bool named = way == "materials" || way == "templates";  // a template holds what a section does
-    const std::string inner = way == "templates" ? "roads.section" : (way.empty() ? "" : way + ".") + (named ? "*" : key);
+    const std::string inner =
+        way == "templates" ? "roads.section" : (way.empty() ? "" : way + ".") + (named ? "*" : key);
     Collect(item.second, inner, keys);
   }
 }
@@ -110,7 +115,8 @@ std::set<std::string> WordsInCode(const std::string& text) {
 
 TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
   std::set<std::pair<std::string, std::string>> said;
-  for (const char* file : {"world.yaml", "village.yaml", "plane.yaml", "heights.yaml", "named.yaml"}) Collect(YAML::LoadFile((kRoot / "configs/worlds/example" / file).string()), "", said);
+  for (const char* file : {"world.yaml", "village.yaml", "plane.yaml", "heights.yaml", "named.yaml"})
+    Collect(YAML::LoadFile((kRoot / "configs/worlds/example" / file).string()), "", said);
   const std::string document = base::ReadText(kRoot / "docs/formats.md").value();
   const std::size_t begin = document.find("## World files\n"), end = document.find("## Lines of points\n");
   ASSERT_LT(begin, end);
@@ -130,7 +136,8 @@ TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
     for (const std::string& key : keys) {
       ++count;
       EXPECT_TRUE(is_said(key)) << "the examples do not say " << key << ", which " << file << " asks for";
-      EXPECT_TRUE(told.contains(key)) << "docs/formats.md does not tell of " << key << ", which " << file << " asks for";
+      EXPECT_TRUE(told.contains(key)) << "docs/formats.md does not tell of " << key << ", which " << file
+                                      << " asks for";
     }
   }
   EXPECT_GT(count, 150u);
@@ -152,9 +159,11 @@ TEST(ExampleWorld, HasEveryTypeOfObjectAndKindOfLine) {
   const std::string reader = base::ReadText(kRoot / "common/world/design/object_reader.cpp").value();
   const std::regex row(R"re(\{"([a-z_]+)", "[a-z]+", [0-9.]+, )re");
   int types = 0;
-  for (std::sregex_iterator i(reader.begin(), reader.end(), row), end; i != end; ++i, ++types) EXPECT_NE(example.find("type: " + (*i)[1].str() + ","), std::string::npos) << (*i)[1];
+  for (std::sregex_iterator i(reader.begin(), reader.end(), row), end; i != end; ++i, ++types)
+    EXPECT_NE(example.find("type: " + (*i)[1].str() + ","), std::string::npos) << (*i)[1];
   EXPECT_GE(types, 8);
-  for (const network::LineKind& kind : network::kLineKinds) EXPECT_NE(example.find("kind: " + std::string(kind.name) + ","), std::string::npos) << kind.name;
+  for (const network::LineKind& kind : network::kLineKinds)
+    EXPECT_NE(example.find("kind: " + std::string(kind.name) + ","), std::string::npos) << kind.name;
 }
 
 TEST(ExampleWorld, IsAWorld) {
@@ -172,7 +181,8 @@ TEST(ExampleWorld, LoadsByARelativePathToo) {
   const auto world = World::Load("configs/worlds/example/world.yaml");
   fs::current_path(before);
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  EXPECT_EQ(world.value()->content_hash(), World::Load(kRoot / "configs/worlds/example/world.yaml").value()->content_hash());
+  EXPECT_EQ(world.value()->content_hash(),
+            World::Load(kRoot / "configs/worlds/example/world.yaml").value()->content_hash());
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ TEST(Hills, TheSameSeedGivesTheSameBytesAndAnotherOneOthers) {
 TEST(Hills, WithoutRoadsTheyRiseAboutTheBase) {
   const auto grid = MakeHills(Spec(), std::span<const Road>());
   double low = 1e9, high = -1e9;
-  for (const float height : grid.heights_m()) low = std::min(low, double{height}), high = std::max(high, double{height});
+  for (const float height : grid.heights_m())
+    low = std::min(low, double{height}), high = std::max(high, double{height});
   EXPECT_TRUE(low > 15.0 && low < 45.0) << low;
   EXPECT_TRUE(high < 85.0 && high > 55.0) << high;
 }
@@ -117,8 +118,8 @@ TEST(Hills, FarFromAPointThatMovesNotABitChanges) {
   EXPECT_GT(kept, 3000);
 }
 
-// Neither where a road's reach ends nor anywhere else is a kink: over 1 m the slope changes by no more than where the terrain bends to the road, and at the reach's end
-// hardly at all.
+// Neither where a road's reach ends nor anywhere else is a kink: over 1 m the slope changes by no more than where the
+// terrain bends to the road, and at the reach's end hardly at all.
 TEST(Hills, PassIntoTheBaseWithoutAKink) {
   HillsSpec spec = Spec();
   spec.relief.clear();
@@ -126,13 +127,14 @@ TEST(Hills, PassIntoTheBaseWithoutAKink) {
   const auto grid = MakeHills(spec, Straight(0.0, 80.0));
   double most = 0.0, most_at_end = 0.0;
   for (int row = 1; row + 1 < spec.rows; ++row) {
-    const double bend = std::fabs(double{grid.Post(0, row - 1)} - 2.0 * double{grid.Post(0, row)} + double{grid.Post(0, row + 1)});
+    const double bend =
+        std::fabs(double{grid.Post(0, row - 1)} - 2.0 * double{grid.Post(0, row)} + double{grid.Post(0, row + 1)});
     most = std::max(most, bend);
     if (row > 174 && row < 186) most_at_end = std::max(most_at_end, bend);
   }
   EXPECT_NEAR(grid.Post(0, 0), 79.5, 0.01);
   EXPECT_NEAR(grid.Post(0, 200), 50.0, 1e-5);
-  EXPECT_LT(most, 0.02);        // 30 m down over some 120: the slope is 1 in 3 at most
+  EXPECT_LT(most, 0.02);  // 30 m down over some 120: the slope is 1 in 3 at most
   EXPECT_LT(most_at_end, 0.05 * most);
 }
 
@@ -152,8 +154,12 @@ TEST(Hills, WithoutABaseItIsTheRoadsMeanToTenMetres) {
 // Where a plan element changes, the points on those before it stay, to the bit.
 TEST(Hills, PointsFollowFromTheElementTheyLieOn) {
   const auto points = [](const std::string& last) {
-    const auto world = World::Parse("rodeira: world/2\nname: w\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 3, y_m: 4, heading_deg: 20}\n"
-                                    "    axis: [line: {length_m: 333}, arc: {length_m: 120, radius_m: 90}, line: {length_m: " + last + "}]\n    z_m: 7\n    section: {template: rural}\n", "w.yaml");
+    const auto world = World::Parse(
+        "rodeira: world/2\nname: w\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: 3, y_m: "
+        "4, heading_deg: 20}\n"
+        "    axis: [line: {length_m: 333}, arc: {length_m: 120, radius_m: 90}, line: {length_m: " +
+            last + "}]\n    z_m: 7\n    section: {template: rural}\n",
+        "w.yaml");
     EXPECT_TRUE(world.ok()) << world.error().Text();
     return AxisPoints(*world.value()->network());
   };
@@ -161,20 +167,31 @@ TEST(Hills, PointsFollowFromTheElementTheyLieOn) {
   double length_m = 0.0;
   std::size_t same = 0;
   for (const AxisPoint& point : longer) length_m += point.length_m;
-  while (same < shorter.size() && shorter[same].p_W == longer[same].p_W && shorter[same].length_m == longer[same].length_m) ++same;
+  while (same < shorter.size() && shorter[same].p_W == longer[same].p_W &&
+         shorter[same].length_m == longer[same].length_m)
+    ++same;
   EXPECT_NEAR(length_m, 333.0 + 120.0 + 145.0, 1e-9);
   EXPECT_EQ(same, 10u + 4u);  // in nine pieces and in three
 }
 
-// A road of 1000 m, 25 m over the base, on a bridge over its middle 400 m, and one 20 m below it in a tunnel there: farther than their reach from where they stand on the ground
-// the terrain is the base's, so that a valley lies under the bridge and a hill over the tunnel; where the structures begin it meets the road without a step.
+// A road of 1000 m, 25 m over the base, on a bridge over its middle 400 m, and one 20 m below it in a tunnel there:
+// farther than their reach from where they stand on the ground the terrain is the base's, so that a valley lies under
+// the bridge and a hill over the tunnel; where the structures begin it meets the road without a step.
 TEST(Hills, FollowARoadOnABridgeOrInATunnelOnlyWhereTheyAreToldTo) {
   for (const auto& [kind, z_m] : {std::pair("bridges", 25.0), std::pair("tunnels", -20.0)}) {
     const auto text = [&](const std::string& structures, const std::string& follow) {
-      return "rodeira: world/2\nname: w\nterrain:\n  surface: grass\n  generate: {seed: 7, columns: 121, rows: 101, spacing_m: 10, west_m: -600, south_m: -500, base_z_m: 0, flat_m: 5, full_m: 20, reach_m: 60, relief: [], follow_structures: " + follow + "}\n"
-             "roads:\n  - id: a\n    start: {x_m: -500, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 1000}]\n    z_m: " + std::to_string(z_m) + "\n    section: {template: rural}\n" + structures;
+      return "rodeira: world/2\nname: w\nterrain:\n  surface: grass\n  generate: {seed: 7, columns: 121, rows: 101, "
+             "spacing_m: 10, west_m: -600, south_m: -500, base_z_m: 0, flat_m: 5, full_m: 20, reach_m: 60, relief: [], "
+             "follow_structures: " +
+             follow +
+             "}\n"
+             "roads:\n  - id: a\n    start: {x_m: -500, y_m: 0, heading_deg: 0}\n    axis: [line: {length_m: 1000}]\n  "
+             "  z_m: " +
+             std::to_string(z_m) + "\n    section: {template: rural}\n" + structures;
     };
-    const auto world = World::Parse(text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 600}, {from_s_m: 550, to_s_m: 700}]\n", "false"), "w.yaml");
+    const auto world = World::Parse(
+        text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 600}, {from_s_m: 550, to_s_m: 700}]\n", "false"),
+        "w.yaml");
     ASSERT_TRUE(world.ok()) << world.error().Text();
     double length_m = 0.0;
     for (const AxisPoint& point : AxisPoints(*world.value()->network(), false)) {
@@ -182,9 +199,12 @@ TEST(Hills, FollowARoadOnABridgeOrInATunnelOnlyWhereTheyAreToldTo) {
       EXPECT_TRUE(point.p_W.x() <= -200.0 + 1e-9 || point.p_W.x() >= 200.0 - 1e-9) << point.p_W.x();
     }
     EXPECT_NEAR(length_m, 600.0, 1e-9);
-    for (const double x : {-130.0, 0.0, 130.0}) EXPECT_EQ(world.value()->TerrainAt(x, 0.0).z_m, 0.0) << kind << " " << x;
-    for (const double x : {-400.0, -250.0, 250.0, 400.0}) EXPECT_NEAR(world.value()->TerrainAt(x, 0.0).z_m, z_m, 1.5) << kind << " " << x;
-    for (const double end : {-1.0, 1.0}) {  // into the valley under the bridge, up over the tunnel's mouth from its roof
+    for (const double x : {-130.0, 0.0, 130.0})
+      EXPECT_EQ(world.value()->TerrainAt(x, 0.0).z_m, 0.0) << kind << " " << x;
+    for (const double x : {-400.0, -250.0, 250.0, 400.0})
+      EXPECT_NEAR(world.value()->TerrainAt(x, 0.0).z_m, z_m, 1.5) << kind << " " << x;
+    for (const double end :
+         {-1.0, 1.0}) {  // into the valley under the bridge, up over the tunnel's mouth from its roof
       const auto ground_at = [&](double x) { return world.value()->MakeGround()->Layers(end * x, 1.0); };
       double last = ground_at(210.0).front().z_m;
       EXPECT_NEAR(last, z_m, 0.2);
@@ -192,14 +212,18 @@ TEST(Hills, FollowARoadOnABridgeOrInATunnelOnlyWhereTheyAreToldTo) {
         const auto layers = ground_at(x);
         const double z = kind[0] == 'b' ? layers.back().z_m : layers.front().z_m;
         const bool portal = kind[0] == 't' && last < z_m + 0.2 && z > z_m + 4.0;
-        EXPECT_TRUE(portal ? std::fabs(x - 200.0) < 0.06 : std::fabs(z - last) < 0.15) << kind << " " << end * x << ": " << last << " to " << z;
+        EXPECT_TRUE(portal ? std::fabs(x - 200.0) < 0.06 : std::fabs(z - last) < 0.15)
+            << kind << " " << end * x << ": " << last << " to " << z;
         last = z;
       }
       EXPECT_NEAR(last, 0.0, 3.0);
     }
-    const auto followed = World::Parse(text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 700}]\n", "true"), "w.yaml"), without = World::Parse(text("", "false"), "w.yaml");
+    const auto followed = World::Parse(text(std::string("    ") + kind + ": [{from_s_m: 300, to_s_m: 700}]\n", "true"),
+                                       "w.yaml"),
+               without = World::Parse(text("", "false"), "w.yaml");
     EXPECT_NEAR(followed.value()->TerrainAt(0.0, 0.0).z_m, z_m, 1.5) << "as it says";
-    EXPECT_EQ(terrain::BtBytes(*without.value()->grid()), terrain::BtBytes(*followed.value()->grid())) << "nothing to leave out";
+    EXPECT_EQ(terrain::BtBytes(*without.value()->grid()), terrain::BtBytes(*followed.value()->grid()))
+        << "nothing to leave out";
   }
 }
 
@@ -209,7 +233,8 @@ TEST(Hills, LayersAreNoCopiesOfOneAnother) {
   two.relief = {{100.0, 10.0}, {100.0, 10.0}};
   const auto a = MakeHills(one, std::span<const Road>()), b = MakeHills(two, std::span<const Road>());
   double difference = 0.0;
-  for (std::size_t i = 0; i < a.heights_m().size(); ++i) difference = std::max(difference, std::fabs(double{a.heights_m()[i]} - double{b.heights_m()[i]}));
+  for (std::size_t i = 0; i < a.heights_m().size(); ++i)
+    difference = std::max(difference, std::fabs(double{a.heights_m()[i]} - double{b.heights_m()[i]}));
   EXPECT_GT(difference, 5.0);
 }
 

@@ -16,13 +16,16 @@ using opendrive::Document;
 using opendrive::RoadText;
 using testing::HasSubstr;
 
-double Height(double x, double y) { return 2.0 + 0.03 * x - 0.02 * y + 0.002 * x * y + 0.0004 * x * x * x - 0.0003 * y * y * y; }
+double Height(double x, double y) {
+  return 2.0 + 0.03 * x - 0.02 * y + 0.002 * x * y + 0.0004 * x * x * x - 0.0003 * y * y * y;
+}
 
-// A T: roads 1 and 2 from the west and the east, road 4 from the south; road 3 goes through from 1 to 2, road 6 from 1 to 4; roads 7 and 8 cut
-// the corners of the boundary. The ways through say another height than the grid.
+// A T: roads 1 and 2 from the west and the east, road 4 from the south; road 3 goes through from 1 to 2, road 6 from 1
+// to 4; roads 7 and 8 cut the corners of the boundary. The ways through say another height than the grid.
 struct Tee {
   std::string transition;
-  std::string west_joint = R"(<segment type="joint" roadId="1" contactPoint="end" jointLaneStart="1" jointLaneEnd="-1" )";
+  std::string west_joint =
+      R"(<segment type="joint" roadId="1" contactPoint="end" jointLaneStart="1" jointLaneEnd="-1" )";
   std::string plan = R"(<planView><geometry s="0" x="-16" y="0" hdg="0" length="32"><line/></geometry></planView>)";
   std::string type;
   int rows = 9;
@@ -31,19 +34,28 @@ struct Tee {
     RoadText road;
     road.id = id;
     road.length = length;
-    road.geometry = fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y, heading, length);
+    road.geometry = fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", x, y,
+                                heading, length);
     return road;
   }
   std::string Text() const {
-    RoadText west = Straight("1", -50, 0, 0, 40), east = Straight("2", 10, 0, 0, 40), through = Straight("3", -10, 0, 0, 20), south = Straight("4", 0, -10, -M_PI_2, 40);
-    RoadText turn = Straight("6", -10, 0, 0, 10.0 * M_PI_2), corner_1 = Straight("7", -10, -3.5, -M_PI_4, 6.5 * M_SQRT2), corner_2 = Straight("8", 3.5, -10, M_PI_4, 6.5 * M_SQRT2);
+    RoadText west = Straight("1", -50, 0, 0, 40), east = Straight("2", 10, 0, 0, 40),
+             through = Straight("3", -10, 0, 0, 20), south = Straight("4", 0, -10, -M_PI_2, 40);
+    RoadText turn = Straight("6", -10, 0, 0, 10.0 * M_PI_2),
+             corner_1 = Straight("7", -10, -3.5, -M_PI_4, 6.5 * M_SQRT2),
+             corner_2 = Straight("8", 3.5, -10, M_PI_4, 6.5 * M_SQRT2);
     west.elevation = "<elevation s=\"0\" a=\"2\" b=\"0.01\" c=\"0\" d=\"0\"/>";
     west.link = "<successor elementType=\"junction\" elementId=\"5\"/>";
     for (RoadText* road : {&east, &south}) road->link = "<predecessor elementType=\"junction\" elementId=\"5\"/>";
-    through.left += R"(<lane id="2" type="sidewalk"><width sOffset="0" a="0.4" b="0" c="0" d="0"/><height sOffset="0" inner="0.12" outer="0.12"/></lane>)";
-    through.link = R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="2" contactPoint="start"/>)";
-    turn.geometry = fmt::format("<geometry s=\"0\" x=\"-10\" y=\"0\" hdg=\"0\" length=\"{}\"><arc curvature=\"-0.1\"/></geometry>", 10.0 * M_PI_2);
-    turn.link = R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="4" contactPoint="start"/>)";
+    through.left +=
+        R"(<lane id="2" type="sidewalk"><width sOffset="0" a="0.4" b="0" c="0" d="0"/><height sOffset="0" inner="0.12" outer="0.12"/></lane>)";
+    through.link =
+        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="2" contactPoint="start"/>)";
+    turn.geometry =
+        fmt::format("<geometry s=\"0\" x=\"-10\" y=\"0\" hdg=\"0\" length=\"{}\"><arc curvature=\"-0.1\"/></geometry>",
+                    10.0 * M_PI_2);
+    turn.link =
+        R"(<predecessor elementType="road" elementId="1" contactPoint="end"/><successor elementType="road" elementId="4" contactPoint="start"/>)";
     for (RoadText* road : {&through, &turn, &corner_1, &corner_2}) {
       road->attributes = "junction=\"5\"";
       road->elevation = "<elevation s=\"0\" a=\"9\" b=\"0\" c=\"0\" d=\"0\"/>";
@@ -53,17 +65,20 @@ struct Tee {
     std::string grid;
     for (int row = 0; row < rows; ++row) {
       const double x = -16.0 + 4.0 * row;
-      grid += fmt::format("<elevation center=\"{}\" left=\"{} {}\" right=\"{} {} {} {}\"/>\n", Height(x, 0), Height(x, 4), Height(x, 8), Height(x, -4), Height(x, -8), Height(x, -12), Height(x, -16));
+      grid += fmt::format("<elevation center=\"{}\" left=\"{} {}\" right=\"{} {} {} {}\"/>\n", Height(x, 0),
+                          Height(x, 4), Height(x, 8), Height(x, -4), Height(x, -8), Height(x, -12), Height(x, -16));
     }
-    return Document(west.Text() + east.Text() + through.Text() + south.Text() + turn.Text() + corner_1.Text() + corner_2.Text() + "<junction id=\"5\" " + type + ">" +
-                    R"(<connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
+    return Document(
+        west.Text() + east.Text() + through.Text() + south.Text() + turn.Text() + corner_1.Text() + corner_2.Text() +
+        "<junction id=\"5\" " + type + ">" +
+        R"(<connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
                        <connection id="1" incomingRoad="1" connectingRoad="6" contactPoint="start"><laneLink from="-1" to="-1"/></connection>
                        <boundary><segment type="joint" roadId="2" contactPoint="start" jointLaneStart="-1" jointLaneEnd="1"/>
                        <segment type="lane" roadId="3" boundaryLane="1" sStart="end" sEnd="begin"/>)" +
-                    west_joint + transition + "/>\n" +
-                    R"(<segment type="lane" roadId="7" boundaryLane="0" sStart="begin" sEnd="end"/><segment type="joint" roadId="4" contactPoint="start"/>
+        west_joint + transition + "/>\n" +
+        R"(<segment type="lane" roadId="7" boundaryLane="0" sStart="begin" sEnd="end"/><segment type="joint" roadId="4" contactPoint="start"/>
                        <segment type="lane" roadId="8" boundaryLane="0" sStart="0" sEnd="end"/></boundary>)" +
-                    plan + "<elevationGrid sStart=\"0\" gridSpacing=\"4\">\n" + grid + "</elevationGrid></junction>\n");
+        plan + "<elevationGrid sStart=\"0\" gridSpacing=\"4\">\n" + grid + "</elevationGrid></junction>\n");
   }
 };
 
@@ -114,14 +129,16 @@ TEST(JunctionGround, ARoadGoesOverIntoItWithoutStepOrKink) {
     EXPECT_NEAR(in.z_m, 2.4, 1e-6) << y;
     EXPECT_NEAR(in.slope_x, 0.01, 1e-5);
     // The third corner lies 3 m along the cut corner, the fourth 3 m along the way through.
-    const double part = (3.5 - y) / 7.0, end_x = -7.0 + part * (3.0 * M_SQRT1_2 - 3.0), end_y = 3.5 + part * (-3.5 - 3.0 * M_SQRT1_2 - 3.5);
+    const double part = (3.5 - y) / 7.0, end_x = -7.0 + part * (3.0 * M_SQRT1_2 - 3.0),
+                 end_y = 3.5 + part * (-3.5 - 3.0 * M_SQRT1_2 - 3.5);
     const double z = Height(end_x, end_y);
     EXPECT_NEAR(world->At(end_x + 1e-7, end_y).z_m, z, 1e-6);
     EXPECT_NEAR(world->At(end_x - 1e-7, end_y).z_m, z, 1e-6) << y;
   }
   // On the straight side of the piece: the cubic by heights and slopes at both ends.
   const double to = Height(-7.0, 3.5), rise = 3.0 * (0.03 + 0.002 * 3.5 + 0.0012 * 49.0);
-  const double l = 0.4, expected = 2.4 + 0.03 * l + (3.0 * (to - 2.4) - 0.06 - rise) * l * l + (0.03 + rise - 2.0 * (to - 2.4)) * l * l * l;
+  const double l = 0.4, expected = 2.4 + 0.03 * l + (3.0 * (to - 2.4) - 0.06 - rise) * l * l +
+                                   (0.03 + rise - 2.0 * (to - 2.4)) * l * l * l;
   EXPECT_NEAR(world->At(-10.0 + 3.0 * l, 3.5 - 1e-9).z_m, expected, 1e-8);
 }
 
@@ -133,12 +150,15 @@ TEST(JunctionGround, WhatBreaksARuleIsNamed) {
   EXPECT_EQ(first({}), "");
   Tee tee;
   tee.rows = 6;
-  EXPECT_THAT(first(tee), HasSubstr("junctions.elevation_grid.valid_for_entire_boundry: junction 5: its heights do not reach to (10.00, "));
+  EXPECT_THAT(
+      first(tee),
+      HasSubstr("junctions.elevation_grid.valid_for_entire_boundry: junction 5: its heights do not reach to (10.00, "));
   tee.rows = 1;
   EXPECT_THAT(first(tee), HasSubstr("junctions.elevation_grid.squares: junction 5"));
   tee = {};
   tee.plan = "";
-  EXPECT_THAT(first(tee), HasSubstr("junctions.elevation_grid.perpendicular_vectors: the junction has heights across a reference line, but no <planView>"));
+  EXPECT_THAT(first(tee), HasSubstr("junctions.elevation_grid.perpendicular_vectors: the junction has heights across a "
+                                    "reference line, but no <planView>"));
   tee = {};
   tee.type = "type=\"direct\"";
   EXPECT_THAT(first(tee), HasSubstr("junctions.boundary.only_for_common_junctions: junction 5: its type is 'direct'"));
@@ -146,7 +166,9 @@ TEST(JunctionGround, WhatBreaksARuleIsNamed) {
   tee.west_joint = R"(<segment type="joint" roadId="1" contactPoint="start" )";
   EXPECT_THAT(first(tee), HasSubstr("junctions.boundary.segments_close_boundry: junction 5: a gap of 40.6"));
   tee.west_joint = R"(<segment type="joint" roadId="99" contactPoint="end" )";
-  EXPECT_THAT(first(tee), HasSubstr("junctions.boundary.road: junction 5: its boundary names the road '99', which is not in the file"));
+  EXPECT_THAT(
+      first(tee),
+      HasSubstr("junctions.boundary.road: junction 5: its boundary names the road '99', which is not in the file"));
   tee.west_joint = R"(<segment type="joint" roadId="1" contactPoint="end" jointLaneStart="4" )";
   EXPECT_THAT(first(tee), HasSubstr("junctions.boundary.lane: junction 5: its boundary names lane 4 of road 1"));
 }

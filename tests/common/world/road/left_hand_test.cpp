@@ -1,4 +1,5 @@
-// Worlds whose vehicles keep left: the mirror image of a world whose vehicles keep right, in everything. And what the known templates give.
+// Worlds whose vehicles keep left: the mirror image of a world whose vehicles keep right, in everything. And what the
+// known templates give.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -19,31 +20,40 @@ std::shared_ptr<const World> MustParse(const std::string& text) {
   return world.ok() ? world.value() : nullptr;
 }
 
-// A road on a slope with a bend, a lane more on one side, a pavement behind a kerb, paint, signs; a narrower one that crosses and must stop. side: 1 as it
-// is, -1 its image in the x axis, where left is right.
+// A road on a slope with a bend, a lane more on one side, a pavement behind a kerb, paint, signs; a narrower one that
+// crosses and must stop. side: 1 as it is, -1 its image in the x axis, where left is right.
 std::string Text(int side) {
   const auto lane = [side](int id) { return side * id; };
   const std::string own = side > 0 ? "right" : "left", other = side > 0 ? "left" : "right";
   return fmt::format(
-      "rodeira: world/2\nname: sides\nrule: {own}\nground: {{kind: plane, z_m: 4, slope_x: 0.01, slope_y: {slope}}}\nstart: {{road: main, lane: {l1}, s_m: 20}}\n"
+      "rodeira: world/2\nname: sides\nrule: {own}\nground: {{kind: plane, z_m: 4, slope_x: 0.01, slope_y: "
+      "{slope}}}\nstart: {{road: main, lane: {l1}, s_m: 20}}\n"
       "roads:\n"
       "  - id: main\n    start: {{x_m: 0, y_m: 0, heading_deg: {h20}}}\n"
-      "    axis: [line: {{length_m: 150}}, clothoid: {{length_m: 60, radius_end_m: {r200}}}, arc: {{length_m: 120, radius_m: {r200}}}]\n"
+      "    axis: [line: {{length_m: 150}}, clothoid: {{length_m: 60, radius_end_m: {r200}}}, arc: {{length_m: 120, "
+      "radius_m: {r200}}}]\n"
       "    vertical: [{{s_m: 0, z_m: 5}}, {{s_m: 200, z_m: 9, parabola_m: 80}}, {{s_m: 330, z_m: 6}}]\n"
       "    superelevation: [{{s_m: 190, slope: 0}}, {{s_m: 240, slope: {bank}}}]\n"
       "    section:\n"
-      "      lanes: [{{id: {l2}, width_m: 3.25}}, {{id: {l1}, width_m: 3.5}}, {{id: {r1}, width_m: 3.75}}, {{id: {r2}, width_m: 2, type: sidewalk, kerb_m: 0.12, material: concrete}}]\n"
-      "      crossfall: {{kind: crown, fall: 0.025}}\n      shoulders: {{{own}: {{width_m: 1, fall: 0.04, material: gravel}}, {other}: {{width_m: 0.5, fall: 0.02}}}}\n"
+      "      lanes: [{{id: {l2}, width_m: 3.25}}, {{id: {l1}, width_m: 3.5}}, {{id: {r1}, width_m: 3.75}}, {{id: {r2}, "
+      "width_m: 2, type: sidewalk, kerb_m: 0.12, material: concrete}}]\n"
+      "      crossfall: {{kind: crown, fall: 0.025}}\n      shoulders: {{{own}: {{width_m: 1, fall: 0.04, material: "
+      "gravel}}, {other}: {{width_m: 0.5, fall: 0.02}}}}\n"
       "      verge: {{width_m: 1.5, fall: 0.08}}\n"
-      "    lines:\n      - {{lane: 0, kind: mixed, {own}: dashed, {other}: continuous, stroke_m: 4, gap_m: 8, width_m: 0.12, apart_m: 0.14}}\n"
-      "      - {{lane: {l1}, kind: dashed, stroke_m: 3, gap_m: 6, width_m: 0.12}}\n      - {{lane: {r1}, kind: continuous, width_m: 0.15}}\n"
+      "    lines:\n      - {{lane: 0, kind: mixed, {own}: dashed, {other}: continuous, stroke_m: 4, gap_m: 8, width_m: "
+      "0.12, apart_m: 0.14}}\n"
+      "      - {{lane: {l1}, kind: dashed, stroke_m: 3, gap_m: 6, width_m: 0.12}}\n      - {{lane: {r1}, kind: "
+      "continuous, width_m: 0.15}}\n"
       "    markings: [{{type: crossing, s_m: 60}}, {{type: stop_line, s_m: 260, for: along}}]\n"
-      "    signs: [{{type: bend_{other}, s_m: 100, side: {own}}}, {{type: speed_limit, value: 70, s_m: 30, side: {own}}}]\n"
-      "  - id: cross\n    place: {{road: main, s_m: 110, turn_deg: {h80}, own_s_m: 70}}\n    axis: [line: {{length_m: 150}}]\n"
+      "    signs: [{{type: bend_{other}, s_m: 100, side: {own}}}, {{type: speed_limit, value: 70, s_m: 30, side: "
+      "{own}}}]\n"
+      "  - id: cross\n    place: {{road: main, s_m: 110, turn_deg: {h80}, own_s_m: 70}}\n    axis: [line: {{length_m: "
+      "150}}]\n"
       "    section: {{template: rural, lanes: [{{id: {l1}, width_m: 2.75}}, {{id: {r1}, width_m: 3}}]}}\n"
       "junctions:\n  - {{id: j, roads: [{{road: main, s_m: 110}}, {{road: cross, s_m: 70}}], control: stop}}\n",
-      fmt::arg("own", own), fmt::arg("other", other), fmt::arg("slope", side * 0.015), fmt::arg("l1", lane(-1)), fmt::arg("l2", lane(-2)), fmt::arg("r1", lane(1)),
-      fmt::arg("r2", lane(2)), fmt::arg("h20", side * 20), fmt::arg("h80", side * 80), fmt::arg("r200", side * 200), fmt::arg("bank", side * 0.04));
+      fmt::arg("own", own), fmt::arg("other", other), fmt::arg("slope", side * 0.015), fmt::arg("l1", lane(-1)),
+      fmt::arg("l2", lane(-2)), fmt::arg("r1", lane(1)), fmt::arg("r2", lane(2)), fmt::arg("h20", side * 20),
+      fmt::arg("h80", side * 80), fmt::arg("r200", side * 200), fmt::arg("bank", side * 0.04));
 }
 
 struct Sides : testing::Test {
@@ -57,7 +67,9 @@ TEST_F(Sides, TheGroundIsTheMirrorImage) {
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     const double s = base::RandomUniform({i, 1}, 0.0, 1.0);
     const network::Road& main = right->network()->roads()[i % right->network()->roads().size()];
-    const Eigen::Vector3d p = main.Surface(s * main.length_m(), i % 3 == 0 ? base::RandomUniform({i, 2}, -0.2, 0.2) : base::RandomUniform({i, 2}, -9.0, 9.0)).p_W;  // where its line is, too
+    const Eigen::Vector3d p = main.Surface(s * main.length_m(), i % 3 == 0 ? base::RandomUniform({i, 2}, -0.2, 0.2)
+                                                                           : base::RandomUniform({i, 2}, -9.0, 9.0))
+                                  .p_W;  // where its line is, too
     const SurfacePoint a = right->At(p.x(), p.y()), b = left->At(p.x(), -p.y());
     ASSERT_EQ(a.inside, b.inside) << i;
     EXPECT_NEAR(a.z_m, b.z_m, 1e-7) << p.transpose();
@@ -85,7 +97,8 @@ TEST_F(Sides, EachLaneIsDrivenInTheMirroredDirection) {
     ASSERT_TRUE(other || road.spec().junction == "j") << road.id();
     if (!other) continue;
     // Of a way through a junction the one lane is a right one in both worlds.
-    const network::LaneKey image{*other, key.section, b.Find({*other, key.section, -key.lane}) == nullptr ? key.lane : -key.lane};
+    const network::LaneKey image{*other, key.section,
+                                 b.Find({*other, key.section, -key.lane}) == nullptr ? key.lane : -key.lane};
     const network::Lane* found = b.Find(image);
     ASSERT_NE(found, nullptr) << road.id() << " " << key.lane;
     EXPECT_EQ(found->direction, lane.direction) << road.id() << " " << key.lane;
@@ -94,9 +107,11 @@ TEST_F(Sides, EachLaneIsDrivenInTheMirroredDirection) {
     EXPECT_EQ(b.Predecessors(image).size(), a.Predecessors(key).size()) << road.id() << " " << key.lane;
     // A way's lane is measured along its other edge there: its ends are the same.
     const bool way = road.spec().junction == "j";
-    EXPECT_NEAR((b.Centre(image, way ? 0.0 : s) - Mirrored(a.Centre(key, way ? 0.0 : s))).norm(), 0.0, 1e-7) << road.id() << " " << key.lane;
+    EXPECT_NEAR((b.Centre(image, way ? 0.0 : s) - Mirrored(a.Centre(key, way ? 0.0 : s))).norm(), 0.0, 1e-7)
+        << road.id() << " " << key.lane;
     const double end = b.roads()[*other].length_m();
-    EXPECT_NEAR((b.Centre(image, end) - Mirrored(a.Centre(key, road.length_m()))).norm(), 0.0, 1e-7) << road.id() << " " << key.lane;
+    EXPECT_NEAR((b.Centre(image, end) - Mirrored(a.Centre(key, road.length_m()))).norm(), 0.0, 1e-7)
+        << road.id() << " " << key.lane;
     driven += network::IsDrivable(lane.type);
   }
   EXPECT_GE(driven, 12);
@@ -113,7 +128,8 @@ TEST_F(Sides, SignsStandOnTheOtherSideAndTheCarStartsThere) {
     for (const network::Placed& placed : network::PlaceFurniture(*world.network()).things) {
       if (placed.signal == nullptr) continue;
       const double heading = side * placed.heading_rad;
-      found.emplace_back(placed.signal->type, std::lround(placed.foot_W.x() * 1e4), std::lround(side * placed.foot_W.y() * 1e4), std::lround(std::cos(heading) * 1e4),
+      found.emplace_back(placed.signal->type, std::lround(placed.foot_W.x() * 1e4),
+                         std::lround(side * placed.foot_W.y() * 1e4), std::lround(std::cos(heading) * 1e4),
                          std::lround(std::sin(heading) * 1e4));
     }
     std::sort(found.begin(), found.end());
@@ -131,21 +147,27 @@ TEST_F(Sides, SignsStandOnTheOtherSideAndTheCarStartsThere) {
   EXPECT_NEAR(left->start().heading_rad, -right->start().heading_rad, 1e-9);
 }
 
-// What docs/formats.md says of them: how many lanes, how wide all of it is, which way it is driven, and which lines may be crossed.
+// What docs/formats.md says of them: how many lanes, how wide all of it is, which way it is driven, and which lines may
+// be crossed.
 TEST(Templates, AreRoadsOfTheirKind) {
   struct Kind {
     const char* name;
     int right, left;
-    double right_m, left_m;    // how far what is paved reaches: lanes and shoulders
-    double middle_fall_m;      // how much higher the axis is than 2 m to its right
+    double right_m, left_m;  // how far what is paved reaches: lanes and shoulders
+    double middle_fall_m;    // how much higher the axis is than 2 m to its right
   };
-  for (const Kind& kind : {Kind{"rural", 1, 1, 4.25, 4.25, 0.05}, Kind{"bypass", 2, 1, 8.5, 5.0, 0.05}, Kind{"motorway", 2, 0, 10.5, 1.0, 0.05}}) {
-    const auto world = MustParse(fmt::format("rodeira: world/2\nname: t\nground: {{kind: plane, z_m: 0}}\nroads:\n  - {{id: a, start: {{x_m: 0, y_m: 0}}, axis: [line: {{length_m: 200}}], z_m: 1, section: "
-                                             "{{template: {}}}}}\n", kind.name));
+  for (const Kind& kind : {Kind{"rural", 1, 1, 4.25, 4.25, 0.05}, Kind{"bypass", 2, 1, 8.5, 5.0, 0.05},
+                           Kind{"motorway", 2, 0, 10.5, 1.0, 0.05}}) {
+    const auto world =
+        MustParse(fmt::format("rodeira: world/2\nname: t\nground: {{kind: plane, z_m: 0}}\nroads:\n  - {{id: a, start: "
+                              "{{x_m: 0, y_m: 0}}, axis: [line: {{length_m: 200}}], z_m: 1, section: "
+                              "{{template: {}}}}}\n",
+                              kind.name));
     ASSERT_NE(world, nullptr);
     const network::LaneSection& section = world->network()->roads()[0].spec().sections[0];
     const auto driven = [](const std::vector<network::Lane>& lanes) {
-      return std::count_if(lanes.begin(), lanes.end(), [](const network::Lane& lane) { return network::IsDrivable(lane.type); });
+      return std::count_if(lanes.begin(), lanes.end(),
+                           [](const network::Lane& lane) { return network::IsDrivable(lane.type); });
     };
     EXPECT_EQ(driven(section.right), kind.right) << kind.name;
     EXPECT_EQ(driven(section.left), kind.left) << kind.name;

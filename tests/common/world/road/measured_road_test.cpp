@@ -1,4 +1,5 @@
-// Measured surfaces (OpenCRG) that OpenDRIVE files lay on roads: every mode and orientation against the formula that they were made from.
+// Measured surfaces (OpenCRG) that OpenDRIVE files lay on roads: every mode and orientation against the formula that
+// they were made from.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,7 +21,7 @@ using testing::HasSubstr;
 
 constexpr double kBegin_m = 20.0, kLength_m = 10.0;  // of the measured stretch
 constexpr double kRadius_m = 100.0;
-constexpr double kHeight_m = 3.0, kGrade = 0.05;     // of the road
+constexpr double kHeight_m = 3.0, kGrade = 0.05;  // of the road
 
 // Bilinear, so that a curved regular grid has it exactly.
 double Made(double u, double v) { return 0.05 + 0.01 * u + 0.02 * v + 0.003 * u * v; }
@@ -34,9 +35,11 @@ class MeasuredRoad : public testing::Test {
   base::Result<std::shared_ptr<const World>> Load(const std::string& attributes, const surface::MadeCrg& crg) const {
     EXPECT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg.Text())).ok());
     opendrive::RoadText road;
-    road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="100"><arc curvature="{}"/></geometry>)", 1.0 / kRadius_m);
+    road.geometry = fmt::format(R"(<geometry s="0" x="0" y="0" hdg="0" length="100"><arc curvature="{}"/></geometry>)",
+                                1.0 / kRadius_m);
     road.elevation = fmt::format(R"(<elevation s="0" a="{}" b="{}" c="0" d="0"/>)", kHeight_m, kGrade);
-    road.more = fmt::format(R"(<surface><CRG file="made.crg" sStart="{}" sEnd="{}" {}/></surface>)", kBegin_m, kBegin_m + kLength_m, attributes);
+    road.more = fmt::format(R"(<surface><CRG file="made.crg" sStart="{}" sEnd="{}" {}/></surface>)", kBegin_m,
+                            kBegin_m + kLength_m, attributes);
     EXPECT_TRUE(base::WriteWhole(folder_ / "arc.xodr", std::string_view(opendrive::Document(road.Text()))).ok());
     return World::Load(folder_ / "arc.xodr");
   }
@@ -51,7 +54,8 @@ class MeasuredRoad : public testing::Test {
     return crg;
   }
 
-  const std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("rodeira-measured-" + std::to_string(::getpid()));
+  const std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("rodeira-measured-" + std::to_string(::getpid()));
 };
 
 struct OnArc {
@@ -62,7 +66,10 @@ struct OnArc {
 };
 
 // Where nothing fades: a metre from the stretch's ends, and off the lanes' edges.
-OnArc Drawn(std::uint64_t i) { return {base::RandomUniform({i, 1}, kBegin_m + 1.01, kBegin_m + kLength_m - 1.01), base::RandomUniform({i, 2}, -1.4, 1.4)}; }
+OnArc Drawn(std::uint64_t i) {
+  return {base::RandomUniform({i, 1}, kBegin_m + 1.01, kBegin_m + kLength_m - 1.01),
+          base::RandomUniform({i, 2}, -1.4, 1.4)};
+}
 
 template <class Expected>
 void ExpectHeights(const World& world, const Expected& expected) {
@@ -102,15 +109,17 @@ TEST_F(MeasuredRoad, GenuineKeepsItsOwnLineFromTheRoadOn) {
   const Eigen::Vector2d from = OnArc{kBegin_m, 0.3}.p();
   const double heading = kBegin_m / kRadius_m + 0.02;
   const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading)), left(-ahead.y(), ahead.x());
-  ExpectHeights(*MustLoad(R"(orientation="same" mode="genuine" tOffset="0.3" hOffset="0.02" zOffset="3.5")", crg), [&](const OnArc& at) {
-    const Eigen::Vector2d away = at.p() - from;
-    return Made(away.dot(ahead), away.dot(left)) + 3.5;
-  });
+  ExpectHeights(*MustLoad(R"(orientation="same" mode="genuine" tOffset="0.3" hOffset="0.02" zOffset="3.5")", crg),
+                [&](const OnArc& at) {
+                  const Eigen::Vector2d away = at.p() - from;
+                  return Made(away.dot(ahead), away.dot(left)) + 3.5;
+                });
   // Against the road: its end stands there, and it comes towards it.
-  ExpectHeights(*MustLoad(R"(orientation="opposite" mode="genuine" tOffset="0.3" hOffset="0.02" zOffset="3.5")", crg), [&](const OnArc& at) {
-    const Eigen::Vector2d away = at.p() - from;
-    return Made(kLength_m - away.dot(ahead), -away.dot(left)) + 3.5;
-  });
+  ExpectHeights(*MustLoad(R"(orientation="opposite" mode="genuine" tOffset="0.3" hOffset="0.02" zOffset="3.5")", crg),
+                [&](const OnArc& at) {
+                  const Eigen::Vector2d away = at.p() - from;
+                  return Made(kLength_m - away.dot(ahead), -away.dot(left)) + 3.5;
+                });
 }
 
 TEST_F(MeasuredRoad, GlobalLiesWhereItSays) {
@@ -118,7 +127,8 @@ TEST_F(MeasuredRoad, GlobalLiesWhereItSays) {
   crg.v = {-4.0, -2.0, 0.0, 2.0, 4.0};
   crg.rows = 41;
   crg.road_keys = "REFERENCE_LINE_START_X = 15\nREFERENCE_LINE_START_Y = 3\nREFERENCE_LINE_START_PHI = 0\n";
-  ExpectHeights(*MustLoad(R"(orientation="same" mode="global")", crg), [](const OnArc& at) { return Made(at.p().x() - 15.0, at.p().y() - 3.0); });
+  ExpectHeights(*MustLoad(R"(orientation="same" mode="global")", crg),
+                [](const OnArc& at) { return Made(at.p().x() - 15.0, at.p().y() - 3.0); });
 }
 
 TEST_F(MeasuredRoad, PassesIntoTheRoadAtItsEnds) {
@@ -155,12 +165,16 @@ TEST_F(MeasuredRoad, ItsNumbersArePartOfTheContentHash) {
 
 TEST_F(MeasuredRoad, WhatCannotBeLaidIsSaid) {
   EXPECT_THAT(Load(R"(orientation="same" mode="atached")", Crg()).error().Text(),
-              testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 20, 'made.crg': 'atached' is no mode of a measured surface; did you mean 'attached'?"));
-  EXPECT_THAT(Load(R"(orientation="left" mode="attached")", Crg()).error().Text(), HasSubstr("'left' is no orientation of a measured surface"));
-  EXPECT_THAT(Load(R"(orientation="same" mode="attached" purpose="colour")", Crg()).error().Text(), HasSubstr("'colour' is no purpose"));
+              testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 20, 'made.crg': 'atached' is no mode of a measured "
+                                     "surface; did you mean 'attached'?"));
+  EXPECT_THAT(Load(R"(orientation="left" mode="attached")", Crg()).error().Text(),
+              HasSubstr("'left' is no orientation of a measured surface"));
+  EXPECT_THAT(Load(R"(orientation="same" mode="attached" purpose="colour")", Crg()).error().Text(),
+              HasSubstr("'colour' is no purpose"));
   const auto missing = Load(R"(orientation="same" mode="attached"/><CRG file="none.crg" sStart="40" sEnd="50")", Crg());
   ASSERT_FALSE(missing.ok());
-  EXPECT_THAT(missing.error().Text(), testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 40: .*none.crg: there is no such file"));
+  EXPECT_THAT(missing.error().Text(),
+              testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 40: .*none.crg: there is no such file"));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Where points lie on N222, as the world's own network says, against an oracle that reads the exported file by other means.
+// Where points lie on N222, as the world's own network says, against an oracle that reads the exported file by other
+// means.
 #include <gtest/gtest.h>
 
 #include "common/world/road/world_export.hpp"
@@ -14,7 +15,8 @@ TEST(N222Oracle, AgreesWithTheNetwork) {
   ASSERT_TRUE(text.ok()) << text.error().Text();
   const network::FileOracle oracle(text.value());
   EXPECT_EQ(oracle.roads(), world->network()->roads().size());
-  network::ExpectAgreement(*world->network(), oracle, false, "n222");  // without heights: its cross-section is not level
+  network::ExpectAgreement(*world->network(), oracle, false,
+                           "n222");  // without heights: its cross-section is not level
 }
 
 }  // namespace

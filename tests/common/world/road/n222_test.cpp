@@ -45,7 +45,8 @@ TEST_F(N222, IsAsLongBentAndWideAsItsModel) {
 
 TEST_F(N222, CurvatureHasNoJumps) {
   const auto& elements = road_.axis().elements();
-  for (std::size_t i = 1; i < elements.size(); ++i) EXPECT_EQ(elements[i - 1].curvature_end_1pm, elements[i].curvature_start_1pm) << i;
+  for (std::size_t i = 1; i < elements.size(); ++i)
+    EXPECT_EQ(elements[i - 1].curvature_end_1pm, elements[i].curvature_start_1pm) << i;
   EXPECT_TRUE(WorldWarnings(SourceDir() + "/configs/worlds/n222.yaml").empty());
 }
 
@@ -53,7 +54,8 @@ TEST_F(N222, CurvatureHasNoJumps) {
 TEST_F(N222, LiesWhereItDidInVersion1) {
   ASSERT_EQ(road_.length_m(), N222Road().length_m());
   for (std::uint64_t i = 0; i < 5000; ++i) {
-    const double s = base::RandomUniform({i, 1}, 0.0, road_.length_m()), t = base::RandomUniform({i, 2}, -kEdge_m, kEdge_m);
+    const double s = base::RandomUniform({i, 1}, 0.0, road_.length_m()),
+                 t = base::RandomUniform({i, 2}, -kEdge_m, kEdge_m);
     ASSERT_NEAR((road_.Surface(s, t).p_W - N222Road().Position(s, t)).norm(), 0.0, 1e-6) << s << " " << t;
   }
   const StartPose &start = world_.start(), &before = N222OfVersion1()->start();
@@ -67,9 +69,13 @@ TEST_F(N222, IsPaintedAsItWasInVersion1) {
   const auto now = world_.MakeGround(), before = N222OfVersion1()->MakeGround();
   int painted = 0, differ = 0;
   for (std::uint64_t i = 0; i < 40'000; ++i) {
-    const double s = base::RandomUniform({i, 3}, 0.0, road_.length_m()), t = (i % 3 == 0 ? -2.96 : i % 3 == 1 ? 2.96 : 0.0) + base::RandomUniform({i, 4}, -0.08, 0.08);
+    const double s = base::RandomUniform({i, 3}, 0.0, road_.length_m()), t = (i % 3 == 0   ? -2.96
+                                                                              : i % 3 == 1 ? 2.96
+                                                                                           : 0.0) +
+                                                                             base::RandomUniform({i, 4}, -0.08, 0.08);
     const Eigen::Vector3d p = N222Road().Position(s, t);
-    const bool is = now->At(p.x(), p.y()).surface == ground::Surface::kRoadMark, was = before->At(p.x(), p.y()).surface == ground::Surface::kRoadMark;
+    const bool is = now->At(p.x(), p.y()).surface == ground::Surface::kRoadMark,
+               was = before->At(p.x(), p.y()).surface == ground::Surface::kRoadMark;
     painted += is, differ += is != was;
   }
   EXPECT_GT(painted, 10'000);
@@ -79,7 +85,8 @@ TEST_F(N222, IsPaintedAsItWasInVersion1) {
 TEST_F(N222, HasHillsAndGradesOnWhichCarsDrive) {
   const auto heights = world_.grid()->heights_m();
   EXPECT_EQ(world_.grid()->frame().columns, 513);
-  EXPECT_GT(*std::max_element(heights.begin(), heights.end()) - *std::min_element(heights.begin(), heights.end()), 200.0F);
+  EXPECT_GT(*std::max_element(heights.begin(), heights.end()) - *std::min_element(heights.begin(), heights.end()),
+            200.0F);
   double up = 0.0, down = 0.0;
   for (double s = 0.0; s < road_.length_m(); s += 1.0) {
     up = std::max(up, GradeAt(road_, s)), down = std::min(down, GradeAt(road_, s));
@@ -116,8 +123,8 @@ TEST_F(N222, MarksKeepTheConventionsMeasures) {
   }
 }
 
-// Ordinary strokes on the middle line: there overtaking is legal. Everywhere on such a stretch a driver's eye sees the roof of an oncoming
-// car (1.2 m both) 100 m on, over the land that lies between.
+// Ordinary strokes on the middle line: there overtaking is legal. Everywhere on such a stretch a driver's eye sees the
+// roof of an oncoming car (1.2 m both) 100 m on, over the land that lies between.
 TEST_F(N222, OvertakingIsLegalWhereOneSeesFarEnough) {
   double all_m = 0.0, longest_m = 0.0;
   for (const network::PaintedLine& line : road_.spec().lines) {
@@ -127,7 +134,8 @@ TEST_F(N222, OvertakingIsLegalWhereOneSeesFarEnough) {
     longest_m = std::max(longest_m, length_m);
     for (double s = line.from_s_m; s <= line.to_s_m; s += 10.0) {
       if (s + 100.0 > line.to_s_m) continue;
-      const Eigen::Vector3d up(0.0, 0.0, 1.2), eye = road_.Surface(s, -1.5).p_W + up, roof = road_.Surface(s + 100.0, 1.5).p_W + up;
+      const Eigen::Vector3d up(0.0, 0.0, 1.2), eye = road_.Surface(s, -1.5).p_W + up,
+                                               roof = road_.Surface(s + 100.0, 1.5).p_W + up;
       for (double share = 0.05; share < 1.0; share += 0.05) {
         const Eigen::Vector3d sight = eye + share * (roof - eye);
         EXPECT_GT(sight.z(), world_.At(sight.x(), sight.y()).z_m) << s << " " << share;
@@ -157,7 +165,7 @@ TEST_F(N222, IsCutIntoTheHillsAndFilled) {
       const Eigen::Vector3d edge = road_.Surface(s, side * kEdge_m).p_W;
       const Eigen::Vector3d beside = road_.Surface(s, side * (kEdge_m + 3.0)).p_W;
       const SurfacePoint at = world_.At(beside.x(), beside.y()), hill = world_.TerrainAt(beside.x(), beside.y());
-      cut += at.z_m < hill.z_m - 0.1, filled += at.z_m > hill.z_m + 0.1;
+      cut += at.z_m<hill.z_m - 0.1, filled += at.z_m> hill.z_m + 0.1;
       EXPECT_LT(at.z_m - edge.z(), 3.0 / 1.5 + 0.2) << s;
       EXPECT_GT(at.z_m - edge.z(), -3.0 / 2.0 - 0.2) << s;
     }
@@ -166,30 +174,36 @@ TEST_F(N222, IsCutIntoTheHillsAndFilled) {
   EXPECT_GT(filled, 20);
 }
 
-// Beyond a rail the land falls away, 12 m beside the verge more than 2 m on most of its length; and nowhere does it fall by 4 m without a rail.
+// Beyond a rail the land falls away, 12 m beside the verge more than 2 m on most of its length; and nowhere does it
+// fall by 4 m without a rail.
 TEST_F(N222, GuardRailsStandOnTheValleysSide) {
   const network::Furniture furniture = network::PlaceFurniture(*world_.network());
   const auto fall = [&](double s, double side) {
-    const Eigen::Vector3d edge = road_.Surface(s, side * kEdge_m).p_W, beside = road_.Surface(s, side * (kEdge_m + 12.0)).p_W;
+    const Eigen::Vector3d edge = road_.Surface(s, side * kEdge_m).p_W,
+                          beside = road_.Surface(s, side * (kEdge_m + 12.0)).p_W;
     return edge.z() - world_.At(beside.x(), beside.y()).z_m;
   };
   int railed = 0, falling = 0;
   for (const network::PlacedRun& run : furniture.runs) {
     ASSERT_EQ(run.object->subtype, "guard_rail");
-    for (double s = run.from_s_m; s <= run.to_s_m; s += 3.0) ++railed, falling += fall(s, run.t_start_m > 0.0 ? 1.0 : -1.0) > 2.0;
+    for (double s = run.from_s_m; s <= run.to_s_m; s += 3.0)
+      ++railed, falling += fall(s, run.t_start_m > 0.0 ? 1.0 : -1.0) > 2.0;
   }
   EXPECT_GT(railed, 300);
   EXPECT_GT(falling, 7 * railed / 10);
   for (double s = 3.0; s < road_.length_m(); s += 3.0) {
     for (const double side : {-1.0, 1.0}) {
       if (fall(s, side) < 4.0 || std::fabs(road_.axis().Evaluate(s).curvature_1pm) * (kEdge_m + 12.0) > 0.5) continue;
-      const bool held = std::any_of(furniture.runs.begin(), furniture.runs.end(), [&](const auto& run) { return run.t_start_m * side > 0.0 && run.from_s_m <= s && s <= run.to_s_m; });
+      const bool held = std::any_of(furniture.runs.begin(), furniture.runs.end(), [&](const auto& run) {
+        return run.t_start_m * side > 0.0 && run.from_s_m <= s && s <= run.to_s_m;
+      });
       EXPECT_TRUE(held) << s << " " << side;
     }
   }
 }
 
-// Limits, warnings and chevrons beside the road, each before its bend; trees, vines, houses and posts: none on the road, none in another's place.
+// Limits, warnings and chevrons beside the road, each before its bend; trees, vines, houses and posts: none on the
+// road, none in another's place.
 TEST_F(N222, SignsAndThingsStandBesideTheRoad) {
   const network::Furniture furniture = network::PlaceFurniture(*world_.network());
   std::map<std::string, int> count;
@@ -201,12 +215,16 @@ TEST_F(N222, SignsAndThingsStandBesideTheRoad) {
     EXPECT_GT(std::fabs(place->t_m), placed.signal != nullptr ? 4.0 : post ? 3.6 : kEdge_m + 4.0) << placed.s_m;
     if (placed.signal == nullptr || !placed.signal->name.starts_with("bend_")) continue;
     // Within 200 m on, as its reader goes, the road bends to that side, with a radius of at most 50 m.
-    const double way = placed.signal->orientation == "-" ? -1.0 : 1.0, to_left = placed.signal->name == "bend_left" ? 1.0 : -1.0;
+    const double way = placed.signal->orientation == "-" ? -1.0 : 1.0,
+                 to_left = placed.signal->name == "bend_left" ? 1.0 : -1.0;
     double first = 0.0;
-    for (double ahead = 0.0; ahead < 200.0 && std::fabs(first) < 1.0 / 51.0; ahead += 1.0) first = way * road_.axis().Evaluate(placed.s_m + way * ahead).curvature_1pm;
+    for (double ahead = 0.0; ahead < 200.0 && std::fabs(first) < 1.0 / 51.0; ahead += 1.0)
+      first = way * road_.axis().Evaluate(placed.s_m + way * ahead).curvature_1pm;
     EXPECT_GT(first * to_left, 1.0 / 51.0) << placed.signal->name << " " << placed.s_m;
   }
-  for (const char* kind : {"speed_limit", "bend_left", "bend_right", "uphill", "downhill", "chevron", "post", "tree", "bush", "house"}) EXPECT_GT(count[kind], 1) << kind;
+  for (const char* kind :
+       {"speed_limit", "bend_left", "bend_right", "uphill", "downhill", "chevron", "post", "tree", "bush", "house"})
+    EXPECT_GT(count[kind], 1) << kind;
 }
 
 }  // namespace

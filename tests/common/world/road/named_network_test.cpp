@@ -22,7 +22,8 @@ class NamedNetwork : public testing::Test {
     auto made = base::TemporaryFolder::Make("named-network");
     ASSERT_TRUE(made.ok());
     folder_.emplace(std::move(made).value());
-    ASSERT_TRUE(base::WriteWhole(folder_->path() / "roads.xodr", opendrive::Document(opendrive::RoadText().Text())).ok());
+    ASSERT_TRUE(
+        base::WriteWhole(folder_->path() / "roads.xodr", opendrive::Document(opendrive::RoadText().Text())).ok());
   }
   base::Result<std::shared_ptr<const World>> With(const std::string& more) {
     path_ = folder_->path() / "town.yaml";
@@ -56,12 +57,14 @@ TEST_F(NamedNetwork, IsTheWorldOfItsFile) {
 // A kink of 0.5 mrad behind 50 m, which is closed.
 TEST_F(NamedNetwork, HasTheWarningsOfItsFile) {
   opendrive::RoadText road;
-  road.geometry = R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.0005" length="50"><line/></geometry>)";
+  road.geometry =
+      R"(<geometry s="0" x="0" y="0" hdg="0" length="50"><line/></geometry><geometry s="50" x="50" y="0" hdg="0.0005" length="50"><line/></geometry>)";
   const auto file = folder_->path() / "roads.xodr";
   ASSERT_TRUE(base::WriteWhole(file, opendrive::Document(road.Text())).ok());
   ASSERT_TRUE(With(kNetwork).ok());
   const auto warnings = CheckNetwork(file, false).warnings;
-  EXPECT_THAT(warnings, testing::ElementsAre(testing::AllOf(HasSubstr("roads.xodr:"), HasSubstr("road 1"), HasSubstr("s 50"))));
+  EXPECT_THAT(warnings,
+              testing::ElementsAre(testing::AllOf(HasSubstr("roads.xodr:"), HasSubstr("road 1"), HasSubstr("s 50"))));
   EXPECT_EQ(WorldWarnings(path_), warnings);
   EXPECT_TRUE(WorldProblems(path_).empty());
 }
@@ -84,14 +87,17 @@ TEST_F(NamedNetwork, SaysWhereTheCarStartsAndHowTheRoadGrips) {
 }
 
 TEST_F(NamedNetwork, WhatDoesNotFitIsRefusedWithItsPlace) {
-  EXPECT_THAT(Refusal("network: {file: roads.xodr}\nground: {kind: plane}\n"), HasSubstr("town.yaml:3: a world stands either on 'terrain'"));
+  EXPECT_THAT(Refusal("network: {file: roads.xodr}\nground: {kind: plane}\n"),
+              HasSubstr("town.yaml:3: a world stands either on 'terrain'"));
   EXPECT_THAT(Refusal("network: {file: toads.xodr}\n"), HasSubstr("toads.xodr"));
   EXPECT_THAT(Refusal("network: {fiel: roads.xodr}\n"), HasSubstr("did you mean 'file'?"));
   EXPECT_THAT(Refusal("network: {file: roads.xodr}\nroads: []\n"), HasSubstr("town.yaml:4: unknown key 'roads'"));
   EXPECT_THAT(Refusal(std::string(kNetwork) + "start: {road: 11}\n"), HasSubstr("town.yaml:4: there is no road '11'"));
-  EXPECT_THAT(Refusal(std::string(kNetwork) + "start: {road: 1, lane: -9}\n"), HasSubstr("road '1' has no lane -9 to drive on there"));
+  EXPECT_THAT(Refusal(std::string(kNetwork) + "start: {road: 1, lane: -9}\n"),
+              HasSubstr("road '1' has no lane -9 to drive on there"));
   EXPECT_THAT(Refusal(std::string(kNetwork) + "start: {road: 1, s_m: 1e6}\n"), HasSubstr("'start.s_m' is 1000000"));
-  const auto first = World::Parse("rodeira: world/1\nname: old\nnetwork: {file: roads.xodr}\n", folder_->path() / "old.yaml");
+  const auto first =
+      World::Parse("rodeira: world/1\nname: old\nnetwork: {file: roads.xodr}\n", folder_->path() / "old.yaml");
   ASSERT_FALSE(first.ok());
   EXPECT_THAT(first.error().Text(), HasSubstr("old.yaml:3: 'network' needs 'rodeira: world/2'"));
   ASSERT_TRUE(base::WriteWhole(folder_->path() / "roads.xodr", "<OpenDRIVE>").ok());

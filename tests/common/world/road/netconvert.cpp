@@ -54,8 +54,8 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> EndsOf(const std::string& shape) {
   return {point(shape.substr(0, shape.find(' '))), point(shape.substr(shape.rfind(' ') + 1))};
 }
 
-// Of an edge, or of all that a road closed in itself is split into (ID#0, ID#1 …), with the decimetre that SUMO leaves between two such parts. A straight one has no
-// shape of its own: it goes from node to node.
+// Of an edge, or of all that a road closed in itself is split into (ID#0, ID#1 …), with the decimetre that SUMO leaves
+// between two such parts. A straight one has no shape of its own: it goes from node to node.
 double LengthOfEdge(const std::string& edges, const std::string& nodes, const std::string& id) {
   const auto place = [&](const std::string& node) {
     const std::size_t at = nodes.find("<node id=\"" + node + "\"");
@@ -71,7 +71,8 @@ double LengthOfEdge(const std::string& edges, const std::string& nodes, const st
     length_m += LengthOf(shape);
     parts.push_back(EndsOf(shape));
   }
-  for (std::size_t i = 0; parts.size() > 1 && i < parts.size(); ++i) length_m += (parts[(i + 1) % parts.size()].first - parts[i].second).norm();
+  for (std::size_t i = 0; parts.size() > 1 && i < parts.size(); ++i)
+    length_m += (parts[(i + 1) % parts.size()].first - parts[i].second).norm();
   return length_m;
 }
 
@@ -80,8 +81,10 @@ std::string Complaints(const std::string& log) {
   std::string said;
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
-    const bool closed = line.starts_with("Warning: Edge '") && line.ends_with("has to be split as it connects same junctions.");
-    if ((line.find("Warning") != std::string::npos || line.find("Error") != std::string::npos) && !closed) said += line + "\n";
+    const bool closed =
+        line.starts_with("Warning: Edge '") && line.ends_with("has to be split as it connects same junctions.");
+    if ((line.find("Warning") != std::string::npos || line.find("Error") != std::string::npos) && !closed)
+      said += line + "\n";
   }
   return said;
 }
@@ -96,7 +99,8 @@ struct SumoLane {
 SumoLane SumoNameOf(const Network& network, const std::vector<std::string>& ids, const LaneKey& key) {
   const network::LaneSection& section = network.Section(key);
   SumoLane lane{std::string(key.lane > 0 ? "" : "-") + ids[key.road], 0};
-  for (const network::Lane& other : key.lane > 0 ? section.left : section.right) lane.index += network::IsDrivable(other.type) && std::abs(other.id) > std::abs(key.lane) ? 1 : 0;
+  for (const network::Lane& other : key.lane > 0 ? section.left : section.right)
+    lane.index += network::IsDrivable(other.type) && std::abs(other.id) > std::abs(key.lane) ? 1 : 0;
   return lane;
 }
 
@@ -112,14 +116,19 @@ std::string Uncut(const std::string& edge) { return edge.substr(0, edge.find('#'
 
 }  // namespace
 
-// SUMO draws an edge along the line that lanes are counted from; here before it cuts that by the shapes of its own junctions. `it.xodr` in the folder is the network; SUMO says ids as the file does.
-void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids, int at_least) {
-  const std::string command = "cd " + folder.string() +
-                              " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr "
-                              "--opendrive.curve-resolution 0.2 --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
+// SUMO draws an edge along the line that lanes are counted from; here before it cuts that by the shapes of its own
+// junctions. `it.xodr` in the folder is the network; SUMO says ids as the file does.
+void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids,
+                     int at_least) {
+  const std::string command =
+      "cd " + folder.string() +
+      " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert "
+      "--opendrive-files it.xodr "
+      "--opendrive.curve-resolution 0.2 --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
   EXPECT_EQ(Complaints(base::ReadText(folder / "log").value()), "");
-  const std::string edges = base::ReadText(folder / "it.edg.xml").value(), nodes = base::ReadText(folder / "it.nod.xml").value();
+  const std::string edges = base::ReadText(folder / "it.edg.xml").value(),
+                    nodes = base::ReadText(folder / "it.nod.xml").value();
   int found = 0;
   for (std::size_t index = 0; index < network.roads().size(); ++index) {
     const network::Road& road = network.roads()[index];
@@ -136,8 +145,12 @@ void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network
     for (const bool left : {false, true}) {
       const network::LaneSection& section = road.spec().sections[0];
       const auto& side = left ? section.left : section.right;
-      if (std::none_of(side.begin(), side.end(), [](const network::Lane& lane) { return network::IsDrivable(lane.type); })) continue;
-      EXPECT_NEAR(LengthOfEdge(edges, nodes, std::string(left ? "" : "-") + ids[index]), length_m, 2e-4 * length_m + 0.03) << road.id();
+      if (std::none_of(side.begin(), side.end(),
+                       [](const network::Lane& lane) { return network::IsDrivable(lane.type); }))
+        continue;
+      EXPECT_NEAR(LengthOfEdge(edges, nodes, std::string(left ? "" : "-") + ids[index]), length_m,
+                  2e-4 * length_m + 0.03)
+          << road.id();
       ++found;
     }
   }
@@ -153,15 +166,20 @@ void ExpectEveryLane(const std::filesystem::path& folder, const Network& network
     const std::size_t low = id.rfind('_');
     if (line.find("<lane ") == std::string::npos || id.starts_with(":") || low == std::string::npos) continue;
     const std::string width = AttributeOf(line, "width");
-    theirs[{Uncut(id.substr(0, low)), std::stoul(id.substr(low + 1))}] = width.empty() ? 3.2 : std::stod(width);  // SUMO's usual one is not written
+    theirs[{Uncut(id.substr(0, low)), std::stoul(id.substr(low + 1))}] =
+        width.empty() ? 3.2 : std::stod(width);  // SUMO's usual one is not written
   }
   std::size_t compared = 0;
   for (const LaneKey& key : network.Lanes()) {
-    if (!network.roads()[key.road].spec().junction.empty() || key.section != 0 || !network::IsDrivable(network.Find(key)->type)) continue;
+    if (!network.roads()[key.road].spec().junction.empty() || key.section != 0 ||
+        !network::IsDrivable(network.Find(key)->type))
+      continue;
     const SumoLane name = SumoNameOf(network, ids, key);
     ASSERT_TRUE(theirs.contains(name)) << name.edge << " " << name.index;
     const double width = network.Span(key, 0.0)->width_m();
-    const bool constant = std::fabs(network.Span(key, 0.5 * network.roads()[key.road].length_m())->width_m() - width) < 1e-9 && std::fabs(network.Span(key, network.roads()[key.road].length_m())->width_m() - width) < 1e-9;
+    const bool constant =
+        std::fabs(network.Span(key, 0.5 * network.roads()[key.road].length_m())->width_m() - width) < 1e-9 &&
+        std::fabs(network.Span(key, network.roads()[key.road].length_m())->width_m() - width) < 1e-9;
     if (constant) {
       EXPECT_NEAR(theirs[name], width, 0.005) << name.edge << " " << name.index;
     }
@@ -177,7 +195,8 @@ void ExpectEveryWay(const std::filesystem::path& folder, const Network& network,
   const auto along = [](const LaneKey& key) { return key.lane < 0; };
   for (const LaneKey& key : network.Lanes()) {
     if (!network::IsDrivable(network.Find(key)->type)) continue;
-    const auto from = along(key) ? network.AtStart(key) : network.AtEnd(key), to = along(key) ? network.AtEnd(key) : network.AtStart(key);
+    const auto from = along(key) ? network.AtStart(key) : network.AtEnd(key),
+               to = along(key) ? network.AtEnd(key) : network.AtStart(key);
     const bool way = !network.roads()[key.road].spec().junction.empty();
     for (const network::LaneEnd& next : to) {
       const bool next_way = !network.roads()[next.lane.road].spec().junction.empty();
@@ -197,7 +216,8 @@ void ExpectEveryWay(const std::filesystem::path& folder, const Network& network,
   }
   const auto text = [](const std::set<Way>& ways) {
     std::vector<std::string> said;
-    for (const auto& [from, to] : ways) said.push_back(fmt::format("{} {} to {} {}", from.edge, from.index, to.edge, to.index));
+    for (const auto& [from, to] : ways)
+      said.push_back(fmt::format("{} {} to {} {}", from.edge, from.index, to.edge, to.index));
     return said;
   };
   EXPECT_THAT(text(theirs), testing::ElementsAreArray(text(ours)));

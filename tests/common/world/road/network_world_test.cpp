@@ -104,25 +104,32 @@ TEST_F(NetworkWorld, TheVergeGoesOnFromTheRoadsEdge) {
     const auto at = ground->At(x, y);
     EXPECT_NEAR(at.z_m, 3.0 + 5.0 * angle, 1e-9);
     const double slope = 5.0 / (100.0 - t);  // metres up a radian over metres along a radian
-    EXPECT_NEAR((at.normal_W - Eigen::Vector3d(-slope * std::cos(angle), -slope * std::sin(angle), 1.0).normalized()).norm(), 0.0,
-                1e-9);
+    EXPECT_NEAR(
+        (at.normal_W - Eigen::Vector3d(-slope * std::cos(angle), -slope * std::sin(angle), 1.0).normalized()).norm(),
+        0.0, 1e-9);
     EXPECT_EQ(at.surface, ground::Surface::kGrass);
   }
-  // Near the road's ends the tightest bound on one side lies past the end: g² d / 2, 0.05² 40 / 2 = 5 cm and a little more within the bend, is the most that is missing.
+  // Near the road's ends the tightest bound on one side lies past the end: g² d / 2, 0.05² 40 / 2 = 5 cm and a little
+  // more within the bend, is the most that is missing.
   for (std::uint64_t i = 0; i < 300; ++i) {
-    const double angle = base::RandomUniform({i, 3}, 0.0, 0.08) + (i % 2 == 0 ? 0.0 : 0.92), t = (i % 4 < 2 ? 1.0 : -1.0) * base::RandomUniform({i, 4}, 3.51, 40.0);
-    EXPECT_NEAR(ground->At((100.0 - t) * std::sin(angle), 100.0 - (100.0 - t) * std::cos(angle)).z_m, 3.0 + 5.0 * angle, 0.06);
+    const double angle = base::RandomUniform({i, 3}, 0.0, 0.08) + (i % 2 == 0 ? 0.0 : 0.92),
+                 t = (i % 4 < 2 ? 1.0 : -1.0) * base::RandomUniform({i, 4}, 3.51, 40.0);
+    EXPECT_NEAR(ground->At((100.0 - t) * std::sin(angle), 100.0 - (100.0 - t) * std::cos(angle)).z_m, 3.0 + 5.0 * angle,
+                0.06);
   }
   EXPECT_FALSE(ground->At(0.0, -3.6 - kVerge_m).inside);
   EXPECT_TRUE(ground->At(0.0, -3.4 - kVerge_m).inside);
   EXPECT_FALSE(ground->At(kNan, 0.0).inside);
 }
 
-// Patches on roads, over their edges, in junctions, under and on bridges, with hints at, above and below the road: to the bit their points.
+// Patches on roads, over their edges, in junctions, under and on bridges, with hints at, above and below the road: to
+// the bit their points.
 void ExpectPatchesAreTheirPoints(const World& world, std::uint64_t patches) {
   const auto ground = world.MakeGround(), fresh = world.MakeGround();
   const network::Network& network = *world.network();
-  const auto same = [](double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); };
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
   for (std::uint64_t i = 0; i < patches; ++i) {
     const network::Road& road = network.roads()[base::RandomBits({i, 1}) % network.roads().size()];
     const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
@@ -133,9 +140,11 @@ void ExpectPatchesAreTheirPoints(const World& world, std::uint64_t patches) {
     ground->Patch(patch, points);
     for (int k = 0; k < 63; ++k) {
       const ground::GroundQuery query = ground::PatchPoint(patch, k / 7, k % 7);
-      const ground::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m), &at = points[static_cast<std::size_t>(k)];
-      ASSERT_TRUE(same(at.z_m, alone.z_m) && same(at.normal_W.x(), alone.normal_W.x()) && same(at.normal_W.y(), alone.normal_W.y()) &&
-                  same(at.normal_W.z(), alone.normal_W.z()) && same(at.friction, alone.friction) && at.surface == alone.surface && at.inside == alone.inside)
+      const ground::GroundPoint alone = fresh->At(query.x_m, query.y_m, query.z_hint_m),
+                                &at = points[static_cast<std::size_t>(k)];
+      ASSERT_TRUE(same(at.z_m, alone.z_m) && same(at.normal_W.x(), alone.normal_W.x()) &&
+                  same(at.normal_W.y(), alone.normal_W.y()) && same(at.normal_W.z(), alone.normal_W.z()) &&
+                  same(at.friction, alone.friction) && at.surface == alone.surface && at.inside == alone.inside)
           << "road " << road.id() << " s " << s << " patch " << i << " point " << k;
     }
   }
@@ -174,17 +183,22 @@ TEST_F(NetworkWorld, StartsOnTheLongestLaneInItsDirection) {
   EXPECT_EQ(world->start().road, -1);
 }
 
-// UTM zone 29: x = 500 000 m lies on its meridian, 9 degrees west. Turned by a right angle, what lies ahead in the file lies north of there.
+// UTM zone 29: x = 500 000 m lies on its meridian, 9 degrees west. Turned by a right angle, what lies ahead in the file
+// lies north of there.
 TEST_F(NetworkWorld, AHeadersOffsetMovesItOnTheEarth) {
   std::string text = Document(RoadText().Text());
   text.replace(text.find("revMinor=\"8\"/>"), 14,
-               "revMinor=\"8\"><geoReference>+proj=utm +zone=29 +datum=WGS84</geoReference><offset x=\"500000\" y=\"4553000\" z=\"0\" hdg=\"1.5707963267948966\"/></header>");
+               "revMinor=\"8\"><geoReference>+proj=utm +zone=29 +datum=WGS84</geoReference><offset x=\"500000\" "
+               "y=\"4553000\" z=\"0\" hdg=\"1.5707963267948966\"/></header>");
   const auto world = MustLoad(text);
   const std::string ahead = DescribePoint(*world, 100.0, 0.0), aside = DescribePoint(*world, 100.0, -3.0);
   EXPECT_THAT(ahead, HasSubstr("longitude_deg: -9.000000000\n"));
-  const auto number = [](const std::string& said, const std::string& key) { return std::stod(said.substr(said.find(key) + key.size())); };
+  const auto number = [](const std::string& said, const std::string& key) {
+    return std::stod(said.substr(said.find(key) + key.size()));
+  };
   // A degree of latitude has 111.05 km at 41 degrees (WGS 84), the map's scale is 0.9996.
-  const double north = number(ahead, "latitude_deg: "), at_origin = number(DescribePoint(*world, 0.0, 0.0), "latitude_deg: ");
+  const double north = number(ahead, "latitude_deg: "),
+               at_origin = number(DescribePoint(*world, 0.0, 0.0), "latitude_deg: ");
   EXPECT_NEAR((north - at_origin) * 111050.0 * 0.9996, 100.0, 0.1);
   EXPECT_GT(number(aside, "longitude_deg: "), -9.0);  // to the right: east
   const auto back = PlaceOnMap(*world, -9.0, north);
@@ -196,11 +210,14 @@ TEST_F(NetworkWorld, AHeadersOffsetMovesItOnTheEarth) {
 TEST_F(NetworkWorld, AGeoReferenceThatIsNoneIsToldByTheCheck) {
   const auto with = [](const std::string& earth) {
     std::string text = Document(RoadText().Text());
-    return text.replace(text.find("revMinor=\"8\"/>"), 14, "revMinor=\"8\"><geoReference>" + earth + "</geoReference></header>");
+    return text.replace(text.find("revMinor=\"8\"/>"), 14,
+                        "revMinor=\"8\"><geoReference>" + earth + "</geoReference></header>");
   };
   const auto wrong = Put(with("+proj=nonsense +lat_0=4"));
   EXPECT_TRUE(World::Load(wrong).ok());
-  EXPECT_THAT(CheckNetwork(wrong, false).warnings, testing::ElementsAre(HasSubstr("geoReference: '+proj=nonsense +lat_0=4' is no coordinate system that PROJ knows")));
+  EXPECT_THAT(CheckNetwork(wrong, false).warnings,
+              testing::ElementsAre(
+                  HasSubstr("geoReference: '+proj=nonsense +lat_0=4' is no coordinate system that PROJ knows")));
   EXPECT_THAT(CheckNetwork(Put(with("+proj=utm +zone=29 +datum=WGS84")), false).warnings, testing::IsEmpty());
 }
 
@@ -242,7 +259,8 @@ TEST_F(NetworkWorld, SueloOnRealFiles) {
       EXPECT_TRUE(at.inside);
       // Where roads lie over one another they are one ground, and what is not drivable gives way; kerbs step.
       const double below_m = network::IsDrivable(network.Find(key)->type) ? 0.2 : 1.0;
-      EXPECT_GE(at.z_m, p.z() - below_m) << file.filename() << " road " << network.roads()[key.road].id() << " lane " << key.lane;
+      EXPECT_GE(at.z_m, p.z() - below_m) << file.filename() << " road " << network.roads()[key.road].id() << " lane "
+                                         << key.lane;
       EXPECT_LE(at.z_m, p.z() + 0.5 + 1e-9);
       queries.push_back({p.x(), p.y(), p.z()});
     }
@@ -250,7 +268,8 @@ TEST_F(NetworkWorld, SueloOnRealFiles) {
     ground->Query(queries, points);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const ground::GroundPoint alone = ground->At(queries[i].x_m, queries[i].y_m, queries[i].z_hint_m);
-      EXPECT_TRUE(points[i].z_m == alone.z_m && points[i].normal_W == alone.normal_W && points[i].friction == alone.friction);
+      EXPECT_TRUE(points[i].z_m == alone.z_m && points[i].normal_W == alone.normal_W &&
+                  points[i].friction == alone.friction);
     }
   }
 }

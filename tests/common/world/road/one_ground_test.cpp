@@ -1,4 +1,5 @@
-// SUELO where roads of an OpenDRIVE file lie over one another: one ground, without steps, named by the lane that Network::Locate names.
+// SUELO where roads of an OpenDRIVE file lie over one another: one ground, without steps, named by the lane that
+// Network::Locate names.
 #include "common/world/road/one_ground.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +24,8 @@ using network::Surfacing;
 
 constexpr double kStep_m = 1e-3;
 
-// Road 1 along x at z = 0, road 2 across it at x = 50 and higher; both have two lanes of 3.5 m, road 2 a shoulder of 2 m on either side too. Nothing goes on.
+// Road 1 along x at z = 0, road 2 across it at x = 50 and higher; both have two lanes of 3.5 m, road 2 a shoulder of 2
+// m on either side too. Nothing goes on.
 std::shared_ptr<const World> Crossing(double above_m) {
   opendrive::RoadText level, across;
   across.id = "2";
@@ -70,7 +72,8 @@ TEST(Overlap, AQuestionNamesWhatSueloAnswersFrom) {
   const auto world = Crossing(0.2);
   EXPECT_THAT(DescribePoint(*world, 54.5, 1.0, {}), testing::HasSubstr("road: 1\n"));
   EXPECT_THAT(DescribePoint(*world, 51.5, 3.0, {}), testing::HasSubstr("road: 2\n"));
-  EXPECT_THAT(DescribePoint(*Crossing(0.7), 54.5, 1.0, {}), testing::HasSubstr("road: 2\n"));  // the shoulder, which is over the lane there
+  EXPECT_THAT(DescribePoint(*Crossing(0.7), 54.5, 1.0, {}),
+              testing::HasSubstr("road: 2\n"));  // the shoulder, which is over the lane there
 }
 
 // Slopes are those of the heights, by differences. The hint only chooses.
@@ -79,7 +82,9 @@ void CheckSlopes(const World& world, const Vector2d& p, double z_m, int& over) {
   const SurfacePoint at = world.At(p.x(), p.y(), z_m);
   const auto z = [&](double dx, double dy) { return world.At(p.x() + dx, p.y() + dy, at.z_m).z_m; };
   const Vector2d slope((z(kH_m, 0) - z(-kH_m, 0)) / (2.0 * kH_m), (z(0, kH_m) - z(0, -kH_m)) / (2.0 * kH_m));
-  const double bend = std::max(std::fabs(z(kH_m, 0) + z(-kH_m, 0) - 2.0 * at.z_m), std::fabs(z(0, kH_m) + z(0, -kH_m) - 2.0 * at.z_m)) / kH_m;
+  const double bend =
+      std::max(std::fabs(z(kH_m, 0) + z(-kH_m, 0) - 2.0 * at.z_m), std::fabs(z(0, kH_m) + z(0, -kH_m) - 2.0 * at.z_m)) /
+      kH_m;
   if (bend > 1e-3) return;  // an edge or an end lies between
   ++over;
   EXPECT_NEAR((slope - Vector2d(at.slope_x, at.slope_y)).norm(), 0.0, 1e-4 + bend) << p.x() << " " << p.y();
@@ -88,7 +93,8 @@ void CheckSlopes(const World& world, const Vector2d& p, double z_m, int& over) {
 TEST(Overlap, SlopesAreThoseOfTheHeights) {
   int over = 0;
   const auto world = Crossing(0.2);
-  for (std::uint64_t i = 0; i < 300; ++i) CheckSlopes(*world, {base::RandomUniform({i, 1}, 46.6, 53.4), base::RandomUniform({i, 2}, -3.4, 3.4)}, 0.0, over);
+  for (std::uint64_t i = 0; i < 300; ++i)
+    CheckSlopes(*world, {base::RandomUniform({i, 1}, 46.6, 53.4), base::RandomUniform({i, 2}, -3.4, 3.4)}, 0.0, over);
   EXPECT_GT(over, 290);
   for (const auto& file : opendrive::RealFiles()) {
     if (file.stem() != "carla_Town04") continue;
@@ -107,15 +113,18 @@ TEST(Overlap, SlopesAreThoseOfTheHeights) {
   }
 }
 
-// Where along the way between two points the ground steps, by halves down to a micrometre: the slopes at both ends say what it may rise by.
+// Where along the way between two points the ground steps, by halves down to a micrometre: the slopes at both ends say
+// what it may rise by.
 struct Step {
   double height_m = 0.0;
   Vector2d from_W = Vector2d::Zero(), to_W = Vector2d::Zero();
 };
 
-void Seek(const World& world, const Vector2d& p, const SurfacePoint& a, const Vector2d& q, const SurfacePoint& b, Step& worst) {
+void Seek(const World& world, const Vector2d& p, const SurfacePoint& a, const Vector2d& q, const SurfacePoint& b,
+          Step& worst) {
   const Vector2d way = q - p;
-  const double rise = b.z_m - a.z_m, begin = a.slope_x * way.x() + a.slope_y * way.y(), end = b.slope_x * way.x() + b.slope_y * way.y();
+  const double rise = b.z_m - a.z_m, begin = a.slope_x * way.x() + a.slope_y * way.y(),
+               end = b.slope_x * way.x() + b.slope_y * way.y();
   if (std::fabs(rise - 0.5 * (begin + end)) + 0.5 * std::fabs(begin - end) < 0.5 * kStep_m) return;
   if (way.norm() < 1e-6) {
     if (std::fabs(rise) > worst.height_m) worst = {std::fabs(rise), p, q};
@@ -127,15 +136,16 @@ void Seek(const World& world, const Vector2d& p, const SurfacePoint& a, const Ve
   Seek(world, middle, at, q, world.At(q.x(), q.y(), at.z_m), worst);
 }
 
-// Whether a road that lies on both sides of a step has one there itself: between records of its elevation, at a lane's <height>, or where its
-// lanes reach beyond the middle of its bend and lie over one another.
+// Whether a road that lies on both sides of a step has one there itself: between records of its elevation, at a lane's
+// <height>, or where its lanes reach beyond the middle of its bend and lie over one another.
 bool IsTheFiles(const Network& network, const Step& step) {
   std::vector<Surfacing> before, behind;
   network.Surfaces(step.from_W.x(), step.from_W.y(), before);
   network.Surfaces(step.to_W.x(), step.to_W.y(), behind);
   for (const Surfacing& a : before) {
     for (const Surfacing& b : behind) {
-      if (a.place.lane.road == b.place.lane.road && std::fabs(a.place.z_m - b.place.z_m) >= step.height_m - 1e-9) return true;
+      if (a.place.lane.road == b.place.lane.road && std::fabs(a.place.z_m - b.place.z_m) >= step.height_m - 1e-9)
+        return true;
     }
   }
   return false;
@@ -164,7 +174,8 @@ TEST(Overlap, NoLaneOfARealFileStepsButWhereARoadDoesItself) {
           if (last && at.inside) Seek(*world, last->first, last->second, p, at, step);
           if (step.height_m > kStep_m) {
             ++its_own;
-            EXPECT_TRUE(IsTheFiles(network, step)) << file.filename() << ": " << step.height_m << " m at (" << step.from_W.transpose() << "), road " << road.id() << ", s " << s;
+            EXPECT_TRUE(IsTheFiles(network, step)) << file.filename() << ": " << step.height_m << " m at ("
+                                                   << step.from_W.transpose() << "), road " << road.id() << ", s " << s;
           }
           last = at.inside ? std::optional(std::pair(p, at)) : std::nullopt;
         }
@@ -192,11 +203,13 @@ TEST(Overlap, DrivingLanesAreNamedAsTheyAreLocated) {
           if (span.width_m() < 2.0) continue;
           const Eigen::Vector3d p = road.Surface(s, span.centre_t_m() + aside).p_W;
           const SurfacePoint at = world->At(p.x(), p.y(), p.z());
-          const auto named = NetworkPlace(network, *world->land(), p.x(), p.y(), p.z()), located = network.Locate(p.x(), p.y(), at.z_m);
+          const auto named = NetworkPlace(network, *world->land(), p.x(), p.y(), p.z()),
+                     located = network.Locate(p.x(), p.y(), at.z_m);
           ASSERT_TRUE(at.inside && named && located);
           ++points;
           others += named->lane != located->lane || named->s_m != located->s_m;
-          EXPECT_TRUE(network::IsDrivable(network.Find(named->lane)->type)) << file.filename() << " road " << road.id() << " s " << s;
+          EXPECT_TRUE(network::IsDrivable(network.Find(named->lane)->type))
+              << file.filename() << " road " << road.id() << " s " << s;
           EXPECT_NE(at.surface, ground::Surface::kGrass) << file.filename() << " road " << road.id() << " s " << s;
         }
       }

@@ -25,7 +25,8 @@ void ExpectTheSame(const World& world) {
   const auto [low, high] = network.Bounds();
   for (std::uint64_t i = 0; i < 5000; ++i) {
     const double s = base::RandomUniform({i, 1}, 0.01, road.length_m() - 0.01);
-    const double t = base::RandomUniform({i, 2}, road.section().verge_right_m() + 1e-3, road.section().verge_left_m() - 1e-3);
+    const double t =
+        base::RandomUniform({i, 2}, road.section().verge_right_m() + 1e-3, road.section().verge_left_m() - 1e-3);
     const Eigen::Vector3d p = road.Position(s, t);
     EXPECT_NEAR((ours.Surface(s, t).p_W - p).norm(), 0.0, 1e-8) << s << " " << t;
     const SurfacePoint at = world.At(p.x(), p.y());

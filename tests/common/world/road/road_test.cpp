@@ -13,7 +13,9 @@
 namespace rodeira::road {
 namespace {
 
-double Draw(int low, int high, double unit) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1)) * unit; }
+double Draw(int low, int high, double unit) {
+  return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high + 1)) * unit;
+}
 
 TEST(Road, EvaluatesItsAxis) {
   const Road& road = Sample()->roads()[0];

@@ -9,8 +9,8 @@
 
 namespace rodeira::road {
 
-// A small world with everything in it: a line, a clothoid, an arc, an S of two clothoids; a crest and a sag; two lanes, a
-// paved and a gravel shoulder; steep hills close to the road, so that the blend has work to do.
+// A small world with everything in it: a line, a clothoid, an arc, an S of two clothoids; a crest and a sag; two lanes,
+// a paved and a gravel shoulder; steep hills close to the road, so that the blend has work to do.
 inline const std::string kSample = R"(rodeira: world/1
 name: sample
 description: for tests

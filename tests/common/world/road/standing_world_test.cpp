@@ -14,8 +14,12 @@ namespace {
 
 using testing::HasSubstr;
 
-const std::string kHills = "rodeira: world/2\nname: w\nterrain: {surface: grass, generate: {seed: 3, columns: 41, rows: 41, spacing_m: 10, west_m: 0, south_m: 0, relief: [{wavelength_m: 90, amplitude_m: 6}]}}\n";
-const std::string kObjects = "objects:\n  - {type: house, x_m: 120, y_m: 80, heading_deg: 30}\n  - {type: tree, along: [[20, 20], [380, 350]], every_m: 9}\n  - {type: wall, along: [[200, 100], [300, 100], [300, 200]]}\n";
+const std::string kHills =
+    "rodeira: world/2\nname: w\nterrain: {surface: grass, generate: {seed: 3, columns: 41, rows: 41, spacing_m: 10, "
+    "west_m: 0, south_m: 0, relief: [{wavelength_m: 90, amplitude_m: 6}]}}\n";
+const std::string kObjects =
+    "objects:\n  - {type: house, x_m: 120, y_m: 80, heading_deg: 30}\n  - {type: tree, along: [[20, 20], [380, 350]], "
+    "every_m: 9}\n  - {type: wall, along: [[200, 100], [300, 100], [300, 200]]}\n";
 
 // The ground is the bare grid's to the bit, hints or not, in batches too.
 TEST(StandingWorld, TheGroundIsTheBareGrids) {
@@ -24,7 +28,8 @@ TEST(StandingWorld, TheGroundIsTheBareGrids) {
   EXPECT_EQ(bare->standing(), nullptr);
   std::vector<ground::GroundQuery> queries;
   for (std::uint64_t i = 0; i < 4000; ++i) {
-    queries.push_back({base::RandomUniform({i, 1}, -10.0, 410.0), base::RandomUniform({i, 2}, -10.0, 410.0), i % 3 == 0 ? base::RandomUniform({i, 3}, -10.0, 10.0) : std::nan("")});
+    queries.push_back({base::RandomUniform({i, 1}, -10.0, 410.0), base::RandomUniform({i, 2}, -10.0, 410.0),
+                       i % 3 == 0 ? base::RandomUniform({i, 3}, -10.0, 10.0) : std::nan("")});
   }
   std::vector<ground::GroundPoint> ours(queries.size()), theirs(queries.size());
   bare->MakeGround()->Query(queries, theirs);
@@ -65,11 +70,16 @@ TEST(StandingWorld, WhereThereIsNoTerrainNothingStands) {
   };
   EXPECT_EQ(problem("  - {type: tree, x_m: 400, y_m: 400}\n"), "none");
   EXPECT_EQ(problem("  - {type: tree, x_m: 400.5, y_m: 400}\n"), "made.yaml:5: there is no terrain at (400.5, 400)");
-  EXPECT_EQ(problem("  - {type: tree, along: [[10, 10], [10, 410]], every_m: 5}\n"), "made.yaml:5: there is no terrain at (10, 410)");
+  EXPECT_EQ(problem("  - {type: tree, along: [[10, 10], [10, 410]], every_m: 5}\n"),
+            "made.yaml:5: there is no terrain at (10, 410)");
   EXPECT_EQ(problem("  - {type: wall, along: [[10, 10], [-1, 10]]}\n"), "made.yaml:5: there is no terrain at (-1, 10)");
   // A plane has no edge; a file of version 1 knows no such list.
-  EXPECT_TRUE(World::Parse("rodeira: world/2\nname: w\nground: {kind: plane}\nobjects: [{type: tree, x_m: 90000, y_m: 3}]\n", "made.yaml").ok());
-  const auto first = World::Parse("rodeira: world/1\nname: w\nground: {kind: plane}\nobjects: [{type: tree, x_m: 9, y_m: 3}]\n", "made.yaml");
+  EXPECT_TRUE(
+      World::Parse("rodeira: world/2\nname: w\nground: {kind: plane}\nobjects: [{type: tree, x_m: 90000, y_m: 3}]\n",
+                   "made.yaml")
+          .ok());
+  const auto first = World::Parse(
+      "rodeira: world/1\nname: w\nground: {kind: plane}\nobjects: [{type: tree, x_m: 9, y_m: 3}]\n", "made.yaml");
   ASSERT_FALSE(first.ok());
   EXPECT_THAT(first.error().Text(), HasSubstr("made.yaml:4: unknown key 'objects'"));
 }

@@ -18,13 +18,16 @@ using ground::GroundQuery;
 using ground::Surface;
 
 bool SameBits(const GroundPoint& a, const GroundPoint& b) {
-  return std::memcmp(&a.z_m, &b.z_m, sizeof(double)) == 0 && std::memcmp(a.normal_W.data(), b.normal_W.data(), 3 * sizeof(double)) == 0 &&
+  return std::memcmp(&a.z_m, &b.z_m, sizeof(double)) == 0 &&
+         std::memcmp(a.normal_W.data(), b.normal_W.data(), 3 * sizeof(double)) == 0 &&
          std::memcmp(&a.friction, &b.friction, sizeof(double)) == 0 && a.surface == b.surface && a.inside == b.inside;
 }
 
 // Points near the road, near its ends, and anywhere, outside of the terrain too.
 GroundQuery AnyPoint(const World& world, std::uint64_t seed, std::uint64_t i) {
-  const auto draw = [&](std::uint64_t part, double low, double high) { return base::RandomUniform({seed, i, part}, low, high); };
+  const auto draw = [&](std::uint64_t part, double low, double high) {
+    return base::RandomUniform({seed, i, part}, low, high);
+  };
   const Extents e = world.extents();
   if (i % 4 == 0) return {draw(0, e.west_m - 20.0, e.east_m + 20.0), draw(1, e.south_m - 20.0, e.north_m + 20.0)};
   const Road& road = world.roads()[0];
@@ -144,13 +147,15 @@ TEST(Suelo, SlopesAreTheDerivativesOfTheHeight) {
 RC_GTEST_PROP(Suelo, APatchIsItsPoints, (std::uint64_t seed)) {
   const auto world = Sample();
   const GroundQuery middle = AnyPoint(*world, seed, 2 + seed % 2);
-  const ground::GroundPatch patch{middle.x_m, middle.y_m, base::RandomUniform({seed, 1}, -3.0, 3.0), 0.2, 0.18, 20, 20, middle.z_hint_m};
+  const ground::GroundPatch patch{middle.x_m, middle.y_m,     base::RandomUniform({seed, 1}, -3.0, 3.0), 0.2, 0.18, 20,
+                                  20,         middle.z_hint_m};
   std::vector<GroundPoint> points(patch.size());
   world->MakeGround()->Patch(patch, points);
   for (int row = 0; row < patch.along; ++row) {
     for (int column = 0; column < patch.across; ++column) {
       const GroundQuery query = ground::PatchPoint(patch, row, column);
-      RC_ASSERT(SameBits(points[static_cast<std::size_t>(row * patch.across + column)], world->MakeGround()->At(query.x_m, query.y_m, query.z_hint_m)));
+      RC_ASSERT(SameBits(points[static_cast<std::size_t>(row * patch.across + column)],
+                         world->MakeGround()->At(query.x_m, query.y_m, query.z_hint_m)));
     }
   }
   RC_ASSERT(world->MakeGround()->Layers(middle.x_m, middle.y_m).size() <= 1);
@@ -164,8 +169,10 @@ RC_GTEST_PROP(Suelo, BatchOrderAndHistoryChangeNoBit, (std::uint64_t seed)) {
   world->MakeGround()->Query(queries, batch);
   // One by one, backward, on a ground that has answered other things before; with another hint.
   const auto other = world->MakeGround();
-  for (std::uint64_t i = 0; i < 50; ++i) (void)other->At(AnyPoint(*world, seed + 1, i).x_m, AnyPoint(*world, seed + 1, i).y_m);
-  for (std::size_t i = queries.size(); i-- > 0;) RC_ASSERT(SameBits(batch[i], other->At(queries[i].x_m, queries[i].y_m)));
+  for (std::uint64_t i = 0; i < 50; ++i)
+    (void)other->At(AnyPoint(*world, seed + 1, i).x_m, AnyPoint(*world, seed + 1, i).y_m);
+  for (std::size_t i = queries.size(); i-- > 0;)
+    RC_ASSERT(SameBits(batch[i], other->At(queries[i].x_m, queries[i].y_m)));
   // Shuffled, in a world read anew.
   std::vector<std::size_t> order(queries.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -178,19 +185,25 @@ RC_GTEST_PROP(Suelo, BatchOrderAndHistoryChangeNoBit, (std::uint64_t seed)) {
   for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(SameBits(points[i], batch[order[i]]));
 }
 
-// A grid larger than the processor's caches, whose heights are fetched ahead of the questions: at its edges and beyond too.
+// A grid larger than the processor's caches, whose heights are fetched ahead of the questions: at its edges and beyond
+// too.
 TEST(Suelo, ALargeGridIsItselfInABatch) {
   constexpr int kColumns = 1300, kRows = 900;
   std::vector<float> heights;
-  for (std::uint64_t i = 0; i < kColumns * kRows; ++i) heights.push_back(static_cast<float>(base::RandomUniform({i, 5}, 0.0, 50.0)));
+  for (std::uint64_t i = 0; i < kColumns * kRows; ++i)
+    heights.push_back(static_cast<float>(base::RandomUniform({i, 5}, 0.0, 50.0)));
   WorldSpec spec;
-  spec.grid = std::make_shared<terrain::ElevationGrid>(terrain::ElevationGrid::Frame{kColumns, kRows, -100.0, 50.0, -100.0 + 8.0 * (kColumns - 1), 50.0 + 8.0 * (kRows - 1)},
-                                                       std::move(heights));
+  spec.grid = std::make_shared<terrain::ElevationGrid>(
+      terrain::ElevationGrid::Frame{kColumns, kRows, -100.0, 50.0, -100.0 + 8.0 * (kColumns - 1),
+                                    50.0 + 8.0 * (kRows - 1)},
+      std::move(heights));
   const auto world = World::Make(spec);
   const Extents e = world->extents();
-  std::vector<GroundQuery> queries = {{e.west_m, e.south_m}, {e.east_m, e.north_m}, {e.east_m, e.south_m}, {e.west_m, e.north_m}, {std::nan(""), 60.0}, {1e300, -1e300}};
+  std::vector<GroundQuery> queries = {{e.west_m, e.south_m}, {e.east_m, e.north_m}, {e.east_m, e.south_m},
+                                      {e.west_m, e.north_m}, {std::nan(""), 60.0},  {1e300, -1e300}};
   for (std::uint64_t i = 0; i < 5000; ++i) {
-    queries.push_back({base::RandomUniform({i, 6}, e.west_m - 50.0, e.east_m + 50.0), base::RandomUniform({i, 7}, e.south_m - 50.0, e.north_m + 50.0)});
+    queries.push_back({base::RandomUniform({i, 6}, e.west_m - 50.0, e.east_m + 50.0),
+                       base::RandomUniform({i, 7}, e.south_m - 50.0, e.north_m + 50.0)});
   }
   std::vector<GroundPoint> points(queries.size());
   world->MakeGround()->Query(queries, points);
@@ -202,7 +215,8 @@ TEST(Suelo, ALargeGridIsItselfInABatch) {
 }
 
 TEST(Suelo, APlaneWorldNeedsNoRoad) {
-  const auto world = MustParse("rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 2, slope_x: 0.05, slope_y: -0.02, friction: 0.8}\n");
+  const auto world = MustParse(
+      "rodeira: world/1\nname: plane\nground: {kind: plane, z_m: 2, slope_x: 0.05, slope_y: -0.02, friction: 0.8}\n");
   const auto ground = world->MakeGround();
   const GroundPoint at = ground->At(1000.0, 50.0);
   EXPECT_NEAR(at.z_m, 2.0 + 50.0 - 1.0, 1e-12);

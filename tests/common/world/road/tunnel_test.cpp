@@ -13,8 +13,8 @@
 namespace rodeira::road {
 namespace {
 
-// Through a hill that stands 9 m over the road: in the tunnel the terrain goes on above it as if there were no road, and the hint chooses
-// between the two; before and behind it the hill is cut.
+// Through a hill that stands 9 m over the road: in the tunnel the terrain goes on above it as if there were no road,
+// and the hint chooses between the two; before and behind it the hill is cut.
 TEST(Tunnel, TheTerrainGoesOnOverATunnel) {
   const auto world = MustParse(R"(rodeira: world/2
 name: tunnel
@@ -69,13 +69,17 @@ roads:
   }
 }
 
-// Under a plane 20 m over a tunnel that climbs, bends and goes over into another bend: with a hint of somebody in it there is a floor for 5 m beside its
-// road, which goes on level across from the road's edge and along with it; without one and with one on the hill the hill is as it is. Nothing is there
-// before the mouths, nor farther away.
+// Under a plane 20 m over a tunnel that climbs, bends and goes over into another bend: with a hint of somebody in it
+// there is a floor for 5 m beside its road, which goes on level across from the road's edge and along with it; without
+// one and with one on the hill the hill is as it is. Nothing is there before the mouths, nor farther away.
 TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
   const auto text = [](const char* tunnels) {
-    return fmt::format("rodeira: world/2\nname: t\nground: {{kind: plane, z_m: 20, surface: grass}}\nroads:\n  - id: a\n    start: {{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [line: {{length_m: 80}}, arc: {{radius_m: 60, turn_deg: 80}}, arc: {{radius_m: -90, turn_deg: 60}}]\n"
-                       "    vertical: [{{s_m: 0, z_m: 0}}, {{s_m: 250, z_m: 5}}]\n    section: {{template: rural}}\n{}", tunnels);
+    return fmt::format(
+        "rodeira: world/2\nname: t\nground: {{kind: plane, z_m: 20, surface: grass}}\nroads:\n  - id: a\n    start: "
+        "{{x_m: 0, y_m: 0, heading_deg: 20}}\n    axis: [line: {{length_m: 80}}, arc: {{radius_m: 60, turn_deg: 80}}, "
+        "arc: {{radius_m: -90, turn_deg: 60}}]\n"
+        "    vertical: [{{s_m: 0, z_m: 0}}, {{s_m: 250, z_m: 5}}]\n    section: {{template: rural}}\n{}",
+        tunnels);
   };
   const auto world = MustParse(text("    tunnels: [{from_s_m: 60, to_s_m: 230}]\n"));
   ASSERT_NE(world, nullptr);
@@ -91,13 +95,16 @@ TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
         const Eigen::Vector2d p = edge.head<2>() + side * beside * axis.left_W();
         const double near_mouth = std::min(s - 60.0, 230.0 - s);
         const SurfacePoint at = world->At(p.x(), p.y(), edge.z());
-        if (std::hypot(near_mouth, beside) < 0.75 + 1e-6 && at.surface == ground::Surface::kGrass) continue;  // the cut before the mouth begins lower than a step
+        if (std::hypot(near_mouth, beside) < 0.75 + 1e-6 && at.surface == ground::Surface::kGrass)
+          continue;  // the cut before the mouth begins lower than a step
         ASSERT_TRUE(at.inside);
         ASSERT_NEAR(at.z_m, edge.z(), 1e-9) << s << " " << side * beside;
         ASSERT_EQ(at.surface, ground::Surface::kConcrete);
         const Eigen::Vector2d slope(at.slope_x, at.slope_y);
         EXPECT_NEAR(slope.dot(axis.left_W()), 0.0, 1e-9) << "level across";
-        EXPECT_NEAR(slope.dot(axis.tangent_W), 0.02 / (1.0 - side * axis.curvature_1pm * (std::fabs(side > 0.0 ? left : right) + beside)), 1e-6) << s;
+        EXPECT_NEAR(slope.dot(axis.tangent_W),
+                    0.02 / (1.0 - side * axis.curvature_1pm * (std::fabs(side > 0.0 ? left : right) + beside)), 1e-6)
+            << s;
         // Nothing else is changed: who asks without a hint, or from the hill, is on the hill.
         const SurfacePoint top = world->At(p.x(), p.y());
         EXPECT_EQ(top.surface, ground::Surface::kGrass);
@@ -118,13 +125,19 @@ TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
   }
 }
 
-// Beside a tunnel under another road: where that one passes over the tunnel's side it is what is driven on, from whatever side it is asked; and where it
-// runs abreast of the tunnel's road, on its level and under a bridge, no floor takes its place.
+// Beside a tunnel under another road: where that one passes over the tunnel's side it is what is driven on, from
+// whatever side it is asked; and where it runs abreast of the tunnel's road, on its level and under a bridge, no floor
+// takes its place.
 TEST(Tunnel, AFloorBesideATunnelTakesNoRoadsPlace) {
-  const auto world = MustParse("rodeira: world/2\nname: t\nground: {kind: plane, z_m: 20}\nroads:\n  - {id: low, axis: [line: {length_m: 200}], z_m: 0, section: {template: rural}, tunnels: [{from_s_m: 20, to_s_m: 180}]}\n"
-                               "  - {id: over, start: {x_m: 100, y_m: -60, heading_deg: 90}, axis: [line: {length_m: 120}], z_m: 20, section: {template: rural}}\n"
-                               "  - {id: abreast, start: {x_m: 30, y_m: 12, heading_deg: 0}, axis: [line: {length_m: 30}], z_m: -1, section: {template: rural}}\n"
-                               "  - {id: bridge, start: {x_m: 45, y_m: -60, heading_deg: 90}, axis: [line: {length_m: 120}], z_m: 20, section: {template: rural}, bridges: [{from_s_m: 50, to_s_m: 90}]}\n");
+  const auto world = MustParse(
+      "rodeira: world/2\nname: t\nground: {kind: plane, z_m: 20}\nroads:\n  - {id: low, axis: [line: {length_m: 200}], "
+      "z_m: 0, section: {template: rural}, tunnels: [{from_s_m: 20, to_s_m: 180}]}\n"
+      "  - {id: over, start: {x_m: 100, y_m: -60, heading_deg: 90}, axis: [line: {length_m: 120}], z_m: 20, section: "
+      "{template: rural}}\n"
+      "  - {id: abreast, start: {x_m: 30, y_m: 12, heading_deg: 0}, axis: [line: {length_m: 30}], z_m: -1, section: "
+      "{template: rural}}\n"
+      "  - {id: bridge, start: {x_m: 45, y_m: -60, heading_deg: 90}, axis: [line: {length_m: 120}], z_m: 20, section: "
+      "{template: rural}, bridges: [{from_s_m: 50, to_s_m: 90}]}\n");
   ASSERT_NE(world, nullptr);
   const auto ground = world->MakeGround();
   const double low_edge = world->network()->roads()[0].Surface(100.0, 5.75).p_W.z();
@@ -139,7 +152,8 @@ TEST(Tunnel, AFloorBesideATunnelTakesNoRoadsPlace) {
     std::vector<ground::GroundPoint> points(patch.size());
     ground->Patch(patch, points);
     for (std::size_t k = 0; k < points.size(); ++k) {
-      const ground::GroundQuery query = ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
+      const ground::GroundQuery query =
+          ground::PatchPoint(patch, static_cast<int>(k) / patch.across, static_cast<int>(k) % patch.across);
       EXPECT_EQ(points[k].z_m, world->At(query.x_m, query.y_m, query.z_hint_m).z_m);
     }
   }

@@ -39,10 +39,12 @@ void ExpectTheSameRoad(const World& world) {
   EXPECT_NEAR(again.length_m(), road.length_m(), 1e-9);
   for (std::uint64_t i = 0; i < 3000; ++i) {
     const double s = base::RandomUniform({i, 1}, 0.1, road.length_m() - 0.1);
-    const double t = base::RandomUniform({i, 2}, road.section().verge_right_m() + 0.01, road.section().verge_left_m() - 0.01);
+    const double t =
+        base::RandomUniform({i, 2}, road.section().verge_right_m() + 0.01, road.section().verge_left_m() - 0.01);
     const Eigen::Vector3d p = road.Position(s, t);
     EXPECT_NEAR((again.Surface(s, t).p_W - p).norm(), 0.0, 1e-8) << s << " " << t;
-    const SurfacePoint ours = world.At(p.x(), p.y()), theirs = NetworkGround(network, grounds, land, kUsualFriction, p.x(), p.y(), p.z());
+    const SurfacePoint ours = world.At(p.x(), p.y()),
+                       theirs = NetworkGround(network, grounds, land, kUsualFriction, p.x(), p.y(), p.z());
     EXPECT_NEAR(ours.z_m, theirs.z_m, 1e-8);
     EXPECT_NEAR(ours.slope_x, theirs.slope_x, 1e-8);
     EXPECT_NEAR(ours.slope_y, theirs.slope_y, 1e-8);
@@ -68,8 +70,9 @@ TEST(WorldExport, MarksStandAtTheNearestEdge) {
     for (const network::RoadMark& mark : lane.marks) {
       for (const network::MarkLine& line : mark.lines) {
         ++lines;
-        const auto ours = std::find_if(Sample()->roads()[0].marks().begin(), Sample()->roads()[0].marks().end(),
-                                       [&](const Mark& m) { return std::fabs(m.t_m - edge_t - line.t_offset_m) < 1e-9; });
+        const auto ours =
+            std::find_if(Sample()->roads()[0].marks().begin(), Sample()->roads()[0].marks().end(),
+                         [&](const Mark& m) { return std::fabs(m.t_m - edge_t - line.t_offset_m) < 1e-9; });
         ASSERT_TRUE(ours != Sample()->roads()[0].marks().end());
         EXPECT_EQ(line.space_m, ours->gap_m);
       }
@@ -127,7 +130,9 @@ TEST(WorldExport, NetconvertReadsItWithTheSameLanes) {
     const auto world = Of(name);
     ASSERT_TRUE(base::WriteWhole(folder / "it.xodr", std::string_view(ExportOpenDrive(*world).value())).ok());
     const std::string command =
-        "cd " + folder.string() + " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert --opendrive-files it.xodr --output-file it.net.xml > log 2>&1";
+        "cd " + folder.string() +
+        " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert "
+        "--opendrive-files it.xodr --output-file it.net.xml > log 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
     const auto lengths = LengthsIn(base::ReadText(folder / "it.net.xml").value());
     const network::Network& network = *world->network();

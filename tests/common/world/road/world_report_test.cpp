@@ -39,7 +39,8 @@ class WorldReport : public ::testing::Test {
 TEST_F(WorldReport, QueryTellsTheCratersOracle) {
   const fs::path crater = fs::path(SourceDir()) / "../shared/data/road/bt/crater_0513.bt";
   if (!fs::exists(crater)) GTEST_SKIP() << crater << " is not on this machine";
-  const auto world = World::Parse("rodeira: world/1\nname: crater\nterrain: {file: \"" + fs::absolute(crater).string() + "\"}\n", "crater.yaml");
+  const auto world = World::Parse(
+      "rodeira: world/1\nname: crater\nterrain: {file: \"" + fs::absolute(crater).string() + "\"}\n", "crater.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const ground::GroundPoint at = world.value()->MakeGround()->At(566300.0, 4754000.0);
   EXPECT_NEAR(at.z_m, 2123.4310516, 1e-6);
@@ -80,23 +81,28 @@ roads:
   ASSERT_NE(world, nullptr);
   const Eigen::Vector3d p = world->network()->roads()[1].Surface(30.0, -1.25).p_W;
   const std::string text = DescribePoint(*world, p.x(), p.y());
-  for (const char* part : {"road: b\ns_m: 30.000000\nt_m: -1.250000\nlane: -1 (driving)\n", "lane_width_m: 3.000000\nlane_edges_t_m: 0.000000 -3.000000\nlane_middle_t_m: -1.500000\n",
-                           "curvature_1pm: 0.010000000\n", "lane_left: 1\nlane_right: -2\n", "lanes_ahead: none\nlanes_behind: a:-1\n",
-                           "line: t_m 0.000000, 0.12 m wide, white, strokes of 3 m, gaps of 6 m\n", "line: t_m -3.000000, 0.15 m wide, yellow, continuous\n",
-                           "sign: s_m 20.000, 274 speed_limit 70\n"}) {
+  for (const char* part :
+       {"road: b\ns_m: 30.000000\nt_m: -1.250000\nlane: -1 (driving)\n",
+        "lane_width_m: 3.000000\nlane_edges_t_m: 0.000000 -3.000000\nlane_middle_t_m: -1.500000\n",
+        "curvature_1pm: 0.010000000\n", "lane_left: 1\nlane_right: -2\n", "lanes_ahead: none\nlanes_behind: a:-1\n",
+        "line: t_m 0.000000, 0.12 m wide, white, strokes of 3 m, gaps of 6 m\n",
+        "line: t_m -3.000000, 0.15 m wide, yellow, continuous\n", "sign: s_m 20.000, 274 speed_limit 70\n"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, Not(HasSubstr("206 stop")));  // it is for the others
   const Eigen::Vector3d q = world->network()->roads()[1].Surface(30.0, 1.0).p_W;
   const std::string other = DescribePoint(*world, q.x(), q.y());
-  EXPECT_THAT(other, testing::AllOf(HasSubstr("lane: 1 (driving)"), HasSubstr("lanes_ahead: a:1\nlanes_behind: none\n"), HasSubstr("sign: s_m 50.000, 206 stop\n"), Not(HasSubstr("speed_limit 70"))));
+  EXPECT_THAT(other, testing::AllOf(HasSubstr("lane: 1 (driving)"), HasSubstr("lanes_ahead: a:1\nlanes_behind: none\n"),
+                                    HasSubstr("sign: s_m 50.000, 206 stop\n"), Not(HasSubstr("speed_limit 70"))));
 }
 
 // Hills in UTM zone 29, around its meridian 9 degrees west: x = 500 000 m lies on it, whatever y is.
 TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
   const auto world = World::Parse(
-      "rodeira: world/2\nname: zone 29\nterrain:\n  generate: {seed: 1, columns: 5, rows: 5, spacing_m: 50, west_m: 499900, south_m: 4553000, relief: [], projection: "
-      "\"+proj=utm +zone=29 +datum=WGS84 +units=m\"}\n", "zone.yaml");
+      "rodeira: world/2\nname: zone 29\nterrain:\n  generate: {seed: 1, columns: 5, rows: 5, spacing_m: 50, west_m: "
+      "499900, south_m: 4553000, relief: [], projection: "
+      "\"+proj=utm +zone=29 +datum=WGS84 +units=m\"}\n",
+      "zone.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const std::string text = DescribePoint(*world.value(), 500000.0, 4553100.0);
   EXPECT_THAT(text, HasSubstr("longitude_deg: -9.000000000\nlatitude_deg: 41.1"));
@@ -110,8 +116,9 @@ TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
 
 TEST_F(WorldReport, InfoTellsWhatTheWorldHolds) {
   const std::string text = DescribeWorld(*Sample());
-  for (const char* part : {"world sample\n", "61 x 51 heights every 8.5 m", "length_m: 305.500", "bends: 2 ", "smallest_radius_m: 45",
-                           "lane -1: along s, width_m 3.25, speed limit 70 km/h", "marks: 3", "(road main, lane -1, s_m 12.500)"}) {
+  for (const char* part :
+       {"world sample\n", "61 x 51 heights every 8.5 m", "length_m: 305.500", "bends: 2 ", "smallest_radius_m: 45",
+        "lane -1: along s, width_m 3.25, speed limit 70 km/h", "marks: 3", "(road main, lane -1, s_m 12.500)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, HasSubstr(base::Hex(Sample()->content_hash())));
@@ -131,7 +138,9 @@ TEST_F(WorldReport, BuildWritesTheSameWorldOnAFile) {
 }
 
 TEST_F(WorldReport, BuildWritesTheProjectionWhereThereIsOne) {
-  ASSERT_TRUE(base::WriteWhole(folder_ / "p.yaml", SampleWith("    seed: 7\n", "    seed: 7   # lucky\n    projection: \"EPSG:3763\"\n")).ok());
+  ASSERT_TRUE(base::WriteWhole(folder_ / "p.yaml",
+                               SampleWith("    seed: 7\n", "    seed: 7   # lucky\n    projection: \"EPSG:3763\"\n"))
+                  .ok());
   ASSERT_TRUE(BuildWorld(folder_ / "p.yaml", folder_ / "built").ok());
   const auto built = World::Load(folder_ / "built/p.yaml");
   ASSERT_TRUE(built.ok()) << built.error().Text();
@@ -159,8 +168,11 @@ TEST_F(WorldReport, BuildRefusesToOverwriteAndToBuildNothing) {
   ASSERT_FALSE(itself.ok());
   EXPECT_THAT(itself.error().Text(), HasSubstr("would be overwritten"));
   EXPECT_FALSE(fs::exists(folder_ / "w.bt"));
-  ASSERT_TRUE(base::WriteWhole(folder_ / "plane.yaml", std::string_view("rodeira: world/1\nname: p\nground: {kind: plane}\n")).ok());
-  EXPECT_THAT(BuildWorld(folder_ / "plane.yaml", folder_ / "built").error().Text(), HasSubstr("there is nothing to build"));
+  ASSERT_TRUE(
+      base::WriteWhole(folder_ / "plane.yaml", std::string_view("rodeira: world/1\nname: p\nground: {kind: plane}\n"))
+          .ok());
+  EXPECT_THAT(BuildWorld(folder_ / "plane.yaml", folder_ / "built").error().Text(),
+              HasSubstr("there is nothing to build"));
   EXPECT_FALSE(fs::exists(folder_ / "built"));
 }
 
@@ -176,15 +188,25 @@ TEST_F(WorldReport, ThePlotIsAWholeSvg) {
 // A station each hundred metres, and the radii of all arcs: of a world file, and of each road of an OpenDRIVE file.
 TEST_F(WorldReport, ThePlanHasStationsAndRadii) {
   const std::string svg = PlotWorld(*Sample());
-  for (const char* word : {">100 m</text>", ">200 m</text>", ">300 m</text>", ">R45</text>", ">R60</text>"}) EXPECT_THAT(svg, HasSubstr(word));
+  for (const char* word : {">100 m</text>", ">200 m</text>", ">300 m</text>", ">R45</text>", ">R60</text>"})
+    EXPECT_THAT(svg, HasSubstr(word));
   EXPECT_THAT(svg, Not(HasSubstr(">400 m</text>")));
   const fs::path file = folder_ / "bend.xodr";
-  ASSERT_TRUE(base::WriteWhole(file, std::string_view("<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"bend\" length=\"160\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry><geometry s=\"60\" x=\"60\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"-0.0125\"/></geometry></planView>"
-      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n"
-      "</OpenDRIVE>\n")).ok());
+  ASSERT_TRUE(
+      base::WriteWhole(
+          file, std::string_view(
+                    "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"bend\" "
+                    "length=\"160\" junction=\"-1\"><planView>"
+                    "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry><geometry s=\"60\" "
+                    "x=\"60\" y=\"0\" hdg=\"0\" length=\"100\"><arc curvature=\"-0.0125\"/></geometry></planView>"
+                    "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" "
+                    "type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
+                    "d=\"0\"/></lane></right></laneSection></lanes></road>\n"
+                    "</OpenDRIVE>\n"))
+          .ok());
   const std::string network = PlotWorld(*World::Load(file).value());
-  for (const char* word : {">50 m</text>", ">100 m</text>", ">150 m</text>", ">R80</text>", ">bend</text>"}) EXPECT_THAT(network, HasSubstr(word));
+  for (const char* word : {">50 m</text>", ">100 m</text>", ">150 m</text>", ">R80</text>", ">bend</text>"})
+    EXPECT_THAT(network, HasSubstr(word));
   EXPECT_THAT(network, Not(HasSubstr(">200 m</text>")));
 }
 
@@ -192,7 +214,8 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
   const std::string svg = PlotProfiles(*Sample());
   EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
-  for (const char* text : {"grade in %", "curvature in 1/m", "slope across in %", "height in m"}) EXPECT_THAT(svg, HasSubstr(text));
+  for (const char* text : {"grade in %", "curvature in 1/m", "slope across in %", "height in m"})
+    EXPECT_THAT(svg, HasSubstr(text));
   const auto world = Sample();
   const Road& road = world->roads()[0];
   double steepest = 0.0, sharpest = 0.0;  // told at the diagrams' edges, to four digits
@@ -208,18 +231,28 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
       EXPECT_THAT(svg, HasSubstr(fmt::format(">{:.0f}</text>", 1.0 / std::fabs(piece.curvature_start_1pm))));
     }
   }
-  const auto plane = World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
+  const auto plane =
+      World::Parse("rodeira: world/1\nname: p\nground: {kind: plane}\nstart: {x_m: 0, y_m: 0}\n", "p.yaml");
   EXPECT_TRUE(PlotProfiles(*plane.value()).empty());
 }
 
-// A bank that turns from 3 to -5 degrees over a road of its own: slopes across are its tangents, left and right of the axis alike.
+// A bank that turns from 3 to -5 degrees over a road of its own: slopes across are its tangents, left and right of the
+// axis alike.
 TEST_F(WorldReport, TheProfileShowsSuperelevation) {
   const fs::path file = folder_ / "bank.xodr";
-  ASSERT_TRUE(base::WriteWhole(file, fmt::format("<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"bank\" length=\"100\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><line/></geometry></planView><lateralProfile><superelevation s=\"0\" a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/></lateralProfile>"
-      "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></left><center><lane id=\"0\"/></center>"
-      "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n</OpenDRIVE>\n",
-      3.0 / 180.0 * geometry::kPi, -8.0 / 180.0 * geometry::kPi / 100.0)).ok());
+  ASSERT_TRUE(
+      base::WriteWhole(
+          file, fmt::format("<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road "
+                            "id=\"bank\" length=\"100\" junction=\"-1\"><planView>"
+                            "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+                            "length=\"100\"><line/></geometry></planView><lateralProfile><superelevation s=\"0\" "
+                            "a=\"{}\" b=\"{}\" c=\"0\" d=\"0\"/></lateralProfile>"
+                            "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" "
+                            "a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></left><center><lane id=\"0\"/></center>"
+                            "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
+                            "d=\"0\"/></lane></right></laneSection></lanes></road>\n</OpenDRIVE>\n",
+                            3.0 / 180.0 * geometry::kPi, -8.0 / 180.0 * geometry::kPi / 100.0))
+          .ok());
   const std::string svg = PlotProfiles(*World::Load(file).value());
   const std::string across = svg.substr(svg.find("slope across in %"));
   EXPECT_THAT(across, HasSubstr(fmt::format(">{:.4g}</text>", 100.0 * std::tan(3.0 / 180.0 * geometry::kPi))));
@@ -234,7 +267,8 @@ struct Words {
 
 std::vector<Words> WordsOf(const std::string& svg) {
   std::vector<Words> words;
-  const std::regex text(R"re(<text x="([-0-9.]+)" y="([-0-9.]+)" font-family="sans-serif" font-size="([0-9.]+)"[^>]*>([^<]*)</text>)re");
+  const std::regex text(
+      R"re(<text x="([-0-9.]+)" y="([-0-9.]+)" font-family="sans-serif" font-size="([0-9.]+)"[^>]*>([^<]*)</text>)re");
   for (std::sregex_iterator i(svg.begin(), svg.end(), text), end; i != end; ++i) {
     const double x = std::stod((*i)[1]), y = std::stod((*i)[2]), size = std::stod((*i)[3]);
     const std::string word = std::regex_replace((*i)[4].str(), std::regex("&[a-z]+;"), "?");
@@ -245,8 +279,11 @@ std::vector<Words> WordsOf(const std::string& svg) {
 
 TEST(WorldPlot, NoWordStandsOverAnother) {
   const std::filesystem::path root = SourceDir();
-  std::vector<std::filesystem::path> worlds = {root / "configs/worlds/example/world.yaml", root / "../shared/data/road/xodr/carla_Town04.xodr", root / "../shared/data/road/xodr/esmini_fabriksgatan.xodr"};
-  for (const char* name : {"flat", "haste", "lights", "motorway", "n222", "plane", "ring"}) worlds.push_back(root / "configs/worlds" / (std::string(name) + ".yaml"));
+  std::vector<std::filesystem::path> worlds = {root / "configs/worlds/example/world.yaml",
+                                               root / "../shared/data/road/xodr/carla_Town04.xodr",
+                                               root / "../shared/data/road/xodr/esmini_fabriksgatan.xodr"};
+  for (const char* name : {"flat", "haste", "lights", "motorway", "n222", "plane", "ring"})
+    worlds.push_back(root / "configs/worlds" / (std::string(name) + ".yaml"));
   for (const auto& path : worlds) {
     const auto world = World::Load(path);
     ASSERT_TRUE(world.ok()) << world.error().Text();
@@ -254,7 +291,8 @@ TEST(WorldPlot, NoWordStandsOverAnother) {
     EXPECT_FALSE(words.empty()) << path;
     for (std::size_t i = 0; i < words.size(); ++i) {
       for (std::size_t k = 0; k < i; ++k) {
-        const bool apart = words[i].right <= words[k].left || words[k].right <= words[i].left || words[i].bottom <= words[k].top || words[k].bottom <= words[i].top;
+        const bool apart = words[i].right <= words[k].left || words[k].right <= words[i].left ||
+                           words[i].bottom <= words[k].top || words[k].bottom <= words[i].top;
         EXPECT_TRUE(apart) << path << ": '" << words[i].text << "' and '" << words[k].text << "'";
       }
     }
@@ -277,7 +315,8 @@ TEST_F(WorldReport, AnotherVersionIsToldAlone) {
   ASSERT_TRUE(base::WriteWhole(folder_ / "v.yaml", "rodeira: world/3\nname: c\nearth: {}\n").ok());
   const auto problems = WorldProblems(folder_ / "v.yaml");
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_THAT(problems[0].Text(), HasSubstr("v.yaml:1: 'rodeira' is 'world/3'; a world file of this program says 'world/2' or 'world/1'"));
+  EXPECT_THAT(problems[0].Text(),
+              HasSubstr("v.yaml:1: 'rodeira' is 'world/3'; a world file of this program says 'world/2' or 'world/1'"));
 }
 
 // A measured surface 2.1 m over the height that it is laid on, and one that is laid where it belongs.
@@ -287,14 +326,24 @@ TEST_F(WorldReport, AMeasuredSurfaceThatIsAWallIsTold) {
   crg.z = [](double u, double) { return 2.1 + 0.001 * u; };
   ASSERT_TRUE(base::WriteWhole(folder_ / "made.crg", std::string_view(crg.Text())).ok());
   const auto warnings = [&](const std::string& more) {
-    EXPECT_TRUE(base::WriteWhole(folder_ / "c.yaml", "rodeira: world/2\nname: c\nground: {kind: plane}\nroads:\n  - {id: a, axis: [line: {length_m: 100}], z_m: 0, section: {lanes: [{id: -1, width_m: 1.5}, {id: 1, width_m: 1.5}]}, "
-                                                         "surfaces: [{crg: made.crg, from_s_m: 20, to_s_m: 60" + more + "}]}\n").ok());
+    EXPECT_TRUE(
+        base::WriteWhole(folder_ / "c.yaml",
+                         "rodeira: world/2\nname: c\nground: {kind: plane}\nroads:\n  - {id: a, axis: [line: "
+                         "{length_m: 100}], z_m: 0, section: {lanes: [{id: -1, width_m: 1.5}, {id: 1, width_m: 1.5}]}, "
+                         "surfaces: [{crg: made.crg, from_s_m: 20, to_s_m: 60" +
+                             more + "}]}\n")
+            .ok());
     EXPECT_THAT(WorldProblems(folder_ / "c.yaml"), ::testing::IsEmpty());
     return WorldWarnings(folder_ / "c.yaml");
   };
   // A metre behind its beginning it has 2.101 m, a metre before its end 2.139 m.
-  EXPECT_THAT(warnings(""), ::testing::ElementsAre(HasSubstr("c.yaml: the measured surface 'made.crg' begins at s = 20.0 m of road 'a' 2.10 m above the road, a wall within 1 m; a z offset of -2.101 m lays it on the road there"),
-                                                   HasSubstr("ends at s = 60.0 m of road 'a' 2.14 m above the road, a wall within 1 m; a z offset of -2.139 m")));
+  EXPECT_THAT(
+      warnings(""),
+      ::testing::ElementsAre(
+          HasSubstr("c.yaml: the measured surface 'made.crg' begins at s = 20.0 m of road 'a' 2.10 m above the road, a "
+                    "wall within 1 m; a z offset of -2.101 m lays it on the road there"),
+          HasSubstr(
+              "ends at s = 60.0 m of road 'a' 2.14 m above the road, a wall within 1 m; a z offset of -2.139 m")));
   EXPECT_THAT(warnings(", z_offset_m: -2.12"), ::testing::IsEmpty());
 }
 

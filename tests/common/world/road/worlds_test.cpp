@@ -42,7 +42,8 @@ TEST(Haste, HasFiveVillagesWithTheirSignsAndLimits) {
   int limits = 0;
   for (const RoadChain::Part& part : main.parts) {
     for (const network::Signal& signal : network.roads()[part.road].spec().signals) {
-      if (signal.type == "310" || signal.type == "311") villages[signal.text][signal.type + signal.orientation] = part.from_s_m + signal.s_m;
+      if (signal.type == "310" || signal.type == "311")
+        villages[signal.text][signal.type + signal.orientation] = part.from_s_m + signal.s_m;
       limits += signal.type == "274";
     }
   }
@@ -115,12 +116,13 @@ TEST(Flat, HasAStraightOfTwoKilometres) {
   EXPECT_EQ(road.length_m(), 2'000.0);
   for (double s = 0.0; s <= 2'000.0; s += 50.0) {
     EXPECT_EQ(road.axis().Evaluate(s).curvature_1pm, 0.0);
-    for (const double t : {-3.9, 0.0, 3.9}) EXPECT_EQ(world->At(road.Surface(s, t).p_W.x(), road.Surface(s, t).p_W.y()).z_m, 0.0);
+    for (const double t : {-3.9, 0.0, 3.9})
+      EXPECT_EQ(world->At(road.Surface(s, t).p_W.x(), road.Surface(s, t).p_W.y()).z_m, 0.0);
   }
 }
 
-// ISO 3888-1: sections of 15, 25 and 15 m, 30 and 25 m between them; widths of 1.1, 1.2 and 1.3 of the car's (1.8 m) and 0.25 m; the
-// second one 3.5 m beside the first.
+// ISO 3888-1: sections of 15, 25 and 15 m, 30 and 25 m between them; widths of 1.1, 1.2 and 1.3 of the car's (1.8 m)
+// and 0.25 m; the second one 3.5 m beside the first.
 TEST(Flat, HasTheLanesOfAnIsoLaneChange) {
   const auto world = Of("flat.yaml");
   const network::Network& network = *world->network();
@@ -130,10 +132,13 @@ TEST(Flat, HasTheLanesOfAnIsoLaneChange) {
     double from_s_m, to_s_m, width_m, middle_t_m;
   };
   const double first_t_m = -2.0;
-  for (const Gate& gate : {Gate{200.0, 215.0, 1.1 * 1.8 + 0.25, first_t_m}, Gate{245.0, 270.0, 1.2 * 1.8 + 0.25, first_t_m + 3.5}, Gate{295.0, 310.0, 1.3 * 1.8 + 0.25, first_t_m}}) {
+  for (const Gate& gate :
+       {Gate{200.0, 215.0, 1.1 * 1.8 + 0.25, first_t_m}, Gate{245.0, 270.0, 1.2 * 1.8 + 0.25, first_t_m + 3.5},
+        Gate{295.0, 310.0, 1.3 * 1.8 + 0.25, first_t_m}}) {
     std::set<double> painted, posts;
     for (const network::Marking& line : network::MarkingsOf(road)) {
-      if (line.colour == "yellow" && line.from_s_m == gate.from_s_m && line.to_s_m == gate.to_s_m) painted.insert(network::MarkingAt(road, line, gate.from_s_m).value);
+      if (line.colour == "yellow" && line.from_s_m == gate.from_s_m && line.to_s_m == gate.to_s_m)
+        painted.insert(network::MarkingAt(road, line, gate.from_s_m).value);
     }
     for (const network::Placed& thing : network::PlaceFurniture(network).things) {
       if (thing.road == index && thing.s_m >= gate.from_s_m && thing.s_m <= gate.to_s_m) posts.insert(thing.t_m);
@@ -161,13 +166,16 @@ TEST(Haste, IsAsLongAndCrossedAsItSays) {
   EXPECT_LE(steepest, 0.045);
 }
 
-// The heights of a .bt file, read by its format's description (https://vterrain.org/Implementation/Formats/BT.html) and by nothing of ours.
+// The heights of a .bt file, read by its format's description (https://vterrain.org/Implementation/Formats/BT.html) and
+// by nothing of ours.
 struct RawHeights {
   std::int32_t columns = 0, rows = 0;
   double west_m = 0.0, east_m = 0.0, south_m = 0.0, north_m = 0.0;
   std::vector<double> z_m;  // columns from west to east, each from south to north
 
-  double At(int column, int row) const { return z_m[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)]; }
+  double At(int column, int row) const {
+    return z_m[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + static_cast<std::size_t>(row)];
+  }
 };
 RawHeights ReadRaw(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -178,15 +186,19 @@ RawHeights ReadRaw(const std::filesystem::path& file) {
   RawHeights raw;
   std::int16_t bytes = 0, real = 0;
   float scale = 0.0F;
-  read(10, raw.columns), read(14, raw.rows), read(18, bytes), read(20, real), read(28, raw.west_m), read(36, raw.east_m), read(44, raw.south_m), read(52, raw.north_m), read(62, scale);
+  read(10, raw.columns), read(14, raw.rows), read(18, bytes), read(20, real), read(28, raw.west_m),
+      read(36, raw.east_m), read(44, raw.south_m), read(52, raw.north_m), read(62, scale);
   EXPECT_TRUE((bytes == 2 || bytes == 4) && (real == 0 || bytes == 4));
   for (std::int64_t i = 0; i < std::int64_t{raw.columns} * raw.rows; ++i) {
     std::array<char, 4> cell{};
     in.read(cell.data(), bytes);
     double z = 0.0;
-    if (real != 0) z = std::bit_cast<float>(cell);
-    else if (bytes == 4) z = std::bit_cast<std::int32_t>(cell);
-    else z = std::bit_cast<std::int16_t>(std::array{cell[0], cell[1]});
+    if (real != 0)
+      z = std::bit_cast<float>(cell);
+    else if (bytes == 4)
+      z = std::bit_cast<std::int32_t>(cell);
+    else
+      z = std::bit_cast<std::int16_t>(std::array{cell[0], cell[1]});
     raw.z_m.push_back(z * (scale == 0.0F ? 1.0 : static_cast<double>(scale)));
   }
   EXPECT_TRUE(in.good());
@@ -220,18 +232,21 @@ TEST(Crater, IsTheElevationFileBesideIt) {
   int uneven = 0;
   for (int column = 3; column < 510; column += 17) {
     for (int row = 5; row < 510; row += 13) {
-      const double sw = raw.At(column, row), se = raw.At(column + 1, row), nw = raw.At(column, row + 1), ne = raw.At(column + 1, row + 1);
+      const double sw = raw.At(column, row), se = raw.At(column + 1, row), nw = raw.At(column, row + 1),
+                   ne = raw.At(column + 1, row + 1);
       expect(column, row, sw);
       expect(column + 0.5, row, 0.5 * (sw + se));
       expect(column, row + 0.5, 0.5 * (sw + nw));
-      expect(column + 0.5, row + 0.5, 0.5 * (se + nw));  // the cell is split from its south-east to its north-west corner
+      expect(column + 0.5, row + 0.5,
+             0.5 * (se + nw));  // the cell is split from its south-east to its north-west corner
       expect(column + 0.25, row + 0.25, sw + 0.25 * (se - sw) + 0.25 * (nw - sw));
       expect(column + 0.75, row + 0.75, ne + 0.25 * (nw - ne) + 0.25 * (se - ne));
       uneven += std::fabs(sw + ne - se - nw) > 0.1;
     }
   }
   EXPECT_GT(uneven, 100) << "so that the diagonal matters";
-  for (const auto& [column, row] : {std::pair(0, 0), std::pair(512, 0), std::pair(0, 512), std::pair(512, 512)}) expect(column, row, raw.At(column, row));  // all edges belong to it
+  for (const auto& [column, row] : {std::pair(0, 0), std::pair(512, 0), std::pair(0, 512), std::pair(512, 512)})
+    expect(column, row, raw.At(column, row));  // all edges belong to it
   EXPECT_FALSE(suelo->At(raw.west_m - 0.01, raw.south_m + 100.0).inside);
   EXPECT_FALSE(suelo->At(raw.east_m + 0.01, raw.south_m + 100.0).inside);
   // The car starts in its middle.
@@ -259,14 +274,18 @@ TEST_P(WorldsOfTheProject, LoadAndHaveGroundUnderTheirLanes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject, testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "n222.yaml"),
-                         [](const auto& file) { return std::string(file.param).substr(0, std::string(file.param).find('.')); });
+INSTANTIATE_TEST_SUITE_P(All, WorldsOfTheProject,
+                         testing::Values("haste.yaml", "motorway.yaml", "flat.yaml", "n222.yaml"),
+                         [](const auto& file) {
+                           return std::string(file.param).substr(0, std::string(file.param).find('.'));
+                         });
 
 // Of the project's own and of files of others: whatever the hint, there is ground on every place of a road.
 TEST(Worlds, EveryPlaceOfARoadHasAHeight) {
   std::vector<std::filesystem::path> files = opendrive::RealFiles();
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(SourceDir()) / "configs/worlds")) {
-    if (entry.path().extension() == ".yaml" && entry.path().stem() != "crater") files.push_back(entry.path());  // its elevation is not in the tree
+    if (entry.path().extension() == ".yaml" && entry.path().stem() != "crater")
+      files.push_back(entry.path());  // its elevation is not in the tree
   }
   std::sort(files.begin(), files.end());
   for (const auto& file : files) {
@@ -275,14 +294,16 @@ TEST(Worlds, EveryPlaceOfARoadHasAHeight) {
     if (world.value()->network() == nullptr) continue;
     const auto roads = world.value()->network()->roads();
     for (std::uint64_t i = 0; i < 10'000 && !roads.empty(); ++i) {
-      const network::Road& road = roads[static_cast<std::size_t>(base::RandomUniform({i, 1}, 0.0, static_cast<double>(roads.size())))];
+      const network::Road& road =
+          roads[static_cast<std::size_t>(base::RandomUniform({i, 1}, 0.0, static_cast<double>(roads.size())))];
       const double s = base::RandomUniform({i, 2}, 0.0, road.length_m());
       double right, left;
       road.SectionAt(s).Bounds(road.spec().lane_offset, s, s, right, left);
       const Eigen::Vector3d p_W = road.Surface(s, base::RandomUniform({i, 3}, right, left)).p_W;
       for (const double hint_m : {std::numeric_limits<double>::quiet_NaN(), p_W.z(), p_W.z() - 5.0, -1000.0}) {
         const SurfacePoint at = world.value()->At(p_W.x(), p_W.y(), hint_m);
-        ASSERT_TRUE(at.inside && std::isfinite(at.z_m) && std::isfinite(at.slope_x) && std::isfinite(at.slope_y)) << file.filename() << " " << road.spec().id << " s " << s << " hint " << hint_m;
+        ASSERT_TRUE(at.inside && std::isfinite(at.z_m) && std::isfinite(at.slope_x) && std::isfinite(at.slope_y))
+            << file.filename() << " " << road.spec().id << " s " << s << " hint " << hint_m;
       }
     }
   }

@@ -86,7 +86,8 @@ TEST(CrgFile, TheHandMadeStraightHasItsGapsFilled) {
   EXPECT_NEAR(surface.At(7.0, -1.5).z_m, 0.0111111, 1e-12);
   EXPECT_NEAR(surface.At(7.0, 1.5).z_m, 0.0222222, 1e-12);
   EXPECT_NEAR(surface.At(7.0, 1.0).z_m, 0.0222222, 1e-12);
-  EXPECT_NEAR(surface.At(14.5, 1.25).z_m, (-0.0222222 - 0.0111111 - 0.0333333 - 0.0222222) / 4.0, 1e-12);  // rows 14 and 15
+  EXPECT_NEAR(surface.At(14.5, 1.25).z_m, (-0.0222222 - 0.0111111 - 0.0333333 - 0.0222222) / 4.0,
+              1e-12);  // rows 14 and 15
 }
 
 TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
@@ -94,10 +95,8 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
     const auto file = LoadCrg(kFolder / "testOptionBorderMode.crg");
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().exit_status(), 2);
-    EXPECT_THAT(
-        file.error().Text(),
-        HasSubstr(
-            "testOptionBorderMode.crg: $ROAD_CRG_FILE names '../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
+    EXPECT_THAT(file.error().Text(), HasSubstr("testOptionBorderMode.crg: $ROAD_CRG_FILE names "
+                                               "'../../../crg-txt/handmade_sloped_opt.crg': there is no such file"));
   }
   const cli::TemporaryFolder temporary;
   const fs::path& folder = temporary.path();
@@ -106,17 +105,19 @@ TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
   made.z = [](double, double) { return 1.0; };
   made.sections = "$ROAD_CRG_MODS\nSCALE_Z_GRID = 7\n$\n$ROAD_CRG_OPTS\nBORDER_OFFSET_U = 1\n$\n";
   ASSERT_TRUE(base::WriteWhole(folder / "numbers/made.crg", made.Text()).ok());
-  ASSERT_TRUE(base::WriteWhole(folder / "master.crg",
-                               std::string_view("$CT\n$\n$ROAD_CRG_FILE\n* a long name\n  numbers/\n  made.crg ! goes on\n$\n"
-                                                "$ROAD_CRG_MODS\nSCALE_Z_GRID = 3\n$\n"))
-                  .ok());
+  ASSERT_TRUE(
+      base::WriteWhole(folder / "master.crg",
+                       std::string_view("$CT\n$\n$ROAD_CRG_FILE\n* a long name\n  numbers/\n  made.crg ! goes on\n$\n"
+                                        "$ROAD_CRG_MODS\nSCALE_Z_GRID = 3\n$\n"))
+          .ok());
   const auto file = LoadCrg(folder / "master.crg");
   ASSERT_TRUE(file.ok()) << file.error().Text();
   EXPECT_NEAR(file.value().surface->At(1.0, 0.0).z_m, 3.0, 1e-12);   // its modifiers replace the other's
   EXPECT_NEAR(file.value().surface->At(-1.0, 0.0).z_m, 4.0, 1e-12);  // its options are the other's
   ASSERT_TRUE(base::WriteWhole(folder / "third.crg", std::string_view("$ROAD_CRG_FILE\nmaster.crg\n$\n")).ok());
   EXPECT_THAT(LoadCrg(folder / "third.crg").error().Text(), HasSubstr("names a third one"));
-  ASSERT_TRUE(base::WriteWhole(folder / "environment.crg", std::string_view("$ROAD_CRG_FILE\n $HOME/made.crg\n$\n")).ok());
+  ASSERT_TRUE(
+      base::WriteWhole(folder / "environment.crg", std::string_view("$ROAD_CRG_FILE\n $HOME/made.crg\n$\n")).ok());
   EXPECT_THAT(LoadCrg(folder / "environment.crg").error().Text(),
               HasSubstr("environment.crg:2: the file name '$HOME/made.crg' begins with an environment variable"));
 }
@@ -138,12 +139,15 @@ std::string Replaced(std::string text, std::string_view what, std::string_view b
 TEST(CrgFile, WhatIsWrongIsSaidWithItsLine) {
   MadeCrg made;
   const std::string good = made.Text();
-  const auto refusal = [&good](std::string_view what, std::string_view by) { return Refusal(Replaced(good, what, by)); };
+  const auto refusal = [&good](std::string_view what, std::string_view by) {
+    return Refusal(Replaced(good, what, by));
+  };
   EXPECT_THAT(Refusal(""), HasSubstr("this is no OpenCRG file"));
   EXPECT_THAT(Refusal("$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 1\n$\n"), HasSubstr("this is no OpenCRG file"));
   EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = 0,5"),
               HasSubstr("made.crg:5: 'reference_line_increment' is '0,5'; a number was expected"));
-  EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = -1"), HasSubstr("'reference_line_increment' is -1; a number from"));
+  EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = -1"),
+              HasSubstr("'reference_line_increment' is -1; a number from"));
   EXPECT_THAT(refusal("REFERENCE_LINE_INCREMENT = 0.5", ""), HasSubstr("key 'REFERENCE_LINE_INCREMENT' is missing"));
   EXPECT_THAT(refusal("#:LDFI", "#:LRBI"),
               HasSubstr("made.crg:10: the numbers' format is 'lrbi'; LRFI, LDFI, KRBI or KDBI was expected"));
@@ -161,7 +165,8 @@ TEST(CrgFile, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(refusal("end_u = 10", "end_u = -10"), HasSubstr("at least 2 rows were expected"));
   EXPECT_THAT(refusal("0.000000000000e+00", "0.00000000x000e+00"),
               HasSubstr("made.crg:19: '0.00000000x000e+00' was found in columns 1 to 20"));
-  EXPECT_THAT(Refusal(good.substr(0, good.size() - 21)), HasSubstr("the file ends within a row: 4 of 5 numbers are there"));
+  EXPECT_THAT(Refusal(good.substr(0, good.size() - 21)),
+              HasSubstr("the file ends within a row: 4 of 5 numbers are there"));
   made.sections = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 2.5\n$\n";
   EXPECT_THAT(Refusal(made.Text()), HasSubstr("'border_mode_u' is 2.5; a whole number from 0 to 4 was expected"));
 }
@@ -201,7 +206,8 @@ TEST(CrgFile, PartsThatDoNotFitAreRefused) {
     return Refusal(made.Text());
   };
   EXPECT_THAT(refusal([](MadeCrg& made) { made.v = {0.0}; }), HasSubstr("1 long sections were found; at least 2"));
-  EXPECT_THAT(refusal([](MadeCrg& made) { made.counted = true; }), HasSubstr("nothing says where the long sections lie"));
+  EXPECT_THAT(refusal([](MadeCrg& made) { made.counted = true; }),
+              HasSubstr("nothing says where the long sections lie"));
   EXPECT_THAT(refusal([](MadeCrg& made) {
                 made.counted = true;
                 made.road_keys = "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 0.9\n";
@@ -222,11 +228,9 @@ TEST(CrgFile, WhatIsUnknownIsPassedOverWithAWarning) {
   made.sections = "$ROAD_CRG_MPRO\nanything\n$\n$SOMETHING\nelse\n$\n$ROAD_CRG_OPTS\nLOG_EVAL = 20\n$\n";
   const auto file = made.Parse();
   ASSERT_TRUE(file.ok()) << file.error().Text();
-  EXPECT_THAT(
-      file.value().warnings,
-      ElementsAre(
-          HasSubstr("line 8: key 'reference_line_strat_x' is unknown and passed over; did you mean 'reference_line_start_x'?"),
-          HasSubstr("section '$something' is unknown")));
+  EXPECT_THAT(file.value().warnings, ElementsAre(HasSubstr("line 8: key 'reference_line_strat_x' is unknown and passed "
+                                                           "over; did you mean 'reference_line_start_x'?"),
+                                                 HasSubstr("section '$something' is unknown")));
 }
 
 TEST(CrgReport, SaysWhatTheFileHolds) {

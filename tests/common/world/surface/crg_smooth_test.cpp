@@ -1,4 +1,5 @@
-// Measured surfaces without their short waves: what is bilinear stays, waves shorter than the reach go, missing heights stay missing.
+// Measured surfaces without their short waves: what is bilinear stays, waves shorter than the reach go, missing heights
+// stay missing.
 #include "common/world/surface/crg_smooth.hpp"
 
 #include <gtest/gtest.h>
@@ -27,12 +28,14 @@ TEST(CrgSmooth, WavesShorterThanTheReachGo) {
   const CrgSurface smooth = Smoothed(rough, 1.0);
   for (std::uint64_t i = 0; i < 500; ++i) {
     const double u = base::RandomUniform({i, 1}, 2.0, 18.0), v = base::RandomUniform({i, 2}, -2.0, 2.0);
-    // A mean over r to either side of a wave of length l is at most l / (2 pi r) of its height; of two means that is squared.
+    // A mean over r to either side of a wave of length l is at most l / (2 pi r) of its height; of two means that is
+    // squared.
     ASSERT_NEAR(smooth.At(u, v).z_m, 0.06, 0.05 * std::pow(0.43 / (2.0 * M_PI), 2.0)) << u << " " << v;
   }
 }
 
-// In pairs around each height, so on an even grid along u a slope stays; across, where the file's lines are not even, what does not change.
+// In pairs around each height, so on an even grid along u a slope stays; across, where the file's lines are not even,
+// what does not change.
 TEST(CrgSmooth, WhatIsStraightStays) {
   const CrgSurface straight = Made([](double u, double) { return 0.3 + 0.02 * u; });
   const CrgSurface smooth = Smoothed(straight, 1.0);
@@ -46,7 +49,8 @@ TEST(CrgSmooth, WhatIsStraightStays) {
 TEST(CrgSmooth, MissingHeightsStayMissingAndCountForNothing) {
   CrgShape shape = Made([](double, double) { return 0.25; }).shape();
   const std::size_t sections = shape.v_m.size();
-  for (const std::size_t hole : {200 * sections + 4, 201 * sections + 4, 300 * sections}) shape.heights[hole] = std::nan("");
+  for (const std::size_t hole : {200 * sections + 4, 201 * sections + 4, 300 * sections})
+    shape.heights[hole] = std::nan("");
   const CrgShape smooth = Smoothed(CrgSurface(shape), 1.0).shape();
   for (std::size_t i = 0; i < shape.heights.size(); ++i) {
     ASSERT_EQ(std::isnan(smooth.heights[i]), std::isnan(shape.heights[i])) << i;

@@ -47,9 +47,9 @@ TEST(CrgSurface, SectionsMayBeCountedFromTheRight) {
   MadeCrg made;
   made.z = Bilinear;
   made.counted = true;
-  for (const char* keys :
-       {"LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\n", "LONG_SECTION_V_INCREMENT = 1\n",
-        "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_INCREMENT = 1\n", "LONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 1\n"}) {
+  for (const char* keys : {"LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_LEFT = 2\n", "LONG_SECTION_V_INCREMENT = 1\n",
+                           "LONG_SECTION_V_RIGHT = -2\nLONG_SECTION_V_INCREMENT = 1\n",
+                           "LONG_SECTION_V_LEFT = 2\nLONG_SECTION_V_INCREMENT = 1\n"}) {
     made.road_keys = keys;
     const CrgSurface surface = Made(made);
     EXPECT_EQ(surface.shape().v_m, made.v) << keys;
@@ -101,7 +101,9 @@ MadeCrg Circle(double turn_a_step_rad) {
   MadeCrg made;
   made.format = "KDBI";
   made.rows = 61;
-  made.heading = [turn_a_step_rad, step = made.step](double u) { return turn_a_step_rad * u / step; };  // of a step's middle
+  made.heading = [turn_a_step_rad, step = made.step](double u) {
+    return turn_a_step_rad * u / step;
+  };  // of a step's middle
   made.z = [](double u, double v) { return 0.1 * std::sin(0.7 * u) + 0.05 * v; };
   return made;
 }
@@ -163,7 +165,8 @@ TEST(CrgSurface, NoCrackBetweenCellsNorAtTheCornersOfTheLine) {
   for (std::uint64_t i = 0; i < 4000; ++i) {
     const double u =
         i % 2 == 0 ? 0.5 * std::floor(base::RandomUniform({i, 7}, 0.0, 60.0)) : base::RandomUniform({i, 7}, 0.0, 30.0);
-    const double v = i % 3 == 0 ? std::floor(base::RandomUniform({i, 8}, -2.0, 2.0)) : base::RandomUniform({i, 8}, -2.0, 2.0);
+    const double v =
+        i % 3 == 0 ? std::floor(base::RandomUniform({i, 8}, -2.0, 2.0)) : base::RandomUniform({i, 8}, -2.0, 2.0);
     const Eigen::Vector2d p = surface.line().Position(u, v);
     const double angle = base::RandomUniform({i, 9}, 0.0, 6.28);
     const CrgGround a = surface.Ground(p.x() - 1e-10 * std::cos(angle), p.y() - 1e-10 * std::sin(angle));
@@ -196,7 +199,8 @@ TEST(CrgSurface, BeyondItsBordersItGoesOnAsTheFileSays) {
       ASSERT_TRUE(point.inside);
       ASSERT_NEAR(point.z_m, Bilinear(border.u(u), border.u(v)), 1e-11) << border.mode << " " << u << " " << v;
       constexpr double h = 1e-6;
-      const double du = (border.u(u + h) - border.u(u - h)) / (2.0 * h), dv = (border.u(v + h) - border.u(v - h)) / (2.0 * h);
+      const double du = (border.u(u + h) - border.u(u - h)) / (2.0 * h),
+                   dv = (border.u(v + h) - border.u(v - h)) / (2.0 * h);
       if (std::fabs(du) > 2.0 || std::fabs(dv) > 2.0) continue;  // across a jump
       ASSERT_NEAR(point.dz_du, (0.02 + 0.01 * border.u(v)) * du, 1e-7);
       ASSERT_NEAR(point.dz_dv, (-0.05 + 0.01 * border.u(u)) * dv, 1e-7);
@@ -289,7 +293,8 @@ TEST(CrgSurface, ModifiersScale) {
 TEST(CrgSurface, ModifiersMoveTheReferencePointToItsPlace) {
   MadeCrg made = Circle(0.02);
   made.sections =
-      "$ROAD_CRG_MODS\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_U_OFFSET = 0.2\nREFPOINT_V = 1.5\nREFPOINT_X = 100\nREFPOINT_Y = "
+      "$ROAD_CRG_MODS\nREFPOINT_U_FRACTION = 0.5\nREFPOINT_U_OFFSET = 0.2\nREFPOINT_V = 1.5\nREFPOINT_X = "
+      "100\nREFPOINT_Y = "
       "-40\nREFPOINT_Z = 12\nREFPOINT_PHI = 1\n$\n";
   const CrgSurface surface = Made(made);
   const Eigen::Vector2d p = surface.line().Position(15.2, 1.5);

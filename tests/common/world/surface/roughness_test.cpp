@@ -38,7 +38,7 @@ void Fourier(std::vector<Complex>& x) {
 }
 
 struct Spectrum {
-  double step_1pm;                // between two values
+  double step_1pm;                 // between two values
   std::vector<double> density_m3;  // one-sided
 
   double Power(double low, double high) const {
@@ -79,8 +79,8 @@ TEST(Roughness, TheSpectrumOfATrackIsThatOfItsClass) {
   std::vector<double> z;
   for (std::size_t i = 0; i < (1u << 19); ++i) z.push_back(roughness.At(spacing * static_cast<double>(i), -1.6).z_m);
   const Spectrum spectrum = Welch(z, spacing, 1u << 17);
-  // Octave by octave G(n) = G(n0) (n / n0)^-2; at an octave's edge a wave may count to the neighbour by leakage, at most
-  // half of a twelfth on either side.
+  // Octave by octave G(n) = G(n0) (n / n0)^-2; at an octave's edge a wave may count to the neighbour by leakage, at
+  // most half of a twelfth on either side.
   double low = Roughness::kLowest_1pm;
   for (int octave = 0; octave < Roughness::kOctaves; ++octave, low *= 2.0) {
     const double expected = density * 0.1 * 0.1 * (1.0 / low - 0.5 / low);
@@ -136,12 +136,15 @@ double Integral(double d, double (*f)(double)) {
 }
 
 TEST(Roughness, AlongAndAcrossItHasTheStructureOfItsSpectrum) {
-  // Along s the mean square of a difference is the integral of 2 G(n) (1 - cos(2 pi n d)); across, where the coherence of
-  // tracks is x K1(x), that of 2 G(n) (1 - x K1(x)); K1 is the library's. (20 000 draws of a square: a standard error of 1 %.)
+  // Along s the mean square of a difference is the integral of 2 G(n) (1 - cos(2 pi n d)); across, where the coherence
+  // of tracks is x K1(x), that of 2 G(n) (1 - x K1(x)); K1 is the library's. (20 000 draws of a square: a standard
+  // error of 1 %.)
   for (const double d : {0.2, 1.0, 3.0}) {
-    EXPECT_NEAR(Structure(d, 0.0, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - std::cos(x)); }), 1.0, 0.04) << d;
-    EXPECT_NEAR(Structure(0.0, d, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - x * std::cyl_bessel_k(1.0, x)); }),
-                1.0, 0.04)
+    EXPECT_NEAR(Structure(d, 0.0, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - std::cos(x)); }), 1.0, 0.04)
+        << d;
+    EXPECT_NEAR(
+        Structure(0.0, d, 20'000) / Integral(d, [](double x) { return 2.0 * (1.0 - x * std::cyl_bessel_k(1.0, x)); }),
+        1.0, 0.04)
         << d;
   }
 }

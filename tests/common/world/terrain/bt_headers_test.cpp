@@ -75,13 +75,27 @@ base::Bytes Broken(Draw& draw) {
     constexpr std::size_t longs[] = {10, 14}, shorts[] = {18, 20, 22, 24, 26, 42, 60}, doubles[] = {28, 36, 44, 52},
                           floats[] = {26, 30, 34, 38, 62};
     switch (draw.Below(8)) {
-      case 0: bytes[9] = static_cast<std::byte>('0' + draw.Below(6)); break;
-      case 1: Put(bytes, longs[draw.Below(2)], integer); break;
-      case 2: Put(bytes, shorts[draw.Below(7)], static_cast<std::int16_t>(integer)); break;
-      case 3: Put(bytes, doubles[draw.Below(4)], number); break;
-      case 4: Put(bytes, floats[draw.Below(5)], static_cast<float>(number)); break;
-      case 5: bytes[draw.Below(80)] ^= static_cast<std::byte>(1u << draw.Below(8)); break;
-      case 6: bytes[draw.Below(kBtHeaderBytes)] = static_cast<std::byte>(draw.Bits()); break;
+      case 0:
+        bytes[9] = static_cast<std::byte>('0' + draw.Below(6));
+        break;
+      case 1:
+        Put(bytes, longs[draw.Below(2)], integer);
+        break;
+      case 2:
+        Put(bytes, shorts[draw.Below(7)], static_cast<std::int16_t>(integer));
+        break;
+      case 3:
+        Put(bytes, doubles[draw.Below(4)], number);
+        break;
+      case 4:
+        Put(bytes, floats[draw.Below(5)], static_cast<float>(number));
+        break;
+      case 5:
+        bytes[draw.Below(80)] ^= static_cast<std::byte>(1u << draw.Below(8));
+        break;
+      case 6:
+        bytes[draw.Below(kBtHeaderBytes)] = static_cast<std::byte>(draw.Bits());
+        break;
       default:
         if (draw.Below(4) == 0) {
           bytes.resize(draw.Below(bytes.size()));
@@ -113,7 +127,8 @@ TEST(BtHeaders, AMutatedHeaderIsReadAsSomethingThatCanBeOrRefused) {
     ++accepted;
     const BtHeader& h = header.value();
     ASSERT_TRUE(h.version_tenths >= 10 && h.version_tenths <= 13 && h.columns >= 2 && h.rows >= 2) << number;
-    ASSERT_TRUE(std::isfinite(h.right - h.left) && h.left < h.right && std::isfinite(h.top - h.bottom) && h.bottom < h.top)
+    ASSERT_TRUE(std::isfinite(h.right - h.left) && h.left < h.right && std::isfinite(h.top - h.bottom) &&
+                h.bottom < h.top)
         << number;
     ASSERT_TRUE(h.vertical_scale > 0.0 && std::isfinite(h.vertical_scale) && h.metres_a_unit >= 0.0) << number;
     ASSERT_GE(h.file_bytes(), kBtHeaderBytes + 8u) << number;
@@ -149,8 +164,8 @@ TEST(BtHeaders, AFileWithAMutatedHeaderIsAGridThatCanBeAskedOrASentence) {
     const ElevationGrid& grid = *loaded.value();
     const auto& frame = grid.frame();
     for (const double share : {0.0, 0.3, 0.999, 1.0, 1.5}) {
-      const GridSample at =
-          grid.At(frame.west_m + share * (frame.east_m - frame.west_m), frame.south_m + share * (frame.north_m - frame.south_m));
+      const GridSample at = grid.At(frame.west_m + share * (frame.east_m - frame.west_m),
+                                    frame.south_m + share * (frame.north_m - frame.south_m));
       ASSERT_TRUE(!at.inside || std::isfinite(at.z_m)) << number;
     }
   }

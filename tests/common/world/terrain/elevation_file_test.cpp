@@ -65,9 +65,12 @@ struct HandMade {
     }
     out.bytes().resize(kBtHeaderBytes);
     for (std::int32_t i = 0; i < columns * rows; ++i) {
-      if (bytes_a_post == 2) out.Put(static_cast<std::int16_t>(10 + i));
-      else if (floating != 0) out.Put(static_cast<float>(10 + i));
-      else out.Put(10 + i);
+      if (bytes_a_post == 2)
+        out.Put(static_cast<std::int16_t>(10 + i));
+      else if (floating != 0)
+        out.Put(static_cast<float>(10 + i));
+      else
+        out.Put(10 + i);
     }
     return out.bytes();
   }
@@ -105,7 +108,9 @@ TEST_F(ElevationFile, ACutShortCraterIsRefused) {
   auto bytes = base::ReadBytes(kCrater);
   ASSERT_TRUE(bytes.ok());
   bytes.value().resize(bytes.value().size() - 1);
-  EXPECT_THAT(Refusal(Write("short.bt", bytes.value())), HasSubstr("short.bt: the file is cut short: 1052931 bytes, and 513 x 513 heights of 4 bytes need 1052932"));
+  EXPECT_THAT(
+      Refusal(Write("short.bt", bytes.value())),
+      HasSubstr("short.bt: the file is cut short: 1052931 bytes, and 513 x 513 heights of 4 bytes need 1052932"));
 }
 
 TEST_F(ElevationFile, EveryVersionAndKindOfHeightIsRead) {
@@ -139,7 +144,8 @@ TEST_F(ElevationFile, FeetAndTheVerticalScaleBecomeMetres) {
 TEST_F(ElevationFile, WhatWeWriteGdalReads) {
   const int columns = 5, rows = 4;
   std::vector<float> heights;
-  for (std::uint64_t i = 0; i < columns * rows; ++i) heights.push_back(static_cast<float>(base::RandomUniform({i}, -100.0, 900.0)));
+  for (std::uint64_t i = 0; i < columns * rows; ++i)
+    heights.push_back(static_cast<float>(base::RandomUniform({i}, -100.0, 900.0)));
   const auto wkt = ProjectionWkt("EPSG:3763");
   ASSERT_TRUE(wkt.ok()) << wkt.error().Text();
   const ElevationGrid grid({columns, rows, 40'000.0, 150'000.0, 40'040.0, 150'030.0}, heights, wkt.value());
@@ -149,15 +155,20 @@ TEST_F(ElevationFile, WhatWeWriteGdalReads) {
   ASSERT_TRUE(theirs);
   EXPECT_STREQ(theirs->GetDriver()->GetDescription(), "BT");
   std::vector<float> rasters(heights.size());
-  ASSERT_EQ(theirs->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, rasters.data(), columns, rows, GDT_Float32, 0, 0, nullptr), CE_None);
+  ASSERT_EQ(theirs->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, columns, rows, rasters.data(), columns, rows, GDT_Float32,
+                                               0, 0, nullptr),
+            CE_None);
   for (int column = 0; column < columns; ++column) {
-    for (int row = 0; row < rows; ++row) EXPECT_EQ(rasters[(rows - 1 - row) * columns + column], grid.Post(column, row));
+    for (int row = 0; row < rows; ++row)
+      EXPECT_EQ(rasters[(rows - 1 - row) * columns + column], grid.Post(column, row));
   }
   ASSERT_NE(theirs->GetSpatialRef(), nullptr);
   OGRSpatialReference portugal;
   ASSERT_EQ(portugal.importFromEPSG(3763), OGRERR_NONE);
-  for (const char* parameter : {SRS_PP_CENTRAL_MERIDIAN, SRS_PP_LATITUDE_OF_ORIGIN, SRS_PP_SCALE_FACTOR, SRS_PP_FALSE_EASTING}) {
-    EXPECT_NEAR(theirs->GetSpatialRef()->GetNormProjParm(parameter), portugal.GetNormProjParm(parameter), 1e-9) << parameter;
+  for (const char* parameter :
+       {SRS_PP_CENTRAL_MERIDIAN, SRS_PP_LATITUDE_OF_ORIGIN, SRS_PP_SCALE_FACTOR, SRS_PP_FALSE_EASTING}) {
+    EXPECT_NEAR(theirs->GetSpatialRef()->GetNormProjParm(parameter), portugal.GetNormProjParm(parameter), 1e-9)
+        << parameter;
   }
   // And so do we, the same grid to the last bit.
   const auto ours = LoadElevation(folder_ / "ours.bt");
@@ -167,8 +178,9 @@ TEST_F(ElevationFile, WhatWeWriteGdalReads) {
 }
 
 TEST_F(ElevationFile, AnotherRasterStandsInTheMiddlesOfItsPixels) {
-  ASSERT_TRUE(base::WriteWhole(folder_ / "small.asc", std::string_view("ncols 3\nnrows 2\nxllcorner 0\nyllcorner 100\ncellsize 10\n"
-                                                                       "NODATA_value -9999\n4 5 6\n1 2 -9999\n"))
+  ASSERT_TRUE(base::WriteWhole(folder_ / "small.asc",
+                               std::string_view("ncols 3\nnrows 2\nxllcorner 0\nyllcorner 100\ncellsize 10\n"
+                                                "NODATA_value -9999\n4 5 6\n1 2 -9999\n"))
                   .ok());
   const auto loaded = LoadElevation(folder_ / "small.asc");
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -182,13 +194,16 @@ TEST_F(ElevationFile, BrokenFilesAreRefusedWithASentence) {
   EXPECT_THAT(Refusal(folder_ / "none.bt"), HasSubstr("none.bt: there is no such elevation file"));
   EXPECT_THAT(Refusal(folder_), HasSubstr("this is no plain file"));
   EXPECT_THAT(Refusal(Write("empty.bt", {})), HasSubstr("this is no elevation file that can be read"));
-  EXPECT_THAT(Refusal(Write("text.bt", base::Bytes(500, std::byte{'x'}))), HasSubstr("this is no elevation file that can be read"));
+  EXPECT_THAT(Refusal(Write("text.bt", base::Bytes(500, std::byte{'x'}))),
+              HasSubstr("this is no elevation file that can be read"));
   auto head = HandMade().Make();
   head.resize(100);
-  EXPECT_THAT(Refusal(Write("head.bt", head)), HasSubstr("the file is cut short: 100 bytes, and a .bt header alone is 256"));
+  EXPECT_THAT(Refusal(Write("head.bt", head)),
+              HasSubstr("the file is cut short: 100 bytes, and a .bt header alone is 256"));
   auto half = HandMade().Make();
   half.resize(half.size() - 3);
-  EXPECT_THAT(Refusal(Write("half.bt", half)), HasSubstr("the file is cut short: 277 bytes, and 3 x 2 heights of 4 bytes need 280"));
+  EXPECT_THAT(Refusal(Write("half.bt", half)),
+              HasSubstr("the file is cut short: 277 bytes, and 3 x 2 heights of 4 bytes need 280"));
 }
 
 TEST_F(ElevationFile, HeadersThatCannotBeAreRefused) {
@@ -200,14 +215,23 @@ TEST_F(ElevationFile, HeadersThatCannotBeAreRefused) {
   EXPECT_THAT(refusal([](HandMade& made) { made.version = "1.7"; }), HasSubstr("begins with 'binterr1.7'"));
   EXPECT_THAT(refusal([](HandMade& made) { made.columns = 1; }), HasSubstr("1 columns and 2 rows"));
   EXPECT_THAT(refusal([](HandMade& made) { made.columns = -5; }), HasSubstr("-5 columns"));
-  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0; }), HasSubstr("the middle of the grid, in degrees, lies at longitude 1010 and latitude 502.5; a place on the earth was expected"));
-  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0, made.left = -10, made.right = 10, made.bottom = 40, made.top = 41; }), HasSubstr("spans 30 degrees of longitude; at most 12 was expected"));
-  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0, made.left = -1, made.right = 1, made.bottom = 40, made.top = 40.01; }), HasSubstr("on the ground: too long and thin for a map in metres"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.units = 0; }),
+              HasSubstr("the middle of the grid, in degrees, lies at longitude 1010 and latitude 502.5; a place on the "
+                        "earth was expected"));
+  EXPECT_THAT(refusal([](HandMade& made) {
+                made.units = 0, made.left = -10, made.right = 10, made.bottom = 40, made.top = 41;
+              }),
+              HasSubstr("spans 30 degrees of longitude; at most 12 was expected"));
+  EXPECT_THAT(refusal([](HandMade& made) {
+                made.units = 0, made.left = -1, made.right = 1, made.bottom = 40, made.top = 40.01;
+              }),
+              HasSubstr("on the ground: too long and thin for a map in metres"));
   EXPECT_THAT(refusal([](HandMade& made) { made.units = 9; }), HasSubstr("horizontal unit"));
   EXPECT_THAT(refusal([](HandMade& made) { made.bytes_a_post = 2; }), HasSubstr("float heights of 2 bytes"));
   EXPECT_THAT(refusal([](HandMade& made) { made.right = made.left; }), HasSubstr("extents enclose nothing"));
   EXPECT_THAT(refusal([](HandMade& made) { made.top = std::nan(""); }), HasSubstr("extents enclose nothing"));
-  EXPECT_THAT(refusal([](HandMade& made) { made.left = 0.0, made.right = 1e-310; }), HasSubstr("extents enclose nothing"));
+  EXPECT_THAT(refusal([](HandMade& made) { made.left = 0.0, made.right = 1e-310; }),
+              HasSubstr("extents enclose nothing"));
   EXPECT_THAT(refusal([](HandMade& made) { made.scale = -1.0F; }), HasSubstr("vertical scale"));
 }
 
@@ -221,8 +245,10 @@ TEST_F(ElevationFile, ProjectionsAreReadFromThePrjAndBrokenOnesRefused) {
   ASSERT_TRUE(wkt.ok());
   ASSERT_TRUE(base::WriteWhole(folder_ / "here.prj", wkt.value()).ok());
   EXPECT_EQ(LoadElevation(path).value()->projection_wkt(), wkt.value());
-  ASSERT_TRUE(base::WriteWhole(folder_ / "here.prj", std::string_view("GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,"
-                                                                     "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]"))
+  ASSERT_TRUE(base::WriteWhole(
+                  folder_ / "here.prj",
+                  std::string_view("GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,"
+                                   "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]"))
                   .ok());
   EXPECT_THAT(Refusal(path), HasSubstr("the .bt grid is in metres or feet, and its coordinate system in degrees"));
   EXPECT_FALSE(ProjectionWkt("EPSG:nonsense").ok());

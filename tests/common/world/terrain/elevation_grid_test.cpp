@@ -13,8 +13,10 @@ namespace {
 
 ElevationGrid Rough(int columns, int rows, std::uint64_t seed) {
   std::vector<float> heights;
-  for (int i = 0; i < columns * rows; ++i) heights.push_back(static_cast<float>(base::RandomUniform({seed, std::uint64_t(i)}, -20.0, 20.0)));
-  return ElevationGrid({columns, rows, 100.0, 200.0, 100.0 + 10.0 * (columns - 1), 200.0 + 5.0 * (rows - 1)}, std::move(heights));
+  for (int i = 0; i < columns * rows; ++i)
+    heights.push_back(static_cast<float>(base::RandomUniform({seed, std::uint64_t(i)}, -20.0, 20.0)));
+  return ElevationGrid({columns, rows, 100.0, 200.0, 100.0 + 10.0 * (columns - 1), 200.0 + 5.0 * (rows - 1)},
+                       std::move(heights));
 }
 
 TEST(ElevationGrid, SplitsACellFromSouthEastToNorthWest) {
@@ -27,21 +29,28 @@ TEST(ElevationGrid, SplitsACellFromSouthEastToNorthWest) {
   EXPECT_NEAR((grid.At(9.0, 9.0).normal_W() - Eigen::Vector3d(-0.8, -0.8, 1.0).normalized()).norm(), 0.0, 1e-12);
 }
 
-// z = 3 + x/4 - y/2 + x^2/64 + xy/32 - y^2/128 over cells of 8 m by 4 m: what the two triangles of a cell leave of it is known. With u and v
-// from the cell's south-western post, of x^2 it is 64 u (u - 1), of y^2 16 v (v - 1), and of xy 32 u v below the diagonal, 32 (1 - u) (1 - v) above it.
+// z = 3 + x/4 - y/2 + x^2/64 + xy/32 - y^2/128 over cells of 8 m by 4 m: what the two triangles of a cell leave of it
+// is known. With u and v from the cell's south-western post, of x^2 it is 64 u (u - 1), of y^2 16 v (v - 1), and of xy
+// 32 u v below the diagonal, 32 (1 - u) (1 - v) above it.
 TEST(ElevationGrid, OfAPolynomialLeavesWhatItsTrianglesMust) {
-  const auto z = [](double x, double y) { return 3.0 + x / 4.0 - y / 2.0 + x * x / 64.0 + x * y / 32.0 - y * y / 128.0; };
+  const auto z = [](double x, double y) {
+    return 3.0 + x / 4.0 - y / 2.0 + x * x / 64.0 + x * y / 32.0 - y * y / 128.0;
+  };
   const int columns = 17, rows = 9;
   std::vector<float> heights(static_cast<std::size_t>(columns * rows));
   for (int row = 0; row < rows; ++row) {
-    for (int column = 0; column < columns; ++column) heights[static_cast<std::size_t>(column * rows + row)] = static_cast<float>(z(8.0 * column, 4.0 * row));  // exact in 24 bits
+    for (int column = 0; column < columns; ++column)
+      heights[static_cast<std::size_t>(column * rows + row)] =
+          static_cast<float>(z(8.0 * column, 4.0 * row));  // exact in 24 bits
   }
   const ElevationGrid grid({columns, rows, 0.0, 0.0, 8.0 * (columns - 1), 4.0 * (rows - 1)}, std::move(heights));
   for (std::uint64_t i = 0; i < 20'000; ++i) {
     const double x = base::RandomUniform({i, 1}, 0.0, 128.0), y = base::RandomUniform({i, 2}, 0.0, 32.0);
     const double u = x / 8.0 - std::floor(x / 8.0), v = y / 4.0 - std::floor(y / 4.0);
     const double both = u + v <= 1.0 ? u * v : (1.0 - u) * (1.0 - v);
-    ASSERT_NEAR(grid.At(x, y).z_m, z(x, y) - 64.0 * u * (u - 1.0) / 64.0 - 32.0 * both / 32.0 + 16.0 * v * (v - 1.0) / 128.0, 1e-11) << x << " " << y;
+    ASSERT_NEAR(grid.At(x, y).z_m,
+                z(x, y) - 64.0 * u * (u - 1.0) / 64.0 - 32.0 * both / 32.0 + 16.0 * v * (v - 1.0) / 128.0, 1e-11)
+        << x << " " << y;
   }
 }
 
@@ -73,16 +82,21 @@ TEST(ElevationGrid, AVoidPostTakesItsTrianglesAway) {
 TEST(ElevationGrid, IsContinuousAcrossEdgesAndDiagonalsToANanometre) {
   // A tile of 513 x 513 posts every 10 m from (0, 0) on, differences of up to 1000 m from post to post.
   std::vector<float> heights;
-  for (std::uint64_t i = 0; i < 513 * 513; ++i) heights.push_back(static_cast<float>(base::RandomUniform({i, 77}, -500.0, 500.0)));
+  for (std::uint64_t i = 0; i < 513 * 513; ++i)
+    heights.push_back(static_cast<float>(base::RandomUniform({i, 77}, -500.0, 500.0)));
   const ElevationGrid grid({513, 513, 0.0, 0.0, 5120.0, 5120.0}, std::move(heights));
   for (std::uint64_t i = 0; i < 200'000; ++i) {
-    const double column = std::floor(base::RandomUniform({i, 1}, 0.0, 512.0)), row = std::floor(base::RandomUniform({i, 2}, 0.0, 512.0));
+    const double column = std::floor(base::RandomUniform({i, 1}, 0.0, 512.0)),
+                 row = std::floor(base::RandomUniform({i, 2}, 0.0, 512.0));
     const double share = base::RandomUniform({i, 3});
     double x = 10.0 * column, y = 10.0 * row;
     Eigen::Vector2d across(1.0, 0.0);
-    if (i % 3 == 0) y += 10.0 * share;                                                        // on the edge between two columns
-    else if (i % 3 == 1) x += 10.0 * share, across = {0.0, 1.0};                              // between two rows
-    else x += 10.0 * share, y += 10.0 * (1.0 - share), across = {0.7071, 0.7071};             // on the diagonal
+    if (i % 3 == 0)
+      y += 10.0 * share;  // on the edge between two columns
+    else if (i % 3 == 1)
+      x += 10.0 * share, across = {0.0, 1.0};  // between two rows
+    else
+      x += 10.0 * share, y += 10.0 * (1.0 - share), across = {0.7071, 0.7071};  // on the diagonal
     const GridSample at = grid.At(x, y);
     for (const double step : {-1e-12, 1e-12}) {  // the next numbers on either side
       const GridSample beside = grid.At(x + step * across.x(), y + step * across.y());
@@ -95,7 +109,8 @@ TEST(ElevationGrid, IsContinuousAcrossEdgesAndDiagonalsToANanometre) {
 TEST(ElevationGrid, AnInclinedPlaneIsExactEverywhere) {
   std::vector<float> heights;
   for (int column = 0; column < 33; ++column) {
-    for (int row = 0; row < 17; ++row) heights.push_back(static_cast<float>(4 * column - 2 * row));  // every 8 m: slopes 0.5 and -0.25
+    for (int row = 0; row < 17; ++row)
+      heights.push_back(static_cast<float>(4 * column - 2 * row));  // every 8 m: slopes 0.5 and -0.25
   }
   const ElevationGrid grid({33, 17, 1000.0, -500.0, 1256.0, -372.0}, std::move(heights));
   for (std::uint64_t i = 0; i < 10'000; ++i) {

@@ -1,4 +1,5 @@
-// Maps and the earth: against worked examples that are published, places that follow from a projection's definition, and back.
+// Maps and the earth: against worked examples that are published, places that follow from a projection's definition,
+// and back.
 #include "common/world/terrain/geographic.hpp"
 
 #include <gtest/gtest.h>
@@ -8,10 +9,12 @@
 namespace rodeira::terrain {
 namespace {
 
-// IOGP, Geomatics Guidance Note 7 part 2: worked examples. The ellipsoids alone are given, so that no change of datum comes in.
+// IOGP, Geomatics Guidance Note 7 part 2: worked examples. The ellipsoids alone are given, so that no change of datum
+// comes in.
 TEST(Geographic, AgreesWithWorkedExamples) {
   // Transverse Mercator (OSGB 1936 / British National Grid): 50°30'N, 0°30'E is E 577 274.99 m, N 69 740.50 m.
-  const auto britain = Geographic::Make("+proj=tmerc +lat_0=49 +lon_0=-2 +k=0.9996012717 +x_0=400000 +y_0=-100000 +a=6377563.396 +rf=299.32496 +units=m");
+  const auto britain = Geographic::Make(
+      "+proj=tmerc +lat_0=49 +lon_0=-2 +k=0.9996012717 +x_0=400000 +y_0=-100000 +a=6377563.396 +rf=299.32496 +units=m");
   ASSERT_TRUE(britain.ok()) << britain.error().Text();
   const auto down = britain.value().ToEarth(577274.99, 69740.50);
   ASSERT_TRUE(down.has_value());
@@ -21,9 +24,12 @@ TEST(Geographic, AgreesWithWorkedExamples) {
   ASSERT_TRUE(map.has_value());
   EXPECT_NEAR(map->x(), 577274.99, 0.01);
   EXPECT_NEAR(map->y(), 69740.50, 0.01);
-  // Lambert conic conformal with two parallels (NAD27 / Texas South Central): 28°30'N, 96°W is E 2 963 503.91, N 254 759.80 US survey feet.
-  const auto texas = Geographic::Make("+proj=lcc +lat_1=28.38333333333333 +lat_2=30.28333333333333 +lat_0=27.83333333333333 +lon_0=-99 +x_0=609601.2192024384 +y_0=0 "
-                                      "+a=6378206.4 +rf=294.97870 +units=m");
+  // Lambert conic conformal with two parallels (NAD27 / Texas South Central): 28°30'N, 96°W is E 2 963 503.91, N 254
+  // 759.80 US survey feet.
+  const auto texas = Geographic::Make(
+      "+proj=lcc +lat_1=28.38333333333333 +lat_2=30.28333333333333 +lat_0=27.83333333333333 +lon_0=-99 "
+      "+x_0=609601.2192024384 +y_0=0 "
+      "+a=6378206.4 +rf=294.97870 +units=m");
   ASSERT_TRUE(texas.ok()) << texas.error().Text();
   constexpr double kFoot_m = 1200.0 / 3937.0;
   const auto gulf = texas.value().ToMap({-96.0, 28.5});
@@ -32,21 +38,26 @@ TEST(Geographic, AgreesWithWorkedExamples) {
   EXPECT_NEAR(gulf->y() / kFoot_m, 254759.80, 0.01);
 }
 
-// UTM: 500 000 m is the zone's middle meridian; along it a metre of the map is 1 / 0.9996 of the earth's, and the arc of the
-// meridian from 0 to 1 degree follows from the ellipsoid by its series (110 574.389 m).
+// UTM: 500 000 m is the zone's middle meridian; along it a metre of the map is 1 / 0.9996 of the earth's, and the arc
+// of the meridian from 0 to 1 degree follows from the ellipsoid by its series (110 574.389 m).
 TEST(Geographic, UtmHasItsMeridian) {
   const auto utm = Geographic::Make("+proj=utm +zone=29 +datum=WGS84 +units=m +no_defs");
   ASSERT_TRUE(utm.ok()) << utm.error().Text();
-  for (const double y : {0.0, 1'000'000.0, 4'553'000.0}) EXPECT_NEAR(utm.value().ToEarth(500'000.0, y)->longitude_deg, -9.0, 1e-12);
-  constexpr double kA_m = 6378137.0, kF = 1.0 / 298.257223563, kN = kF / (2.0 - kF), kDegree = 3.14159265358979323846 / 180.0;
-  const double arc = kA_m / (1.0 + kN) * ((1.0 + kN * kN / 4.0) * kDegree - 1.5 * (kN - kN * kN * kN / 8.0) * std::sin(2.0 * kDegree) + 15.0 / 16.0 * kN * kN * std::sin(4.0 * kDegree) -
-                                            35.0 / 48.0 * kN * kN * kN * std::sin(6.0 * kDegree));
+  for (const double y : {0.0, 1'000'000.0, 4'553'000.0})
+    EXPECT_NEAR(utm.value().ToEarth(500'000.0, y)->longitude_deg, -9.0, 1e-12);
+  constexpr double kA_m = 6378137.0, kF = 1.0 / 298.257223563, kN = kF / (2.0 - kF),
+                   kDegree = 3.14159265358979323846 / 180.0;
+  const double arc =
+      kA_m / (1.0 + kN) *
+      ((1.0 + kN * kN / 4.0) * kDegree - 1.5 * (kN - kN * kN * kN / 8.0) * std::sin(2.0 * kDegree) +
+       15.0 / 16.0 * kN * kN * std::sin(4.0 * kDegree) - 35.0 / 48.0 * kN * kN * kN * std::sin(6.0 * kDegree));
   EXPECT_NEAR(utm.value().ToEarth(500'000.0, 0.9996 * arc)->latitude_deg, 1.0, 1e-9);
   EXPECT_NEAR(utm.value().ToMap({-9.0, 1.0})->y(), 0.9996 * arc, 1e-3);
 }
 
 TEST(Geographic, TheWayBackIsTheSamePlace) {
-  for (const char* definition : {"+proj=utm +zone=29 +ellps=GRS80 +units=m", "EPSG:25829", "+proj=tmerc +lat_0=49 +lon_0=8 +datum=WGS84"}) {
+  for (const char* definition :
+       {"+proj=utm +zone=29 +ellps=GRS80 +units=m", "EPSG:25829", "+proj=tmerc +lat_0=49 +lon_0=8 +datum=WGS84"}) {
     const auto map = Geographic::Make(definition);
     ASSERT_TRUE(map.ok()) << map.error().Text();
     for (const double x : {300'000.0, 512'345.678, 700'000.0}) {
@@ -61,7 +72,8 @@ TEST(Geographic, TheWayBackIsTheSamePlace) {
 }
 
 TEST(Geographic, WhatIsNoProjectionIsASentence) {
-  EXPECT_NE(Geographic::Make("+lat_0=49 +lon_0=8").error().Text().find("is no coordinate system that PROJ knows"), std::string::npos);
+  EXPECT_NE(Geographic::Make("+lat_0=49 +lon_0=8").error().Text().find("is no coordinate system that PROJ knows"),
+            std::string::npos);
   EXPECT_NE(Geographic::Make("").error().Text().find("is no coordinate system"), std::string::npos);
   const auto degrees = Geographic::Make("EPSG:4326");
   ASSERT_FALSE(degrees.ok());

@@ -21,14 +21,18 @@ constexpr int kWidth = 3, kHeight = 2;
 const std::vector<std::uint8_t> kPixels = {250, 10, 20, 30, 240, 40, 50, 60, 230, 0, 0, 0, 255, 255, 255, 128, 64, 32};
 
 // A picture made in memory and written by a driver.
-void Write(const char* driver_name, const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width, int height) {
+void Write(const char* driver_name, const std::filesystem::path& path, const std::vector<std::uint8_t>& rgb, int width,
+           int height) {
   GDALAllRegister();
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName(driver_name);
   ASSERT_NE(driver, nullptr) << driver_name;
   const GDALDatasetUniquePtr made(memory->Create("", width, height, 3, GDT_Byte, nullptr));
   for (int band = 0; band < 3; ++band) {
-    ASSERT_EQ(made->GetRasterBand(band + 1)->RasterIO(GF_Write, 0, 0, width, height, const_cast<std::uint8_t*>(rgb.data()) + band, width, height, GDT_Byte, 3, 3 * width, nullptr), CE_None);
+    ASSERT_EQ(made->GetRasterBand(band + 1)->RasterIO(GF_Write, 0, 0, width, height,
+                                                      const_cast<std::uint8_t*>(rgb.data()) + band, width, height,
+                                                      GDT_Byte, 3, 3 * width, nullptr),
+              CE_None);
   }
   const GDALDatasetUniquePtr written(driver->CreateCopy(path.c_str(), made.get(), FALSE, nullptr, nullptr, nullptr));
   ASSERT_NE(written, nullptr) << driver_name;
@@ -36,7 +40,8 @@ void Write(const char* driver_name, const std::filesystem::path& path, const std
 
 TEST(PictureFile, LosslessFormatsGiveTheirPixels) {
   const cli::TemporaryFolder folder;
-  for (const auto& [driver, name] : {std::pair("PNG", "a.png"), std::pair("BMP", "a.bmp"), std::pair("GTiff", "a.tif")}) {
+  for (const auto& [driver, name] :
+       {std::pair("PNG", "a.png"), std::pair("BMP", "a.bmp"), std::pair("GTiff", "a.tif")}) {
     Write(driver, folder.path() / name, kPixels, kWidth, kHeight);
     if (HasFatalFailure()) return;
     const auto picture = ReadPicture(folder.path() / name);
@@ -66,7 +71,8 @@ TEST(PictureFile, ATableOfColoursIsLookedUp) {
     for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> (8 * i) & 0xff);
   };
   put(14 + 40 + 8 + 8, 4), put(0, 4), put(14 + 40 + 8, 4);
-  put(40, 4), put(1, 4), put(2, 4), put(1, 2), put(8, 2), put(0, 4), put(8, 4), put(0, 4), put(0, 4), put(2, 4), put(0, 4);
+  put(40, 4), put(1, 4), put(2, 4), put(1, 2), put(8, 2), put(0, 4), put(8, 4), put(0, 4), put(0, 4), put(2, 4),
+      put(0, 4);
   bytes += std::string("\x01\x02\x03\x00\x0a\x0b\x0c\x00", 8);  // blue, green, red, nothing
   bytes += std::string("\x01\x00\x00\x00\x00\x00\x00\x00", 8);  // the lower row has the second colour
   const auto file = folder.Write("a.bmp", bytes);
@@ -97,8 +103,10 @@ TEST(PictureFile, AWorldFileSaysWhereItLies) {
 TEST(PictureFile, WhatIsNoPictureIsRefusedWithASentence) {
   const cli::TemporaryFolder folder;
   const auto text = folder.Write("meadow.jpg", "no picture");
-  EXPECT_THAT(LookAtPicture(text).error().Text(), HasSubstr("meadow.jpg' is no picture that can be read (JPEG, PNG, BMP, TIFF)"));
-  EXPECT_THAT(ReadPicture(folder.path() / "medow.jpg").error().Text(), HasSubstr("medow.jpg'; did you mean 'meadow.jpg'?"));
+  EXPECT_THAT(LookAtPicture(text).error().Text(),
+              HasSubstr("meadow.jpg' is no picture that can be read (JPEG, PNG, BMP, TIFF)"));
+  EXPECT_THAT(ReadPicture(folder.path() / "medow.jpg").error().Text(),
+              HasSubstr("medow.jpg'; did you mean 'meadow.jpg'?"));
   EXPECT_THAT(ReadPicture(folder.path()).error().Text(), HasSubstr("there is no texture file"));
   // Cut off in the middle of its pixels: the header still says how large it is.
   std::vector<std::uint8_t> noise;

@@ -63,8 +63,8 @@ class Rasters : public ::testing::Test {
       for (int column = 0; column < kColumns; ++column) heights.push_back(Height(column, row));
     }
     for (int band = 1; band <= bands; ++band) {
-      if (made->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows, GDT_Float32, 0, 0,
-                                              nullptr) != CE_None)
+      if (made->GetRasterBand(band)->RasterIO(GF_Write, 0, 0, kColumns, kRows, heights.data(), kColumns, kRows,
+                                              GDT_Float32, 0, 0, nullptr) != CE_None)
         return false;
     }
     if (change) change(*made);
@@ -101,7 +101,8 @@ TEST_F(Rasters, EveryFormatGivesTheSameHeightsAtTheSamePlaces) {
     EXPECT_NEAR(grid.spacing_x_m(), kCell, 1e-9) << driver;
     EXPECT_NEAR(grid.spacing_y_m(), kCell, 1e-9) << driver;
     for (int column = 0; column < kColumns; ++column) {
-      for (int row = 0; row < kRows; ++row) EXPECT_NEAR(grid.Post(column, kRows - 1 - row), Height(column, row), 1e-4F) << driver;
+      for (int row = 0; row < kRows; ++row)
+        EXPECT_NEAR(grid.Post(column, kRows - 1 - row), Height(column, row), 1e-4F) << driver;
     }
   }
   EXPECT_GE(read, 8) << "this GDAL knows few formats";
@@ -149,8 +150,9 @@ TEST_F(Rasters, FeetBecomeMetresInPlanInHeightAndInTheProjection) {
   EXPECT_NEAR(metric.GetNormProjParm(SRS_PP_FALSE_EASTING), 2'000'000.0, 1e-3);
 }
 
-// Heights that are linear in the map's metres, said at places in degrees: PROJ is asked for these places apart from GDAL's warper. What bilinear interpolation leaves out over a cell of 90 m is less
-// than a millimetre. 42.5 degrees north and 8 west lie in zone 29.
+// Heights that are linear in the map's metres, said at places in degrees: PROJ is asked for these places apart from
+// GDAL's warper. What bilinear interpolation leaves out over a cell of 90 m is less than a millimetre. 42.5 degrees
+// north and 8 west lie in zone 29.
 double Linear(const Eigen::Vector2d& p) { return 100.0 + 0.02 * (p.x() - 582'000.0) - 0.01 * (p.y() - 4'705'000.0); }
 
 void ExpectLinear(const ElevationGrid& grid, const Eigen::Vector2d& low_deg, const Eigen::Vector2d& high_deg) {
@@ -159,7 +161,8 @@ void ExpectLinear(const ElevationGrid& grid, const Eigen::Vector2d& low_deg, con
   EXPECT_NE(grid.projection_wkt().find("UTM_Zone_29N"), std::string::npos) << grid.projection_wkt();
   int count = 0;
   for (std::uint64_t i = 0; i < 500; ++i) {
-    const auto place = map.value().ToMap({base::RandomUniform({i, 1}, low_deg.x(), high_deg.x()), base::RandomUniform({i, 2}, low_deg.y(), high_deg.y())});
+    const auto place = map.value().ToMap({base::RandomUniform({i, 1}, low_deg.x(), high_deg.x()),
+                                          base::RandomUniform({i, 2}, low_deg.y(), high_deg.y())});
     ASSERT_TRUE(place.has_value());
     const auto at = grid.At(place->x(), place->y());
     if (!at.inside) continue;
@@ -167,7 +170,8 @@ void ExpectLinear(const ElevationGrid& grid, const Eigen::Vector2d& low_deg, con
     EXPECT_NEAR(at.z_m, Linear(*place), 2e-3) << place->transpose();
   }
   EXPECT_GT(count, 490);
-  EXPECT_FALSE(grid.At(grid.frame().west_m + 1e-3, grid.frame().north_m - 1e-3).inside) << "the corner of the turned square is no ground";
+  EXPECT_FALSE(grid.At(grid.frame().west_m + 1e-3, grid.frame().north_m - 1e-3).inside)
+      << "the corner of the turned square is no ground";
 }
 
 TEST_F(Rasters, DegreesComeIntoTheirUtmZone) {
@@ -188,48 +192,67 @@ TEST_F(Rasters, DegreesComeIntoTheirUtmZone) {
   std::vector<float> heights;
   for (int row = 0; row < kMany; ++row) {
     for (int column = 0; column < kMany; ++column) {
-      const auto place = map.value().ToMap({kWest_deg + (column + 0.5) * kCell_deg, kNorth_deg - (row + 0.5) * kCell_deg});
+      const auto place =
+          map.value().ToMap({kWest_deg + (column + 0.5) * kCell_deg, kNorth_deg - (row + 0.5) * kCell_deg});
       ASSERT_TRUE(place.has_value());
       heights.push_back(static_cast<float>((Linear(*place) - 50.0) / 0.5));
     }
   }
-  ASSERT_EQ(made->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kMany, kMany, heights.data(), kMany, kMany, GDT_Float32, 0, 0, nullptr), CE_None);
+  ASSERT_EQ(made->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kMany, kMany, heights.data(), kMany, kMany, GDT_Float32, 0,
+                                             0, nullptr),
+            CE_None);
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  { const GDALDatasetUniquePtr copy(driver->CreateCopy((folder_ / "d.tif").c_str(), made.get(), FALSE, nullptr, nullptr, nullptr)); }
+  {
+    const GDALDatasetUniquePtr copy(
+        driver->CreateCopy((folder_ / "d.tif").c_str(), made.get(), FALSE, nullptr, nullptr, nullptr));
+  }
   const auto loaded = LoadElevation(folder_ / "d.tif");
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
   const double last = (kMany - 2.0) * kCell_deg;
-  ExpectLinear(*loaded.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last}, {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
+  ExpectLinear(*loaded.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last},
+               {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
   // A .prj beside a file that says nothing itself.
   made->SetSpatialRef(nullptr);
-  { const GDALDatasetUniquePtr copy(driver->CreateCopy((folder_ / "p.tif").c_str(), made.get(), FALSE, nullptr, nullptr, nullptr)); }
-  ASSERT_TRUE(base::WriteWhole(folder_ / "p.prj", std::string_view("GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]")).ok());
+  {
+    const GDALDatasetUniquePtr copy(
+        driver->CreateCopy((folder_ / "p.tif").c_str(), made.get(), FALSE, nullptr, nullptr, nullptr));
+  }
+  ASSERT_TRUE(base::WriteWhole(
+                  folder_ / "p.prj",
+                  std::string_view("GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298."
+                                   "257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.017453292519943295]]"))
+                  .ok());
   const auto beside = LoadElevation(folder_ / "p.tif");
   ASSERT_TRUE(beside.ok()) << beside.error().Text();
-  ExpectLinear(*beside.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last}, {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
+  ExpectLinear(*beside.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last},
+               {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
 }
 
-// A .bt in degrees (unit 0): its outermost heights stand on its edges; the zone that it says too, another one, means nothing.
+// A .bt in degrees (unit 0): its outermost heights stand on its edges; the zone that it says too, another one, means
+// nothing.
 TEST_F(Rasters, ABtInDegreesComesIntoItsUtmZone) {
   constexpr int kMany = 50;
   constexpr double kWest_deg = -8.05, kSouth_deg = 42.48, kSpan_deg = 0.049;
   const auto map = Geographic::Make("EPSG:32629");
   base::ByteWriter out;
   out.PutRaw(std::as_bytes(std::span("binterr1.3", 10)));
-  out.Put(std::int32_t{kMany}), out.Put(std::int32_t{kMany}), out.Put(std::int16_t{4}), out.Put(std::int16_t{1}), out.Put(std::int16_t{0}), out.Put(std::int16_t{31}), out.Put(std::int16_t{6326});
+  out.Put(std::int32_t{kMany}), out.Put(std::int32_t{kMany}), out.Put(std::int16_t{4}), out.Put(std::int16_t{1}),
+      out.Put(std::int16_t{0}), out.Put(std::int16_t{31}), out.Put(std::int16_t{6326});
   for (const double edge : {kWest_deg, kWest_deg + kSpan_deg, kSouth_deg, kSouth_deg + kSpan_deg}) out.Put(edge);
   out.Put(std::int16_t{0}), out.Put(2.0F);  // two metres a unit of height
   out.bytes().resize(256);
   for (int column = 0; column < kMany; ++column) {
     for (int row = 0; row < kMany; ++row) {
-      const auto place = map.value().ToMap({kWest_deg + kSpan_deg * column / (kMany - 1), kSouth_deg + kSpan_deg * row / (kMany - 1)});
+      const auto place =
+          map.value().ToMap({kWest_deg + kSpan_deg * column / (kMany - 1), kSouth_deg + kSpan_deg * row / (kMany - 1)});
       out.Put(static_cast<float>(0.5 * Linear(*place)));
     }
   }
   ASSERT_TRUE(base::WriteWhole(folder_ / "d.bt", std::span<const std::byte>(out.bytes())).ok());
   const auto loaded = LoadElevation(folder_ / "d.bt");
   ASSERT_TRUE(loaded.ok()) << loaded.error().Text();
-  ExpectLinear(*loaded.value(), {kWest_deg + 0.002, kSouth_deg + 0.002}, {kWest_deg + kSpan_deg - 0.002, kSouth_deg + kSpan_deg - 0.002});
+  ExpectLinear(*loaded.value(), {kWest_deg + 0.002, kSouth_deg + 0.002},
+               {kWest_deg + kSpan_deg - 0.002, kSouth_deg + kSpan_deg - 0.002});
 }
 
 // Formats that nobody thought of are read too; what only names other files, or servers, is not.
@@ -241,7 +264,12 @@ TEST_F(Rasters, WhateverGdalReadsFromAFileIsRead) {
   ASSERT_TRUE(Write("GTiff", folder_ / "a.tif"));
   ASSERT_TRUE(Write("VRT", folder_ / "a.vrt"));
   EXPECT_THAT(Refusal(folder_ / "a.vrt"), HasSubstr("a.vrt: this is no elevation file that can be read"));
-  ASSERT_TRUE(base::WriteWhole(folder_ / "a.xml", std::string_view("<GDAL_WMS><Service name=\"TMS\"><ServerUrl>http://127.0.0.1:9/${z}/${x}/${y}.png</ServerUrl></Service></GDAL_WMS>")).ok());
+  ASSERT_TRUE(base::WriteWhole(
+                  folder_ / "a.xml",
+                  std::string_view(
+                      "<GDAL_WMS><Service "
+                      "name=\"TMS\"><ServerUrl>http://127.0.0.1:9/${z}/${x}/${y}.png</ServerUrl></Service></GDAL_WMS>"))
+                  .ok());
   EXPECT_THAT(Refusal(folder_ / "a.xml"), HasSubstr("a.xml: this is no elevation file that can be read"));
 }
 
@@ -253,8 +281,11 @@ TEST_F(Rasters, WhatIsNoGridOfHeightsIsRefused) {
     degrees.SetWellKnownGeogCS("WGS84");
     made.SetSpatialRef(&degrees);
   }));
-  EXPECT_THAT(Refusal(folder_ / "degrees.tif"), HasSubstr("degrees.tif: the middle of the grid, in degrees, lies at longitude 500035 and latitude 4699975; a place on the earth was expected"));
-  ASSERT_TRUE(Write("GTiff", folder_ / "hours.tif", [](GDALDataset& made) { made.GetRasterBand(1)->SetUnitType("hours"); }));
+  EXPECT_THAT(Refusal(folder_ / "degrees.tif"),
+              HasSubstr("degrees.tif: the middle of the grid, in degrees, lies at longitude 500035 and latitude "
+                        "4699975; a place on the earth was expected"));
+  ASSERT_TRUE(
+      Write("GTiff", folder_ / "hours.tif", [](GDALDataset& made) { made.GetRasterBand(1)->SetUnitType("hours"); }));
   EXPECT_THAT(Refusal(folder_ / "hours.tif"), HasSubstr("the heights are in 'hours'; metres or feet were expected"));
   ASSERT_TRUE(Write("GTiff", folder_ / "turned.tif", [](GDALDataset& made) {
     std::array<double, 6> turned = {kWest, kCell, 1.0, kNorth, 1.0, -kCell};
@@ -264,11 +295,13 @@ TEST_F(Rasters, WhatIsNoGridOfHeightsIsRefused) {
 }
 
 TEST_F(Rasters, VoidsStayVoidsInEveryFormat) {
-  for (const auto& [driver, name] : {std::pair("GTiff", "v.tif"), std::pair("AAIGrid", "v.asc"), std::pair("HFA", "v.img")}) {
+  for (const auto& [driver, name] :
+       {std::pair("GTiff", "v.tif"), std::pair("AAIGrid", "v.asc"), std::pair("HFA", "v.img")}) {
     ASSERT_TRUE(Write(driver, folder_ / name, [](GDALDataset& made) {
       made.GetRasterBand(1)->SetNoDataValue(-9999.0);
       float void_height = -9999.0F;
-      ASSERT_EQ(made.GetRasterBand(1)->RasterIO(GF_Write, 3, 2, 1, 1, &void_height, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
+      ASSERT_EQ(made.GetRasterBand(1)->RasterIO(GF_Write, 3, 2, 1, 1, &void_height, 1, 1, GDT_Float32, 0, 0, nullptr),
+                CE_None);
     }));
     const auto loaded = LoadElevation(folder_ / name);
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();

@@ -15,7 +15,8 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 // "E x.motors:3 curve 3: ..." of each finding.
-std::vector<std::string> Found(const std::string& bytes, const std::string& heights_text = "rodeira: motors/1\nheights_m: {}\n") {
+std::vector<std::string> Found(const std::string& bytes,
+                               const std::string& heights_text = "rodeira: motors/1\nheights_m: {}\n") {
   const auto map = ParseMap(bytes, "x.motors");
   EXPECT_TRUE(map.ok()) << (map.ok() ? "" : map.error().Text());
   const auto heights = ParseHeights(heights_text, "x.motors.yaml");
@@ -25,7 +26,8 @@ std::vector<std::string> Found(const std::string& bytes, const std::string& heig
   bool errors = false;
   for (const Finding& finding : CheckMap(map.value(), heights.value())) {
     errors = errors || finding.severity == Severity::kError;
-    found.push_back((finding.severity == Severity::kError ? "E " : "W ") + finding.Place("x.motors") + " " + finding.Text());
+    found.push_back((finding.severity == Severity::kError ? "E " : "W ") + finding.Place("x.motors") + " " +
+                    finding.Text());
   }
   EXPECT_EQ(MakeLaneMap(map.value(), heights.value(), "x.motors").ok(), !errors);
   return found;
@@ -50,16 +52,20 @@ TEST(Check, NumbersTwice) {
               ElementsAre("E x.motors:12 curve 3: its number is taken already, in line 3"));
   EXPECT_THAT(Found(And("l,2,3,True,3,4,False,1,2\n")),
               ElementsAre("E x.motors:12 lane 2: its number is taken already, in line 8"));
-  EXPECT_THAT(Found(And("c,1,2,False\n")), ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10"));
-  EXPECT_THAT(Found(And("c,1,2,True\n")),
-              ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10, and with another STOP flag"));
+  EXPECT_THAT(Found(And("c,1,2,False\n")),
+              ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10"));
+  EXPECT_THAT(
+      Found(And("c,1,2,True\n")),
+      ElementsAre("E x.motors:12 connection 1 to 2: it is there already, in line 10, and with another STOP flag"));
 }
 
 TEST(Check, WhatIsNotThere) {
-  EXPECT_THAT(Found(With("l,2,3,True", "l,2,33,True")),
-              ElementsAre("E x.motors:8 lane 2: its left curve 33 does not exist", "W x.motors:3 curve 3: no lane uses it"));
-  EXPECT_THAT(Found(With("3,4,False", "3,44,False")),
-              ElementsAre("E x.motors:8 lane 2: its right curve 44 does not exist", "W x.motors:4 curve 4: no lane uses it"));
+  EXPECT_THAT(
+      Found(With("l,2,3,True", "l,2,33,True")),
+      ElementsAre("E x.motors:8 lane 2: its left curve 33 does not exist", "W x.motors:3 curve 3: no lane uses it"));
+  EXPECT_THAT(
+      Found(With("3,4,False", "3,44,False")),
+      ElementsAre("E x.motors:8 lane 2: its right curve 44 does not exist", "W x.motors:4 curve 4: no lane uses it"));
   EXPECT_THAT(Found(And("c,7,2,False\n")), ElementsAre("E x.motors:12 connection 7 to 2: lane 7 does not exist"));
   EXPECT_THAT(Found(And("c,1,-4,False\n")), ElementsAre("E x.motors:12 connection 1 to -4: lane -4 does not exist"));
 }
@@ -69,19 +75,20 @@ TEST(Check, NoStartNoEnd) {
               ElementsAre("E x.motors map: no lane is a start lane (mode 1); at least one is needed"));
   std::string text = With("3,4,False,1,2", "3,4,False,1,0");
   text.replace(text.find("6,False,1,2"), 11, "6,False,1,0");
-  EXPECT_THAT(Found(text), ElementsAre("E x.motors map: no lane is an end lane (mode 2); at least one is needed",
-                                       "E x.motors:8 lane 2: it leads nowhere: no connection goes on, and it is no end lane",
-                                       "E x.motors:9 lane 3: it leads nowhere: no connection goes on, and it is no end lane"));
+  EXPECT_THAT(Found(text),
+              ElementsAre("E x.motors map: no lane is an end lane (mode 2); at least one is needed",
+                          "E x.motors:8 lane 2: it leads nowhere: no connection goes on, and it is no end lane",
+                          "E x.motors:9 lane 3: it leads nowhere: no connection goes on, and it is no end lane"));
 }
 
 TEST(Check, Ways) {
   EXPECT_THAT(Found(With("c,1,3,True,0,0,0\n", "")), ElementsAre("E x.motors:9 lane 3: no connection comes or goes"));
   EXPECT_THAT(Found(With("6,False,1,2\n", "6,False,1,0\n")),
               ElementsAre("E x.motors:9 lane 3: it leads nowhere: no connection goes on, and it is no end lane"));
-  EXPECT_THAT(
-      Found(And("c,2,1,False\n")),
-      ElementsAre("W x.motors:8 lane 2: a connection goes on, but vehicles end here",
-                  "E x.motors:12 connection 2 to 1: 60.00 m lie between the borders of the one where it ends and those of the other where it begins; at most 0.05 m are closed"));
+  EXPECT_THAT(Found(And("c,2,1,False\n")),
+              ElementsAre("W x.motors:8 lane 2: a connection goes on, but vehicles end here",
+                          "E x.motors:12 connection 2 to 1: 60.00 m lie between the borders of the one where it ends "
+                          "and those of the other where it begins; at most 0.05 m are closed"));
   EXPECT_THAT(Found(And("c,1,1,False\n")),
               ElementsAre("E x.motors:12 connection 1 to 1: it leads back into the lane that it comes from"));
   // A second start lane whose vehicles circle for ever with another lane, which no start lane but it leads to.
@@ -99,20 +106,25 @@ TEST(Check, Curves) {
 }
 
 TEST(Check, Lanes) {
-  EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,False,3,1,False")),
-              ElementsAre("E x.motors:7 lane 1: curve 1 is on both of its sides", "W x.motors:2 curve 2: no lane uses it"));
+  EXPECT_THAT(
+      Found(With("l,1,1,False,3,2,False", "l,1,1,False,3,1,False")),
+      ElementsAre("E x.motors:7 lane 1: curve 1 is on both of its sides", "W x.motors:2 curve 2: no lane uses it"));
   EXPECT_THAT(Found(With("l,2,3,True", "l,2,3,False")),
               ElementsAre("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must be inverted"));
   EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,True,3,2,False")),
-              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 1 is inverted and must not be, or curve 2 must be too"));
+              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 1 is inverted "
+                                "and must not be, or curve 2 must be too"));
   EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,1,False,3,2,True")),
-              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 2 is inverted and must not be, or curve 1 must be too"));
-  EXPECT_THAT(Found(With("l,2,3,True,3,4,False", "l,2,3,True,3,4,True")),
-              testing::Contains("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must not be inverted"));
+              testing::Contains("E x.motors:7 lane 1: its curves 1 and 2 run against each other; curve 2 is inverted "
+                                "and must not be, or curve 1 must be too"));
   EXPECT_THAT(
-      Found(With("l,1,1,False,3,2,False", "l,1,2,False,3,1,False")),
-      ElementsAre("E x.motors:7 lane 1: its left curve 2 lies to the right of its right curve 1; exchange them, or invert both"));
-  EXPECT_THAT(Found(With("p,2,0,1,-1.5,", "p,2,0,1,4.5,")), testing::Contains("E x.motors:7 lane 1: its borders cross"));
+      Found(With("l,2,3,True,3,4,False", "l,2,3,True,3,4,True")),
+      testing::Contains("E x.motors:8 lane 2: its curves 3 and 4 run against each other; one must not be inverted"));
+  EXPECT_THAT(Found(With("l,1,1,False,3,2,False", "l,1,2,False,3,1,False")),
+              ElementsAre("E x.motors:7 lane 1: its left curve 2 lies to the right of its right curve 1; exchange "
+                          "them, or invert both"));
+  EXPECT_THAT(Found(With("p,2,0,1,-1.5,", "p,2,0,1,4.5,")),
+              testing::Contains("E x.motors:7 lane 1: its borders cross"));
   // In the middle the left border lies at (1.5 + 3 * -0.75 + 3 * -0.75 + 1.5) / 8 = -0.1875.
   EXPECT_THAT(Found(With("p,1,0,1,1.5,10,1,1.5,20,1,1.5", "p,1,0,1,1.5,10,1,-0.75,20,1,-0.75")),
               testing::Contains("W x.motors:7 lane 1: only 1.31 m wide where it is narrowest"));
@@ -126,11 +138,12 @@ TEST(Check, Lanes) {
 TEST(Check, Joints) {
   std::string shifted = GoodMap();  // the left border of lane 2 begins 1 m too far to the left
   shifted.replace(shifted.find("40,1,1.5,30,1,1.5"), 17, "40,1,1.5,30,1,2.5");
+  EXPECT_THAT(Found(shifted),
+              ElementsAre("E x.motors:10 connection 1 to 2: 1.00 m lie between the borders of the one where it ends "
+                          "and those of the other where it begins; at most 0.05 m are closed"));
   EXPECT_THAT(
-      Found(shifted),
-      ElementsAre("E x.motors:10 connection 1 to 2: 1.00 m lie between the borders of the one where it ends and those of the other where it begins; at most 0.05 m are closed"));
-  EXPECT_THAT(Found(With("34,1,1.5,38.5,1,6", "34,1,3.5,38.5,1,6")),
-              testing::Contains(testing::HasSubstr("W x.motors:11 connection 1 to 3: the direction jumps by 11.3 degrees")));
+      Found(With("34,1,1.5,38.5,1,6", "34,1,3.5,38.5,1,6")),
+      testing::Contains(testing::HasSubstr("W x.motors:11 connection 1 to 3: the direction jumps by 11.3 degrees")));
 }
 
 TEST(Check, Picture) {
@@ -138,8 +151,10 @@ TEST(Check, Picture) {
   EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01\xff\xd9"s), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + "\xff\xd8\xff\xe0\0\x04xy\xff\xc0\0\x0b\x08\0\x10\0\x20\x01"s),
               ElementsAre("E x.motors map: the 18 bytes behind the line 'i' end before the JPEG picture does"));
-  EXPECT_THAT(Found(GoodMap() + kPng2x1.substr(0, kPng2x1.size() - 1)),
-              ElementsAre(fmt::format("E x.motors map: the {} bytes behind the line 'i' end before the PNG picture does", kPng2x1.size() - 1)));
+  EXPECT_THAT(
+      Found(GoodMap() + kPng2x1.substr(0, kPng2x1.size() - 1)),
+      ElementsAre(fmt::format("E x.motors map: the {} bytes behind the line 'i' end before the PNG picture does",
+                              kPng2x1.size() - 1)));
   EXPECT_THAT(Found(GoodMap()), IsEmpty());  // a map need have no picture, and nothing in it says that it should
   EXPECT_THAT(Found(GoodMap() + "GIF89a"),
               ElementsAre("E x.motors map: the 6 bytes behind the line 'i' are no PNG or JPEG picture"));
@@ -155,25 +170,40 @@ TEST(Check, Picture) {
 TEST(Check, APictureHoldsItsPixels) {
   const auto png = [](int side, std::size_t bytes) {
     std::string file = kPng2x1;
-    for (const std::size_t at : {18u, 22u}) file[at] = static_cast<char>(side / 256), file[at + 1] = static_cast<char>(side % 256);
+    for (const std::size_t at : {18u, 22u})
+      file[at] = static_cast<char>(side / 256), file[at + 1] = static_cast<char>(side % 256);
     return file.insert(file.size() - 12, std::string(bytes - file.size(), '\0'));
   };
-  EXPECT_THAT(Found(GoodMap() + png(16000, 100)), ElementsAre("E x.motors map: the 100 bytes behind the line 'i' are too few for a PNG picture of 16000 by 16000 pixels"));
+  EXPECT_THAT(
+      Found(GoodMap() + png(16000, 100)),
+      ElementsAre(
+          "E x.motors map: the 100 bytes behind the line 'i' are too few for a PNG picture of 16000 by 16000 pixels"));
   const std::size_t least = (16000u * (1 + 3 * 16000u) + 1031) / 1032;  // one colour everywhere, of three bytes a pixel
   EXPECT_THAT(Found(GoodMap() + png(16000, least)), IsEmpty());
   EXPECT_THAT(Found(GoodMap() + png(16000, least - 1)).size(), 1u);
   const std::string jpeg = "\xff\xd8\xff\xc0\0\x0b\x08\x3e\x80\x3e\x80\x01\xff\xd9"s;
-  EXPECT_THAT(Found(GoodMap() + jpeg), ElementsAre("E x.motors map: the 14 bytes behind the line 'i' are too few for a JPEG picture of 16000 by 16000 pixels"));
-  EXPECT_THAT(Found(GoodMap() + jpeg.substr(0, 12) + std::string(500'000 - 14, '\0') + "\xff\xd9"), IsEmpty());  // 2000 by 2000 blocks of a bit
+  EXPECT_THAT(
+      Found(GoodMap() + jpeg),
+      ElementsAre(
+          "E x.motors map: the 14 bytes behind the line 'i' are too few for a JPEG picture of 16000 by 16000 pixels"));
+  EXPECT_THAT(Found(GoodMap() + jpeg.substr(0, 12) + std::string(500'000 - 14, '\0') + "\xff\xd9"),
+              IsEmpty());  // 2000 by 2000 blocks of a bit
 }
 
 TEST(Check, WhoGoesFirstIsSaidOnce) {
   const auto signs = [](const std::string& kinds) { return "rodeira: motors/1\nsigns:\n" + kinds; };
-  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 2, kind: stop}\n  - {lane: 2, kind: priority}\n  - {lane: 2, kind: give_way}\n")),
-              ElementsAre("W x.motors.yaml:4 sign of lane 2: 'priority', but it has 'stop' already, in line 3; one of 'stop', 'give_way' and 'priority' a lane was expected",
-                          "W x.motors.yaml:5 sign of lane 2: 'give_way', but it has 'stop' already, in line 3; one of 'stop', 'give_way' and 'priority' a lane was expected"));
-  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 1, kind: priority}\n")), ElementsAre("W x.motors.yaml:3 sign of lane 1: 'priority', but its connection to lane 3 has a STOP flag"));
-  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 1, kind: stop}\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - {lane: 2, kind: give_way}\n")), IsEmpty());
+  EXPECT_THAT(Found(GoodMap(),
+                    signs("  - {lane: 2, kind: stop}\n  - {lane: 2, kind: priority}\n  - {lane: 2, kind: give_way}\n")),
+              ElementsAre("W x.motors.yaml:4 sign of lane 2: 'priority', but it has 'stop' already, in line 3; one of "
+                          "'stop', 'give_way' and 'priority' a lane was expected",
+                          "W x.motors.yaml:5 sign of lane 2: 'give_way', but it has 'stop' already, in line 3; one of "
+                          "'stop', 'give_way' and 'priority' a lane was expected"));
+  EXPECT_THAT(
+      Found(GoodMap(), signs("  - {lane: 1, kind: priority}\n")),
+      ElementsAre("W x.motors.yaml:3 sign of lane 1: 'priority', but its connection to lane 3 has a STOP flag"));
+  EXPECT_THAT(Found(GoodMap(), signs("  - {lane: 1, kind: stop}\n  - {lane: 1, kind: speed_limit, limit_kmh: 30}\n  - "
+                                     "{lane: 2, kind: give_way}\n")),
+              IsEmpty());
 }
 
 TEST(Check, Heights) {
@@ -186,10 +216,10 @@ TEST(Check, Heights) {
   // 9 m at the inner control points over 30 m: dz/dt = 27 at the beginning.
   EXPECT_THAT(Found(GoodMap(), head + "  1: [0, 9, 9, 0]\n  2: [0, 9, 9, 0]\n"),
               ElementsAre("W x.motors:7 lane 1: its grade reaches 90 %"));
-  for (const auto& [text, part] :
-       {std::pair("1: [0, 0, 1]", "has 3 heights; 4 were expected"), std::pair("x: [0, 0, 0, 1]", "'x' is not a curve's number"),
-        std::pair("1: [0, 0, 0, 1e9]", "a number from -10000 to 10000 was expected"),
-        std::pair("01: [0, 0, 0, 1]\n  1: [0, 0, 0, 1]", "curve 1 has heights already")}) {
+  for (const auto& [text, part] : {std::pair("1: [0, 0, 1]", "has 3 heights; 4 were expected"),
+                                   std::pair("x: [0, 0, 0, 1]", "'x' is not a curve's number"),
+                                   std::pair("1: [0, 0, 0, 1e9]", "a number from -10000 to 10000 was expected"),
+                                   std::pair("01: [0, 0, 0, 1]\n  1: [0, 0, 0, 1]", "curve 1 has heights already")}) {
     const auto heights = ParseHeights(head + "  " + text + "\n", "x.motors.yaml");
     ASSERT_FALSE(heights.ok()) << text;
     EXPECT_THAT(heights.error().Text(), testing::HasSubstr(part));
@@ -198,7 +228,8 @@ TEST(Check, Heights) {
 
 TEST(Check, FlowsBeginOnStartLanesAlone) {
   EXPECT_THAT(Found(GoodMap(), "rodeira: motors/1\nflows_vehph:\n  1: 300\n"), IsEmpty());
-  EXPECT_THAT(Found(GoodMap(), "rodeira: motors/1\nflows_vehph:\n  2: 300\n"), ElementsAre("E x.motors.yaml:3 flow of lane 2: it is no start lane: nobody begins there"));
+  EXPECT_THAT(Found(GoodMap(), "rodeira: motors/1\nflows_vehph:\n  2: 300\n"),
+              ElementsAre("E x.motors.yaml:3 flow of lane 2: it is no start lane: nobody begins there"));
 }
 
 TEST(LaneMap, EveryNumberIsResolved) {

@@ -1,5 +1,5 @@
-// Cubics against closed forms: straight lines, parabolas, semi-cubical parabolas, circles' approximations; and against sums of
-// chords.
+// Cubics against closed forms: straight lines, parabolas, semi-cubical parabolas, circles' approximations; and against
+// sums of chords.
 #include "common/world/traffic_map/cubic.hpp"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,8 @@ TEST(Cubic, SlopeAndBendAreTheDerivatives) {
 TEST(Cubic, Parabola) {
   const Cubic c = Raised(V(0, 0), V(0.5, 0), V(1, 1));
   EXPECT_NEAR(ArcLength(c, 0.0, 1.0), std::sqrt(5.0) / 2.0 + std::asinh(2.0) / 4.0, 1e-13);
-  for (const double x : {0.0, 0.25, 0.5, 1.0}) EXPECT_NEAR(c.Curvature(x), 2.0 / std::pow(1.0 + 4.0 * x * x, 1.5), 1e-13);
+  for (const double x : {0.0, 0.25, 0.5, 1.0})
+    EXPECT_NEAR(c.Curvature(x), 2.0 / std::pow(1.0 + 4.0 * x * x, 1.5), 1e-13);
   EXPECT_NEAR(c.Reversed().Curvature(0.25), -c.Curvature(0.75), 1e-13);  // the other way round it bends to the right
   EXPECT_NEAR(ArcLength(c, 0.0, 0.5), std::sqrt(2.0) / 4.0 + std::asinh(1.0) / 4.0, 1e-13);
 }
@@ -67,7 +68,8 @@ TEST(Cubic, CuspWithin) {
   EXPECT_NEAR(ArcLength(c, 0.0, 1.0), 2.0 * (13.0 * std::sqrt(13.0) - 8.0) / 27.0, 1e-9);
 }
 
-// A quarter circle's usual approximation is off by 2.73e-4 of the radius at most (Goldapp 1991), and outside the circle.
+// A quarter circle's usual approximation is off by 2.73e-4 of the radius at most (Goldapp 1991), and outside the
+// circle.
 TEST(Cubic, QuarterCircle) {
   const double k = 4.0 / 3.0 * (std::sqrt(2.0) - 1.0);
   const Cubic c{{V(1, 0), V(1, k), V(k, 1), V(0, 1)}};
@@ -84,7 +86,8 @@ TEST(Cubic, LengthAgreesWithChords) {
     double chords[2] = {0.0, 0.0};
     for (int level = 0; level < 2; ++level) {
       const int steps = 4000 << level;
-      for (int i = 0; i < steps; ++i) chords[level] += (c.At((i + 1.0) / steps) - c.At(static_cast<double>(i) / steps)).norm();
+      for (int i = 0; i < steps; ++i)
+        chords[level] += (c.At((i + 1.0) / steps) - c.At(static_cast<double>(i) / steps)).norm();
     }
     const double extrapolated = chords[1] + (chords[1] - chords[0]) / 3.0;
     EXPECT_NEAR(ArcLength(c, 0.0, 1.0), extrapolated, 1e-8 * extrapolated) << n;

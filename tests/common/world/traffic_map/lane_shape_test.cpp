@@ -43,7 +43,8 @@ TEST(LaneShape, AQuarterCircleToTheLeft) {
     EXPECT_NEAR(at.left_m, half, 3e-4 * radius);
     EXPECT_NEAR(at.right_m, -half, 3e-4 * radius);
     EXPECT_NEAR(at.curvature_1pm, 1.0 / radius, 0.035 / radius);
-    EXPECT_NEAR(std::atan2(at.p_W.y(), at.p_W.x()), kHalfPi * i / 50.0, 3e-4);  // along it by distance, not by parameter
+    EXPECT_NEAR(std::atan2(at.p_W.y(), at.p_W.x()), kHalfPi * i / 50.0,
+                3e-4);  // along it by distance, not by parameter
   }
 }
 

@@ -35,8 +35,8 @@ std::string With(std::string text, const std::string& what, const std::string& i
   return text.replace(at, what.size(), instead);
 }
 
-// Lines as A.16 takes them apart (split at commas, the first field is the letter), the picture as A.17 finds it: everything
-// from two bytes behind the first byte 0x69.
+// Lines as A.16 takes them apart (split at commas, the first field is the letter), the picture as A.17 finds it:
+// everything from two bytes behind the first byte 0x69.
 std::string PictureAsA17(const std::string& bytes) { return bytes.substr(bytes.find('\x69') + 2); }
 
 TEST(MapFile, Figure18IsReadAsPrinted) {
@@ -69,7 +69,8 @@ TEST(MapFile, AppendixA15HasFourFieldsAConnection) {
 
 TEST(MapFile, UneditedComesBackToTheByte) {
   const std::string odd =
-      "s,7.50\r\nc,3,4,True\np,-7,1e0,0.50,-0,1E+02,1,1,2,2,2,3,3,3\r\nl,9,-7,True,7,8,False,0,2\nc,3,5,False,1,2.50,3\np,8,1,1,"
+      "s,7.50\r\nc,3,4,True\np,-7,1e0,0.50,-0,1E+02,1,1,2,2,2,3,3,3\r\nl,9,-7,True,7,8,False,0,2\nc,3,5,False,1,2.50,"
+      "3\np,8,1,1,"
       "1,2,2,2,3,3,3,4,4,4\ni\n";
   for (const std::string& bytes :
        {Figure18(), AppendixA15(), GoodMap(), odd, odd + "i\ni\n", odd + std::string(3, '\0') + "\xff\xd8\xff\r\ni"}) {
@@ -82,7 +83,8 @@ TEST(MapFile, OnlyEditedLinesChange) {
   MapFile map = Read(bytes);
   map.curves[1].value.points[2].x_m = 0.1f;
   map.connections[0].value.stop = true;
-  EXPECT_EQ(WriteMap(map), With(With(bytes, "34.5,14.70026,5.7", "0.1,14.70026,5.7"), "c,1,4,False,0,0,0", "c,1,4,True,0,0,0"));
+  EXPECT_EQ(WriteMap(map),
+            With(With(bytes, "34.5,14.70026,5.7", "0.1,14.70026,5.7"), "c,1,4,False,0,0,0", "c,1,4,True,0,0,0"));
   map = Read(AppendixA15());
   map.connections[0].value.to = 8;  // written anew: as figure 18 has it
   map.scale.value.value = 12.5f;
@@ -92,7 +94,9 @@ TEST(MapFile, OnlyEditedLinesChange) {
 TEST(MapFile, NewLinesStandBehindTheirKind) {
   MapFile map = Read(GoodMap());
   map.curves.push_back(
-      {{7, {ControlPoint{1.0f, 2.0f, 3.0f}, {100000.0f, 1e-7f, -0.25f}, {}, {16777216.0f / 64.0f, 1e6f, -1e6f}}}, "", 0});
+      {{7, {ControlPoint{1.0f, 2.0f, 3.0f}, {100000.0f, 1e-7f, -0.25f}, {}, {16777216.0f / 64.0f, 1e6f, -1e6f}}},
+       "",
+       0});
   map.connections.push_back({{2, 3, false, {}}, "", 0});
   map.lanes.erase(map.lanes.begin() + 1);
   const std::string expected =
@@ -136,7 +140,8 @@ TEST(MapFile, SavedAndLoaded) {
 
 // A picture of 300 MB behind the lines is not even read.
 TEST(MapFile, AHugeFileIsRefused) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("huge-" + std::to_string(::getpid()) + ".motors");
+  const std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("huge-" + std::to_string(::getpid()) + ".motors");
   ASSERT_TRUE(base::WriteWhole(path, GoodMap()).ok());
   std::filesystem::resize_file(path, 300'000'000);  // a hole: no disk is used
   const auto map = LoadMap(path);
@@ -154,7 +159,8 @@ TEST(MapFile, WhatIsWrongIsSaid) {
   EXPECT_THAT(Refused(With(good, "l,1", "k,1")), HasSubstr("x.motors:7: the line begins with 'k'"));
   EXPECT_THAT(Refused(With(good, "l,1", "L,1")), HasSubstr("in small letters"));
   EXPECT_THAT(Refused(With(good, "s,10\n", "")), HasSubstr("no line 's'"));
-  EXPECT_THAT(Refused(With(good, "s,10\n", "s,10\ns,5\n")), HasSubstr("x.motors:13: a second line 's'; the first is line 12"));
+  EXPECT_THAT(Refused(With(good, "s,10\n", "s,10\ns,5\n")),
+              HasSubstr("x.motors:13: a second line 's'; the first is line 12"));
   EXPECT_THAT(Refused(With(good, "s,10\n", "\n")), HasSubstr("x.motors:12: the line begins with ''"));
   EXPECT_THAT(Refused(With(good, "i\n", "i\r\n")), HasSubstr("'i' alone was expected"));
   EXPECT_THAT(Refused(With(good, "c,1,2,False,0,0,0", "c,1,2,False,0")),
@@ -168,9 +174,9 @@ TEST(MapFile, WhatIsWrongIsSaid) {
   EXPECT_THAT(Refused(With(good, "20,1,1.5", "nan,1,1.5")),
               HasSubstr("x.motors:1: x of point 2 is 'nan'; a number with a decimal point from -1000000 to 1000000"));
   EXPECT_THAT(Refused(With(good, "20,1,1.5", "20,1,1e7")), HasSubstr("z of point 2 is '1e7'"));
-  EXPECT_THAT(
-      Refused(With(good, "p,1,0,1,1.5,10,1,1.5,20,1,1.5,30,1,1.5", "p,1,0,0,1,0,1,5,10,0,1,0,1,5,20,0,1,0,1,5,30,0,1,0,1,5")),
-      HasSubstr("decimal comma?"));
+  EXPECT_THAT(Refused(With(good, "p,1,0,1,1.5,10,1,1.5,20,1,1.5,30,1,1.5",
+                           "p,1,0,0,1,0,1,5,10,0,1,0,1,5,20,0,1,0,1,5,30,0,1,0,1,5")),
+              HasSubstr("decimal comma?"));
   EXPECT_THAT(Refused(With(good, "s,10", "s,0")), HasSubstr("the picture's scale is '0'"));
   EXPECT_THAT(Refused(With(good, "s,10", "s," + std::string(2000, '1'))),
               HasSubstr("x.motors:12: the line has more than 1000 bytes"));

@@ -1,8 +1,8 @@
 // The OpenDRIVE file read again by its own rules, and compared with the map's lanes.
 #include "common/world/traffic_map/open_drive.hpp"
 
-#include <gmock/gmock.h>
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@
 #include <set>
 
 #include "common/core/base/random.hpp"
-#include "common/world/traffic_map/map_network.hpp"
 #include "common/world/network/marking.hpp"
 #include "common/world/road/world.hpp"
+#include "common/world/traffic_map/map_network.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/tree.hpp"
@@ -36,7 +36,9 @@ pugi::xml_node ChildAt(pugi::xml_node parent, const char* name, const char* star
 }
 
 double Cubic3(pugi::xml_node node, const char* suffix, double d) {
-  const auto c = [&](const char* letter) { return node.attribute((std::string(letter) + suffix).c_str()).as_double(NAN); };
+  const auto c = [&](const char* letter) {
+    return node.attribute((std::string(letter) + suffix).c_str()).as_double(NAN);
+  };
   return c("a") + c("b") * d + c("c") * d * d + c("d") * d * d * d;
 }
 
@@ -75,7 +77,8 @@ class Drive : public testing::TestWithParam<const char*> {
     ASSERT_TRUE(drive.ok()) << drive.error().Text();
     drive_ = std::move(drive).value();
     ASSERT_TRUE(document_.load_string(drive_.xml.c_str()));
-    for (const pugi::xml_node road : document_.child("OpenDRIVE").children("road")) roads_[road.attribute("id").as_int()] = road;
+    for (const pugi::xml_node road : document_.child("OpenDRIVE").children("road"))
+      roads_[road.attribute("id").as_int()] = road;
   }
   LaneMap map_;
   OpenDrive drive_;
@@ -94,8 +97,8 @@ TEST_P(Drive, EveryLaneLiesWithinACentimetre) {
       const LanePoint at = lane.shape.At(length * i / 137.0);
       const Read read = ReadAt(road, length * i / 137.0);
       const V left = at.p_W + at.left_m * at.left_W(), right = at.p_W + at.right_m * at.left_W();
-      worst = std::max(
-          {worst, (read.p - at.p_W).norm(), (read.left - left).norm(), (read.right - right).norm(), std::abs(read.z - at.z_m)});
+      worst = std::max({worst, (read.p - at.p_W).norm(), (read.left - left).norm(), (read.right - right).norm(),
+                        std::abs(read.z - at.z_m)});
     }
   }
   EXPECT_LT(worst, 0.01);
@@ -106,7 +109,8 @@ TEST_P(Drive, EveryLaneLiesWithinACentimetre) {
 
 TEST_P(Drive, PiecesMeet) {
   for (const auto& [id, road] : roads_) {
-    for (pugi::xml_node piece = road.child("planView").first_child(); piece.next_sibling(); piece = piece.next_sibling()) {
+    for (pugi::xml_node piece = road.child("planView").first_child(); piece.next_sibling();
+         piece = piece.next_sibling()) {
       const double s = piece.next_sibling().attribute("s").as_double();
       EXPECT_DOUBLE_EQ(piece.attribute("s").as_double() + piece.attribute("length").as_double(), s);
       EXPECT_LT((ReadAt(road, s - 1e-9).p - ReadAt(road, s).p).norm(), 1e-8);
@@ -169,8 +173,11 @@ TEST(OpenDrive, StopAndMarks) {
 }
 
 TEST(OpenDrive, LinesWhereOneStopsOrGivesWayAreSaidOnce) {
-  const auto companion = ParseHeights("rodeira: motors/1\nsigns:\n  - {lane: 1, kind: stop}\n  - {lane: 1, kind: give_way, before_end_m: 10}\n  - {lane: 2, kind: give_way}\n"
-                                      "lights:\n  - phases: [{green: [3], for_s: 10}, {green: [], for_s: 10}]\n", "x.motors.yaml");
+  const auto companion = ParseHeights(
+      "rodeira: motors/1\nsigns:\n  - {lane: 1, kind: stop}\n  - {lane: 1, kind: give_way, before_end_m: 10}\n  - "
+      "{lane: 2, kind: give_way}\n"
+      "lights:\n  - phases: [{green: [3], for_s: 10}, {green: [], for_s: 10}]\n",
+      "x.motors.yaml");
   ASSERT_TRUE(companion.ok()) << companion.error().Text();
   const auto map = MakeLaneMap(ParseMap(GoodMap(), "x.motors").value(), companion.value(), "x.motors");
   ASSERT_TRUE(map.ok()) << map.error().Text();
@@ -180,12 +187,15 @@ TEST(OpenDrive, LinesWhereOneStopsOrGivesWayAreSaidOnce) {
   for (const pugi::xml_node road : document.child("OpenDRIVE").children("road")) {
     for (const pugi::xml_node signal : road.child("signals").children("signal")) {
       const std::string type = signal.attribute("type").value();
-      if (type == "294" || type == "341") lines.push_back(fmt::format("{} {} {:.1f}", road.attribute("id").value(), type, signal.attribute("s").as_double()));
+      if (type == "294" || type == "341")
+        lines.push_back(
+            fmt::format("{} {} {:.1f}", road.attribute("id").value(), type, signal.attribute("s").as_double()));
     }
   }
   // Lane 1 has a STOP flag and a STOP sign at one place; lane 3 a light, and is the arc that the cubic makes.
   const double turn_m = map.value().lanes[2].shape.length_m();
-  EXPECT_EQ(lines, (std::vector<std::string>{"1 341 19.7", "1 294 29.7", "2 341 29.7", fmt::format("3 294 {:.1f}", turn_m - 0.3)}));
+  EXPECT_EQ(lines, (std::vector<std::string>{"1 341 19.7", "1 294 29.7", "2 341 29.7",
+                                             fmt::format("3 294 {:.1f}", turn_m - 0.3)}));
 }
 
 // What docs/formats.md says of a border type: lines, their width, strokes and gaps.
@@ -208,9 +218,12 @@ constexpr double kLong_m = 120.0, kRow_m = 20.0;
 LaneMap MapOfAllTypes() {
   LaneMap map;
   for (int i = 0; i < kBorderTypes; ++i) {
-    const auto side = [&](double y) { return Border{{{V(0.0, y), V(kLong_m / 3.0, y), V(2.0 * kLong_m / 3.0, y), V(kLong_m, y)}}, {}}; };
+    const auto side = [&](double y) {
+      return Border{{{V(0.0, y), V(kLong_m / 3.0, y), V(2.0 * kLong_m / 3.0, y), V(kLong_m, y)}}, {}};
+    };
     const auto type = static_cast<BorderType>(i);
-    map.lanes.push_back({i + 1, LaneMode::kStart, type, type, LaneShape(side(kRow_m * i + 1.5), side(kRow_m * i - 1.5)), {}, {}});
+    map.lanes.push_back(
+        {i + 1, LaneMode::kStart, type, type, LaneShape(side(kRow_m * i + 1.5), side(kRow_m * i - 1.5)), {}, {}});
   }
   return map;
 }
@@ -232,7 +245,9 @@ TEST(OpenDrive, EveryBorderTypeIsReadAgainWithItsMeasures) {
       double painted = 0.0;
       for (const network::Stroke& stroke : network::StrokesOf(road, line)) painted += stroke.to_s_m - stroke.from_s_m;
       const double period = expected.stroke_m + expected.gap_m;
-      const double whole = expected.gap_m == 0.0 ? kLong_m : std::floor(kLong_m / period) * expected.stroke_m + std::min(std::fmod(kLong_m, period), expected.stroke_m);
+      const double whole = expected.gap_m == 0.0 ? kLong_m
+                                                 : std::floor(kLong_m / period) * expected.stroke_m +
+                                                       std::min(std::fmod(kLong_m, period), expected.stroke_m);
       EXPECT_NEAR(painted, whole, 1e-6) << road.id();
     }
     std::sort(places.begin(), places.end());
@@ -250,14 +265,17 @@ TEST(OpenDrive, EveryBorderTypeIsPaintToSuelo) {
   for (const Measures& expected : kMeasures) {
     for (std::uint64_t i = 0; i < 4'000; ++i) {
       const auto row = static_cast<std::uint64_t>(expected.type);
-      const double x = base::RandomUniform({row, i, 1}, 0.0, kLong_m), in = base::RandomUniform({row, i, 2}, 0.0, 0.4);  // from the lane's edge
+      const double x = base::RandomUniform({row, i, 1}, 0.0, kLong_m),
+                   in = base::RandomUniform({row, i, 2}, 0.0, 0.4);  // from the lane's edge
       const double into = expected.gap_m > 0.0 ? std::fmod(x, expected.stroke_m + expected.gap_m) : 0.0;
       const double off = std::fabs(in - (expected.lines == 2 ? 0.12 : 0.0));
       if (std::fabs(off - 0.5 * expected.width_m) < 1e-4 || std::fabs(into - expected.stroke_m) < 1e-4) continue;
-      const bool paint = expected.lines > 0 && off < 0.5 * expected.width_m && (expected.gap_m == 0.0 || into < expected.stroke_m);
+      const bool paint =
+          expected.lines > 0 && off < 0.5 * expected.width_m && (expected.gap_m == 0.0 || into < expected.stroke_m);
       const double side = i % 2 == 0 ? 1.5 - in : in - 1.5;
       const road::SurfacePoint at = world.value()->At(x, kRow_m * static_cast<double>(row) + side);
-      EXPECT_EQ(at.surface == ground::Surface::kRoadMark, paint) << "type " << row << " at " << x << ", " << in << " from the edge";
+      EXPECT_EQ(at.surface == ground::Surface::kRoadMark, paint)
+          << "type " << row << " at " << x << ", " << in << " from the edge";
       painted += paint;
     }
   }
@@ -267,10 +285,12 @@ TEST(OpenDrive, EveryBorderTypeIsPaintToSuelo) {
 // (t², t³) from −1 to 1 turns back on itself at its cusp.
 TEST(OpenDrive, ACuspIsRefused) {
   const auto cusp = [](double aside) {
-    return Border{{{V(10, -10 + aside), V(-10.0 / 3.0, 10 + aside), V(-10.0 / 3.0, -10 + aside), V(10, 10 + aside)}}, {}};
+    return Border{{{V(10, -10 + aside), V(-10.0 / 3.0, 10 + aside), V(-10.0 / 3.0, -10 + aside), V(10, 10 + aside)}},
+                  {}};
   };
   LaneMap map;
-  map.lanes.push_back({7, LaneMode::kStart, BorderType::kNone, BorderType::kNone, LaneShape(cusp(1.5), cusp(-1.5)), {}, {}});
+  map.lanes.push_back(
+      {7, LaneMode::kStart, BorderType::kNone, BorderType::kNone, LaneShape(cusp(1.5), cusp(-1.5)), {}, {}});
   const auto drive = ToOpenDrive(map, "x");
   ASSERT_FALSE(drive.ok());
   EXPECT_THAT(drive.error().Text(), testing::HasSubstr("lane 7: it turns too sharply at"));

@@ -53,7 +53,8 @@ TEST_P(OwnMap, LanesMeetAndNoneIsTooSharpForACar) {
     EXPECT_NEAR(end.z_m, begin.z_m, 1e-9);
   }
   for (const MapLane& lane : map.value().lanes) {
-    for (int i = 0; i <= 40; ++i) EXPECT_LT(std::abs(lane.shape.AtParameter(i / 40.0).curvature_1pm), 1.0 / 6.0) << lane.id;
+    for (int i = 0; i <= 40; ++i)
+      EXPECT_LT(std::abs(lane.shape.AtParameter(i / 40.0).curvature_1pm), 1.0 / 6.0) << lane.id;
   }
 }
 
@@ -86,7 +87,8 @@ TEST(Overpass, IsAnOverpass) {
   int over = 0;
   for (const Passed& above : high) {
     for (const Passed& below : low) {
-      if ((above.at.p_W - below.at.p_W).norm() > 0.8 || std::abs(above.at.tangent_W.dot(below.at.tangent_W)) > 0.5) continue;
+      if ((above.at.p_W - below.at.p_W).norm() > 0.8 || std::abs(above.at.tangent_W.dot(below.at.tangent_W)) > 0.5)
+        continue;
       EXPECT_GT(above.at.z_m - below.at.z_m, 5.0) << map.lanes[above.lane].id << " over " << map.lanes[below.lane].id;
       ++over;
     }

@@ -4,9 +4,9 @@
 
 namespace rodeira::traffic_map {
 
-// Figure 18 of the thesis, completed to a whole map: curves 1 and 15, lanes 1 and 8, the connections of lanes 1, 2 and 6,
-// the scale and the picture's first bytes are the figure's as far as it prints them; what it leaves out is ours. Behind the
-// PNG's header stand bytes that a careless reader takes for lines.
+// Figure 18 of the thesis, completed to a whole map: curves 1 and 15, lanes 1 and 8, the connections of lanes 1, 2 and
+// 6, the scale and the picture's first bytes are the figure's as far as it prints them; what it leaves out is ours.
+// Behind the PNG's header stand bytes that a careless reader takes for lines.
 using namespace std::string_literals;
 inline const std::string kFigure18Lines =
     "p,1,63.5616,14.70026,2.129805,49,14.70026,2.13,34.5,14.70026,2.13,20,14.70026,2.13\n"
@@ -28,10 +28,12 @@ inline const std::string kFigure18Lines =
     "l,6,7,False,1,8,False,1,1\n"
     "l,8,15,False,1,14,False,1,2\n";
 
-inline const std::string kPng2x1 = "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x02\0\0\0\x01\x08\x02\0\0\0i i\n\n\0i\r\n\0\0\0\0IEND\xae\x42\x60\x82"s;
+inline const std::string kPng2x1 =
+    "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x02\0\0\0\x01\x08\x02\0\0\0i i\n\n\0i\r\n\0\0\0\0IEND\xae\x42\x60\x82"s;
 
 inline std::string Figure18() {
-  return kFigure18Lines + "c,1,4,False,0,0,0\nc,2,4,False,0,0,0\nc,4,8,False,0,0,0\nc,6,3,False,0,0,0\ns,10\ni\n" + kPng2x1;
+  return kFigure18Lines + "c,1,4,False,0,0,0\nc,2,4,False,0,0,0\nc,4,8,False,0,0,0\nc,6,3,False,0,0,0\ns,10\ni\n" +
+         kPng2x1;
 }
 // As appendix A.15 writes it: four fields in the lines `c`.
 inline std::string AppendixA15() {

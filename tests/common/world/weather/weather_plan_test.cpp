@@ -26,7 +26,9 @@ TEST(WeatherPlan, WithoutAWordItStaysFine) {
 }
 
 TEST(WeatherPlan, IsWhatTheFileSays) {
-  const auto plan = Read("  - {wetness: 0.2, hour: 8, clouds: 0}\n  - {at_s: 10, over_s: 20, wetness: 0.8, rain_mmph: 30}\n  - {at_s: 60, wetness: 0.5}\n");
+  const auto plan = Read(
+      "  - {wetness: 0.2, hour: 8, clouds: 0}\n  - {at_s: 10, over_s: 20, wetness: 0.8, rain_mmph: 30}\n  - {at_s: 60, "
+      "wetness: 0.5}\n");
   ASSERT_TRUE(plan.ok()) << plan.error().Text();
   Weather expected;
   expected.wetness = 0.2;
@@ -75,7 +77,8 @@ TEST(WeatherPlan, WrongOnesAreRefused) {
   EXPECT_THAT(Complaint("  - {hour: 24}\n"), HasSubstr("hour"));
   EXPECT_THAT(Complaint("  - {wetnes: 1}\n"), HasSubstr("wetness"));
   EXPECT_THAT(Complaint("  - {visibility_m: 5}\n"), HasSubstr("visibility_m"));
-  EXPECT_THAT(Complaint("  - {at_s: 5, wetness: 1}\n  - {at_s: 4, wetness: 0}\n"), HasSubstr("story.yaml:3: 'at_s' is 4 and follows 5; times that do not descend were expected"));
+  EXPECT_THAT(Complaint("  - {at_s: 5, wetness: 1}\n  - {at_s: 4, wetness: 0}\n"),
+              HasSubstr("story.yaml:3: 'at_s' is 4 and follows 5; times that do not descend were expected"));
 }
 
 }  // namespace

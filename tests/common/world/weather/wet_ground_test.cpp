@@ -24,7 +24,8 @@ TEST(WetGround, DryItIsTheGroundBitByBit) {
 }
 
 TEST(WetGround, OnlyTheFrictionBecomesLess) {
-  for (const Surface surface : {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
+  for (const Surface surface :
+       {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass, Surface::kSoil, Surface::kRoadMark}) {
     ground::PlaneGround plane({0.0, 0.0, 3.0}, 0.05, -0.02, 0.9, surface);
     WetGround ground(plane);
     const double left = FrictionLeft(surface);
@@ -44,8 +45,8 @@ TEST(WetGround, OnlyTheFrictionBecomesLess) {
   EXPECT_EQ(FrictionLeft(Surface::kOutside), 1.0);
 }
 
-// From 20 m/s with all wheels at their limit, d = v^2 / (2 mu g): on the wet road as much longer as its friction is less. The car's
-// drag (some 2 % of the wet deceleration at this speed) and its tyres' rise to full force are in both.
+// From 20 m/s with all wheels at their limit, d = v^2 / (2 mu g): on the wet road as much longer as its friction is
+// less. The car's drag (some 2 % of the wet deceleration at this speed) and its tyres' rise to full force are in both.
 double StoppingDistance_m(const std::string& file, double wetness) {
   auto loaded = dynamics::LoadVehicle(SourceDir() + "/configs/vehicles/" + file);
   EXPECT_TRUE(loaded.ok()) << loaded.error().Text();
@@ -66,7 +67,8 @@ double StoppingDistance_m(const std::string& file, double wetness) {
 
 TEST(WetGround, OnAWetRoadACarStopsAsMuchLater) {
   for (const std::string file : {"default.yaml", "prototype.yaml", "ode.yaml"}) {
-    const double dry_m = StoppingDistance_m(file, 0.0), half_m = StoppingDistance_m(file, 0.5), wet_m = StoppingDistance_m(file, 1.0);
+    const double dry_m = StoppingDistance_m(file, 0.0), half_m = StoppingDistance_m(file, 0.5),
+                 wet_m = StoppingDistance_m(file, 1.0);
     EXPECT_NEAR(half_m / dry_m, 1.0 / 0.85, 0.05) << file << ": " << dry_m << " m, " << half_m << " m";
     EXPECT_NEAR(wet_m / dry_m, 1.0 / 0.70, 0.08) << file << ": " << dry_m << " m, " << wet_m << " m";
   }

@@ -9,9 +9,9 @@
 #include <filesystem>
 
 #include "common/core/base/files.hpp"
-#include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/road/world.hpp"
 #include "common/world/road/world_report.hpp"
+#include "common/world/traffic_map/lane_map.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 #include "tests/launch/rodeira/said.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
@@ -60,10 +60,15 @@ TEST(MapCommand, SaysThatFlowsStayBehind) {
   std::filesystem::copy(kCrossing, file);
   ASSERT_EQ(Asked({"convert", file, folder.path() / "a.yaml"}).errors, "");
   const auto map = traffic_map::LoadLaneMap(file).value();
-  ASSERT_TRUE(base::WriteWhole(folder.path() / "a.motors.yaml", "rodeira: motors/1\nflows_vehph:\n  " + std::to_string(map.lanes[map.start_lanes.front()].id) + ": 300\n").ok());
+  ASSERT_TRUE(base::WriteWhole(folder.path() / "a.motors.yaml",
+                               "rodeira: motors/1\nflows_vehph:\n  " +
+                                   std::to_string(map.lanes[map.start_lanes.front()].id) + ": 300\n")
+                  .ok());
   const Said said = Asked({"convert", file, folder.path() / "a.yaml"});
   EXPECT_EQ(said.status, 0);
-  EXPECT_EQ(said.errors, "rodeira: warning: the flows beside a.motors are not in it: a world has none; a file of traffic settings takes them (`flows`)\n");
+  EXPECT_EQ(said.errors,
+            "rodeira: warning: the flows beside a.motors are not in it: a world has none; a file of traffic settings "
+            "takes them (`flows`)\n");
 }
 
 // OpenDRIVE has no word for where vehicles begin and end: another program does not read it.
@@ -77,11 +82,14 @@ TEST(MapCommand, SaysThatModesElsewhereThanAtTheEdgeAreItsOwn) {
   ASSERT_TRUE(base::WriteWhole(file, text).ok());
   const Said said = Asked({"convert", file, out});
   EXPECT_EQ(said.status, 0);
-  EXPECT_EQ(said.errors, "rodeira: warning: vehicles begin or end elsewhere than at the edge of a.motors; OpenDRIVE has no word for that: it stands in userData, which other programs pass over\n");
+  EXPECT_EQ(said.errors,
+            "rodeira: warning: vehicles begin or end elsewhere than at the edge of a.motors; OpenDRIVE has no word for "
+            "that: it stands in userData, which other programs pass over\n");
   EXPECT_THAT(base::ReadText(out).value(), HasSubstr("<userData code=\"rodeira:traffic\" value=\"begins\""));
 }
 
-// What the check lets pass can be driven: a bend that no road has, and lights that are green together, are found by it too.
+// What the check lets pass can be driven: a bend that no road has, and lights that are green together, are found by it
+// too.
 TEST(MapCommand, FindsWhatCannotBeDriven) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "a.motors", beside = folder.path() / "a.motors.yaml";
@@ -93,15 +101,23 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   // Start lanes of all four arms green at once.
   std::string lanes;
   const auto map = traffic_map::LoadLaneMap(file).value();
-  for (const std::size_t lane : map.start_lanes) lanes += (lanes.empty() ? "" : ", ") + std::to_string(map.lanes[lane].id);
-  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases: [{green: [" + lanes + "], for_s: 20}, {green: [], for_s: 10}]\n").ok());
+  for (const std::size_t lane : map.start_lanes)
+    lanes += (lanes.empty() ? "" : ", ") + std::to_string(map.lanes[lane].id);
+  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases: [{green: [" +
+                                           lanes + "], for_s: 20}, {green: [], for_s: 10}]\n")
+                  .ok());
   const Said said = Asked({"check", file, ""});
   EXPECT_EQ(said.status, 2);
-  EXPECT_THAT(said.errors, testing::ContainsRegex("a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
+  EXPECT_THAT(said.errors, testing::ContainsRegex(
+                               "a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
   EXPECT_THAT(said.out, HasSubstr("found        1 errors"));
   // … in the second phase: there it is said, also to who wants to drive.
-  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) + "lights:\n  - phases:\n      - {green: [], for_s: 10}\n      - {green: [" + lanes + "], for_s: 20}\n").ok());
-  const auto line = std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.find("lights:")), '\n') + 4;
+  ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) +
+                                           "lights:\n  - phases:\n      - {green: [], for_s: 10}\n      - {green: [" +
+                                           lanes + "], for_s: 20}\n")
+                  .ok());
+  const auto line =
+      std::count(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(good.find("lights:")), '\n') + 4;
   const std::string there = "a.motors.yaml:" + std::to_string(line) + ": lights: the lights ";
   EXPECT_THAT(Asked({"check", file, ""}).errors, HasSubstr(there));
   TrafficOptions drive;
@@ -132,7 +148,8 @@ TEST(MapCommand, Converts) {
   EXPECT_THAT(base::ReadText(drive).value(), HasSubstr("<OpenDRIVE>"));
   const Said wrong = Asked({"convert", kCrossing, folder.path() / "a.png"});
   EXPECT_EQ(wrong.status, 2);
-  EXPECT_THAT(wrong.errors, HasSubstr("the file's name ends with '.png'; .svg, .xodr or, for a world, .yaml was expected"));
+  EXPECT_THAT(wrong.errors,
+              HasSubstr("the file's name ends with '.png'; .svg, .xodr or, for a world, .yaml was expected"));
 }
 
 // A world that its roads lie beside, and that traffic drives on as on the map.
@@ -153,7 +170,8 @@ TEST(MapCommand, WritesAWorldOfThisProject) {
   ASSERT_TRUE(base::WriteWhole(folder.path() / "mine.xodr", "mine").ok());
   const Said kept = Asked({"convert", kCrossing, folder.path() / "mine.yaml"});
   EXPECT_EQ(kept.status, 2);
-  EXPECT_THAT(kept.errors, HasSubstr("mine.xodr: this file is there already and is not this world's; another name was expected"));
+  EXPECT_THAT(kept.errors,
+              HasSubstr("mine.xodr: this file is there already and is not this world's; another name was expected"));
   EXPECT_EQ(base::ReadText(folder.path() / "mine.xodr").value(), "mine");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "mine.yaml"));
 }

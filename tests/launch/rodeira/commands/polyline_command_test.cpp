@@ -21,12 +21,14 @@ const std::string kWorlds = SourceDir() + "/configs/worlds/";
 TEST(WorldAxis, IsNamedByFileAndRoad) {
   EXPECT_EQ(AxisNameOf("a b/n222.yaml#n222")->file, "a b/n222.yaml");
   EXPECT_EQ(AxisNameOf("town#1.xodr#12")->road, "12");
-  for (const char* other : {"points.csv", "points#1.csv", "n222.yaml", "n222.yaml#", "#n222"}) EXPECT_FALSE(AxisNameOf(other)) << other;
+  for (const char* other : {"points.csv", "points#1.csv", "n222.yaml", "n222.yaml#", "#n222"})
+    EXPECT_FALSE(AxisNameOf(other)) << other;
 }
 
 // The axis is where the world has it, from its beginning to its end, at its height.
 TEST(WorldAxis, LiesOnTheRoad) {
-  for (const std::string& file : {kWorlds + "n222.yaml", SourceDir() + "/tests/data/n222_version1.yaml", kWorlds + "motorway.yaml"}) {
+  for (const std::string& file :
+       {kWorlds + "n222.yaml", SourceDir() + "/tests/data/n222_version1.yaml", kWorlds + "motorway.yaml"}) {
     const auto world = road::World::Load(file).value();
     const network::Road& road = world->network()->roads()[0];
     const auto line = AxisOf({file, road.id()}, 5.0);
@@ -45,15 +47,21 @@ TEST(WorldAxis, LiesOnTheRoad) {
   }
 }
 
-// HASTE's main road is cut by six junctions: whole again it is as long as its author drew it, and nowhere farther from one point to the
-// next than a step.
+// HASTE's main road is cut by six junctions: whole again it is as long as its author drew it, and nowhere farther from
+// one point to the next than a step.
 TEST(WorldAxis, OfARoadThatJunctionsCutIsWhole) {
   const auto line = AxisOf({kWorlds + "haste.yaml", "main"}, 5.0);
   ASSERT_TRUE(line.ok()) << line.error().Text();
-  EXPECT_NEAR(geometry::StationsOf(line.value()).back(), 30443.044, 5.0) << "chords are shorter, and it goes up and down";
+  EXPECT_NEAR(geometry::StationsOf(line.value()).back(), 30443.044, 5.0)
+      << "chords are shorter, and it goes up and down";
   const auto& points_W = line.value().points_W;
-  for (std::size_t i = 1; i < points_W.size(); ++i) ASSERT_LE((points_W[i] - points_W[i - 1]).head<2>().norm(), 5.0 + 1e-6) << i;
-  EXPECT_NE(AxisOf({kWorlds + "haste.yaml", "mian"}, 5.0).error().Text().find("there is no road 'mian'; did you mean 'main'?"), std::string::npos);
+  for (std::size_t i = 1; i < points_W.size(); ++i)
+    ASSERT_LE((points_W[i] - points_W[i - 1]).head<2>().norm(), 5.0 + 1e-6) << i;
+  EXPECT_NE(AxisOf({kWorlds + "haste.yaml", "mian"}, 5.0)
+                .error()
+                .Text()
+                .find("there is no road 'mian'; did you mean 'main'?"),
+            std::string::npos);
 }
 
 TEST(Polylines, MoveAnAxisAndRefuseARoadThatIsNotThere) {
@@ -70,10 +78,13 @@ TEST(Polylines, MoveAnAxisAndRefuseARoadThatIsNotThere) {
   ASSERT_TRUE(moved.ok()) << moved.error().Text();
   const auto axis = AxisOf({kWorlds + "n222.yaml", "n222"}, 1.0).value();
   ASSERT_EQ(moved.value().points_W.size(), axis.points_W.size());
-  EXPECT_NEAR((moved.value().points_W[500] - axis.points_W[500] - Eigen::Vector3d(100.0, -50.0, 0.0)).norm(), 0.0, 1e-5);
+  EXPECT_NEAR((moved.value().points_W[500] - axis.points_W[500] - Eigen::Vector3d(100.0, -50.0, 0.0)).norm(), 0.0,
+              1e-5);
   options.files = {kWorlds + "n222.yaml#n22"};
   EXPECT_EQ(Polylines(options), 2);
-  EXPECT_NE(AxisOf({kWorlds + "n222.yaml", "n22"}, 1.0).error().Text().find("there is no road 'n22'; did you mean 'n222'?"), std::string::npos);
+  EXPECT_NE(
+      AxisOf({kWorlds + "n222.yaml", "n22"}, 1.0).error().Text().find("there is no road 'n22'; did you mean 'n222'?"),
+      std::string::npos);
   EXPECT_FALSE(AxisOf({kWorlds + "n223.yaml", "n222"}, 1.0).ok());
 }
 

@@ -54,7 +54,8 @@ TEST_F(TrafficCommand, FlowsOfAMapBringItsVehicles) {
   EXPECT_THAT(flows.out, HasSubstr("flow 1 "));
   EXPECT_THAT(flows.out, Not(HasSubstr("flow 2 ")));
   // The same by a file of settings, and such a file goes before the map's own.
-  options_.settings = Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 900}\n  - {lane: \"1:-1\", vehicles_per_h: 0.001}\n");
+  options_.settings =
+      Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 900}\n  - {lane: \"1:-1\", vehicles_per_h: 0.001}\n");
   const Said both = Asked(options_);
   EXPECT_EQ(both.status, 0) << both.errors;
   EXPECT_THAT(both.out, HasSubstr(fmt::format("flow {:<12}0 arrived", 2)));

@@ -37,8 +37,10 @@ Rows Table(const std::filesystem::path& file, const std::string& header) {
     bool quoted = false;
     for (std::size_t i = 0; i < line.size(); ++i) {
       if (line[i] == '"') {
-        if (quoted && i + 1 < line.size() && line[i + 1] == '"') all.back() += line[++i];
-        else quoted = !quoted;
+        if (quoted && i + 1 < line.size() && line[i + 1] == '"')
+          all.back() += line[++i];
+        else
+          quoted = !quoted;
       } else if (line[i] == ',' && !quoted) {
         all.emplace_back();
       } else {
@@ -65,7 +67,8 @@ double Number(const std::map<std::string, std::string>& row, const std::string& 
 
 const char* const kLanes = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps";
 const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow";
-const char* const kIntervals = "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
+const char* const kIntervals =
+    "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
 
 // Ten cars for a minute and a half on the ramp's map, whose name is one that XML has to spell otherwise.
 class TrafficFilesTest : public testing::Test {
@@ -88,9 +91,11 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   options_.duration_s = 180.0;
   const Said said = Asked(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
-  for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "flows.csv", "trips.csv"}) EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
+  for (const char* name : {"trajectories.csv", "lanes.csv", "queues.csv", "flows.csv", "trips.csv"})
+    EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
   // A row a car and half second: what a car goes between two of them is what its speed says.
-  const Rows cars = Table(In("out") + "/trajectories.csv", "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+  const Rows cars = Table(In("out") + "/trajectories.csv",
+                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
   std::map<std::string, const std::map<std::string, std::string>*> before;
   std::set<std::string> times, ids;
   double way_m = 0.0;
@@ -99,7 +104,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     ids.insert(row.at("car"));
     const auto*& last = before[row.at("car")];
     if (last != nullptr && last->at("trip") == row.at("trip")) {
-      const double moved = std::hypot(Number(row, "x_m") - Number(*last, "x_m"), Number(row, "y_m") - Number(*last, "y_m"));
+      const double moved =
+          std::hypot(Number(row, "x_m") - Number(*last, "x_m"), Number(row, "y_m") - Number(*last, "y_m"));
       EXPECT_NEAR(Number(row, "time_s") - Number(*last, "time_s"), 0.5, 1e-9);
       EXPECT_NEAR(moved, 0.25 * (Number(row, "speed_mps") + Number(*last, "speed_mps")), 0.15) << row.at("time_s");
       way_m += moved;
@@ -123,13 +129,17 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
       ++empty;
       continue;
     }
-    EXPECT_NEAR(Number(row, "flow_vehph"), 3.6 * Number(row, "density_vehpkm") * Number(row, "speed_mps"), 0.01 * Number(row, "flow_vehph") + 0.2);
+    EXPECT_NEAR(Number(row, "flow_vehph"), 3.6 * Number(row, "density_vehpkm") * Number(row, "speed_mps"),
+                0.01 * Number(row, "flow_vehph") + 0.2);
     flows_m += Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
-    fuel_l += 1e-6 * Number(row, "fuel_mlpkm") * Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") * options_.duration_s;
-    EXPECT_LE(Number(row, "speed_mps"), 1.001 * Number(row, "free_mps") + 0.5);  // nobody here drives faster than the plan
+    fuel_l += 1e-6 * Number(row, "fuel_mlpkm") * Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") *
+              options_.duration_s;
+    EXPECT_LE(Number(row, "speed_mps"),
+              1.001 * Number(row, "free_mps") + 0.5);  // nobody here drives faster than the plan
   }
   EXPECT_GT(empty, 0);
-  // The closing table: who was there, came and left are those who are there; the fuel is that of the table, but for what an idling engine burns at rest.
+  // The closing table: who was there, came and left are those who are there; the fuel is that of the table, but for
+  // what an idling engine burns at rest.
   const auto told = [&](const char* name) {
     std::istringstream line(said.out.substr(said.out.find(std::string("\n") + name) + 18));
     std::vector<double> numbers;
@@ -146,7 +156,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   EXPECT_GT(fuel[0], 0.05);
   EXPECT_NEAR(fuel_l, fuel[0], 0.03 * fuel[0]);
   EXPECT_NEAR(fuel[1], 100.0 * fuel[0] / (1e-3 * flows_m), 0.02 * fuel[1]);
-  EXPECT_NEAR(flows_m, way_m, 0.05 * way_m);  // the table's rows miss what is driven from the last half second to a lane's end
+  EXPECT_NEAR(flows_m, way_m,
+              0.05 * way_m);  // the table's rows miss what is driven from the last half second to a lane's end
   const Rows queues = Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean");
   double queues_m = 0.0;
   for (const auto& row : queues) {
@@ -155,7 +166,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   }
   EXPECT_EQ(queues.size(), 19u);
   EXPECT_NEAR(queues_m, lanes_m, 0.2);
-  // Who came onto each lane and left it: as many are there as the last rows of the cars say, and as many came into the network and left it as the closing table does.
+  // Who came onto each lane and left it: as many are there as the last rows of the cars say, and as many came into the
+  // network and left it as the closing table does.
   std::map<std::string, double> last_on, there_on;
   for (const auto& row : cars) {
     if (row.at("time_s") == "180.00") last_on[row.at("road")] += 1.0;
@@ -169,7 +181,9 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   for (const auto& [road, cars_there] : there_on) EXPECT_EQ(cars_there, last_on[road]) << road;
   EXPECT_EQ(balance, there[0] - there[1]);
   const Rows trips = Table(In("out") + "/trips.csv", kTrips);
-  std::map<std::pair<std::string, std::string>, std::pair<const std::map<std::string, std::string>*, const std::map<std::string, std::string>*>> ways;  // first and last row of each
+  std::map<std::pair<std::string, std::string>,
+           std::pair<const std::map<std::string, std::string>*, const std::map<std::string, std::string>*>>
+      ways;  // first and last row of each
   for (const auto& row : cars) {
     auto& way = ways[{row.at("car"), row.at("trip")}];
     if (way.first == nullptr) way.first = &row;
@@ -177,18 +191,25 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   }
   EXPECT_GT(trips.size(), 0u);
   const std::string ended = said.out.substr(0, said.out.find(" trips ended"));
-  EXPECT_LE(trips.size(), std::stoul(ended.substr(ended.rfind(' ') + 1)));  // those that began on the way have no whole time
+  EXPECT_LE(trips.size(),
+            std::stoul(ended.substr(ended.rfind(' ') + 1)));  // those that began on the way have no whole time
   for (const auto& row : trips) {
     EXPECT_GT(Number(row, "travel_time_s"), 1.0);
     EXPECT_GT(Number(row, "fuel_ml"), 0.1);
-    EXPECT_GT(Number(row, "delay_s"), -0.05 * Number(row, "travel_time_s"));  // nobody is faster than the free speeds of his way, but where they change within a metre
+    EXPECT_GT(Number(row, "delay_s"),
+              -0.05 * Number(row, "travel_time_s"));  // nobody is faster than the free speeds of his way, but where
+                                                      // they change within a metre
     EXPECT_LT(Number(row, "delay_s"), 0.5 * Number(row, "travel_time_s"));
     EXPECT_EQ(row.at("flow"), "");
     EXPECT_TRUE(row.at("kind") == "car" || row.at("kind") == "van") << row.at("kind");
     int found = 0;
-    for (const auto& [key, way] : ways) {  // its first row is at most half a second after it entered, its last one as long before it left
-      const double first = Number(*way.first, "time_s"), last = Number(*way.second, "time_s"), entered = Number(row, "entered_s"), left = entered + Number(row, "travel_time_s");
-      if (key.first != row.at("vehicle") || first < entered - 1e-6 || first > entered + 0.51 || last > left + 1e-6 || last < left - 0.51) continue;
+    for (const auto& [key, way] :
+         ways) {  // its first row is at most half a second after it entered, its last one as long before it left
+      const double first = Number(*way.first, "time_s"), last = Number(*way.second, "time_s"),
+                   entered = Number(row, "entered_s"), left = entered + Number(row, "travel_time_s");
+      if (key.first != row.at("vehicle") || first < entered - 1e-6 || first > entered + 0.51 || last > left + 1e-6 ||
+          last < left - 0.51)
+        continue;
       ++found;
       EXPECT_EQ(row.at("from"), way.first->at("road") + ":" + way.first->at("lane"));
       EXPECT_EQ(row.at("to"), way.second->at("road") + ":" + way.second->at("lane"));
@@ -197,7 +218,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   }
 }
 
-// The stretches of time follow one another from where the tables begin to the end, the last one shorter, and together they are the whole tables.
+// The stretches of time follow one another from where the tables begin to the end, the last one shorter, and together
+// they are the whole tables.
 TEST_F(TrafficFilesTest, IntervalsAddUpToTheTables) {
   options_.csv = In("out");
   options_.duration_s = 150.0, options_.warm_s = 30.0, options_.every_s = 50.0;
@@ -209,32 +231,38 @@ TEST_F(TrafficFilesTest, IntervalsAddUpToTheTables) {
     times.emplace(row.at("from_s"), row.at("to_s"));
     const std::string& road = row.at("road");
     in[road] += Number(row, "in"), out[road] += Number(row, "out");
-    way_m[road] += Number(row, "flow_vehph") / 3600.0 * (Number(row, "to_s") - Number(row, "from_s"));  // a metre of lane
+    way_m[road] +=
+        Number(row, "flow_vehph") / 3600.0 * (Number(row, "to_s") - Number(row, "from_s"));  // a metre of lane
     longest[road] = std::max(longest[road], Number(row, "queue_longest"));
     EXPECT_LE(Number(row, "queue_mean"), Number(row, "queue_longest"));
     EXPECT_EQ(row.at("speed_mps").empty(), row.at("density_vehpkm") == "0.000");
   }
-  EXPECT_THAT(times, testing::ElementsAre(testing::Pair("130.00", "150.00"), testing::Pair("30.00", "80.00"), testing::Pair("80.00", "130.00")));
+  EXPECT_THAT(times, testing::ElementsAre(testing::Pair("130.00", "150.00"), testing::Pair("30.00", "80.00"),
+                                          testing::Pair("80.00", "130.00")));
   for (const auto& row : Table(In("out") + "/flows.csv", "road,section,lane,began,in,out,there")) {
     EXPECT_EQ(in[row.at("road")], Number(row, "in")) << row.at("road");
     EXPECT_EQ(out[row.at("road")], Number(row, "out")) << row.at("road");
   }
-  for (const auto& row : Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean")) EXPECT_EQ(longest[row.at("road")], Number(row, "queue_longest")) << row.at("road");
+  for (const auto& row : Table(In("out") + "/queues.csv", "road,lane,length_m,queue_longest,queue_mean"))
+    EXPECT_EQ(longest[row.at("road")], Number(row, "queue_longest")) << row.at("road");
   std::map<std::string, double> vehicles;  // m driven, by lanes.csv, over the lane's length
   std::map<std::string, double> length_m;
   for (const auto& row : Table(In("out") + "/lanes.csv", kLanes)) {
     vehicles[row.at("road")] += Number(row, "flow_vehph") / 3600.0 * 120.0 * Number(row, "length_m");
     length_m[row.at("road")] += Number(row, "length_m");
   }
-  for (const auto& [road, sum] : vehicles) EXPECT_NEAR(way_m[road], sum / length_m[road], 1e-3 * way_m[road] + 1e-3) << road;
-  for (const auto& row : Table(In("out") + "/trips.csv", kTrips)) EXPECT_LE(Number(row, "entered_s") + Number(row, "travel_time_s"), 120.0 + 1e-6);
+  for (const auto& [road, sum] : vehicles)
+    EXPECT_NEAR(way_m[road], sum / length_m[road], 1e-3 * way_m[road] + 1e-3) << road;
+  for (const auto& row : Table(In("out") + "/trips.csv", kTrips))
+    EXPECT_LE(Number(row, "entered_s") + Number(row, "travel_time_s"), 120.0 + 1e-6);
 }
 
 TEST_F(TrafficFilesTest, WrongWishesForTimesAreRefused) {
   options_.warm_s = 90.0;
   EXPECT_THAT(Asked(options_).errors, HasSubstr("--warm: 90 s are left out of 90 s; less was expected"));
   options_.warm_s = 0.0, options_.every_s = 10.0;
-  EXPECT_THAT(Asked(options_).errors, HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
+  EXPECT_THAT(Asked(options_).errors,
+              HasSubstr("--every: a table every so many seconds was asked for, and no folder for it"));
   options_.every_s = 0.0, options_.fcd = In("cars.csv");
   const Said said = Asked(options_);
   EXPECT_EQ(said.status, 2);
@@ -253,7 +281,9 @@ TEST_F(TrafficFilesTest, PicturesAreWholeAndNameTheMap) {
     EXPECT_THAT(said.out, HasSubstr("wrote            " + In("picture.svg")));
     pugi::xml_document picture;
     ASSERT_TRUE(picture.load_file(In("picture.svg").c_str()));
-    EXPECT_THAT(picture.select_node("//text").node().text().get(), testing::ContainsRegex(heat ? "a & <b>.motors: 10 vehicles, 30 s$" : "a & <b>.motors: 10 vehicles, 30 s, [1-9] of them here$"));
+    EXPECT_THAT(picture.select_node("//text").node().text().get(),
+                testing::ContainsRegex(heat ? "a & <b>.motors: 10 vehicles, 30 s$"
+                                            : "a & <b>.motors: 10 vehicles, 30 s, [1-9] of them here$"));
     EXPECT_GT(picture.select_nodes("//polyline").size(), heat ? 5u : 0u);
   }
   options_.heat = In("heat.tif");
@@ -279,7 +309,8 @@ TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
   ASSERT_EQ(Asked(options_).status, 0);
   pugi::xml_document document;
   ASSERT_TRUE(document.load_file(options_.fcd.c_str()));
-  const Rows cars = Table(In("out") + "/trajectories.csv", "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+  const Rows cars = Table(In("out") + "/trajectories.csv",
+                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
   std::size_t i = 0;
   for (const pugi::xml_node step : document.child("fcd-export").children("timestep")) {
     for (const pugi::xml_node car : step.children("vehicle")) {
@@ -295,7 +326,9 @@ TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
   EXPECT_EQ(i, cars.size());
   const char* tool = "/usr/share/sumo/tools/traceExporter.py";
   if (!std::filesystem::exists(tool)) GTEST_SKIP() << "SUMO's traceExporter.py is not installed (package sumo-tools)";
-  const std::string command = fmt::format("SUMO_HOME=/usr/share/sumo /usr/bin/python3 {} --fcd-input {} --gpx-output {} > {} 2>&1", tool, options_.fcd, In("ways.gpx"), In("said"));
+  const std::string command =
+      fmt::format("SUMO_HOME=/usr/share/sumo /usr/bin/python3 {} --fcd-input {} --gpx-output {} > {} 2>&1", tool,
+                  options_.fcd, In("ways.gpx"), In("said"));
   ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(In("said")).value();
   pugi::xml_document ways;
   ASSERT_TRUE(ways.load_file(In("ways.gpx").c_str()));
@@ -312,15 +345,23 @@ TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
   std::filesystem::create_directory(In("folder.svg"));
   ASSERT_TRUE(base::WriteWhole(In("bad.yaml"), "rodeira: traffic/1\nvariety: 0.6\n").ok());
   for (const Case& c : std::vector<Case>{
-           {[&](TrafficOptions& o) { o.heat = In("heat.png"); }, 2, "--heat: '" + In("heat.png") + "' was found; a file on .svg or .tif was expected"},
-           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1:-7"; }, 2, "--lane: '1:-7' was found; a drivable lane as ROAD:LANE was expected"},
-           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1"; }, 2, "--lane: '1' was found; a drivable lane as ROAD:LANE was expected"},
-           {[&](TrafficOptions& o) { o.csv = In("file") + "/out"; }, 1, In("file") + "/out: the folder cannot be written to"},
-           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.svg"; }, 1, In("file") + "/heat.svg: the file cannot be created"},
-           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.tif"; }, 1, In("file") + "/heat.tif: the file cannot be created"},
-           {[&](TrafficOptions& o) { o.diagram = In("folder.svg"); }, 1, In("folder.svg") + ": the file cannot be written: a folder has that name"},
+           {[&](TrafficOptions& o) { o.heat = In("heat.png"); }, 2,
+            "--heat: '" + In("heat.png") + "' was found; a file on .svg or .tif was expected"},
+           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1:-7"; }, 2,
+            "--lane: '1:-7' was found; a drivable lane as ROAD:LANE was expected"},
+           {[&](TrafficOptions& o) { o.diagram = In("d.svg"), o.lane = "1"; }, 2,
+            "--lane: '1' was found; a drivable lane as ROAD:LANE was expected"},
+           {[&](TrafficOptions& o) { o.csv = In("file") + "/out"; }, 1,
+            In("file") + "/out: the folder cannot be written to"},
+           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.svg"; }, 1,
+            In("file") + "/heat.svg: the file cannot be created"},
+           {[&](TrafficOptions& o) { o.heat = In("file") + "/heat.tif"; }, 1,
+            In("file") + "/heat.tif: the file cannot be created"},
+           {[&](TrafficOptions& o) { o.diagram = In("folder.svg"); }, 1,
+            In("folder.svg") + ": the file cannot be written: a folder has that name"},
            {[&](TrafficOptions& o) { o.heat = In("heat.tif"), o.pixel_m = 0.01; }, 2, In("heat.tif") + ": "},
-           {[&](TrafficOptions& o) { o.fcd = In("no/such/cars.xml"); }, 1, In("no/such/cars.xml") + ": the file cannot be written"},
+           {[&](TrafficOptions& o) { o.fcd = In("no/such/cars.xml"); }, 1,
+            In("no/such/cars.xml") + ": the file cannot be written"},
            {[&](TrafficOptions& o) { o.settings = In("bad.yaml"); }, 2, In("bad.yaml") + ":2: 'variety' is 0.6"},
            {[&](TrafficOptions& o) { o.settings = In("none.yaml"); }, 2, In("none.yaml")},
            {[&](TrafficOptions& o) { o.map = In("none.motors"); }, 2, In("none.motors")},
@@ -334,7 +375,8 @@ TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
     EXPECT_THAT(said.errors, testing::StartsWith("rodeira: " + c.sentence));
     EXPECT_EQ(said.out, "") << c.sentence;
   }
-  for (const auto& left : std::filesystem::directory_iterator(folder_.path())) EXPECT_EQ(left.path().string().find("heat"), std::string::npos) << left.path();
+  for (const auto& left : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_EQ(left.path().string().find("heat"), std::string::npos) << left.path();
 }
 
 // Larger pixels make a map of the same place.
@@ -363,7 +405,11 @@ TEST_F(TrafficFilesTest, NamesOfRoadsAreCells) {
   ASSERT_EQ(said.status, 0) << said.errors;
   const std::string header = "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane";
   const std::string id = "1,\"a\"";
-  for (const auto& [file, names] : std::map<std::string, std::string>{{"trajectories.csv", header}, {"lanes.csv", kLanes}, {"queues.csv", "road,lane,length_m,queue_longest,queue_mean"}, {"flows.csv", "road,section,lane,began,in,out,there"}}) {
+  for (const auto& [file, names] :
+       std::map<std::string, std::string>{{"trajectories.csv", header},
+                                          {"lanes.csv", kLanes},
+                                          {"queues.csv", "road,lane,length_m,queue_longest,queue_mean"},
+                                          {"flows.csv", "road,section,lane,began,in,out,there"}}) {
     const Rows rows = Table(In("out") + "/" + file, names);
     EXPECT_GT(rows.size(), 0u) << file;
     for (const auto& row : rows) EXPECT_EQ(row.at("road"), id) << file;
@@ -378,7 +424,8 @@ TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
   const std::string whole = base::ReadText(SourceDir() + "/configs/maps/lights.motors").value();
   const auto replaced = [&](const std::string& what, const std::string& with) {
     std::string text = whole;
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) text.replace(at, what.size(), with);
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size()))
+      text.replace(at, what.size(), with);
     return text;
   };
   options_.map = In("it.motors");
@@ -394,7 +441,8 @@ TEST_F(TrafficFilesTest, AMapThatIsWrongIsRefused) {
   says(whole.substr(0, 1000), none, "it.motors: the file ends at byte 1000");
   says(replaced(",1,1\n", ",1,0\n"), none, "start");
   says(replaced("s,34", "c,1,999,False,0,0,0\ns,34"), none, "999");
-  says(whole, none + "lights:\n  - phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 20}]\n", "green or amber together");
+  says(whole, none + "lights:\n  - phases: [{green: [1, 3], for_s: 20}, {green: [5, 7], for_s: 20}]\n",
+       "green or amber together");
 }
 
 }  // namespace

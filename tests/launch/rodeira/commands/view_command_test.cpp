@@ -27,7 +27,9 @@ std::string ViewsOf(const RunOptions& run) {
   if (!launch) return launch.error().Text();
   std::string views;
   for (const launch::LaunchNode& node : launch.value().nodes()) {
-    if (node.kind->name == "view") views += node.name + ":" + node.config->Peek({"config", "screen"}).value_or("") + ":" + node.config->Peek({"config", "headset"}).value_or("false") + " ";
+    if (node.kind->name == "view")
+      views += node.name + ":" + node.config->Peek({"config", "screen"}).value_or("") + ":" +
+               node.config->Peek({"config", "headset"}).value_or("false") + " ";
   }
   return views;
 }
@@ -48,8 +50,10 @@ TEST(ViewCommand, OnOnePcItIsTheRunWithThatScreenAlone) {
 TEST(ViewCommand, WithAHostItIsThatHostsPartUnchanged) {
   std::ifstream in(kThreeScreens);
   std::string text((std::istreambuf_iterator<char>(in)), {});
-  for (const std::string& folder : {std::string("configs/labs"), std::string("configs/worlds"), std::string("configs/drivers"), std::string("configs/vehicles")}) {
-    for (std::size_t at = text.find("../" + folder); at != std::string::npos; at = text.find("../" + folder)) text.replace(at, 3, SourceDir() + "/");
+  for (const std::string& folder : {std::string("configs/labs"), std::string("configs/worlds"),
+                                    std::string("configs/drivers"), std::string("configs/vehicles")}) {
+    for (std::size_t at = text.find("../" + folder); at != std::string::npos; at = text.find("../" + folder))
+      text.replace(at, 3, SourceDir() + "/");
   }
   const std::string left = "left: {kind: view, ";
   text.replace(text.find(left), left.size(), "left: {kind: view, host: west, ");
@@ -69,7 +73,9 @@ TEST(ViewCommand, WhatIsNotThereIsRefused) {
   const auto screen = RunOf(Options(kThreeScreens, "rigth"));
   ASSERT_FALSE(screen.ok());
   EXPECT_EQ(screen.error().exit_status(), 2);
-  EXPECT_NE(screen.error().Text().find("no view looks through a screen 'rigth'; did you mean 'right'?"), std::string::npos) << screen.error().Text();
+  EXPECT_NE(screen.error().Text().find("no view looks through a screen 'rigth'; did you mean 'right'?"),
+            std::string::npos)
+      << screen.error().Text();
   const auto none = RunOf(Options(SourceDir() + "/launch/empty.yaml", ""));
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().Text().find("no node of kind view was found"), std::string::npos) << none.error().Text();

@@ -45,17 +45,23 @@ Said Asked(const std::string& command, const fs::path& world, const fs::path& fo
 
 Said Build(const fs::path& world, const fs::path& folder) { return Asked("build", world, folder); }
 
-constexpr const char* kHills = "rodeira: world/1\nname: hills\nterrain:\n  surface: grass\n"
-                               "  generate: {seed: 1, columns: 65, rows: 65, spacing_m: 10, west_m: 0, south_m: 0, relief: [{wavelength_m: 80, amplitude_m: 2}]}\n";
-constexpr const char* kRoad = "roads:\n  - id: main\n    start: {x_m: 100, y_m: 300, heading_deg: 0}\n    axis: [{line: {length_m: 400}}]\n"
-                              "    vertical: [{s_m: 0, z_m: 0}]\n    section:\n      lanes: [{id: -1, width_m: 3, speed_limit_kmh: 50}, {id: 1, width_m: 3, speed_limit_kmh: 50}]\n      surface: asphalt\n";
+constexpr const char* kHills =
+    "rodeira: world/1\nname: hills\nterrain:\n  surface: grass\n"
+    "  generate: {seed: 1, columns: 65, rows: 65, spacing_m: 10, west_m: 0, south_m: 0, relief: [{wavelength_m: 80, "
+    "amplitude_m: 2}]}\n";
+constexpr const char* kRoad =
+    "roads:\n  - id: main\n    start: {x_m: 100, y_m: 300, heading_deg: 0}\n    axis: [{line: {length_m: 400}}]\n"
+    "    vertical: [{s_m: 0, z_m: 0}]\n    section:\n      lanes: [{id: -1, width_m: 3, speed_limit_kmh: 50}, {id: 1, "
+    "width_m: 3, speed_limit_kmh: 50}]\n      surface: asphalt\n";
 
 std::vector<std::string> Listed(const fs::path& out) {
   std::vector<std::string> names;
   std::istringstream lines(base::ReadText(out / "logical.txt").value());
   for (std::string line; std::getline(lines, line);) {
-    if (names.size() < 2) names.push_back(line);
-    else names.push_back(line.substr(line.find(' ') + 1));
+    if (names.size() < 2)
+      names.push_back(line);
+    else
+      names.push_back(line.substr(line.find(' ') + 1));
   }
   return names;
 }
@@ -63,9 +69,13 @@ std::vector<std::string> Listed(const fs::path& out) {
 TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "town.xodr", out = folder.path() / "out";
-  const std::string text = "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">"
-      "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\">"
-      "<center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
+  const std::string text =
+      "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" "
+      "junction=\"-1\">"
+      "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+      "length=\"60\"><line/></geometry></planView><lanes><laneSection s=\"0\">"
+      "<center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" "
+      "c=\"0\" d=\"0\"/></lane></right>"
       "</laneSection></lanes></road>\n</OpenDRIVE>\n";
   ASSERT_TRUE(base::WriteWhole(file, text).ok());
   const Said first = Build(file, out);
@@ -80,44 +90,67 @@ TEST(WorldBuild, AnOpenDriveWorldIsWrittenAsItIsSeen) {
 // As a person types it: what is a warning otherwise is an error, and status 2.
 TEST(WorldCheck, StrictlyAsAsamsOwnToleranceAsks) {
   const TemporaryFolder folder;
-  const fs::path file = folder.Write("gap.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">\n"
-      "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"40\"><line/></geometry>\n<geometry s=\"40\" x=\"40.0015\" y=\"0\" hdg=\"0\" length=\"20\"><line/></geometry></planView>"
-      "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
-      "</laneSection></lanes></road>\n</OpenDRIVE>\n");
-  const system_test::Ended usual = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
+  const fs::path file =
+      folder.Write("gap.xodr",
+                   "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" "
+                   "length=\"60\" junction=\"-1\">\n"
+                   "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"40\"><line/></geometry>\n<geometry "
+                   "s=\"40\" x=\"40.0015\" y=\"0\" hdg=\"0\" length=\"20\"><line/></geometry></planView>"
+                   "<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" "
+                   "type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
+                   "</laneSection></lanes></road>\n</OpenDRIVE>\n");
+  const system_test::Ended usual =
+      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
   EXPECT_EQ(usual.status, 0) << usual.out;
   EXPECT_THAT(usual.out, HasSubstr("rodeira: warning: "));
   EXPECT_THAT(usual.out, HasSubstr("gap.xodr: no error found\n"));
-  const system_test::Ended strict = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string(), "--strict"});
+  const system_test::Ended strict =
+      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string(), "--strict"});
   EXPECT_EQ(strict.status, 2) << strict.out;
-  EXPECT_THAT(strict.out, HasSubstr("gap.xodr:6: road.geometry.contact_point: road 1, s 40: a gap of 0.0015 m to the element before; at most 1e-06 m was expected\n"));
+  EXPECT_THAT(strict.out, HasSubstr("gap.xodr:6: road.geometry.contact_point: road 1, s 40: a gap of 0.0015 m to the "
+                                    "element before; at most 1e-06 m was expected\n"));
   const fs::path world = folder.Write("w.yaml", "rodeira: world/2\nname: w\nground: {kind: plane}\n");
-  const system_test::Ended other = system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
+  const system_test::Ended other =
+      system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", world.string(), "--strict"});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.out, HasSubstr("'--strict' is for OpenDRIVE files"));
 }
 
-// A surface that the file names is part of the check: missing, or laid in no way that there is, it is named with the file's line.
+// A surface that the file names is part of the check: missing, or laid in no way that there is, it is named with the
+// file's line.
 TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   const TemporaryFolder folder;
   const auto check = [&](const std::string& surface) {
-    const fs::path file = folder.Write("s.xodr", "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" junction=\"-1\">\n"
-        "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView>\n<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
-        "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes>\n<surface>\n" + surface + "\n</surface></road>\n</OpenDRIVE>\n");
+    const fs::path file = folder.Write(
+        "s.xodr",
+        "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" "
+        "junction=\"-1\">\n"
+        "<planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
+        "length=\"60\"><line/></geometry></planView>\n<lanes><laneSection s=\"0\"><center><lane id=\"0\"/></center>"
+        "<right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"3\" b=\"0\" c=\"0\" "
+        "d=\"0\"/></lane></right></laneSection></lanes>\n<surface>\n" +
+            surface + "\n</surface></road>\n</OpenDRIVE>\n");
     return system_test::RunCommand({system_test::Bin("rodeira"), "world", "check", file.string()});
   };
   folder.Write("bumps.crg", surface::MadeCrg().Text());
   EXPECT_EQ(check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)").status, 0);
-  const system_test::Ended missing = check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
+  const system_test::Ended missing =
+      check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: road 1, s 0: "));
   EXPECT_THAT(missing.out, HasSubstr("bumbs.crg: there is no such file; did you mean 'bumps.crg'?"));
-  const system_test::Ended mode = check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
+  const system_test::Ended mode =
+      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="10" orientation="same" mode="attachd"/>)");
   EXPECT_EQ(mode.status, 2);
-  EXPECT_THAT(mode.out, HasSubstr("s.xodr:8: road 1, s 0, 'bumps.crg': 'attachd' is no mode of a measured surface; did you mean 'attached'?"));
-  const system_test::Ended beyond = check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
+  EXPECT_THAT(
+      mode.out,
+      HasSubstr(
+          "s.xodr:8: road 1, s 0, 'bumps.crg': 'attachd' is no mode of a measured surface; did you mean 'attached'?"));
+  const system_test::Ended beyond =
+      check(R"(<CRG file="bumps.crg" sStart="0" sEnd="9000" orientation="same" mode="attached"/>)");
   EXPECT_EQ(beyond.status, 2);
-  EXPECT_THAT(beyond.out, HasSubstr("s.xodr:8: road.surface.crg.s: road 1: the measured surface 'bumps.crg' lies from s = 0 to 9000; two places on the road, which is 60 m long, were expected"));
+  EXPECT_THAT(beyond.out, HasSubstr("s.xodr:8: road.surface.crg.s: road 1: the measured surface 'bumps.crg' lies from "
+                                    "s = 0 to 9000; two places on the road, which is 60 m long, were expected"));
 }
 
 // What is said on a terminal while `work` goes on.
@@ -136,7 +169,8 @@ std::string OnTerminal(const Work& work) {
   ::close(before);
   std::string said;
   std::array<char, 4096> buffer{};
-  for (ssize_t count; (count = ::read(terminal, buffer.data(), buffer.size())) > 0;) said.append(buffer.data(), static_cast<std::size_t>(count));
+  for (ssize_t count; (count = ::read(terminal, buffer.data(), buffer.size())) > 0;)
+    said.append(buffer.data(), static_cast<std::size_t>(count));
   ::close(terminal);
   return said;
 }
@@ -145,8 +179,11 @@ std::string OnTerminal(const Work& work) {
 TEST(WorldBuild, ABarShowsHowFarItIs) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "w.yaml";
-  ASSERT_TRUE(base::WriteWhole(file, std::string("rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
-                                                 "    axis: [line: {length_m: 20}]\n    z_m: 0\n    section: {template: rural}\n")).ok());
+  ASSERT_TRUE(base::WriteWhole(
+                  file, std::string("rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    start: "
+                                    "{x_m: 0, y_m: 0, heading_deg: 0}\n"
+                                    "    axis: [line: {length_m: 20}]\n    z_m: 0\n    section: {template: rural}\n"))
+                  .ok());
   WorldOptions options;
   options.command = "build";
   options.world_file = file;
@@ -180,7 +217,9 @@ TEST(WorldBuild, AWorldFilesRoadsAndHills) {
   EXPECT_TRUE(fs::exists(out / "hills.bt"));
   EXPECT_TRUE(fs::exists(out / "hills.yaml"));
   EXPECT_FALSE(fs::exists(out / "world.osgb"));
-  EXPECT_EQ(said.errors, "rodeira: warning: " + file.string() + ": its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does\n");
+  EXPECT_EQ(said.errors, "rodeira: warning: " + file.string() +
+                             ": its road is of version 1, of which 'rodeira world build' writes no tiles of what is "
+                             "seen; of version 2 it does\n");
   EXPECT_EQ(Asked("check", file).errors, said.errors) << "the check says so, too";
   EXPECT_TRUE(road::World::Load(out / "world.xodr").ok());
 }
@@ -202,7 +241,8 @@ TEST(WorldBuild, LandWithoutRoads) {
   EXPECT_EQ(again.status, 0) << again.errors;
   EXPECT_EQ(again.errors, "");
   EXPECT_THAT(Listed(folder.path() / "again"), testing::ElementsAre(testing::_, testing::_, "hills.bt", "hills.yaml"));
-  EXPECT_EQ(base::ReadText(folder.path() / "again" / "tiles" / "1_1_0.osgb").value(), base::ReadText(out / "tiles" / "1_1_0.osgb").value());
+  EXPECT_EQ(base::ReadText(folder.path() / "again" / "tiles" / "1_1_0.osgb").value(),
+            base::ReadText(out / "tiles" / "1_1_0.osgb").value());
   const Said plane = Build(fs::path(SourceDir()) / "configs/worlds/plane.yaml", folder.path() / "plane");
   EXPECT_EQ(plane.status, 0) << plane.errors;
   EXPECT_EQ(plane.errors, "");
@@ -213,8 +253,12 @@ TEST(WorldBuild, LandWithoutRoads) {
 TEST(WorldBuild, AWorldFileOfVersion2IsWrittenAsItIsSeenToo) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "plane.yaml", out = folder.path() / "out";
-  ASSERT_TRUE(base::WriteWhole(file, std::string("rodeira: world/2\nname: plane\nground: {kind: plane, z_m: 0}\nroads:\n  - id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
-                                                 "    axis: [{line: {length_m: 60}}]\n    z_m: 0\n    section: {template: rural}\n    signs: [{type: stop, s_m: 50}]\n")).ok());
+  ASSERT_TRUE(
+      base::WriteWhole(file, std::string("rodeira: world/2\nname: plane\nground: {kind: plane, z_m: 0}\nroads:\n  - "
+                                         "id: main\n    start: {x_m: 0, y_m: 0, heading_deg: 0}\n"
+                                         "    axis: [{line: {length_m: 60}}]\n    z_m: 0\n    section: {template: "
+                                         "rural}\n    signs: [{type: stop, s_m: 50}]\n"))
+          .ok());
   const Said said = Build(file, out);
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(said.errors, "");
@@ -231,7 +275,10 @@ TEST(WorldBuild, AWorldOfThingsWithoutARoad) {
   const fs::path file = folder.path() / "w.yaml", out = folder.path() / "out";
   std::string hills = kHills;
   hills.replace(hills.find("world/1"), 7, "world/2");
-  ASSERT_TRUE(base::WriteWhole(file, hills + "objects: [{type: tree, x_m: 100, y_m: 120}, {type: wall, along: [[200, 200], [300, 200]]}]\n").ok());
+  ASSERT_TRUE(
+      base::WriteWhole(
+          file, hills + "objects: [{type: tree, x_m: 100, y_m: 120}, {type: wall, along: [[200, 200], [300, 200]]}]\n")
+          .ok());
   const Said said = Build(file, out);
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(said.errors, "");
@@ -247,15 +294,17 @@ TEST(WorldBuild, AWorldOfThingsWithoutARoad) {
 // The example with all that it names, moved to where nothing else is found: the same world, checked file by file.
 TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
   const TemporaryFolder folder;
-  const fs::path example = fs::path(SourceDir()) / "configs/worlds/example", in = folder.path() / "in", built = folder.path() / "built", moved = folder.path() / "moved";
+  const fs::path example = fs::path(SourceDir()) / "configs/worlds/example", in = folder.path() / "in",
+                 built = folder.path() / "built", moved = folder.path() / "moved";
   fs::copy(example, in, fs::copy_options::recursive);
   const base::Digest hash = road::World::Load(in / "world.yaml").value()->content_hash();
   const Said said = Build(in / "world.yaml", built);
   EXPECT_EQ(said.status, 0) << said.errors;
   fs::rename(built, moved);
   fs::remove_all(in);
-  EXPECT_THAT(Listed(moved), testing::ElementsAre("rodeira: logical/1", "content_hash: " + base::Hex(hash), "bumps.crg", "fields.png", "track.csv", "village.yaml", "world.bt", "world.prj", "world.xodr",
-                                                  "world.yaml", "world_surfaces/bumps.crg", "worn.png"));
+  EXPECT_THAT(Listed(moved), testing::ElementsAre("rodeira: logical/1", "content_hash: " + base::Hex(hash), "bumps.crg",
+                                                  "fields.png", "track.csv", "village.yaml", "world.bt", "world.prj",
+                                                  "world.xodr", "world.yaml", "world_surfaces/bumps.crg", "worn.png"));
   const auto again = road::World::Load(moved / "world.yaml");
   ASSERT_TRUE(again.ok()) << again.error().Text();
   EXPECT_EQ(again.value()->content_hash(), hash);
@@ -264,31 +313,41 @@ TEST(WorldBuild, ABuiltFolderIsListedAndMayBeMoved) {
   check.world_file = moved.string();
   testing::internal::CaptureStdout();
   EXPECT_EQ(World(check), 0);
-  EXPECT_THAT(testing::internal::GetCapturedStdout(), HasSubstr("every file of 'logical.txt' and 'visual.txt' is as it was written"));
+  EXPECT_THAT(testing::internal::GetCapturedStdout(),
+              HasSubstr("every file of 'logical.txt' and 'visual.txt' is as it was written"));
   ASSERT_TRUE(base::WriteWhole(moved / "track.csv", base::ReadText(moved / "track.csv").value() + "\n").ok());
   fs::remove(moved / "worn.png");
   testing::internal::CaptureStderr();
   EXPECT_EQ(World(check), 2);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "rodeira: " + (moved / "track.csv").string() + ": this file of the built world is not as it was written\nrodeira: " + (moved / "worn.png").string() +
-                                                        ": this file of the built world is missing\n");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "rodeira: " + (moved / "track.csv").string() +
+                ": this file of the built world is not as it was written\nrodeira: " + (moved / "worn.png").string() +
+                ": this file of the built world is missing\n");
   check.world_file = folder.path().string();
   testing::internal::CaptureStderr();
   EXPECT_EQ(World(check), 2);
-  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("there is no 'logical.txt'; a folder that `rodeira world build` wrote was expected"));
+  EXPECT_THAT(testing::internal::GetCapturedStderr(),
+              HasSubstr("there is no 'logical.txt'; a folder that `rodeira world build` wrote was expected"));
 }
 
-// What is seen is part of the folder: a tile that is broken or missing, a line that says nothing, tiles of another world, no list at all.
+// What is seen is part of the folder: a tile that is broken or missing, a line that says nothing, tiles of another
+// world, no list at all.
 TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "w.yaml", out = folder.path() / "out";
   const auto write = [&](int length_m) {
-    return base::WriteWhole(file, "rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    axis: [line: {length_m: " + std::to_string(length_m) + "}]\n    section: {template: rural}\n");
+    return base::WriteWhole(
+        file, "rodeira: world/2\nname: w\nground: {kind: plane}\nroads:\n  - id: a\n    axis: [line: {length_m: " +
+                  std::to_string(length_m) + "}]\n    section: {template: rural}\n");
   };
   ASSERT_TRUE(write(40).ok());
   ASSERT_EQ(Build(file, out).status, 0);
   EXPECT_EQ(Asked("check", out).errors, "");
-  EXPECT_THAT(Asked("check", out).out, HasSubstr(": every file of 'logical.txt' and 'visual.txt' is as it was written\n"));
-  const auto problem = [&](const fs::path& where, const std::string& what) { return "rodeira: " + where.string() + ": " + what + "\n"; };
+  EXPECT_THAT(Asked("check", out).out,
+              HasSubstr(": every file of 'logical.txt' and 'visual.txt' is as it was written\n"));
+  const auto problem = [&](const fs::path& where, const std::string& what) {
+    return "rodeira: " + where.string() + ": " + what + "\n";
+  };
 
   const fs::path tile = out / "tiles/0_0_1.osgb", other = out / "tiles/0_0_2.osgb", manifest = out / "visual.txt";
   std::string bytes = base::ReadText(tile).value();
@@ -310,21 +369,26 @@ TEST(WorldBuild, ABuiltFoldersTilesAreCheckedToo) {
   std::string odd = list;
   odd[line] = 'x';  // no digit: what the line names would go unseen
   ASSERT_TRUE(base::WriteWhole(manifest, odd).ok());
-  EXPECT_EQ(Asked("check", out).errors, problem(manifest, "the line '" + odd.substr(line, end - line) + "' names no file with its hash"));
+  EXPECT_EQ(Asked("check", out).errors,
+            problem(manifest, "the line '" + odd.substr(line, end - line) + "' names no file with its hash"));
   fs::remove(manifest);
   const Said unlisted = Asked("check", out);
   EXPECT_EQ(unlisted.status, 2);
-  EXPECT_EQ(unlisted.errors, problem(out, "there is 'world.osgb' but no 'visual.txt', which names every file of what is seen with its hash"));
+  EXPECT_EQ(
+      unlisted.errors,
+      problem(out, "there is 'world.osgb' but no 'visual.txt', which names every file of what is seen with its hash"));
 
   // The tiles of one world beside the roads of another.
   ASSERT_TRUE(write(50).ok());
   ASSERT_EQ(Build(file, out).status, 0);
   EXPECT_EQ(Asked("check", out).status, 0);
   ASSERT_TRUE(base::WriteWhole(manifest, list).ok());
-  EXPECT_THAT(Asked("check", out).errors, testing::StartsWith("rodeira: " + manifest.string() + ": it was written from a world whose content hash is '"));
+  EXPECT_THAT(Asked("check", out).errors, testing::StartsWith("rodeira: " + manifest.string() +
+                                                              ": it was written from a world whose content hash is '"));
 }
 
-// What the traffic of a run would refuse, the check says before: lights that are green together where their ways cross, with the line of the phases.
+// What the traffic of a run would refuse, the check says before: lights that are green together where their ways cross,
+// with the line of the phases.
 TEST(WorldCheck, TellsOfLightsThatAreGreenTogether) {
   const TemporaryFolder folder;
   std::string text = base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value();
@@ -337,7 +401,8 @@ TEST(WorldCheck, TellsOfLightsThatAreGreenTogether) {
   const Said said = Asked("check", folder.path() / "lights.yaml");
   EXPECT_EQ(said.status, 2);
   EXPECT_EQ(said.out, "");
-  EXPECT_THAT(said.errors, HasSubstr((folder.path() / "lights.yaml").string() + ":" + std::to_string(line) + ": the lights 'centre: main'"));
+  EXPECT_THAT(said.errors, HasSubstr((folder.path() / "lights.yaml").string() + ":" + std::to_string(line) +
+                                     ": the lights 'centre: main'"));
   EXPECT_EQ(Asked("check", fs::path(SourceDir()) / "configs/worlds/lights.yaml").status, 0);
 }
 
@@ -349,10 +414,12 @@ TEST(WorldBuild, AWorldOnAPlaneIsListedWithItsFile) {
   EXPECT_EQ(said.status, 0) << said.errors;
   EXPECT_EQ(Listed(out).size(), 4u);
   EXPECT_EQ(Listed(out)[2], "lights.yaml");
-  EXPECT_EQ(base::ReadText(out / "lights.yaml").value(), base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value());
+  EXPECT_EQ(base::ReadText(out / "lights.yaml").value(),
+            base::ReadText(fs::path(SourceDir()) / "configs/worlds/lights.yaml").value());
 }
 
-// A traffic map is a world, but has no world file: what is asked of such files is refused, with what makes one of it. Its hash is that of its bytes, and of what stands beside it.
+// A traffic map is a world, but has no world file: what is asked of such files is refused, with what makes one of it.
+// Its hash is that of its bytes, and of what stands beside it.
 TEST(WorldOfAMap, IsAWorldWithoutAWorldFile) {
   const TemporaryFolder folder;
   const fs::path map = folder.path() / "lights.motors", beside = folder.path() / "lights.motors.yaml";
@@ -363,7 +430,9 @@ TEST(WorldOfAMap, IsAWorldWithoutAWorldFile) {
   for (const char* command : {"build", "export"}) {
     const Said said = Asked(command, map, folder.path() / "out");
     EXPECT_EQ(said.status, 2) << command;
-    EXPECT_THAT(said.errors, HasSubstr("this is a traffic map; `rodeira map convert " + map.string() + " -o lights.yaml` makes a world file of it")) << command;
+    EXPECT_THAT(said.errors, HasSubstr("this is a traffic map; `rodeira map convert " + map.string() +
+                                       " -o lights.yaml` makes a world file of it"))
+        << command;
   }
   const auto hash = road::World::Load(map).value()->content_hash();
   fs::remove(beside);

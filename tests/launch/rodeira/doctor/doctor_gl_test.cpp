@@ -12,7 +12,8 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-constexpr const char* kInstall = "without it the view node cannot run: sudo apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
+constexpr const char* kInstall =
+    "without it the view node cannot run: sudo apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri";
 
 TEST(GlCheck, DrawsOffScreen) {
   const Finding finding = CheckGl();

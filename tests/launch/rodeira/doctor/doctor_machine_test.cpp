@@ -26,18 +26,22 @@ TEST(Packages, TheListIsReadWithItsMarks) {
   EXPECT_TRUE(packages[1].to_run);
   const auto own = ParsePackages(PackageList());
   EXPECT_GT(own.size(), 20u);
-  EXPECT_TRUE(std::any_of(own.begin(), own.end(), [](const DebianPackage& package) { return package.name == "libegl-mesa0" && package.to_run; }));
+  EXPECT_TRUE(std::any_of(own.begin(), own.end(), [](const DebianPackage& package) {
+    return package.name == "libegl-mesa0" && package.to_run;
+  }));
 }
 
 TEST(Packages, WhatIsMissingIsNamedWithTheCommandThatInstallsIt) {
   if (!std::filesystem::exists("/usr/bin/dpkg-query")) GTEST_SKIP() << "there is no dpkg on this machine";
   EXPECT_EQ(CheckPackages({{"dpkg", true}, {"libc6", false}}).verdict, Verdict::kOk);
-  const Finding to_run = CheckPackages({{"dpkg", true}, {"rodeira-no-such-package", true}, {"rodeira-no-such-dev", false}});
+  const Finding to_run =
+      CheckPackages({{"dpkg", true}, {"rodeira-no-such-package", true}, {"rodeira-no-such-dev", false}});
   EXPECT_EQ(to_run.verdict, Verdict::kFault);
   EXPECT_EQ(to_run.sentence, "a package is not installed: sudo apt-get install rodeira-no-such-package");
   const Finding to_build = CheckPackages({{"dpkg", true}, {"rodeira-no-such-dev", false}});
   EXPECT_EQ(to_build.verdict, Verdict::kWarning);
-  EXPECT_EQ(to_build.sentence, "enough to run; not installed, to build and test: rodeira-no-such-dev (tools/install does it)");
+  EXPECT_EQ(to_build.sentence,
+            "enough to run; not installed, to build and test: rodeira-no-such-dev (tools/install does it)");
 }
 
 TEST(Packages, WithoutDpkgItIsSaid) {
@@ -56,7 +60,8 @@ TEST(Programs, WhatIsMissingForbiddenOrBrokenIsNamed) {
   const TemporaryFolder folder;
   const Finding empty = CheckPrograms({"rodeira-clock", "rodeira-road"}, folder.path());
   EXPECT_EQ(empty.verdict, Verdict::kFault);
-  EXPECT_THAT(empty.sentence, HasSubstr("in " + folder.path().string() + ": rodeira-clock is missing, rodeira-road is missing; build again"));
+  EXPECT_THAT(empty.sentence, HasSubstr("in " + folder.path().string() +
+                                        ": rodeira-clock is missing, rodeira-road is missing; build again"));
   folder.Write("rodeira-clock", "#!/bin/sh\nexit 0\n", 0644);
   EXPECT_THAT(CheckPrograms({"rodeira-clock"}, folder.path()).sentence, HasSubstr("rodeira-clock may not be executed"));
   folder.Write("rodeira-clock", "#!/bin/sh\n[ \"$1\" = --help ]\n", 0755);
@@ -64,7 +69,8 @@ TEST(Programs, WhatIsMissingForbiddenOrBrokenIsNamed) {
   folder.Write("rodeira-view", "#!/bin/sh\necho libosg.so.161: cannot open shared object file >&2\nexit 127\n", 0755);
   const Finding broken = CheckPrograms({"rodeira-clock", "rodeira-view"}, folder.path());
   EXPECT_EQ(broken.verdict, Verdict::kFault);
-  EXPECT_THAT(broken.sentence, HasSubstr("rodeira-view does not start (libosg.so.161: cannot open shared object file)"));
+  EXPECT_THAT(broken.sentence,
+              HasSubstr("rodeira-view does not start (libosg.so.161: cannot open shared object file)"));
 }
 
 TEST(MathematicsCheck, AnotherChoiceOrAnotherLibraryIsSeen) {
@@ -98,7 +104,8 @@ class Server {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, file.c_str(), sizeof(address.sun_path) - 1);
-    listens_ = ::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 && ::listen(socket_, 4) == 0;
+    listens_ =
+        ::bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 && ::listen(socket_, 4) == 0;
   }
   ~Server() { ::close(socket_); }
   Server(const Server&) = delete;
@@ -115,7 +122,8 @@ TEST(Display, IsTriedAndNotBelieved) {
   EXPECT_THAT(CheckDisplay({"", "", "", folder.path()}).sentence, HasSubstr("drawn off-screen"));
   EXPECT_EQ(CheckDisplay({"", "", "", folder.path()}).verdict, Verdict::kOk);
   EXPECT_EQ(CheckDisplay({":7", "", "", folder.path()}).verdict, Verdict::kWarning);
-  EXPECT_THAT(CheckDisplay({":7", "", "", folder.path()}).sentence, HasSubstr("DISPLAY=':7' and WAYLAND_DISPLAY='' lead to no display server"));
+  EXPECT_THAT(CheckDisplay({":7", "", "", folder.path()}).sentence,
+              HasSubstr("DISPLAY=':7' and WAYLAND_DISPLAY='' lead to no display server"));
   EXPECT_THAT(CheckDisplay({"office:0", "", "", folder.path()}).sentence, HasSubstr("another PC's"));
   const Server x11(folder.path() / "X7");
   ASSERT_TRUE(x11.listens());

@@ -22,7 +22,8 @@ TEST(SharedMemory, AFolderThatIsMissingRefusesOrIsFullIsAFault) {
   EXPECT_EQ(CheckSharedMemory(folder.path(), 1).verdict, Verdict::kOk) << CheckSharedMemory(folder.path(), 1).sentence;
   const Finding missing = CheckSharedMemory(folder.path() / "shm");
   EXPECT_EQ(missing.verdict, Verdict::kFault);
-  EXPECT_THAT(missing.sentence, HasSubstr("there is no folder " + (folder.path() / "shm").string() + "; a tmpfs was expected there"));
+  EXPECT_THAT(missing.sentence,
+              HasSubstr("there is no folder " + (folder.path() / "shm").string() + "; a tmpfs was expected there"));
   const Finding refused = CheckSharedMemory("/proc");  // takes no files from anybody, root included
   EXPECT_EQ(refused.verdict, Verdict::kFault);
   EXPECT_THAT(refused.sentence, HasSubstr("/proc takes no files"));
@@ -80,7 +81,8 @@ TEST(Ports, OneThatIsTakenIsNamed) {
     }
     if (CheckPorts(domain).verdict != Verdict::kOk) continue;
     EXPECT_EQ(finding.verdict, Verdict::kWarning);
-    EXPECT_THAT(finding.sentence, HasSubstr("UDP " + std::to_string(port) + " (domain " + std::to_string(domain) + ") is taken"));
+    EXPECT_THAT(finding.sentence,
+                HasSubstr("UDP " + std::to_string(port) + " (domain " + std::to_string(domain) + ") is taken"));
     return;
   }
   FAIL() << "every domain from 202 to 232 is in use";
@@ -106,12 +108,14 @@ TEST(LoopBack, TwoProcessesAnswerOneAnother) {
 
 TEST(LoopBack, ASecondProcessThatNeverAnswersIsAFault) {
   const TemporaryFolder folder;
-  auto settings = Settings(launch::Transport::kSharedMemory, folder.Write("mute", "#!/bin/sh\necho ready\nexec cat\n", 0755).string());
+  auto settings = Settings(launch::Transport::kSharedMemory,
+                           folder.Write("mute", "#!/bin/sh\necho ready\nexec cat\n", 0755).string());
   settings.patience = 300ms;
   const Finding mute = CheckLoopBack(settings);
   EXPECT_EQ(mute.verdict, Verdict::kFault);
   EXPECT_EQ(mute.check, "DDS shared memory");
-  EXPECT_EQ(mute.sentence, "question 0 of 50 between two processes over shared_memory in domain " + std::to_string(settings.domain) +
+  EXPECT_EQ(mute.sentence, "question 0 of 50 between two processes over shared_memory in domain " +
+                               std::to_string(settings.domain) +
                                " was not answered within 0.3 s; look at 'shared memory' above, or use transport: udp");
   settings.transport = launch::Transport::kUdp;
   EXPECT_THAT(CheckLoopBack(settings).sentence, HasSubstr("does a firewall drop UDP?"));
@@ -122,7 +126,8 @@ TEST(LoopBack, ASecondProcessThatDoesNotStartIsAFault) {
   EXPECT_EQ(missing.verdict, Verdict::kFault);
   EXPECT_THAT(missing.sentence, HasSubstr("the second process (/no/such/rodeira) did not become ready"));
   const TemporaryFolder folder;
-  const Finding refused = CheckLoopBack(Settings(launch::Transport::kUdp, folder.Write("sad", "#!/bin/sh\necho no memory left\nexit 1\n", 0755).string()));
+  const Finding refused = CheckLoopBack(Settings(
+      launch::Transport::kUdp, folder.Write("sad", "#!/bin/sh\necho no memory left\nexit 1\n", 0755).string()));
   EXPECT_THAT(refused.sentence, HasSubstr("did not become ready: no memory left"));
 }
 

@@ -22,26 +22,33 @@ TEST(Doctor, AFaultIsStatusOneAWarningIsNot) {
 
 TEST(Doctor, SaysALineACheck) {
   const TemporaryFolder folder;
-  const auto ended = RunCommand({"XDG_DATA_HOME=" + folder.path().string(), Bin("rodeira"), "doctor", "--domain", "231"});
-  for (const char* check : {"packages", "programs", "mathematics", "GL", "display", "joysticks", "shared memory", "ports", "DDS shared memory", "sockets", "cores", "memory", "disk"}) {
+  const auto ended =
+      RunCommand({"XDG_DATA_HOME=" + folder.path().string(), Bin("rodeira"), "doctor", "--domain", "231"});
+  for (const char* check : {"packages", "programs", "mathematics", "GL", "display", "joysticks", "shared memory",
+                            "ports", "DDS shared memory", "sockets", "cores", "memory", "disk"}) {
     EXPECT_THAT(ended.out, ::testing::ContainsRegex(std::string("(ok|warning|fault) +") + check + " ")) << ended.out;
   }
   // Status 1 only with a fault that says what to do; which one depends on the machine.
-  EXPECT_EQ(ended.status, ended.out.find("\nfault ") == std::string::npos && !ended.out.starts_with("fault ") ? 0 : 1) << ended.out;
+  EXPECT_EQ(ended.status, ended.out.find("\nfault ") == std::string::npos && !ended.out.starts_with("fault ") ? 0 : 1)
+      << ended.out;
 }
 
 TEST(Doctor, QuietSaysOnlyWhatIsNotWell) {
   const TemporaryFolder folder;
   const auto file = folder.Write("file", "in the way");
-  const auto ended = RunCommand({"XDG_DATA_HOME=" + file.string(), Bin("rodeira"), "doctor", "--quiet", "--transport", "udp", "--domain", "230"});
+  const auto ended = RunCommand(
+      {"XDG_DATA_HOME=" + file.string(), Bin("rodeira"), "doctor", "--quiet", "--transport", "udp", "--domain", "230"});
   EXPECT_EQ(ended.status, 1) << ended.out;
-  EXPECT_THAT(ended.out, HasSubstr("fault    disk               recordings go to " + file.string() + "/rodeira, but " + file.string() + " is no folder")) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("fault    disk               recordings go to " + file.string() + "/rodeira, but " +
+                                   file.string() + " is no folder"))
+      << ended.out;
   EXPECT_FALSE(ended.out.starts_with("ok ") || ended.out.find("\nok ") != std::string::npos) << ended.out;
 }
 
 TEST(Doctor, WithoutMesaItIsAFault) {
   const TemporaryFolder empty;
-  const auto ended = RunCommand({"__EGL_VENDOR_LIBRARY_DIRS=" + empty.path().string(), Bin("rodeira"), "doctor", "--domain", "229"});
+  const auto ended =
+      RunCommand({"__EGL_VENDOR_LIBRARY_DIRS=" + empty.path().string(), Bin("rodeira"), "doctor", "--domain", "229"});
   EXPECT_EQ(ended.status, 1) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("fault    GL")) << ended.out;
 }

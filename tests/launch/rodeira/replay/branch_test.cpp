@@ -62,7 +62,8 @@ TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
   const std::string file = Drive();
   for (const lockstep::Step at : {0, 1500}) {
     BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
-    bool is_branching = false;  // the parent has been computed up to there, and the operator is asked for the first time
+    bool is_branching =
+        false;  // the parent has been computed up to there, and the operator is asked for the first time
     wish.next_command = [&] {
       is_branching = true;
       return std::optional<lockstep::Asked>();
@@ -88,7 +89,8 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
     lockstep::Command mark;
     mark.kind = lockstep::Command::Kind::kMark;
     mark.text = "hello";
-    return lockstep::Asked{mark, [&](const base::Result<std::string>& done) { marked = done ? done.value() : done.error().Text(); }};
+    return lockstep::Asked{
+        mark, [&](const base::Result<std::string>& done) { marked = done ? done.value() : done.error().Text(); }};
   };
   wish.pace = 2;
   ASSERT_TRUE(Branch(wish).ok());
@@ -100,7 +102,9 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   ASSERT_GT(of_branch.size(), same);
   // The last of them may reach beyond the branch's first step, and beyond its first grant.
   for (std::size_t i = 0; i < same; ++i) {
-    EXPECT_TRUE(std::any_of(of_branch.begin(), of_branch.end(), [&](const msg::WallTime& wall) { return wall.utc_ns() == of_parent[i].utc_ns(); })) << i;
+    EXPECT_TRUE(std::any_of(of_branch.begin(), of_branch.end(), [&](const msg::WallTime& wall) {
+      return wall.utc_ns() == of_parent[i].utc_ns();
+    })) << i;
   }
   for (std::size_t i = same; i < of_branch.size(); ++i) EXPECT_GE(of_branch[i].through_step(), 1500) << i;
   EXPECT_EQ(of_branch.back().through_step(), 3000);
@@ -124,7 +128,8 @@ TEST_F(BranchTest, ABranchLastsAsLongAsItsChangesSayAndTellsWhatItsParentAnswers
   EXPECT_EQ(outcome.value().last_step, 2500);
   const auto verified = RunCommand({Bin("rodeira"), "replay", branch, "--verify"});
   EXPECT_EQ(verified.status, 0) << verified.out;
-  EXPECT_THAT(verified.out, HasSubstr("not computed: what lies before 2.000 s is its parent's; verify that one, drive.mcap"));
+  EXPECT_THAT(verified.out,
+              HasSubstr("not computed: what lies before 2.000 s is its parent's; verify that one, drive.mcap"));
 }
 
 // What a user keeps beside it is not the branch's.
@@ -139,7 +144,11 @@ TEST_F(BranchTest, ABranchTouchesNoOtherFile) {
 TEST_F(BranchTest, ABranchHasItsParentsPastAndItsOwnFuture) {
   const std::string file = Drive();
   const auto script = folder_.Write("brake.csv", "time_s,steering_wheel_rad,throttle,brake\n0,0,0,1\n");
-  BranchWish wish{file, 2000, {{"nodes.driver.config.script", "\"" + script.string() + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
+  BranchWish wish{file,
+                  2000,
+                  {{"nodes.driver.config.script", "\"" + script.string() + "\""}},
+                  4000,
+                  (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().last_step, 4000);
@@ -166,7 +175,8 @@ TEST_F(BranchTest, ABranchHasItsParentsPastAndItsOwnFuture) {
 // At the beginning too, where nothing is computed again; and of a branch, only behind its own beginning.
 TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
   const std::string file = Drive();
-  const std::string first = (folder_.path() / "first.mcap").string(), second = (folder_.path() / "second.mcap").string();
+  const std::string first = (folder_.path() / "first.mcap").string(),
+                    second = (folder_.path() / "second.mcap").string();
   BranchWish wish{file, 0, {}, std::nullopt, first};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
@@ -199,19 +209,23 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
 TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   const std::string file = Drive(4.0);
   const std::string other = SourceDir() + "/configs/vehicles/prototype.yaml";
-  const BranchWish wish{file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
+  const BranchWish wish{
+      file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().taken_over, std::vector<std::string>{"ego"});
   // A word does the same where the car's file names the other one.
-  const BranchWish by_word{file, 3000, {{"vehicle.model", "multibody"}}, 4000, (folder_.path() / "by_word.mcap").string()};
+  const BranchWish by_word{
+      file, 3000, {{"vehicle.model", "multibody"}}, 4000, (folder_.path() / "by_word.mcap").string()};
   const auto worded = Branch(by_word);
   ASSERT_TRUE(worded.ok()) << worded.error().Text();
   EXPECT_EQ(worded.value().taken_over, std::vector<std::string>{"ego"});
-  EXPECT_EQ(CarAt(replay::RecordedRun::Open(by_word.recording).value(), 4000), CarAt(replay::RecordedRun::Open(wish.recording).value(), 4000));
+  EXPECT_EQ(CarAt(replay::RecordedRun::Open(by_word.recording).value(), 4000),
+            CarAt(replay::RecordedRun::Open(wish.recording).value(), 4000));
   const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
-  const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000), otherwise = CarAt(parent.value(), 4000);
+  const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000),
+             otherwise = CarAt(parent.value(), 4000);
   EXPECT_GT(was.velocity_w_mps().x(), 1.0);
   EXPECT_NEAR(is.position_w_m().x(), was.position_w_m().x(), 0.005);
   EXPECT_NEAR(is.position_w_m().y(), was.position_w_m().y(), 0.005);
@@ -224,7 +238,8 @@ TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
 }
 
 TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
-  const std::string file = Record("traffic.mcap", LaunchFile("demo.yaml"), {"--for", "4", "--headless", "--set", "nodes.view.config.frames=~"});
+  const std::string file = Record("traffic.mcap", LaunchFile("demo.yaml"),
+                                  {"--for", "4", "--headless", "--set", "nodes.view.config.frames=~"});
   const BranchWish wish{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
@@ -238,9 +253,12 @@ TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
 
 // Unchanged, it goes on itself, to the bit: nobody could make another one that stands where it stood.
 TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
-  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
+  const std::string file =
+      Record("without.mcap", LaunchFile("empty.yaml"),
+             {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
   for (const lockstep::Step at : {0, 700}) {
-    const BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
+    const BranchWish wish{
+        file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
     const auto outcome = Branch(wish);
     ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
     EXPECT_EQ(outcome.value().recomputed_from, 0);
@@ -266,7 +284,8 @@ TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
     }
     ASSERT_FALSE(verdict.ok());
     EXPECT_EQ(verdict.error().exit_status(), 2);
-    EXPECT_THAT(verdict.error().Text(), HasSubstr("node 'c' cannot save its state, and up to step 700 its parent's nodes computed"));
+    EXPECT_THAT(verdict.error().Text(),
+                HasSubstr("node 'c' cannot save its state, and up to step 700 its parent's nodes computed"));
   }
   // Another node's change reaches it one step later; one of its own lets it begin from what it had published.
   const std::string other = (folder_.path() / "other.mcap").string(), own = (folder_.path() / "own.mcap").string();
@@ -281,7 +300,9 @@ TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
       const auto x = of_a.Next(), y = of_b.Next();
       if (!x.value() || !y.value()) return lockstep::Step{-1};
       const auto& source = parent.value().roster().source(x.value()->source());
-      if (parent.value().roster().node(source.node).name == node && source.topic == "rodeira/pulse" && *x.value()->payload != *y.value()->payload) return x.value()->valid();
+      if (parent.value().roster().node(source.node).name == node && source.topic == "rodeira/pulse" &&
+          *x.value()->payload != *y.value()->payload)
+        return x.value()->valid();
     }
   };
   EXPECT_EQ(first_other_value(other, "a"), 701);

@@ -12,15 +12,17 @@
 
 namespace rodeira::cli {
 
-// A copy of a recording, its metadata and messages changed on the way; a message or an embedded file for which `keep` says no is left
-// out.
+// A copy of a recording, its metadata and messages changed on the way; a message or an embedded file for which `keep`
+// says no is left out.
 using Entries = std::function<void(const std::string& name, record::TextMap& entries)>;
 using Keep = std::function<bool(const std::string& topic, const record::Message& message, base::Bytes& data)>;
 using KeepFile = std::function<bool(const std::string& name)>;
 using ChangeIdl = std::function<void(const std::string& type, std::string& text)>;
 
-inline void CopyRecording(const std::string& file, const std::string& copy, const Entries& change, const Keep& keep, const KeepFile& keep_file,
-                          const record::WriterSettings& settings = {}, const ChangeIdl& change_idl = [](const std::string&, std::string&) {}) {
+inline void CopyRecording(
+    const std::string& file, const std::string& copy, const Entries& change, const Keep& keep,
+    const KeepFile& keep_file, const record::WriterSettings& settings = {},
+    const ChangeIdl& change_idl = [](const std::string&, std::string&) {}) {
   std::filesystem::remove(copy);
   auto reader = record::McapReader::Open(file);
   auto writer = record::McapWriter::Open(copy, settings);
@@ -41,7 +43,8 @@ inline void CopyRecording(const std::string& file, const std::string& copy, cons
     std::string text = schema.text;
     change_idl(schema.name, text);
     const auto made = writer.value().AddSchema(schema.name, schema.encoding, text);
-    ids[id] = writer.value().AddChannel(channel.topic, made.value(), channel.message_encoding, channel.metadata).value();
+    ids[id] =
+        writer.value().AddChannel(channel.topic, made.value(), channel.message_encoding, channel.metadata).value();
   }
   auto cursor = in.Messages();
   for (auto message = cursor.Next(); message.value(); message = cursor.Next()) {

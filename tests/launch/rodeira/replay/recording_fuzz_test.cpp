@@ -1,6 +1,6 @@
-// Whole recordings with drawn changes, given to everything that opens one: whatever stands in them, there is a sentence or a result,
-// and nothing that was changed passes for what was recorded. RODEIRA_FUZZ_RECORDINGS sets how many, RODEIRA_FUZZ_FIRST with which
-// number they begin.
+// Whole recordings with drawn changes, given to everything that opens one: whatever stands in them, there is a sentence
+// or a result, and nothing that was changed passes for what was recorded. RODEIRA_FUZZ_RECORDINGS sets how many,
+// RODEIRA_FUZZ_FIRST with which number they begin.
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 
 #include "common/core/base/files.hpp"
 #include "common/runtime/replay/tape.hpp"
-#include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/commands/info_command.hpp"
 #include "launch/rodeira/commands/repair_command.hpp"
+#include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/verify.hpp"
 #include "tests/common/data/record/mutated.hpp"
 #include "tests/launch/rodeira/replay/copied_recording.hpp"
@@ -63,15 +63,19 @@ class RecordingFuzz : public ::testing::Test {
  protected:
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
 
-  // A short run as it is written, and once more with chunks that are not compressed: there the changes reach the samples.
+  // A short run as it is written, and once more with chunks that are not compressed: there the changes reach the
+  // samples.
   void AddSeeds(const std::string& launch, const std::string& seconds) {
-    const auto ended = RunCommand({Bin("rodeira"), "run", launch, "--in-process", "--for", seconds, "--record", File("seed.mcap")});
+    const auto ended =
+        RunCommand({Bin("rodeira"), "run", launch, "--in-process", "--for", seconds, "--record", File("seed.mcap")});
     ASSERT_EQ(ended.status, 0) << ended.out;
     record::WriterSettings settings;
     settings.compression = record::Compression::kNone;
     settings.chunk_span_ns = 8'000'000;
-    CopyRecording(File("seed.mcap"), File("plain.mcap"), [](const std::string&, record::TextMap&) {},
-                  [](const std::string&, const record::Message&, base::Bytes&) { return true; }, [](const std::string&) { return true; }, settings);
+    CopyRecording(
+        File("seed.mcap"), File("plain.mcap"), [](const std::string&, record::TextMap&) {},
+        [](const std::string&, const record::Message&, base::Bytes&) { return true; },
+        [](const std::string&) { return true; }, settings);
     for (const char* name : {"seed.mcap", "plain.mcap", "plain.mcap"}) {
       seeds_.push_back(base::ReadBytes(File(name)).value());
       const auto verdict = VerifyFile(File(name), 0);
@@ -128,13 +132,29 @@ class RecordingFuzz : public ::testing::Test {
 
 TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
   const std::string root = SourceDir();
-  const std::string empty = folder_.Write("empty.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"
-                                                        "  b: {kind: empty, period_s: 0.002, delay_s: 0.004}\n  c: {kind: empty}\n  recorder: {kind: recorder, period_s: 0.01}\n").string();
-  const std::string without = folder_.Write("without.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"
-                                                            "  b: {kind: empty, config: {saves: false}}\n  recorder: {kind: recorder, period_s: 0.01}\n").string();
-  const std::string drive = folder_.Write("drive.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nworld: " + root + "/tests/data/straight.yaml\nnodes:\n  road: {kind: road}\n"
-                                                        "  driver: {kind: input, period_s: 0.002, config: {source: script, script: " + root + "/tests/data/standing.csv}}\n"
-                                                        "  ego: {kind: vehicle, config: {vehicle: " + root + "/configs/vehicles/default.yaml}}\n  recorder: {kind: recorder, period_s: 0.01}\n").string();
+  const std::string empty = folder_
+                                .Write("empty.yaml",
+                                       "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"
+                                       "  b: {kind: empty, period_s: 0.002, delay_s: 0.004}\n  c: {kind: empty}\n  "
+                                       "recorder: {kind: recorder, period_s: 0.01}\n")
+                                .string();
+  const std::string without =
+      folder_
+          .Write("without.yaml",
+                 "rodeira: launch/1\nsnapshot_every_s: 0.01\nnodes:\n  a: {kind: empty}\n"
+                 "  b: {kind: empty, config: {saves: false}}\n  recorder: {kind: recorder, period_s: 0.01}\n")
+          .string();
+  const std::string drive =
+      folder_
+          .Write("drive.yaml", "rodeira: launch/1\nsnapshot_every_s: 0.01\nworld: " + root +
+                                   "/tests/data/straight.yaml\nnodes:\n  road: {kind: road}\n"
+                                   "  driver: {kind: input, period_s: 0.002, config: {source: script, script: " +
+                                   root +
+                                   "/tests/data/standing.csv}}\n"
+                                   "  ego: {kind: vehicle, config: {vehicle: " +
+                                   root +
+                                   "/configs/vehicles/default.yaml}}\n  recorder: {kind: recorder, period_s: 0.01}\n")
+          .string();
   for (const std::string& launch : {empty, without, drive}) ASSERT_NO_FATAL_FAILURE(AddSeeds(launch, "0.03"));
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
   const std::size_t count = Setting("RODEIRA_FUZZ_RECORDINGS", 100);
@@ -148,10 +168,12 @@ TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
     const base::Bytes& seed = seeds_[draw.Below(seeds_.size())];
     base::Bytes bytes = seed;
     const std::size_t mutations = 1 + draw.Below(3);
-    for (std::size_t i = 0; i < mutations && !bytes.empty(); ++i) draw.Below(2) == 0 ? record::Mutate(bytes, draw) : record::MutateARecord(bytes, draw);
+    for (std::size_t i = 0; i < mutations && !bytes.empty(); ++i)
+      draw.Below(2) == 0 ? record::Mutate(bytes, draw) : record::MutateARecord(bytes, draw);
     const bool resealed = draw.Below(2) == 0;
     if (resealed) record::Reseal(bytes);
-    const bool must_be_found = mutations == 1 && !resealed && bytes != seed;  // with two, one may take a checksum out of force
+    const bool must_be_found =
+        mutations == 1 && !resealed && bytes != seed;  // with two, one may take a checksum out of force
     ASSERT_TRUE(base::WriteWhole(file, bytes).ok());
     LookAt(file, draw);
     const auto verdict = VerifyFile(file, static_cast<Step>(draw.Below(40)));
@@ -177,7 +199,8 @@ TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
         const auto again = VerifyFile(repaired, 0);
         if (!again) ExpectASentence(again.error());
         if (again && !again.value().difference) ++mended;
-        EXPECT_FALSE(must_be_found && again && again.value().difference) << "repaired, but not as it was: " << again.value().difference->Text();
+        EXPECT_FALSE(must_be_found && again && again.value().difference)
+            << "repaired, but not as it was: " << again.value().difference->Text();
       }
     }
     if (testing::Test::HasFailure()) FAIL() << property::g_last_words;

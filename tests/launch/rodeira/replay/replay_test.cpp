@@ -6,8 +6,8 @@
 
 #include <cmath>
 #include <fstream>
-#include <map>
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "common/core/base/files.hpp"
@@ -33,7 +33,8 @@ TEST_F(ReplayTest, ComputedAgainIsTheSame) {
   ASSERT_TRUE(whole.ok()) << whole.error().Text();
   EXPECT_FALSE(whole.value().difference.has_value()) << whole.value().difference->Text();
   EXPECT_EQ(whole.value().nodes, 2u);
-  EXPECT_EQ(whole.value().samples, 2u * 3001u + 301u + 2u * 4u) << "the car's state and what it hits, the controls, snapshots";
+  EXPECT_EQ(whole.value().samples, 2u * 3001u + 301u + 2u * 4u)
+      << "the car's state and what it hits, the controls, snapshots";
   EXPECT_EQ(whole.value().snapshots, 8u);
   const auto late = VerifyFile(file, 2500);
   ASSERT_TRUE(late.ok()) << late.error().Text();
@@ -68,10 +69,13 @@ TEST_F(ReplayTest, ATurnedBitOfAStateIsFoundAndTheFieldNamed) {
 
 // Outputs and states are digested separately: a state that differs is found at its step, though the output is the same.
 TEST_F(ReplayTest, AChangedStateDigestIsFoundThoughTheOutputIsTheSame) {
-  constexpr std::size_t kStateDigestAt = lockstep::SampleHeader::kEncapsulation + lockstep::SampleHeader::kSize - sizeof(base::Digest);
+  constexpr std::size_t kStateDigestAt =
+      lockstep::SampleHeader::kEncapsulation + lockstep::SampleHeader::kSize - sizeof(base::Digest);
   const std::string file = Drive();
-  const auto original = replay::RecordedRun::Open(file), changed = replay::RecordedRun::Open(WithABitTurned(file, "rodeira/vehicle_state", 777, kStateDigestAt));
-  EXPECT_EQ(CarAt(original.value(), 777).header().state_digest() ^ 1u, CarAt(changed.value(), 777).header().state_digest());
+  const auto original = replay::RecordedRun::Open(file),
+             changed = replay::RecordedRun::Open(WithABitTurned(file, "rodeira/vehicle_state", 777, kStateDigestAt));
+  EXPECT_EQ(CarAt(original.value(), 777).header().state_digest() ^ 1u,
+            CarAt(changed.value(), 777).header().state_digest());
   EXPECT_EQ(CarAt(original.value(), 777).position_w_m().x(), CarAt(changed.value(), 777).position_w_m().x());
   const auto verdict = Verify(changed.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
@@ -82,15 +86,18 @@ TEST_F(ReplayTest, AChangedStateDigestIsFoundThoughTheOutputIsTheSame) {
   EXPECT_NE(verdict.value().difference->recorded, verdict.value().difference->computed);
 }
 
-// What a person reads, with the numbers of the law: steps, nodes that compute, samples of all sources, snapshots of both nodes.
+// What a person reads, with the numbers of the law: steps, nodes that compute, samples of all sources, snapshots of
+// both nodes.
 TEST_F(ReplayTest, WhatIsIdenticalIsSaidInNumbers) {
   const std::string file = Drive();
   const auto whole = RunCommand({Bin("rodeira"), "replay", file, "--verify"});
   EXPECT_EQ(whole.status, 0) << whole.out;
-  EXPECT_THAT(whole.out, ::testing::StartsWith("identical: 3000 steps, 2 nodes (6311 samples, 8 snapshots; from 0.000 s; "));
+  EXPECT_THAT(whole.out,
+              ::testing::StartsWith("identical: 3000 steps, 2 nodes (6311 samples, 8 snapshots; from 0.000 s; "));
   const auto late = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "2.5"});
   EXPECT_EQ(late.status, 0) << late.out;
-  EXPECT_THAT(late.out, ::testing::StartsWith("identical: 1000 steps, 2 nodes (2107 samples, 4 snapshots; from 2.000 s; "));
+  EXPECT_THAT(late.out,
+              ::testing::StartsWith("identical: 1000 steps, 2 nodes (2107 samples, 4 snapshots; from 2.000 s; "));
 }
 
 TEST_F(ReplayTest, AChangedConstantIsFound) {
@@ -104,11 +111,13 @@ TEST_F(ReplayTest, AChangedConstantIsFound) {
 
 TEST_F(ReplayTest, ABrokenNodeIsFoundAndNamed) {
   for (const char* broken : {"clock", "order"}) {
-    const std::string file = Record(std::string(broken) + ".mcap", LaunchFile("empty.yaml"),
-                                    {"--for", "1.5", "--set", std::string("nodes.c.config.broken=") + broken, "--set", "snapshot_every_s=0.5"});
+    const std::string file = Record(
+        std::string(broken) + ".mcap", LaunchFile("empty.yaml"),
+        {"--for", "1.5", "--set", std::string("nodes.c.config.broken=") + broken, "--set", "snapshot_every_s=0.5"});
     const auto run = RunCommand({Bin("rodeira"), "replay", file, "--verify"});  // in another process: other addresses
     EXPECT_EQ(run.status, 1) << run.out;
-    EXPECT_THAT(run.out, HasSubstr("first difference at step 1: node 'c', topic rodeira/pulse, field 'value'")) << run.out;
+    EXPECT_THAT(run.out, HasSubstr("first difference at step 1: node 'c', topic rodeira/pulse, field 'value'"))
+        << run.out;
   }
 }
 
@@ -135,9 +144,13 @@ TEST_F(ReplayTest, ARepairedFileIsARunUpToWhereItIsWhole) {
 
 // A byte anywhere behind the first bytes, also where nobody reads it otherwise: metadata, embedded files.
 TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
-  const std::string file = Record("drive.mcap", LaunchFile("first_drive.yaml"), {"--for", "1", "--meta", "participant=P07"});
+  const std::string file =
+      Record("drive.mcap", LaunchFile("first_drive.yaml"), {"--for", "1", "--meta", "participant=P07"});
   const auto original = base::ReadText(file).value();
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"P07", "P06"}, {"last_step", "last_stop"}, {"1000", "0999"}, {"rodeira.end", "rodeira.eno"}}) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"P07", "P06"},
+                                 {"last_step", "last_stop"},
+                                 {"1000", "0999"},
+                                 {"rodeira.end", "rodeira.eno"}}) {
     std::string text = original;
     const auto at = text.rfind(from);
     ASSERT_NE(at, std::string::npos) << from;
@@ -154,8 +167,9 @@ TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
 TEST_F(ReplayTest, TheDemoMayBeDrivenByAnyModel) {
   std::map<std::string, double> driven_m;
   for (const std::string model : {"bicycle", "multibody", "ode"}) {
-    const std::string file = Record(model + ".mcap", LaunchFile("demo.yaml"),
-                                    {"--for", "3", "--headless", "--set", "nodes.view.config.frames=~", "--set", "vehicle.model=" + model});
+    const std::string file =
+        Record(model + ".mcap", LaunchFile("demo.yaml"),
+               {"--for", "3", "--headless", "--set", "nodes.view.config.frames=~", "--set", "vehicle.model=" + model});
     const auto verdict = VerifyFile(file);
     ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
     EXPECT_FALSE(verdict.value().difference.has_value()) << model << ": " << verdict.value().difference->Text();
@@ -166,14 +180,17 @@ TEST_F(ReplayTest, TheDemoMayBeDrivenByAnyModel) {
   }
   EXPECT_NE(driven_m["ode"], driven_m["bicycle"]);
   EXPECT_NE(driven_m["multibody"], driven_m["bicycle"]);
-  const auto unknown = RunCommand({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process", "--headless", "--no-record", "--set", "vehicle.model=bycicle"});
+  const auto unknown = RunCommand({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process", "--headless",
+                                   "--no-record", "--set", "vehicle.model=bycicle"});
   EXPECT_EQ(unknown.status, 2);
   EXPECT_THAT(unknown.out, HasSubstr("this car is wanted as model 'bycicle'; did you mean 'bicycle'?"));
 }
 
 // What cannot save its state is computed from the first step, wherever one asks it to begin.
 TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
-  const std::string file = Record("without.mcap", LaunchFile("empty.yaml"), {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "snapshot_every_s=0.5"});
+  const std::string file =
+      Record("without.mcap", LaunchFile("empty.yaml"),
+             {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "snapshot_every_s=0.5"});
   const auto late = VerifyFile(file, 1200);
   ASSERT_TRUE(late.ok()) << late.error().Text();
   EXPECT_FALSE(late.value().difference.has_value()) << late.value().difference->Text();
@@ -182,8 +199,11 @@ TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
   EXPECT_EQ(late.value().samples, 4u * 1501u + 4u * 4u);
   const auto said = RunCommand({Bin("rodeira"), "replay", file, "--verify", "--from", "1.2"});
   EXPECT_EQ(said.status, 0) << said.out;
-  EXPECT_THAT(said.out, HasSubstr("node 'c' cannot save its state: all is computed again from step 0\nidentical: 1500 steps, 4 nodes"));
-  EXPECT_THAT(RunCommand({Bin("rodeira"), "info", file}).out, HasSubstr("state   node 'c' cannot save its state: replayed from the first step"));
+  EXPECT_THAT(
+      said.out,
+      HasSubstr("node 'c' cannot save its state: all is computed again from step 0\nidentical: 1500 steps, 4 nodes"));
+  EXPECT_THAT(RunCommand({Bin("rodeira"), "info", file}).out,
+              HasSubstr("state   node 'c' cannot save its state: replayed from the first step"));
   // Its digests are compared like everybody's: a change of another node reaches it.
   const auto changed = VerifyFile(file, 1200, {{"nodes.c.config.broken", "clock"}});
   ASSERT_TRUE(changed.ok()) << changed.error().Text();
@@ -192,7 +212,8 @@ TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
   EXPECT_EQ(changed.value().difference->step, 1);
 }
 
-// Embedded files are unpacked to be read; what is wrong with one is said by its name in the recording, not by where it was unpacked.
+// Embedded files are unpacked to be read; what is wrong with one is said by its name in the recording, not by where it
+// was unpacked.
 TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
   const std::string file = Drive(1.0);
   const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
@@ -207,10 +228,14 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
     EXPECT_THAT(verdict.error().Text(), ::testing::Not(HasSubstr("rodeira-replay"))) << name;
     return verdict.error().Text().substr(copy.size() + 2);
   };
-  EXPECT_EQ(without("launch.yaml"), "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
-  EXPECT_THAT(without("files/../configs/vehicles/default.yaml"), HasSubstr("../configs/vehicles/default.yaml: there is no such file"));
-  EXPECT_THAT(without("files/../configs/worlds/plane.yaml"), HasSubstr("../configs/worlds/plane.yaml: there is no such file"));
-  const auto wrong_change = Branch({file, 500, {{"nodes.ego.config.vehicel", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()});
+  EXPECT_EQ(without("launch.yaml"),
+            "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+  EXPECT_THAT(without("files/../configs/vehicles/default.yaml"),
+              HasSubstr("../configs/vehicles/default.yaml: there is no such file"));
+  EXPECT_THAT(without("files/../configs/worlds/plane.yaml"),
+              HasSubstr("../configs/worlds/plane.yaml: there is no such file"));
+  const auto wrong_change =
+      Branch({file, 500, {{"nodes.ego.config.vehicel", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()});
   ASSERT_FALSE(wrong_change.ok());
   EXPECT_THAT(wrong_change.error().Text(), ::testing::StartsWith(file + ": "));
   EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": first_drive.yaml: unknown key 'nodes.ego.config.vehicel'"));
@@ -220,9 +245,14 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
 TEST_F(ReplayTest, AFileNamedByItsWholePathIsTheEmbeddedOne) {
   const std::string root = SourceDir();
   const auto vehicle = folder_.Write("car.yaml", base::ReadText(root + "/configs/vehicles/default.yaml").value());
-  const auto launch = folder_.Write("launch/whole.yaml", "rodeira: launch/1\nworld: " + root + "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n"
-                                                         "  driver: {kind: input, config: {source: script, script: " + root + "/tests/data/standing.csv}}\n"
-                                                         "  ego: {kind: vehicle, config: {vehicle: \"" + vehicle.string() + "\"}}\n  recorder: {kind: recorder}\n");
+  const auto launch =
+      folder_.Write("launch/whole.yaml", "rodeira: launch/1\nworld: " + root +
+                                             "/configs/worlds/plane.yaml\nnodes:\n  road: {kind: road}\n"
+                                             "  driver: {kind: input, config: {source: script, script: " +
+                                             root +
+                                             "/tests/data/standing.csv}}\n"
+                                             "  ego: {kind: vehicle, config: {vehicle: \"" +
+                                             vehicle.string() + "\"}}\n  recorder: {kind: recorder}\n");
   const std::string file = Record("whole.mcap", launch.string(), {"--for", "1"});
   ASSERT_TRUE(base::WriteWhole(vehicle, std::string_view("another car")).ok());
   const auto verdict = VerifyFile(file);
@@ -249,11 +279,15 @@ TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
     EXPECT_THAT(ended.out, HasSubstr("first difference at step 500"));
     return ended.out;
   };
-  EXPECT_THAT(verify(Copied(file, [](const std::string&, record::TextMap&) {}, otherwise)), ::testing::Not(HasSubstr("recorded by another program")));
+  EXPECT_THAT(verify(Copied(
+                  file, [](const std::string&, record::TextMap&) {}, otherwise)),
+              ::testing::Not(HasSubstr("recorded by another program")));
   const auto by_another = [](const std::string& name, record::TextMap& entries) {
     if (name == "rodeira") entries["commit"] = "0123456";
   };
-  EXPECT_THAT(verify(Copied(file, by_another, otherwise)), HasSubstr("recorded by another program (version 0.1.0, commit 0123456; this one is version 0.1.0, commit "));
+  EXPECT_THAT(
+      verify(Copied(file, by_another, otherwise)),
+      HasSubstr("recorded by another program (version 0.1.0, commit 0123456; this one is version 0.1.0, commit "));
 }
 
 TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
@@ -266,17 +300,21 @@ TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
   const auto refused = VerifyFile(Copied(file, about_another, all));
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().exit_status(), 2);
-  EXPECT_THAT(refused.error().Text(), HasSubstr("the recording's protocol hash is 0123456789abcdef, this program's is "));
-  const std::string lacking = Copied(file, nothing, [](const std::string& topic, const record::Message& message, base::Bytes&) {
-    return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
-  });
+  EXPECT_THAT(refused.error().Text(),
+              HasSubstr("the recording's protocol hash is 0123456789abcdef, this program's is "));
+  const std::string lacking =
+      Copied(file, nothing, [](const std::string& topic, const record::Message& message, base::Bytes&) {
+        return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
+      });
   const auto branch = Branch({lacking, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()});
   ASSERT_FALSE(branch.ok());
   EXPECT_EQ(branch.error().exit_status(), 2);
-  EXPECT_THAT(branch.error().Text(), testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
+  EXPECT_THAT(branch.error().Text(),
+              testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
 }
 
-// Other programs read the file by its IDL, people by what it says of itself: neither may say anything else than the run.
+// Other programs read the file by its IDL, people by what it says of itself: neither may say anything else than the
+// run.
 TEST_F(ReplayTest, WhatTheFileSaysOfItselfMustBeTrue) {
   const std::string file = Drive(2.0);
   const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
@@ -288,24 +326,34 @@ TEST_F(ReplayTest, WhatTheFileSaysOfItselfMustBeTrue) {
     return verdict.error().Text();
   };
   const std::string copy = (folder_.path() / "idl.mcap").string();
-  CopyRecording(file, copy, [](const std::string&, record::TextMap&) {}, all, [](const std::string&) { return true; }, {}, [](const std::string& type, std::string& text) {
-    if (type == "rodeira::msg::Controls") text.replace(text.find("throttle"), 8, "thrattle");
-  });
+  CopyRecording(
+      file, copy, [](const std::string&, record::TextMap&) {}, all, [](const std::string&) { return true; }, {},
+      [](const std::string& type, std::string& text) {
+        if (type == "rodeira::msg::Controls") text.replace(text.find("throttle"), 8, "thrattle");
+      });
   EXPECT_THAT(refusal(copy), HasSubstr("the recording's IDL of topic rodeira/controls"));
-  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"seed", "7"}, {"base_step_ns", "ten"}, {"world_hash", "0123456789abcdef"}}) {
+  for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
+           {"seed", "7"}, {"base_step_ns", "ten"}, {"world_hash", "0123456789abcdef"}}) {
     const auto changed = [&key = key, &value = value](const std::string& name, record::TextMap& entries) {
       if (name == "rodeira") entries[key] = value;
     };
-    EXPECT_THAT(refusal(Copied(file, changed, all)), testing::AllOf(HasSubstr("the recording says " + key + " " + value))) << key;
+    EXPECT_THAT(refusal(Copied(file, changed, all)),
+                testing::AllOf(HasSubstr("the recording says " + key + " " + value)))
+        << key;
   }
-  const std::string no_snapshot = Copied(file, [](const std::string&, record::TextMap&) {}, [](const std::string& topic, const record::Message& message, base::Bytes&) {
-    return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
-  });
+  const std::string no_snapshot = Copied(
+      file, [](const std::string&, record::TextMap&) {},
+      [](const std::string& topic, const record::Message& message, base::Bytes&) {
+        return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
+      });
   EXPECT_THAT(refusal(no_snapshot), testing::MatchesRegex(".*the snapshot of node '[a-z]+' at step 1000 is missing.*"));
   for (const char* last_step : {"-5", "600"}) {
-    const std::string shorter = Copied(file, [&](const std::string& name, record::TextMap& entries) {
-      if (name == "rodeira.end") entries["last_step"] = last_step;
-    }, all);
+    const std::string shorter = Copied(
+        file,
+        [&](const std::string& name, record::TextMap& entries) {
+          if (name == "rodeira.end") entries["last_step"] = last_step;
+        },
+        all);
     const auto info = RunCommand({Bin("rodeira"), "info", shorter});
     EXPECT_EQ(info.status, 1) << info.out;
     EXPECT_THAT(info.out, HasSubstr(std::string("its last words say that the run ended at step ") + last_step));
@@ -321,7 +369,9 @@ TEST_F(ReplayTest, CtrlCEndsInOrderAndLeavesNothing) {
   const std::vector<std::string> verify{"TMPDIR=" + unpacked.string(), Bin("rodeira"), "replay", file, "--verify"};
   std::vector<std::string> to_branch{verify.begin(), verify.end() - 1};
   to_branch.insert(to_branch.end(), {"--from", "0.5", "--branch", "seed=2", "--record", branch.string()});
-  for (const auto& [command, number, wait_ms] : {std::tuple(verify, SIGINT, 0), std::tuple(verify, SIGTERM, 200), std::tuple(to_branch, SIGINT, 0), std::tuple(to_branch, SIGTERM, 200)}) {
+  for (const auto& [command, number, wait_ms] :
+       {std::tuple(verify, SIGINT, 0), std::tuple(verify, SIGTERM, 200), std::tuple(to_branch, SIGINT, 0),
+        std::tuple(to_branch, SIGTERM, 200)}) {
     system_test::Started replay(command);
     for (int i = 0; i < 2000 && std::filesystem::is_empty(unpacked); ++i) ::usleep(5000);
     ASSERT_FALSE(std::filesystem::is_empty(unpacked));
@@ -346,21 +396,34 @@ TEST_F(ReplayTest, WhatCannotBeReplayedIsRefusedInOneSentence) {
     EXPECT_EQ(std::count(ended.out.begin(), ended.out.end(), '\n'), 1) << ended.out;
     return ended.out;
   };
-  EXPECT_THAT(complaint({file}), HasSubstr("nothing to do was named; --view, --frames, --verify or --branch was expected"));
+  EXPECT_THAT(complaint({file}),
+              HasSubstr("nothing to do was named; --view, --frames, --verify or --branch was expected"));
   EXPECT_THAT(complaint({file, "--verify", "--record", "x.mcap"}), HasSubstr("--record is of a branch"));
   EXPECT_THAT(complaint({file, "--verify", "--from", "7"}), HasSubstr("the run ends at 1.000 s"));
-  EXPECT_THAT(complaint({file, "--verify", "--from", "-1"}), HasSubstr("--from -1 s was found; a time from 0 s to the run's end was expected"));
-  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "nan", "--record", "x.mcap"}), HasSubstr("--from nan s was found"));
-  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.config.vehicle=nonesuch.yaml", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("nonesuch.yaml"));
-  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "7", "--record", "x.mcap"}), HasSubstr("the run ends at 1.000 s"));
-  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.503", "--record", "x.mcap"}), HasSubstr("the nearest such time is 0.500 s"));
+  EXPECT_THAT(complaint({file, "--verify", "--from", "-1"}),
+              HasSubstr("--from -1 s was found; a time from 0 s to the run's end was expected"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "nan", "--record", "x.mcap"}),
+              HasSubstr("--from nan s was found"));
+  EXPECT_THAT(
+      complaint({file, "--branch", "nodes.ego.config.vehicle=nonesuch.yaml", "--from", "0.5", "--record", "x.mcap"}),
+      HasSubstr("nonesuch.yaml"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "7", "--record", "x.mcap"}),
+              HasSubstr("the run ends at 1.000 s"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.503", "--record", "x.mcap"}),
+              HasSubstr("the nearest such time is 0.500 s"));
   EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5"}), HasSubstr("--record is missing"));
-  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5004", "--record", "x.mcap"}), HasSubstr("--from 0.5004 s was found; a multiple of the base step of 0.001 s"));
-  EXPECT_THAT(complaint({file, "--branch", "duration_s=0.25", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("duration_s = 0.25 was found; the branch begins at 0.500 s"));
-  EXPECT_THAT(complaint({file, "--branch", "nodes.another.kind=empty", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("another roster"));
-  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5", "--record", "/nonexistent/x.mcap"}), HasSubstr("/nonexistent/x.mcap: "));
-  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.config.vehicel=2", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("unknown key 'nodes.ego.config.vehicel'"));
-  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.period_s=0.002", "--from", "0.5", "--record", "x.mcap"}), HasSubstr("another roster"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5004", "--record", "x.mcap"}),
+              HasSubstr("--from 0.5004 s was found; a multiple of the base step of 0.001 s"));
+  EXPECT_THAT(complaint({file, "--branch", "duration_s=0.25", "--from", "0.5", "--record", "x.mcap"}),
+              HasSubstr("duration_s = 0.25 was found; the branch begins at 0.500 s"));
+  EXPECT_THAT(complaint({file, "--branch", "nodes.another.kind=empty", "--from", "0.5", "--record", "x.mcap"}),
+              HasSubstr("another roster"));
+  EXPECT_THAT(complaint({file, "--branch", "seed=2", "--from", "0.5", "--record", "/nonexistent/x.mcap"}),
+              HasSubstr("/nonexistent/x.mcap: "));
+  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.config.vehicel=2", "--from", "0.5", "--record", "x.mcap"}),
+              HasSubstr("unknown key 'nodes.ego.config.vehicel'"));
+  EXPECT_THAT(complaint({file, "--branch", "nodes.ego.period_s=0.002", "--from", "0.5", "--record", "x.mcap"}),
+              HasSubstr("another roster"));
   EXPECT_THAT(complaint({(folder_.path() / "none.mcap").string(), "--verify"}), HasSubstr("none.mcap"));
   std::ofstream(folder_.path() / "text.mcap") << "hello";
   EXPECT_THAT(complaint({(folder_.path() / "text.mcap").string(), "--verify"}), HasSubstr("text.mcap"));

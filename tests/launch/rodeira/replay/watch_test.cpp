@@ -13,8 +13,8 @@
 #include "launch/rodeira/replay/marks_reader.hpp"
 #include "launch/rodeira/replay/recorded_moments.hpp"
 #include "launch/rodeira/replay/recorded_view.hpp"
-#include "nodes/view/run_connection/from_wire.hpp"
 #include "nodes/view/frame/surface.hpp"
+#include "nodes/view/run_connection/from_wire.hpp"
 #include "tests/common/runtime/replay/made_recording.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
@@ -32,9 +32,11 @@ constexpr Step kLast = 6'010;  // no activation of the view
 
 // A car that weaves and traffic of which one agent goes away at 3 s and comes again elsewhere, seen every 20 ms.
 constexpr const char* kLaunch =
-    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle, period_s: 0.004}\n  others: {kind: "
+    "rodeira: launch/1\nname: made\nnodes:\n  hands: {kind: input}\n  ego: {kind: vehicle, period_s: 0.004}\n  others: "
+    "{kind: "
     "traffic, period_s: 0.01}\n"
-    "  picture: {kind: view, config: {width_px: 320, height_px: 180, camera: driver, instruments: false, window: never, "
+    "  picture: {kind: view, config: {width_px: 320, height_px: 180, camera: driver, instruments: false, window: "
+    "never, "
     "frames: {times_s: [1], folder: /proc/nowhere}}}\n";
 
 base::Bytes Payload(const lockstep::Source& source, Step step) {
@@ -162,7 +164,9 @@ TEST_F(WatchTest, WhatDriversDoHoldsUntilItIsSaidAgain) {
     ASSERT_EQ(moment.value().agents.size(), 2u);
     const auto& details = moment.value().agents;
     ASSERT_TRUE(details[0].detail && details[1].detail) << step;
-    EXPECT_FLOAT_EQ(static_cast<float>(details[0].detail->target_speed_mps), static_cast<float>(0.1 * static_cast<double>(step / 100))) << step;
+    EXPECT_FLOAT_EQ(static_cast<float>(details[0].detail->target_speed_mps),
+                    static_cast<float>(0.1 * static_cast<double>(step / 100)))
+        << step;
     EXPECT_EQ(details[0].detail->gear, 4);
     EXPECT_EQ(details[1].detail->gear, 9);
   }
@@ -222,7 +226,8 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   EXPECT_EQ(seen.value().period, 20);
   EXPECT_EQ(seen.value().settings.width_px, 1280);
   EXPECT_TRUE(seen.value().settings.autopilots.empty());
-  const std::string driven = std::string(launch).replace(launch.find("{kind: input}"), 13, "{kind: input, config: {source: autopilot, driver: driver.yaml}}");
+  const std::string driven = std::string(launch).replace(
+      launch.find("{kind: input}"), 13, "{kind: input, config: {source: autopilot, driver: driver.yaml}}");
   const auto by_autopilot = replay::RecordedRun::Open(Made(driven));
   ASSERT_TRUE(by_autopilot.ok()) << by_autopilot.error().Text();
   const auto seen_driven = LookAt(by_autopilot.value(), {});
@@ -258,7 +263,8 @@ TEST_F(WatchTest, OfRemarksOnlyWhatSomebodyMarkedIsOnTheBar) {
   EXPECT_EQ(marks.value()[2].text.find('\n'), std::string::npos);
 }
 
-// What a scenario did, and what people asked for in the window, is found again where it was valid; samples without an event are none.
+// What a scenario did, and what people asked for in the window, is found again where it was valid; samples without an
+// event are none.
 TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
   const auto event = [](const std::string& name, const std::string& argument, double value) {
     msg::ScenarioEvent one;
@@ -273,7 +279,9 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
       msg::ScenarioEvents events;
       if (step == 1) events.events() = {event("weather", "rain", 8.0), event("mark", "here it begins", 0.0)};
       if (step == 3) events.events() = {event("traffic.release", "all", 0.0)};
-      if (step == 4) events.events() = {event("traffic.change_lane", "3", -1.0), event("vehicle.place", "ego -1960.3132921686006 -534.1019500003695 20", 0.0)};
+      if (step == 4)
+        events.events() = {event("traffic.change_lane", "3", -1.0),
+                           event("vehicle.place", "ego -1960.3132921686006 -534.1019500003695 20", 0.0)};
       replay::Must(writer.Write(channel, 0, static_cast<std::uint64_t>(step) * 1'000, 0, idl::Encode(events)));
     }
   }));
@@ -313,7 +321,8 @@ TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
 
   const auto run = replay::RecordedRun::Open(file);
   ASSERT_TRUE(run.ok()) << run.error().Text();
-  EXPECT_TRUE(MarksOf(run.value(), [] { return true; }).value().empty()) << "who closes the window does not wait for them";
+  EXPECT_TRUE(MarksOf(run.value(), [] { return true; }).value().empty())
+      << "who closes the window does not wait for them";
   MarksReader missing(folder_.path() / "missing.mcap");
   while (!(taken = missing.Take())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_FALSE(taken->ok());
@@ -321,9 +330,10 @@ TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
 
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
-  const auto run = RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process",
-                               "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live"), "--set",
-                               "nodes.view.config.frames.times_s=[5, 12, 12.013, 20, 30]"});  // and one between two activations
+  const auto run =
+      RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process",
+                  "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live"), "--set",
+                  "nodes.view.config.frames.times_s=[5, 12, 12.013, 20, 30]"});  // and one between two activations
   ASSERT_EQ(run.status, 0) << run.out;
   const auto replay = Replay({Path("demo.mcap"), "--frames", Path("again"), "--at", "30", "5", "12.013", "12", "20"});
   ASSERT_EQ(replay.status, 0) << replay.out;
@@ -339,21 +349,27 @@ TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
                base::ReadBytes(folder_.path() / "live" / nodes::FrameName(5'000)).value());
 }
 
-// A film has one picture for each 1 / fps of simulated time, whatever the machine's speed, and each of them is the frame of its step.
+// A film has one picture for each 1 / fps of simulated time, whatever the machine's speed, and each of them is the
+// frame of its step.
 TEST_F(WatchTest, AFilmIsInStepWithSimulatedTime) {
   if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
   const std::string file = Made();
-  const auto film = Replay({file, "--frames", Path("film"), "--fps", "25", "--from", "1", "--for", "0.4", "--size", "96x64"});
+  const auto film =
+      Replay({file, "--frames", Path("film"), "--fps", "25", "--from", "1", "--for", "0.4", "--size", "96x64"});
   ASSERT_EQ(film.status, 0) << film.out;
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "film")) names.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / "film"))
+    names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   ASSERT_EQ(names.size(), 11u);
-  for (std::size_t k = 0; k < names.size(); ++k) EXPECT_EQ(names[k], nodes::FrameName(1'000 + 40 * static_cast<Step>(k)));
-  EXPECT_EQ(Replay({file, "--frames", Path("end"), "--fps", "250", "--from", "6.004", "--size", "64x64"}).status, 0) << "6.01 s has no sample: the film ends before";
+  for (std::size_t k = 0; k < names.size(); ++k)
+    EXPECT_EQ(names[k], nodes::FrameName(1'000 + 40 * static_cast<Step>(k)));
+  EXPECT_EQ(Replay({file, "--frames", Path("end"), "--fps", "250", "--from", "6.004", "--size", "64x64"}).status, 0)
+      << "6.01 s has no sample: the film ends before";
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "end" / nodes::FrameName(6'008)));
   ASSERT_EQ(Replay({file, "--frames", Path("single"), "--at", "1.2", "--size", "96x64"}).status, 0);
-  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / nodes::FrameName(1'200)).value() == base::ReadBytes(folder_.path() / "single" / nodes::FrameName(1'200)).value());
+  EXPECT_TRUE(base::ReadBytes(folder_.path() / "film" / nodes::FrameName(1'200)).value() ==
+              base::ReadBytes(folder_.path() / "single" / nodes::FrameName(1'200)).value());
 }
 
 TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
@@ -375,17 +391,21 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
   EXPECT_THAT(complaint({file, "--view", "--speed", "nan"}), HasSubstr("nan was found"));
   EXPECT_THAT(complaint({file, "--view", "--verify"}), HasSubstr("more than one thing to do was named"));
   EXPECT_THAT(complaint({file, "--frames", out}), HasSubstr("--at S or --fps N was expected"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "300"}), HasSubstr("at most 250 were expected, as many as all cars have samples"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--fps", "300"}),
+              HasSubstr("at most 250 were expected, as many as all cars have samples"));
   EXPECT_THAT(complaint({file, "--frames", out, "--fps", "-2"}), HasSubstr("--fps: -2 pictures a second were found"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--quality", "meduim"}), HasSubstr("did you mean 'medium'?"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--quality", "meduim"}),
+              HasSubstr("did you mean 'medium'?"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "6.014"}), HasSubstr("--at 6.014 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "-1"}), HasSubstr("--at -1 s was found"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.0005"}),
               HasSubstr("1.0005 s is no multiple of the base step of 0.001 s"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.002"}), HasSubstr("a multiple of its period of 0.004 s was expected"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1.002"}),
+              HasSubstr("a multiple of its period of 0.004 s was expected"));
   EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--follow", "egg"}),
               HasSubstr("--follow: 'egg' is no vehicle that this view is wired to; did you mean 'ego'?"));
-  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--camera", "drivr"}), HasSubstr("did you mean 'driver'?"));
+  EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--camera", "drivr"}),
+              HasSubstr("did you mean 'driver'?"));
   for (const char* size : {"10x10", "800", "800x", "x", "800x600x1", "99999999999999x5"}) {
     EXPECT_THAT(complaint({file, "--frames", out, "--at", "1", "--size", size}), HasSubstr("WIDTHxHEIGHT")) << size;
   }
@@ -403,8 +423,8 @@ TEST_F(WatchTest, WhatIsAskedWronglyIsOneSentence) {
 }
 
 TEST_F(WatchTest, WhereNothingMovesThereIsNothingToSee) {
-  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--in-process", "--for", "0.2", "--record",
-                               Path("empty.mcap"), "--quiet"});
+  const auto run = RunCommand({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--in-process", "--for", "0.2",
+                               "--record", Path("empty.mcap"), "--quiet"});
   ASSERT_EQ(run.status, 0) << run.out;
   const auto replay = Replay({Path("empty.mcap"), "--view"});
   EXPECT_EQ(replay.status, 2);

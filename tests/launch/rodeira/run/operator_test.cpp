@@ -1,8 +1,8 @@
 // Keys of a terminal and lines of a socket. The terminal is a pseudo-terminal with a child that has it as its own.
 #include "launch/rodeira/run/operator.hpp"
 
-#include <gtest/gtest.h>
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <pty.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -33,8 +33,8 @@ TEST(Operator, EveryKeyOfTheHelpDoesSomething) {
   for (const char key : {'x', '\x1b', '\0', '0'}) EXPECT_EQ(CommandOfKey(key), "");
 }
 
-// A program on a terminal of its own, started by a session leader as a shell would: it takes keys, says each, and ends as its
-// last key says: q well, k by SIGKILL. The leader then says how: "[left 0]", "[signal 9]".
+// A program on a terminal of its own, started by a session leader as a shell would: it takes keys, says each, and ends
+// as its last key says: q well, k by SIGKILL. The leader then says how: "[left 0]", "[signal 9]".
 class Terminal : public ::testing::Test {
  protected:
   Terminal() {
@@ -58,7 +58,8 @@ class Terminal : public ::testing::Test {
     }
     int status = 0;
     ::waitpid(program, &status, 0);
-    Write(WIFEXITED(status) ? "[left " + std::to_string(WEXITSTATUS(status)) + "]" : "[signal " + std::to_string(WTERMSIG(status)) + "]");
+    Write(WIFEXITED(status) ? "[left " + std::to_string(WEXITSTATUS(status)) + "]"
+                            : "[signal " + std::to_string(WTERMSIG(status)) + "]");
     for (;;) ::pause();
   }
   [[noreturn]] static void TakeKeys() {
@@ -97,7 +98,9 @@ class Terminal : public ::testing::Test {
     while (all.find(text) == std::string::npos && ::read(master_, &c, 1) == 1) all += c;
     return all;
   }
-  void Type(const std::string& keys) const { ASSERT_EQ(::write(master_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size())); }
+  void Type(const std::string& keys) const {
+    ASSERT_EQ(::write(master_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  }
   int master_ = -1;
   pid_t leader_ = -1;
 };
@@ -149,7 +152,9 @@ class Socket : public ::testing::Test {
     const ssize_t size = ::recv(file, buffer, sizeof(buffer), 0);
     return size > 0 ? std::string(buffer, static_cast<std::size_t>(size)) : "";
   }
-  static void Say(int file, const std::string& text) { ASSERT_EQ(::send(file, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size())); }
+  static void Say(int file, const std::string& text) {
+    ASSERT_EQ(::send(file, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+  }
   const TemporaryFolder folder_;
   const std::filesystem::path path_ = ControlSocket(folder_.path(), "a run");
 };

@@ -1,4 +1,5 @@
-// The start window by a person's mouse and keys: a world, a vehicle, a recording are chosen, a run is begun, read and stopped.
+// The start window by a person's mouse and keys: a world, a vehicle, a recording are chosen, a run is begun, read and
+// stopped.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -20,7 +21,10 @@ class StartChosen : public StartHands {
   // A program that says what it was told, and goes on until Ctrl-C.
   std::string Program() const {
     const fs::path file = folder_->path() / "program";
-    EXPECT_TRUE(base::WriteWhole(file, std::string_view("#!/bin/sh\ntrap 'echo stopped; exit 0' INT\nfor word in \"$@\"; do echo \"word $word\"; done\nwhile :; do sleep 0.02; done\n")).ok());
+    EXPECT_TRUE(
+        base::WriteWhole(file, std::string_view("#!/bin/sh\ntrap 'echo stopped; exit 0' INT\nfor word in \"$@\"; do "
+                                                "echo \"word $word\"; done\nwhile :; do sleep 0.02; done\n"))
+            .ok());
     fs::permissions(file, fs::perms::owner_all);
     return file.string();
   }
@@ -44,8 +48,11 @@ class StartChosen : public StartHands {
     for (const ImGuiWindow* panel : ImGui::GetCurrentContext()->Windows) {
       if (std::string_view(panel->Name).substr(0, 10) != "start/said" || !panel->WasActive) continue;
       int bright = 0;
-      for (int y = static_cast<int>(panel->InnerClipRect.Min.y); y < static_cast<int>(panel->InnerClipRect.Max.y); ++y) {
-        for (int x = static_cast<int>(panel->InnerClipRect.Min.x); x < static_cast<int>(panel->InnerClipRect.Max.x); ++x) bright += seen.At(x, y)[0] > 160 ? 1 : 0;
+      for (int y = static_cast<int>(panel->InnerClipRect.Min.y); y < static_cast<int>(panel->InnerClipRect.Max.y);
+           ++y) {
+        for (int x = static_cast<int>(panel->InnerClipRect.Min.x); x < static_cast<int>(panel->InnerClipRect.Max.x);
+             ++x)
+          bright += seen.At(x, y)[0] > 160 ? 1 : 0;
       }
       return bright;
     }
@@ -89,7 +96,8 @@ TEST_F(StartChosen, ARecentRunIsWatchedReadAndStopped) {
   ASSERT_TRUE(Click("start"));
   ASSERT_TRUE(start_->run().has_value());
   ASSERT_TRUE(Until([&] { return start_->run()->lines().size() == 3; }));
-  EXPECT_THAT(start_->run()->lines(), ElementsAre("word replay", "word " + (folder_->path() / "older.mcap").string(), "word --view"));
+  EXPECT_THAT(start_->run()->lines(),
+              ElementsAre("word replay", "word " + (folder_->path() / "older.mcap").string(), "word --view"));
   const int three_lines = LettersOfTheLog();
   EXPECT_GT(three_lines, 100) << "the log is drawn";
   EXPECT_FALSE(start_->run()->ended());
@@ -110,13 +118,15 @@ TEST_F(StartChosen, ARunThatHasEndedIsAmongTheRecentOnes) {
   Recording("older.mcap", 20);
   Recording("oldest.mcap", 30);
   const fs::path program = folder_->path() / "drive";
-  ASSERT_TRUE(base::WriteWhole(program, "#!/bin/sh\necho x > '" + (folder_->path() / "driven.mcap").string() + "'\n").ok());
+  ASSERT_TRUE(
+      base::WriteWhole(program, "#!/bin/sh\necho x > '" + (folder_->path() / "driven.mcap").string() + "'\n").ok());
   fs::permissions(program, fs::perms::owner_all);
   Open(program.string());
   ASSERT_TRUE(Click("start"));
   ASSERT_TRUE(Until([&] { return start_->run()->ended(); }));
   ASSERT_TRUE(Click("watch a recording"));
-  EXPECT_EQ(start_->choice().recording, folder_->path() / "driven.mcap") << "the newest is chosen where nothing else was";
+  EXPECT_EQ(start_->choice().recording, folder_->path() / "driven.mcap")
+      << "the newest is chosen where nothing else was";
   ASSERT_TRUE(Click("oldest.mcap"));
   Recording("another.mcap", 0);
   ASSERT_TRUE(Click("watch a recording"));
@@ -129,7 +139,8 @@ TEST_F(StartChosen, ARecordingAnywhereIsWatchedByItsPath) {
   EXPECT_FALSE(Click("start")) << "there are none yet";
   ASSERT_TRUE(Click("file"));
   TypeInstead((folder_->path() / "elsewhere.bin").string());
-  EXPECT_EQ(WhatIsMissing(FindStartFiles(".", folder_->path(), folder_->path()), start_->choice()), "there is no file '" + (folder_->path() / "elsewhere.bin").string() + "'");
+  EXPECT_EQ(WhatIsMissing(FindStartFiles(".", folder_->path(), folder_->path()), start_->choice()),
+            "there is no file '" + (folder_->path() / "elsewhere.bin").string() + "'");
   EXPECT_FALSE(Click("start"));
   Recording("elsewhere.bin", 1);
   ASSERT_TRUE(Click("start"));

@@ -34,7 +34,9 @@ class StartHands : public testing::Test {
   void TearDown() override { ::unsetenv("XDG_CONFIG_HOME"); }
 
   // Recordings are looked for in this test's own folder.
-  void Open(const std::string& program) { start_.emplace(FindStartFiles(".", folder_->path(), folder_->path() / "rodeira"), program); }
+  void Open(const std::string& program) {
+    start_.emplace(FindStartFiles(".", folder_->path(), folder_->path() / "rodeira"), program);
+  }
 
   window::Image Frame() {
     window::Image seen;
@@ -45,8 +47,8 @@ class StartHands : public testing::Test {
     } while (window_->busy());
     return seen;
   }
-  // Goes over the window with the mouse until it is on the widget of this name, and clicks there. False where there is none. `in`: the
-  // panel that it is in; an opened list is "##Combo_00".
+  // Goes over the window with the mouse until it is on the widget of this name, and clicks there. False where there is
+  // none. `in`: the panel that it is in; an opened list is "##Combo_00".
   bool Click(const char* label, const char* in = "start") {
     Frame();
     const ImGuiWindow* panel = ImGui::FindWindowByName(in);
@@ -74,7 +76,8 @@ class StartHands : public testing::Test {
   }
   // What is seen now, for people, where they ask for it.
   void Keep(const char* name) {
-    if (const char* pictures = std::getenv("RODEIRA_PICTURES")) (void)window::WritePng(std::filesystem::path(pictures) / name, Frame());
+    if (const char* pictures = std::getenv("RODEIRA_PICTURES"))
+      (void)window::WritePng(std::filesystem::path(pictures) / name, Frame());
   }
 
   std::unique_ptr<window::Window> window_;

@@ -36,7 +36,8 @@ TEST(Start, EveryChoiceIsACommandThatALaunchFileTakes) {
   StartChoice choice = DefaultChoice(files);
   EXPECT_EQ(choice.world.filename(), "n222.yaml");
   EXPECT_EQ(choice.vehicle.filename(), "default.yaml");
-  for (const StartDriver driver : {StartDriver::kKeyboard, StartDriver::kWheel, StartDriver::kPad, StartDriver::kAutopilot}) {
+  for (const StartDriver driver :
+       {StartDriver::kKeyboard, StartDriver::kWheel, StartDriver::kPad, StartDriver::kAutopilot}) {
     for (const int traffic : {0, 7}) {
       for (const bool records : {true, false}) {
         for (const fs::path& world : files.worlds) {
@@ -49,10 +50,12 @@ TEST(Start, EveryChoiceIsACommandThatALaunchFileTakes) {
   }
 }
 
-// The project's own, those in folders of their own, and a person's own beside the folder launch; no parts of worlds, no other files.
+// The project's own, those in folders of their own, and a person's own beside the folder launch; no parts of worlds, no
+// other files.
 TEST(Start, WorldsAndVehiclesAreFoundWherePeopleHaveThem) {
   TemporaryFolder folder;
-  for (const char* made : {"launch", "configs/worlds/town", "configs/vehicles/mine"}) fs::create_directories(folder.path() / made);
+  for (const char* made : {"launch", "configs/worlds/town", "configs/vehicles/mine"})
+    fs::create_directories(folder.path() / made);
   (void)folder.Write("launch/keyboard.yaml", "rodeira: launch/1\n");
   (void)folder.Write("configs/worlds/b.yaml", "rodeira: world/2\n");
   (void)folder.Write("configs/worlds/a.xodr", "<OpenDRIVE/>");
@@ -71,7 +74,8 @@ TEST(Start, WorldsAndVehiclesAreFoundWherePeopleHaveThem) {
     for (const fs::path& file : all) shown.push_back(ShownName(files.root, file));
     return shown;
   };
-  EXPECT_EQ(names(files.worlds), (std::vector<std::string>{"a.xodr", "b.yaml", "town/world.yaml", "first_road.yaml", "lane.xodr"}));
+  EXPECT_EQ(names(files.worlds),
+            (std::vector<std::string>{"a.xodr", "b.yaml", "town/world.yaml", "first_road.yaml", "lane.xodr"}));
   EXPECT_EQ(names(files.vehicles), (std::vector<std::string>{"default.yaml", "mine/lorry.yaml", "racer.yaml"}));
   EXPECT_EQ(ShownName(files.root, "/elsewhere/x.yaml"), "/elsewhere/x.yaml");
   StartChoice choice = DefaultChoice(files);
@@ -85,7 +89,8 @@ TEST(Start, WhatIsNoWorldIsSaidInTheWindow) {
   choice.world = fs::path(SourceDir()) / "configs/maps/town.motors";
   EXPECT_EQ(WhatIsMissing(files, choice), "");
   choice.world = fs::path(SourceDir()) / "README.md";
-  EXPECT_EQ(WhatIsMissing(files, choice), "'" + choice.world.string() + "' is no world; a file that ends on .yaml, .xodr or .motors was expected");
+  EXPECT_EQ(WhatIsMissing(files, choice),
+            "'" + choice.world.string() + "' is no world; a file that ends on .yaml, .xodr or .motors was expected");
   choice = DefaultChoice(files);
   choice.vehicle = "/elsewhere/car.yaml";
   EXPECT_EQ(WhatIsMissing(files, choice), "there is no file '/elsewhere/car.yaml'");
@@ -99,8 +104,10 @@ TEST(Start, TheLaunchFileHasWhatWasChosen) {
   choice.traffic = 33;
   const auto arguments = CommandOf(files, choice);
   EXPECT_EQ(ShellText({arguments.begin() + 2, arguments.end()}),
-            "rodeira --set 'world=\"../configs/worlds/motorway.yaml\"' --set 'nodes.ego.config.vehicle=\"../configs/vehicles/default.yaml\"' --set "
-            "'nodes.driver.config={source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: \"../configs/vehicles/default.yaml\"}' --set "
+            "rodeira --set 'world=\"../configs/worlds/motorway.yaml\"' --set "
+            "'nodes.ego.config.vehicle=\"../configs/vehicles/default.yaml\"' --set "
+            "'nodes.driver.config={source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: "
+            "\"../configs/vehicles/default.yaml\"}' --set "
             "nodes.traffic.config.vehicles=33");
   choice.records = false;
   EXPECT_EQ(CommandOf(files, choice).back(), "--no-record");
@@ -113,7 +120,8 @@ TEST(Start, TheLaunchFileHasWhatWasChosen) {
 TEST(Start, TheCommandAsTextIsTheCommand) {
   const std::vector<std::string> words{"run", "a b", "it's", "\"quoted\"", "$HOME", "", "--set", "x={a: [1, 2]}", "\\"};
   const std::string text = ShellText(words).substr(std::string("rodeira ").size());
-  const auto ended = system_test::RunCommand({"/bin/sh", "-c", "for word in " + text + "; do printf '<%s>' \"$word\"; done"});
+  const auto ended =
+      system_test::RunCommand({"/bin/sh", "-c", "for word in " + text + "; do printf '<%s>' \"$word\"; done"});
   std::string expected;
   for (const std::string& word : words) expected += "<" + word + ">";
   EXPECT_EQ(ended.out, expected);
@@ -129,10 +137,12 @@ TEST(Start, RecentRunsStandWithTheNewestFirst) {
   (void)folder.Write("notes.txt", "x");
   const StartFiles files = Here(folder.path());
   ASSERT_EQ(files.recordings.size(), StartFiles::kRecent);
-  for (std::size_t i = 1; i < files.recordings.size(); ++i) EXPECT_GT(fs::last_write_time(files.recordings[i - 1]), fs::last_write_time(files.recordings[i]));
+  for (std::size_t i = 1; i < files.recordings.size(); ++i)
+    EXPECT_GT(fs::last_write_time(files.recordings[i - 1]), fs::last_write_time(files.recordings[i]));
   StartChoice choice = DefaultChoice(files);
   choice.way = StartWay::kWatch;
-  EXPECT_EQ(CommandOf(files, choice), (std::vector<std::string>{"replay", (folder.path() / "run0.mcap").string(), "--view"}));
+  EXPECT_EQ(CommandOf(files, choice),
+            (std::vector<std::string>{"replay", (folder.path() / "run0.mcap").string(), "--view"}));
   choice.recording.clear();
   EXPECT_EQ(WhatIsMissing(files, choice), "choose a recording");
 }
@@ -142,7 +152,8 @@ TEST(Start, TheFoldersAreFoundFromBelowThem) {
   EXPECT_EQ(FindStartRoot({"/proc/1", fs::path(SourceDir()) / "docs"}), fs::path(SourceDir()));
   EXPECT_EQ(FindStartRoot({"/proc"}), fs::path());
   const StartFiles none = FindStartFiles({}, "/nowhere", "/nowhere");
-  EXPECT_NE(WhatIsMissing(none, DefaultChoice(none)).find("were found neither here nor beside the program"), std::string::npos);
+  EXPECT_NE(WhatIsMissing(none, DefaultChoice(none)).find("were found neither here nor beside the program"),
+            std::string::npos);
 }
 
 TEST(Start, WhatWasBegunSaysHowItGoesAndHowItEnded) {

@@ -1,4 +1,5 @@
-// A steering wheel is set up in the start window: SDL's virtual joystick, a window without a display, a mouse of pushed events.
+// A steering wheel is set up in the start window: SDL's virtual joystick, a window without a display, a mouse of pushed
+// events.
 #include <gtest/gtest.h>
 
 #include "common/core/base/files.hpp"

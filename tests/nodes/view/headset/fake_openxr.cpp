@@ -1,8 +1,9 @@
-// A small OpenXR runtime without a headset: what the view calls, and what OpenXR's loader asks of a runtime. Two eyes of 320 x 240 pixels.
+// A small OpenXR runtime without a headset: what the view calls, and what OpenXR's loader asks of a runtime. Two eyes
+// of 320 x 240 pixels.
 #define GL_GLEXT_PROTOTYPES
+#include <EGL/egl.h>
 #include <GL/gl.h>
 #include <GL/glext.h>
-#include <EGL/egl.h>
 
 #define XR_USE_GRAPHICS_API_OPENGL
 #include <GL/glx.h>
@@ -52,7 +53,8 @@ XrResult InOrder(bool right) {
   return right ? XR_SUCCESS : XR_ERROR_CALL_ORDER_INVALID;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateExtensions(const char*, std::uint32_t capacity, std::uint32_t* count, XrExtensionProperties* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateExtensions(const char*, std::uint32_t capacity, std::uint32_t* count,
+                                                   XrExtensionProperties* out) {
   const char* names[] = {XR_KHR_OPENGL_ENABLE_EXTENSION_NAME, XR_MNDX_EGL_ENABLE_EXTENSION_NAME};
   *count = headset.egl ? 2 : 1;
   for (std::uint32_t i = 0; i < *count && i < capacity; ++i) {
@@ -72,7 +74,9 @@ XRAPI_ATTR XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo*, XrIns
 XRAPI_ATTR XrResult XRAPI_CALL DestroyInstance(XrInstance) { return Gone(); }
 
 XRAPI_ATTR XrResult XRAPI_CALL ResultToString(XrInstance, XrResult result, char* out) {
-  std::strcpy(out, result == XR_ERROR_FORM_FACTOR_UNAVAILABLE ? "XR_ERROR_FORM_FACTOR_UNAVAILABLE" : result == XR_ERROR_SESSION_LOST ? "XR_ERROR_SESSION_LOST" : "XR_ERROR");
+  std::strcpy(out, result == XR_ERROR_FORM_FACTOR_UNAVAILABLE ? "XR_ERROR_FORM_FACTOR_UNAVAILABLE"
+                   : result == XR_ERROR_SESSION_LOST          ? "XR_ERROR_SESSION_LOST"
+                                                              : "XR_ERROR");
   return XR_SUCCESS;
 }
 
@@ -93,30 +97,40 @@ XRAPI_ATTR XrResult XRAPI_CALL GetRequirements(XrInstance, XrSystemId, XrGraphic
   return XR_SUCCESS;
 }
 
-// A runtime makes a context of its own that shares this one's pictures: whether it is told all that it needs. Empty: it is.
+// A runtime makes a context of its own that shares this one's pictures: whether it is told all that it needs. Empty: it
+// is.
 std::string WhyNotGlx(const XrGraphicsBindingOpenGLXlibKHR& glx) {
   if (glx.xDisplay != glXGetCurrentDisplay() || glx.glxContext != glXGetCurrentContext()) return "another context";
   if (glx.glxDrawable != glXGetCurrentDrawable()) return "another drawable";
   int config = 0, of_context = -1;
-  if (glXGetFBConfigAttrib(glx.xDisplay, glx.glxFBConfig, GLX_FBCONFIG_ID, &config) != 0 || glXQueryContext(glx.xDisplay, glx.glxContext, GLX_FBCONFIG_ID, &of_context) != 0) return "no configuration";
-  if (of_context > 0 && config != of_context) return "configuration " + std::to_string(config) + " of a context of " + std::to_string(of_context);
+  if (glXGetFBConfigAttrib(glx.xDisplay, glx.glxFBConfig, GLX_FBCONFIG_ID, &config) != 0 ||
+      glXQueryContext(glx.xDisplay, glx.glxContext, GLX_FBCONFIG_ID, &of_context) != 0)
+    return "no configuration";
+  if (of_context > 0 && config != of_context)
+    return "configuration " + std::to_string(config) + " of a context of " + std::to_string(of_context);
   XVisualInfo* visual = glXGetVisualFromFBConfig(glx.xDisplay, glx.glxFBConfig);
   const unsigned long of_config = visual != nullptr ? visual->visualid : 0;
   if (visual != nullptr) XFree(visual);
   XWindowAttributes window;
   if (XGetWindowAttributes(glx.xDisplay, glx.glxDrawable, &window) == 0) return "no window";
   const unsigned long expected = XVisualIDFromVisual(window.visual);
-  if (of_config != expected) return "a configuration of visual " + std::to_string(of_config) + " instead of " + std::to_string(expected);
-  return expected == glx.visualid ? "" : "visual " + std::to_string(glx.visualid) + " instead of " + std::to_string(expected);
+  if (of_config != expected)
+    return "a configuration of visual " + std::to_string(of_config) + " instead of " + std::to_string(expected);
+  return expected == glx.visualid
+             ? ""
+             : "visual " + std::to_string(glx.visualid) + " instead of " + std::to_string(expected);
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, XrSession* out) {
   const auto* binding = static_cast<const XrBaseInStructure*>(info->next);
   if (!asked_what_open_gl) return XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING;
-  if (binding == nullptr || (binding->type != XR_TYPE_GRAPHICS_BINDING_EGL_MNDX && binding->type != XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR)) return XR_ERROR_GRAPHICS_DEVICE_INVALID;
+  if (binding == nullptr ||
+      (binding->type != XR_TYPE_GRAPHICS_BINDING_EGL_MNDX && binding->type != XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR))
+    return XR_ERROR_GRAPHICS_DEVICE_INVALID;
   if (binding->type == XR_TYPE_GRAPHICS_BINDING_EGL_MNDX) {
     const auto& egl = *reinterpret_cast<const XrGraphicsBindingEGLMNDX*>(binding);
-    if (egl.display != eglGetCurrentDisplay() || egl.context != eglGetCurrentContext() || egl.getProcAddress == nullptr) return XR_ERROR_GRAPHICS_DEVICE_INVALID;
+    if (egl.display != eglGetCurrentDisplay() || egl.context != eglGetCurrentContext() || egl.getProcAddress == nullptr)
+      return XR_ERROR_GRAPHICS_DEVICE_INVALID;
   }
   if (binding->type == XR_TYPE_GRAPHICS_BINDING_OPENGL_XLIB_KHR) {
     headset.refused = WhyNotGlx(*reinterpret_cast<const XrGraphicsBindingOpenGLXlibKHR*>(binding));
@@ -130,9 +144,11 @@ XRAPI_ATTR XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateIn
 XRAPI_ATTR XrResult XRAPI_CALL DestroySession(XrSession) { return Gone(); }
 
 XRAPI_ATTR XrResult XRAPI_CALL BeginSession(XrSession, const XrSessionBeginInfo* info) {
-  if (info->primaryViewConfigurationType != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
+  if (info->primaryViewConfigurationType != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO)
+    return XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED;
   running = true;
-  for (const auto state : {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED}) states.push_back(state);
+  for (const auto state : {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED})
+    states.push_back(state);
   return XR_SUCCESS;
 }
 XRAPI_ATTR XrResult XRAPI_CALL EndSession(XrSession) {
@@ -160,13 +176,16 @@ XRAPI_ATTR XrResult XRAPI_CALL CreateSpace(XrSession, const XrReferenceSpaceCrea
 }
 XRAPI_ATTR XrResult XRAPI_CALL DestroySpace(XrSpace) { return Gone(); }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateViews(XrInstance, XrSystemId, XrViewConfigurationType, std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationView* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateViews(XrInstance, XrSystemId, XrViewConfigurationType, std::uint32_t capacity,
+                                              std::uint32_t* count, XrViewConfigurationView* out) {
   *count = 2;
-  for (std::uint32_t i = 0; i < 2 && i < capacity; ++i) out[i] = {XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, kWidth_px, 4096, kHeight_px, 4096, 1, 4};
+  for (std::uint32_t i = 0; i < 2 && i < capacity; ++i)
+    out[i] = {XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, kWidth_px, 4096, kHeight_px, 4096, 1, 4};
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateFormats(XrSession, std::uint32_t capacity, std::uint32_t* count, std::int64_t* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateFormats(XrSession, std::uint32_t capacity, std::uint32_t* count,
+                                                std::int64_t* out) {
   const std::int64_t formats[] = {GL_RGBA16F, GL_RGBA8, GL_SRGB8_ALPHA8};
   *count = 3;
   for (std::uint32_t i = 0; i < 3 && i < capacity; ++i) out[i] = formats[i];
@@ -174,7 +193,8 @@ XRAPI_ATTR XrResult XRAPI_CALL EnumerateFormats(XrSession, std::uint32_t capacit
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL CreateChain(XrSession, const XrSwapchainCreateInfo* info, XrSwapchain* out) {
-  if (chains_made == 2 || info->width != kWidth_px || info->height != kHeight_px || info->format != GL_SRGB8_ALPHA8) return XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED;
+  if (chains_made == 2 || info->width != kWidth_px || info->height != kHeight_px || info->format != GL_SRGB8_ALPHA8)
+    return XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED;
   Chain& chain = chains[chains_made];
   chain = Chain();
   glGenTextures(kImages, chain.textures);
@@ -194,20 +214,25 @@ XRAPI_ATTR XrResult XRAPI_CALL DestroyChain(XrSwapchain handle) {
   return Gone();
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateImages(XrSwapchain handle, std::uint32_t capacity, std::uint32_t* count, XrSwapchainImageBaseHeader* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateImages(XrSwapchain handle, std::uint32_t capacity, std::uint32_t* count,
+                                               XrSwapchainImageBaseHeader* out) {
   *count = kImages;
-  for (std::uint32_t i = 0; i < kImages && i < capacity; ++i) reinterpret_cast<XrSwapchainImageOpenGLKHR*>(out)[i].image = ChainOf(handle).textures[i];
+  for (std::uint32_t i = 0; i < kImages && i < capacity; ++i)
+    reinterpret_cast<XrSwapchainImageOpenGLKHR*>(out)[i].image = ChainOf(handle).textures[i];
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL AcquireImage(XrSwapchain handle, const XrSwapchainImageAcquireInfo*, std::uint32_t* out) {
+XRAPI_ATTR XrResult XRAPI_CALL AcquireImage(XrSwapchain handle, const XrSwapchainImageAcquireInfo*,
+                                            std::uint32_t* out) {
   Chain& chain = ChainOf(handle);
   *out = chain.next;
   const XrResult result = InOrder(!chain.acquired && begun);
   chain.acquired = true;
   return result;
 }
-XRAPI_ATTR XrResult XRAPI_CALL WaitImage(XrSwapchain handle, const XrSwapchainImageWaitInfo*) { return InOrder(ChainOf(handle).acquired); }
+XRAPI_ATTR XrResult XRAPI_CALL WaitImage(XrSwapchain handle, const XrSwapchainImageWaitInfo*) {
+  return InOrder(ChainOf(handle).acquired);
+}
 XRAPI_ATTR XrResult XRAPI_CALL ReleaseImage(XrSwapchain handle, const XrSwapchainImageReleaseInfo*) {
   Chain& chain = ChainOf(handle);
   const XrResult result = InOrder(chain.acquired);
@@ -234,9 +259,11 @@ XRAPI_ATTR XrResult XRAPI_CALL BeginFrame(XrSession, const XrFrameBeginInfo*) {
   return result;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewState* state, std::uint32_t capacity, std::uint32_t* count, XrView* out) {
+XRAPI_ATTR XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewState* state,
+                                           std::uint32_t capacity, std::uint32_t* count, XrView* out) {
   if (info->displayTime != now_ns) ++headset.wrong;
-  state->viewStateFlags = headset.knows_where ? XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT : 0;
+  state->viewStateFlags =
+      headset.knows_where ? XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT : 0;
   *count = 2;
   for (std::uint32_t i = 0; i < 2 && i < capacity; ++i) {
     out[i].pose = headset.views[i].pose;
@@ -271,15 +298,33 @@ XRAPI_ATTR XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
 XRAPI_ATTR XrResult XRAPI_CALL GetProcAddr(XrInstance, const char* name, PFN_xrVoidFunction* out) {
   const std::pair<const char*, PFN_xrVoidFunction> all[] = {
 #define FAKE(NAME, FUNCTION) {NAME, reinterpret_cast<PFN_xrVoidFunction>(&FUNCTION)}
-      FAKE("xrGetInstanceProcAddr", GetProcAddr), FAKE("xrEnumerateInstanceExtensionProperties", EnumerateExtensions),
-      FAKE("xrCreateInstance", CreateInstance), FAKE("xrDestroyInstance", DestroyInstance), FAKE("xrResultToString", ResultToString),
-      FAKE("xrGetSystem", GetSystem), FAKE("xrGetSystemProperties", GetSystemProperties), FAKE("xrGetOpenGLGraphicsRequirementsKHR", GetRequirements),
-      FAKE("xrCreateSession", CreateSession), FAKE("xrDestroySession", DestroySession), FAKE("xrBeginSession", BeginSession), FAKE("xrEndSession", EndSession),
-      FAKE("xrPollEvent", PollEvent), FAKE("xrCreateReferenceSpace", CreateSpace), FAKE("xrDestroySpace", DestroySpace),
-      FAKE("xrEnumerateViewConfigurationViews", EnumerateViews), FAKE("xrEnumerateSwapchainFormats", EnumerateFormats),
-      FAKE("xrCreateSwapchain", CreateChain), FAKE("xrDestroySwapchain", DestroyChain), FAKE("xrEnumerateSwapchainImages", EnumerateImages),
-      FAKE("xrAcquireSwapchainImage", AcquireImage), FAKE("xrWaitSwapchainImage", WaitImage), FAKE("xrReleaseSwapchainImage", ReleaseImage),
-      FAKE("xrWaitFrame", WaitFrame), FAKE("xrBeginFrame", BeginFrame), FAKE("xrLocateViews", LocateViews), FAKE("xrEndFrame", EndFrame),
+      FAKE("xrGetInstanceProcAddr", GetProcAddr),
+      FAKE("xrEnumerateInstanceExtensionProperties", EnumerateExtensions),
+      FAKE("xrCreateInstance", CreateInstance),
+      FAKE("xrDestroyInstance", DestroyInstance),
+      FAKE("xrResultToString", ResultToString),
+      FAKE("xrGetSystem", GetSystem),
+      FAKE("xrGetSystemProperties", GetSystemProperties),
+      FAKE("xrGetOpenGLGraphicsRequirementsKHR", GetRequirements),
+      FAKE("xrCreateSession", CreateSession),
+      FAKE("xrDestroySession", DestroySession),
+      FAKE("xrBeginSession", BeginSession),
+      FAKE("xrEndSession", EndSession),
+      FAKE("xrPollEvent", PollEvent),
+      FAKE("xrCreateReferenceSpace", CreateSpace),
+      FAKE("xrDestroySpace", DestroySpace),
+      FAKE("xrEnumerateViewConfigurationViews", EnumerateViews),
+      FAKE("xrEnumerateSwapchainFormats", EnumerateFormats),
+      FAKE("xrCreateSwapchain", CreateChain),
+      FAKE("xrDestroySwapchain", DestroyChain),
+      FAKE("xrEnumerateSwapchainImages", EnumerateImages),
+      FAKE("xrAcquireSwapchainImage", AcquireImage),
+      FAKE("xrWaitSwapchainImage", WaitImage),
+      FAKE("xrReleaseSwapchainImage", ReleaseImage),
+      FAKE("xrWaitFrame", WaitFrame),
+      FAKE("xrBeginFrame", BeginFrame),
+      FAKE("xrLocateViews", LocateViews),
+      FAKE("xrEndFrame", EndFrame),
 #undef FAKE
   };
   for (const auto& [known, function] : all) {
@@ -310,7 +355,8 @@ struct RuntimeRequest {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader, RuntimeRequest* runtime) {
+extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader,
+                                                                                             RuntimeRequest* runtime) {
   if (loader->type != 1 || runtime->type != 3) return XR_ERROR_INITIALIZATION_FAILED;
   runtime->interface = 1;
   runtime->api = XR_CURRENT_API_VERSION;

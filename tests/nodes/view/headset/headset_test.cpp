@@ -1,5 +1,5 @@
-// Two eyes through OpenXR's own loader and a runtime that keeps what it is shown (fake_openxr.cpp). Where something must be seen follows from
-// OpenXR's words alone: a pose, angles to the edges, a metre is a metre.
+// Two eyes through OpenXR's own loader and a runtime that keeps what it is shown (fake_openxr.cpp). Where something
+// must be seen follows from OpenXR's words alone: a pose, angles to the edges, a metre is a metre.
 #include <dlfcn.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,7 +25,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 FakeHeadset& Fake() {
-  static auto* const ask = reinterpret_cast<FakeHeadset* (*)()>(::dlsym(::dlopen(FAKE_OPENXR, RTLD_NOW), "rodeira_fake_headset"));
+  static auto* const ask =
+      reinterpret_cast<FakeHeadset* (*)()>(::dlsym(::dlopen(FAKE_OPENXR, RTLD_NOW), "rodeira_fake_headset"));
   return *ask();
 }
 
@@ -62,11 +63,14 @@ class InTheHeadset : public ::testing::Test {
 
   // In OpenXR's axes: right, up, backward; turned to the left about the vertical.
   static void SetHead(const Eigen::Vector3f& middle, double left_rad) {
-    const auto sine = static_cast<float>(std::sin(0.5 * left_rad)), cosine = static_cast<float>(std::cos(0.5 * left_rad));
+    const auto sine = static_cast<float>(std::sin(0.5 * left_rad)),
+               cosine = static_cast<float>(std::cos(0.5 * left_rad));
     for (int i = 0; i < 2; ++i) {
       const float aside = (i == 0 ? -0.5F : 0.5F) * kApart_m;
-      Fake().views[static_cast<std::size_t>(i)].pose = {{0.0F, sine, 0.0F, cosine},
-                                                        {middle.x() + aside * static_cast<float>(std::cos(left_rad)), middle.y(), middle.z() - aside * static_cast<float>(std::sin(left_rad))}};
+      Fake().views[static_cast<std::size_t>(i)].pose = {
+          {0.0F, sine, 0.0F, cosine},
+          {middle.x() + aside * static_cast<float>(std::cos(left_rad)), middle.y(),
+           middle.z() - aside * static_cast<float>(std::sin(left_rad))}};
     }
   }
   std::unique_ptr<Screen> Opened() {
@@ -77,7 +81,10 @@ class InTheHeadset : public ::testing::Test {
   // Edges of an eye's picture, at a metre's depth: left, right, low, high.
   static Eigen::Vector4d TangentsOf(std::size_t eye) {
     const XrFovf& view = Fake().views[eye].fov;
-    return Eigen::Vector4d(static_cast<double>(view.angleLeft), static_cast<double>(view.angleRight), static_cast<double>(view.angleDown), static_cast<double>(view.angleUp)).array().tan();
+    return Eigen::Vector4d(static_cast<double>(view.angleLeft), static_cast<double>(view.angleRight),
+                           static_cast<double>(view.angleDown), static_cast<double>(view.angleUp))
+        .array()
+        .tan();
   }
   static const std::uint8_t* PixelOf(std::size_t eye, int x, int row) {
     return &Fake().rgba[eye][static_cast<std::size_t>(4 * ((Fake().height_px - 1 - row) * Fake().width_px + x))];
@@ -87,10 +94,12 @@ class InTheHeadset : public ::testing::Test {
     const Eigen::Vector4d tangents = TangentsOf(eye);
     return Fake().height_px * (tangents[3] - up_m / ahead_m) / (tangents[3] - tangents[2]);
   }
-  // The column midway between the edges of the other car, between its bumper and its window, where only its tail is seen, so far ahead.
+  // The column midway between the edges of the other car, between its bumper and its window, where only its tail is
+  // seen, so far ahead.
   static double TailColumn(std::size_t eye, double ahead_m) {
     double sum = 0.0, rows = 0.0;
-    for (int row = static_cast<int>(Row(eye, ahead_m, 0.80 - 1.20)); row <= static_cast<int>(Row(eye, ahead_m, 0.60 - 1.20)); ++row) {
+    for (int row = static_cast<int>(Row(eye, ahead_m, 0.80 - 1.20));
+         row <= static_cast<int>(Row(eye, ahead_m, 0.60 - 1.20)); ++row) {
       int first = -1, last = -1;
       for (int x = 0; x < Fake().width_px; ++x) {
         const std::uint8_t* pixel = PixelOf(eye, x, row);
@@ -112,7 +121,9 @@ class InTheHeadset : public ::testing::Test {
   }
 
   static constexpr double kAhead_m = 12.0, kLeft_m = 0.36;  // of the car's middle; its tail is two metres nearer
-  static constexpr double kTail_m = kAhead_m - 2.0 - 0.10, kTailLeft_m = kLeft_m - 0.22 * 1.65;  // from the driver's eye, which sits there in its own car
+  static constexpr double kTail_m = kAhead_m - 2.0 - 0.10,
+                          kTailLeft_m =
+                              kLeft_m - 0.22 * 1.65;  // from the driver's eye, which sits there in its own car
   static constexpr float kApart_m = 0.5F;
   std::shared_ptr<const road::World> world_;
   ViewSettings settings_;
@@ -131,11 +142,13 @@ TEST_F(InTheHeadset, TheEyesDifferByTheirDistanceAndTheirFrusta) {
     EXPECT_EQ(Fake().said[eye].fov.angleLeft, Fake().views[eye].fov.angleLeft);
     EXPECT_EQ(Fake().said[eye].pose.position.x, Fake().views[eye].pose.position.x);
   }
-  const double left = TailColumn(0, kTail_m), right = TailColumn(1, kTail_m), half_m = 0.5 * static_cast<double>(kApart_m);
+  const double left = TailColumn(0, kTail_m), right = TailColumn(1, kTail_m),
+               half_m = 0.5 * static_cast<double>(kApart_m);
   EXPECT_NEAR(left, Column(0, kTail_m, kTailLeft_m - half_m), 1.0);
   EXPECT_NEAR(right, Column(1, kTail_m, kTailLeft_m + half_m), 1.0);
   // What both frusta would make of one eye in the middle, and the parallax, which is eight pixels here.
-  const double one_eye = Column(0, kTail_m, kTailLeft_m) - Column(1, kTail_m, kTailLeft_m), tangents = TangentsOf(0)[1] - TangentsOf(0)[0];
+  const double one_eye = Column(0, kTail_m, kTailLeft_m) - Column(1, kTail_m, kTailLeft_m),
+               tangents = TangentsOf(0)[1] - TangentsOf(0)[0];
   EXPECT_NEAR(left - right - one_eye, Fake().width_px / tangents * static_cast<double>(kApart_m) / kTail_m, 0.8);
   // The horizon of the plane, where the upper and lower edge put it.
   int horizon = 0;
@@ -150,7 +163,8 @@ TEST_F(InTheHeadset, TheHeadMovesAndTurnsInTheCar) {
   ASSERT_TRUE(screen->WaitForHeadset());
   screen->Show(moment_, 1.0);
   const double ahead_m = kTail_m - forward_m, left_m = kTailLeft_m + aside_m;
-  const double turned_ahead_m = std::cos(turn_rad) * ahead_m + std::sin(turn_rad) * left_m, turned_left_m = std::cos(turn_rad) * left_m - std::sin(turn_rad) * ahead_m;
+  const double turned_ahead_m = std::cos(turn_rad) * ahead_m + std::sin(turn_rad) * left_m,
+               turned_left_m = std::cos(turn_rad) * left_m - std::sin(turn_rad) * ahead_m;
   const double half_m = 0.5 * static_cast<double>(kApart_m);
   EXPECT_NEAR(TailColumn(0, turned_ahead_m), Column(0, turned_ahead_m, turned_left_m - half_m), 2.0);
   EXPECT_NEAR(TailColumn(1, turned_ahead_m), Column(1, turned_ahead_m, turned_left_m + half_m), 2.0);
@@ -158,7 +172,8 @@ TEST_F(InTheHeadset, TheHeadMovesAndTurnsInTheCar) {
   // The whole street turned and moved, car and all: nothing is seen of it inside.
   const auto before = Fake().rgba;
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitZ()));
-  for (auto* body : {&moment_.cars[0].p_WB_W, &moment_.agents[0].p_WB_W}) *body = turn * *body + Eigen::Vector3d(-40.0, 25.0, 0.0);
+  for (auto* body : {&moment_.cars[0].p_WB_W, &moment_.agents[0].p_WB_W})
+    *body = turn * *body + Eigen::Vector3d(-40.0, 25.0, 0.0);
   moment_.cars[0].q_WB = turn * moment_.cars[0].q_WB;
   moment_.agents[0].q_WB = turn * moment_.agents[0].q_WB;
   const double left = TailColumn(0, turned_ahead_m);
@@ -212,7 +227,8 @@ TEST_F(InTheHeadset, ALostOneIsNamed) {
   Fake().loses_frames = true;
   testing::internal::CaptureStderr();
   EXPECT_FALSE(screen->WaitForHeadset());
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "rodeira: the headset shows nothing more (xrWaitFrame: XR_ERROR_SESSION_LOST)\n");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "rodeira: the headset shows nothing more (xrWaitFrame: XR_ERROR_SESSION_LOST)\n");
   screen->Show(moment_, 1.0);
   EXPECT_EQ(Fake().living, 0);
 }
@@ -242,7 +258,9 @@ TEST_F(InTheHeadset, WithoutOneThereIsASentence) {
     return testing::internal::GetCapturedStderr();
   };
   Fake().plugged_in = false;
-  EXPECT_THAT(said(), testing::HasSubstr("rodeira: no headset: this PC's OpenXR runtime has no headset (xrGetSystem: XR_ERROR_FORM_FACTOR_UNAVAILABLE); one that is plugged in and switched on was expected; shown in the window alone\n"));
+  EXPECT_THAT(said(), testing::HasSubstr("rodeira: no headset: this PC's OpenXR runtime has no headset (xrGetSystem: "
+                                         "XR_ERROR_FORM_FACTOR_UNAVAILABLE); one that is plugged in and switched on "
+                                         "was expected; shown in the window alone\n"));
   EXPECT_EQ(Fake().living, 0);
 }
 
@@ -256,12 +274,14 @@ TEST_F(InTheHeadset, WithoutARuntimeOrItsOpenGlThereIsASentence) {
     std::exit(goes_on ? 0 : 1);
   };
   Fake().egl = false;
-  EXPECT_EXIT(open(), testing::ExitedWithCode(0), "no headset: this PC's OpenXR runtime does not offer XR_MNDX_egl_enable");
+  EXPECT_EXIT(open(), testing::ExitedWithCode(0),
+              "no headset: this PC's OpenXR runtime does not offer XR_MNDX_egl_enable");
   ::setenv("XR_RUNTIME_JSON", "/nobody/here.json", 1);
   EXPECT_EXIT(open(), testing::ExitedWithCode(0), "no headset: no OpenXR runtime answers on this PC");
 }
 
-// A window of X11 on a display of its own: the runtime gets that window's context, and shows what it shows without a display.
+// A window of X11 on a display of its own: the runtime gets that window's context, and shows what it shows without a
+// display.
 TEST_F(InTheHeadset, InAWindowOfX11) {
   ::unsetenv("WAYLAND_DISPLAY");
   std::array<std::vector<std::uint8_t>, 2> without;
@@ -302,7 +322,8 @@ TEST_F(InTheHeadset, ARunIsShownInIt) {
   moment_.time_ns = 20'000'000;
   stage.value()->Show(moment_);
   const double begin_s = launch::WallSeconds();
-  while (Fake().frames < 5 && launch::WallSeconds() - begin_s < 60.0) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  while (Fake().frames < 5 && launch::WallSeconds() - begin_s < 60.0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   stage.value().reset();
   EXPECT_GE(Fake().frames, 5);
   EXPECT_EQ(Fake().layers, 1);
