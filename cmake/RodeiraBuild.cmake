@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # How Rodeira's libraries, programs and tests are declared, and which may use which.
 
 find_program(RODEIRA_CCACHE ccache)

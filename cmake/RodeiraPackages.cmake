@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # What Rodeira takes from Debian 12. tools/packages.txt is the list that the scripts install.
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)

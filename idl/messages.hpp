@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // All message types of the IDL (namespace rodeira::msg), as fastddsgen makes them.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Invents the world "HASTE" and prints its world file: python3 tools/author_haste.py > configs/worlds/haste.yaml
 
 No curvature table of the road that the name stands for is public, so that everything here is invented: 2 x 3.5 m, shoulders

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Invents the world "N222" and prints its world file: python3 tools/author_n222.py > configs/worlds/n222.yaml
 
 Nothing of it is surveyed. What is taken from the real road between Regua and Pinhao: 93 bends on 27 km (3.4 a km), radii

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws the mechanism of a multibody vehicle file from the side, from above and from the front: draw_car.py FILE.yaml FILE.svg
 
 Rods and arms are lines between their points, carriers are filled, springs thick, points are dots (those of the chassis hollow), wheels as

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Draws an invented plan of fields, 256 x 208 pixels, as a picture to drape over a terrain: draw_fields.py FILE.png
 
 Cells around seeded points are fields of one colour each with furrows; hedges lie between them.

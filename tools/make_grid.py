@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes a town of N x N crossings as a traffic map, for benchmarks: priority to the right everywhere, streets of 200 m.
 
   tools/make_grid.py N FILE.motors

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
 """Writes the project's own traffic maps, configs/maps/*.motors, from the few numbers below.
 
   tools/make_maps.py [FOLDER]

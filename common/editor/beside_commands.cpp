@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands in the companion file: heights, signs, flows, lights.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/editor/document.hpp"
 
 #include "common/world/traffic_map/companion_text.hpp"

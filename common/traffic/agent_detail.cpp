@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What agents do with pedals, engine and lights, as their motion says.
 #include <algorithm>
 #include <cmath>

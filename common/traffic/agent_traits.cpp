@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is on the road: bodies and drivers, drawn by lot.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a scenario's vehicle comes onto a lane.
 #include <fmt/format.h>
 

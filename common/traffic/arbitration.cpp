@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who may go: conflict zones are granted all at once from one place to stand to the next, in an order that depends on
 // nothing but who waits, who has the right of way, and the agents' numbers.
 #include <algorithm>

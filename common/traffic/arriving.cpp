@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How vehicles of flows arrive.
 #include "common/core/base/random.hpp"
 #include "common/traffic/arrivals.hpp"

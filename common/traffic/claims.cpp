@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who holds and who comes to each conflict zone.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Room for those on the lane beside who must come over for their route.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What becomes of a chain of who waits for whom that closes.
 #include <algorithm>
 #include <numeric>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How agents leave at a lane's end and enter again.
 #include <algorithm>
 #include <cmath>

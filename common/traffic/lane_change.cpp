@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes to the lane beside: the path, what must be free of, and who is beside meanwhile.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/map_lights.hpp"
 
 #include <algorithm>

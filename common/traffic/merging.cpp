@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who waits within his own zones for who holds them before him, and who follows him instead where their ways come
 // together.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether a change to the lane beside is worth while, and safe.
 #include <algorithm>
 #include <cmath>

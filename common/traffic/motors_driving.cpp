@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cars of the traffic driven as MOTORS does: each along a trajectory of its own between the borders of its lane, giving
 // way where paths cross, and to nobody else.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How agents move: as planar cars along their paths, or with the physics of the driver's car.
 #include <algorithm>
 #include <cmath>

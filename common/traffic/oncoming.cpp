@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lane of oncoming traffic: who comes there, and what who comes does about somebody who overtakes.
 #include <algorithm>
 #include <cmath>

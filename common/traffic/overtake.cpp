@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an agent drives that overtakes on the lane of oncoming traffic, and when it goes back.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether to overtake on the lane of oncoming traffic: is there somebody who holds it up, does the law allow it, and is
 // there way enough?
 #include <algorithm>

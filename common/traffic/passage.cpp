@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The next conflict zones on an agent's way.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // How cars stand in queues and before lines: what rooms, passages and reaches of the model count with alike.

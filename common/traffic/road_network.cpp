@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whether there is room behind conflict zones, told from how far everybody comes whatever others decide.
 #include <algorithm>
 #include <cmath>

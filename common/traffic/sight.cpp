@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is where on the tracks, and who is ahead of whom.
 #include <algorithm>
 #include <cmath>

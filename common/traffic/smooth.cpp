@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How an agent comes from one acceleration to the next.
 #include "common/driving/driver/smooth.hpp"
 

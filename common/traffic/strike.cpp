@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Agents that have been hit.
 #include <algorithm>
 #include <cmath>

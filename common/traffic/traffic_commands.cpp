@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a scenario tells agents to do.
 #include <cmath>
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where agents are in the world.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is saved of traffic, and how it goes on from there.
 #include <algorithm>
 

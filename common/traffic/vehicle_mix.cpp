@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/vehicle_mix.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What agents and people on foot make of each other at crossings: people step out when everybody who comes can stop
 // comfortably, stands, or has passed; who can stop comfortably does so for who waits, and everybody for who has stepped
 // out.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // Ctrl-C and SIGTERM as a wish that long work asks about, so that it ends in order and removes what it unpacked.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the left button does on the canvas, from where it goes down to where it comes up.
 #include <fmt/format.h>
 #include <imgui.h>

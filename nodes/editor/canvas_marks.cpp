@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is written and drawn over the map: numbers, the centre, what the hand is doing.
 #include <imgui.h>
 

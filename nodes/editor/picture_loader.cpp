@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/editor/picture_loader.hpp"
 
 #include <utility>

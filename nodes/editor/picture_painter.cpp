@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/editor/picture_painter.hpp"
 
 #include <SDL_opengl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic on the map, and the heat map that it leaves.
 #include <SDL_opengl.h>
 

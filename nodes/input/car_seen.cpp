@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/input/car_seen.hpp"
 
 #include "idl/codec.hpp"

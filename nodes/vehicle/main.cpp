@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/dds/run.hpp"
 #include "nodes/vehicle/vehicle_node.hpp"
 

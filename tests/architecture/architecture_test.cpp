@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module includes only what cmake/layers.txt allows; the same table governs the link lines.
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -223,6 +224,23 @@ TEST(Architecture, NoFileHoldsMergeConflictMarkers) {
                      line.starts_with(">>>>"
                                       ">>> "))
             << entry->path() << ": " << line;
+    }
+  }
+}
+
+TEST(Architecture, EverySourceNamesItsLicence) {
+  for (const char* top : {"common", "nodes", "idl", "launch", "tests", "tools", "cmake"}) {
+    for (auto entry = fs::recursive_directory_iterator(kRoot / top); entry != fs::recursive_directory_iterator();
+         ++entry) {
+      if (entry->path().filename() == "node_modules") entry.disable_recursion_pending();
+      const fs::path& path = entry->path();
+      const bool is_build_file = path.filename() == "CMakeLists.txt" || path.extension() == ".cmake";
+      if (!entry->is_regular_file() || !(IsSource(path) || is_build_file || path.extension() == ".py")) continue;
+      std::ifstream in(path);
+      std::string first, second;
+      std::getline(in, first);
+      std::getline(in, second);
+      EXPECT_TRUE((first + second).find("SPDX-License-Identifier: Apache-2.0") != std::string::npos) << path;
     }
   }
 }

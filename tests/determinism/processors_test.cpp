@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Law L7: the same bits on every x86-64 processor. An emulator plays those that are not at hand: one of 2006 without
 // AVX, one with AVX2 and FMA, another maker's.
 #include <gtest/gtest.h>

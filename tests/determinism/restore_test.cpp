@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every node, restored at any step in a fresh process, gives the same bits from there on.
 #include <gtest/gtest.h>
 #include <unistd.h>

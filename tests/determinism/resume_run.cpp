@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A fresh process: takes snapshots of all nodes of a launch from a folder, goes on from there, prints the run's digest.
 // resume_run LAUNCH.yaml FOLDER STEP LAST_STEP
 #include <cstdio>

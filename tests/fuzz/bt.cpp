@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elevation files: GDAL reads them from a disk, so each is one; what is taken answers finite heights or none.
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured surfaces: what is taken answers finite heights.
 #include <array>
 #include <cmath>

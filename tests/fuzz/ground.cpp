@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenDRIVE as it is drawn: what is taken is lines, paint and things, and ground of finite places.
 #include <cstdint>
 #include <cstdio>

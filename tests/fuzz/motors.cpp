@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic maps: what is read is written again to the byte, checked, and driven where the check finds no fault in it.
 #include <cstdint>
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // World files: what is taken is a world that answers finite heights, what is refused has a sentence.
 #include <cmath>
 #include <cstdint>

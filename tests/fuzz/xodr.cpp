@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenDRIVE: what is taken is a network that says where points lie, the same by its index and without it.
 #include <cmath>
 #include <cstdint>

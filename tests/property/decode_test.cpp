@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The generic decoder against broken payloads of every topic and broken IDL texts: never a crash, never another value
 // than the generated code reads, always a sentence. RODEIRA_FUZZ_FILES sets how many are tried a topic,
 // RODEIRA_FUZZ_FIRST the first.

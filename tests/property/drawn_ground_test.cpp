@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Small OpenDRIVE files, mutated, as they are drawn (tests/property/fuzz.hpp): what a reader takes must not break, or
 // hold up for ever, whoever draws it.
 #include <gtest/gtest.h>

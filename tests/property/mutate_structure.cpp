@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/property/mutate_structure.hpp"
 
 #include <yaml-cpp/yaml.h>

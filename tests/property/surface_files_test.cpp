@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files of surfaces and lines, against seeded mutations of good ones (tests/property/fuzz.hpp).
 #include <gtest/gtest.h>
 

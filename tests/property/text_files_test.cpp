@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Every reader of a text file that a person writes, against many seeded mutations of good files: what comes is the
 // thing itself, which then can be used, or one sentence (law L6); never a crash, never a hang. RODEIRA_FUZZ_FILES sets
 // how many texts a format is tried with, RODEIRA_FUZZ_FIRST with which number they begin.

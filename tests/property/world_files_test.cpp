@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // World files of version 2, mutated by bytes and by structure (tests/property/fuzz.hpp): what is taken is a world that
 // answers finite numbers, the same ones by index and without it; what is refused is a sentence.
 #include <gtest/gtest.h>

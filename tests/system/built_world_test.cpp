@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run on what `rodeira world build` has written: the road server and the car take its logical database, the view its
 // tiles.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // An operator at a whole run: pause, steps, paces, markers and stop from another process; what is recorded of it; and
 // that none of it changes a sample.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole runs in which the car hits something: it is stopped, the event is recorded, and the run is computed again to
 // the bit.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each process of the demo killed and stopped in turn while it drives: named within a second, status 1, nobody left,
 // and the recording readable.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the processes of one PC find each other, and what is wrong about it or about a laboratory file: no step depends
 // on the first, the second is one sentence and status 2.
 #include <arpa/inet.h>

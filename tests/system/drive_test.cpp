@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The first drive: clock, road server, vehicle, scripted driver and recorder as processes.
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What only shows with time or by chance: the recorder killed at any instant, and a long run of many processes. The
 // counts are small here and large in `tests/run --endurance`.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A node that dies, hangs, is stopped or does not belong: time stops, the node is named, the status says so.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/first-road.md is what a newcomer does: its file, and its commands as they stand there.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A run across several PCs, each a network namespace of its own on one hub: the digests of one host, however they find
 // each other and whatever the network does; and on every PC the same end. Skipped where no namespaces can be made.
 #include <gtest/gtest.h>

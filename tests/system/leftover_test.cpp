@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the demo leaves when it ends, however it ends: its files, and nothing else.
 #include <gtest/gtest.h>
 #include <signal.h>

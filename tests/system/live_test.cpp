@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Live input between processes: this test plays a window of the run, its keys travel over DDS into recorded controls.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Looks on at a run (law L5): reads its grants, reports and samples, best effort, and counts them. SLOW_MS: how long
 // each of its callbacks takes.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUELO as a user asks for it: `rodeira world query`, and the ground under the wheels of a run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What becomes of a run: recorded unless told otherwise, asked by `info`, written as tables by `export`, mended by
 // `repair`.
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Parts of a run are killed and stopped at random instants; the finished recording is that of an undisturbed run.
 #include <fcntl.h>
 #include <gtest/gtest.h>

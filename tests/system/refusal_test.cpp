@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person gives wrongly, one of each kind, in a whole run of the demo: one sentence with its place and what was
 // expected, status 2, and nothing left: no recording, no process, nothing in /dev/shm.
 #include <gmock/gmock.h>

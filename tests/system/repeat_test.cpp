@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The demo's scenario again and again, every node a process of its own, beside programs that leave it no processor:
 // every sample, every digest and every frame is the same. RODEIRA_REPEAT_FOR sets how many seconds are driven (2
 // otherwise).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs of separate processes: the same digests every time, however they are started and whatever else the machine does.
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A scenario between processes: its events are recorded at their steps, and the run is the same however it is run.
 #include <gtest/gtest.h>
 #include <unistd.h>

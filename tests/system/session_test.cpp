@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A person's session, by mouse and keyboard in real windows on a virtual display: from the start window to a picture
 // and a recording.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who stands in a lane is not touched: the driver's car stopped, its followers stop behind it; the queue blocks the
 // lane, and the autopilot stops behind the queue. Read from the recording of a whole run.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One launch file, ten runs: in one process, message by message in a drawn order with losses, as processes beside
 // programs that leave them no processor, and on two PCs whose network delays and overtakes. One stream of digests.
 #include <fmt/format.h>

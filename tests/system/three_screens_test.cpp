@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three views of one run, each a process with a screen of its own around the driver's seat.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Other models of the car in whole runs: a word, or a laboratory's FMU; one that fails or hangs is named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

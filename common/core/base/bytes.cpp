@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/base/bytes.hpp"
 
 namespace rodeira::base {

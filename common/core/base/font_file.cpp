@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/base/font_file.hpp"
 
 #include <system_error>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/base/writable.hpp"
 
 #include "common/core/base/files.hpp"

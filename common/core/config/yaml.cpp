@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/config/yaml.hpp"
 
 #include <fmt/format.h>

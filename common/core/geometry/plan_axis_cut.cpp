@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the elements of a reference line become panels.
 #include <algorithm>
 #include <cmath>

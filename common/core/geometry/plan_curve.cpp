@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/geometry/plan_curve.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The nearest point of a plan curve: which panels come into question (a grid within reach, a tree beyond), and the
 // exact foot on one panel.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Sides that stay (S. W. Sloan, "A fast algorithm for generating constrained Delaunay triangulations", 1993).
 #include <algorithm>
 #include <deque>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/core/tessellation/noding.hpp"
 
 #include <geos_c.h>

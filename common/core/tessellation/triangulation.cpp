@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The triangles, and points put into them.
 #include "common/core/tessellation/triangulation.hpp"
 

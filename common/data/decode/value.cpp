@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/data/decode/value.hpp"
 
 #include <fmt/format.h>

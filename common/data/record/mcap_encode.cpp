@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/data/record/mcap_format.hpp"
 
 #include <cstring>

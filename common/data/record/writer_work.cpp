@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/data/record/writer_work.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Manoeuvres with the steering wheel. Angles of the front wheels are the steering wheel's over the steering ratio.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/driving/manoeuvres/proving_ground.hpp"
 
 #include <cmath>

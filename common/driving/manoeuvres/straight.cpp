@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Manoeuvres along a straight line.
 #include <algorithm>
 #include <cmath>

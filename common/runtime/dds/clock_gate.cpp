@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/dds/clock_gate.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/dds/participant.hpp"
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/dds/participant_qos.hpp"
 
 #include <fastdds/rtps/attributes/ServerAttributes.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/lockstep/inbox.hpp"
 
 #include "common/core/base/assert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // INI of the bicycle: height, pitch, roll, travels and loads that balance weight on the ground under the four wheels.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/collision_space.hpp"
 
 #include <ode/ode.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // INI of the multibody car: the position at which it stands on the ground under its wheels, and its motion.
 #include <fmt/format.h>
 

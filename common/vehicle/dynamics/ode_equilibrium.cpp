@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // INI of the ODE car: height, pitch, roll and four travels that balance weight on the ground under the wheels.
 #include <fmt/format.h>
 

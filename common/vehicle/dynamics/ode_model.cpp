@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/ode_model.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the ODE car publishes, saves and restores.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/ode_settings.hpp"
 
 #include "common/vehicle/dynamics/parts_file.hpp"

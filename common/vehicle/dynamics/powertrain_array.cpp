@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/powertrain_array.hpp"
 
 #include "common/core/base/assert.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/powertrain_publish.hpp"
 
 namespace rodeira::dynamics {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/input_devices/force_device.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/multibody/bushing.hpp"
 
 #include <algorithm>

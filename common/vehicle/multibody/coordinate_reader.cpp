@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Angles, distances and constraints of a mechanism file.
 #include <fmt/format.h>
 

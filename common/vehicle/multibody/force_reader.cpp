@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forces of a mechanism file.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a mechanism begins: position, velocity, acceleration, equilibrium.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // One time step: Newton's method on the positions, then the projections.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/design/design_reader.hpp"
 #include "common/world/design/behind_end.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/design/furniture_reader.hpp"
 
 #include <filesystem>

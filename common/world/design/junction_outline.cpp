@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/design/junction_outline.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which tracks lie beside one another, on one road or on two that share a side, and which distances along them do.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How tracks go on where the file's lanes meet, where they end beside others, where vehicles are gone, and where
 // traffic may enter.
 #include <algorithm>

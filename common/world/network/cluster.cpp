@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What Surfaces says of a point, for many that lie close together: the band, the section and the records of all tables
 // are looked up once, then each step of the same formulas is made for all points.
 #include "common/world/network/cluster.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where the surface of a road that leans stands over many points that lie close together: the steps of Road::FootOnLean
 // and of Road::Surface, each made for all points. What is the same for all of them (a steady bank, a steady grade) is
 // found once.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Which lane goes on into which: within a road, from road to road, and through junctions.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a point lies in the network.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a lane's border lies within the edge of the lane inside of it: the lane would have a width below 0.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where reference lines' curvature jumps. OpenDRIVE allows it and files are full of it, so each road is told of once.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measures that nothing on earth has. A slip of the hand in one number puts a lane's edge a million kilometres away,
 // and everything that looks at the ground between would never end.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where records and things are said to begin: on their road or in their lane section, and each with an id of its own.
 #include <fmt/format.h>
 

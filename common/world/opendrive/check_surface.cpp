@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of one road's surface cannot be as the file says it: heights that jump along it, edges that fold in a bend,
 // lanes narrower than nothing.
 #include <fmt/format.h>

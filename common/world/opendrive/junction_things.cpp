@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What belongs to a junction and to no road of it: objects beside its own line, and the paths of those who cross it on
 // foot. It is given to the road beside which it lies.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 // How far, high and large what an OpenDRIVE file describes may be: far beyond what is built, and near enough that

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a file is passed over: each kind is said once.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a file OpenDRIVE does not have: elements and attributes whose names it does not know, words that it does not
 // allow, elements that may stand once and stand twice. A misspelt name would otherwise be passed over in silence.
 #include <fmt/format.h>

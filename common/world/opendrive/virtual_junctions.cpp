@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that leave, or come onto, the middle of another one: its lane sections are cut there, so that lanes go on into
 // lanes as they do anywhere.
 #include <fmt/format.h>

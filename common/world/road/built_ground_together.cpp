@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUELO for many points that lie close together on one road: by the same formulas as a point alone, each step for all
 // of them.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/road/places_across.hpp"
 
 #include <algorithm>

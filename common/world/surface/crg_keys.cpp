@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/surface/crg_keys.hpp"
 
 namespace rodeira::surface {

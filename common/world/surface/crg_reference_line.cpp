@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/surface/crg_reference_line.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/terrain/elevation_file.hpp"
 
 #include <cpl_vsi.h>

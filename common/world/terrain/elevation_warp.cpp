@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/terrain/elevation_warp.hpp"
 
 #include <fmt/format.h>

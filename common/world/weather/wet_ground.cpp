@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/world/weather/wet_ground.hpp"
 
 namespace rodeira::weather {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/commands/edit_command.hpp"
 
 #include "nodes/editor/desk.hpp"

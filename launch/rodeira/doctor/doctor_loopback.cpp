@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two processes that talk over DDS, for CheckLoopBack: with both ends in one process Fast DDS would pass the transport
 // by.
 #include <fmt/format.h>

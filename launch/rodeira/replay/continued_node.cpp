@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/replay/continued_node.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/replay/recording_audit.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/run/node_factories.hpp"
 
 #include "nodes/empty/empty_node.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/run/resolve_recording.hpp"
 
 #include <fmt/chrono.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/start_window/start_files.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/start_window/wheel_panel.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/dynamic_objects/car_node.hpp"
 
 #include <osg/BlendFunc>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/headset/headset_eyes.hpp"
 
 #include <GL/gl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/materials/picture_texture.hpp"
 
 #include <algorithm>

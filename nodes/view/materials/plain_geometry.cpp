@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/materials/plain_geometry.hpp"
 
 #include <SDL.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/paging/database_tiles.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/paging/ground_nodes.hpp"
 
 #include <osg/LOD>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/renderer/aim_camera.hpp"
 
 #include <numbers>

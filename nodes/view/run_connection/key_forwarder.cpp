@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/run_connection/key_forwarder.hpp"
 
 #include <SDL.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is seen of a surface, by its material.
 #include "nodes/view/shaders/shaders.hpp"
 

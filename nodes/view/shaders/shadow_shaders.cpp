@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Shadows: the one below a car where the sun has no map, and the depth in the sun's map.
 #include "nodes/view/shaders/placed_glsl.hpp"
 #include "nodes/view/shaders/shaders.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sky, and the rain before the eye.
 #include "nodes/view/shaders/air_glsl.hpp"
 #include "nodes/view/shaders/shaders.hpp"

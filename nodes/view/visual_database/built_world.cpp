@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/visual_database/built_world.hpp"
 
 #include <osg/Geometry>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/visual_database/database.hpp"
 
 #include <fmt/format.h>

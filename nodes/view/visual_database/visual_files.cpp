@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/visual_database/visual_files.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the demo costs: how many times faster than real time, recorded and not, in turns in one run, and how large an
 // hour's file would be. demo_bench [SECONDS] [ROUNDS]
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The editor with 2000 curves over a background of 8000 by 8000 pixels, drawn by the processor without a display:
 // opening, pan and zoom, undo.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a wheel that is turned to a changed pixel on the display: a virtual joystick, the input node, the vehicle, the
 // view with its window, in real time, in this process. latency_bench [TURNS] [INPUT_PERIOD_MS] [VIEW_PERIOD_MS] [WIDTH
 // HEIGHT] [WORLD]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How even what a window shows is: a car at 30 m/s straight ahead on the plane, real time, a real window on a display
 // of its own, by the window's own frame log against the car's own samples. motion_bench [SECONDS] [POSE_PERIOD_MS]
 // [WIDTH HEIGHT]

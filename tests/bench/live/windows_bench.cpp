@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far apart in simulated time three windows of one run are: left, centre, right of a laboratory, each a process,
 // real time, on a display of their own, by their frame logs. windows_bench [SECONDS] [WIDTH HEIGHT]
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The cost of the lockstep itself, as ratios in one run: four processes, all to all, a sample a step each.
 //   raw UDP sockets on loopback (the floor), then Rodeira over shared memory and over UDP.
 // lockstep_bench [STEPS] [ROUNDS]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a point lies in Town04 (9.75 km, 242 roads): at most 2 µs cold, 300 ns with a hint; ten times the roads cost at
 // most 1.3 times as much a query. Needs the real file beside the project.
 #include <benchmark/benchmark.h>

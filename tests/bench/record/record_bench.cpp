@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How fast a recording is written and read: 100 000 messages of 400 bytes, a hundred simulated seconds at 1 kHz.
 #include <benchmark/benchmark.h>
 #include <unistd.h>

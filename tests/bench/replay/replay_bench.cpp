@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How long a person waits who watches a recording: to another place in an hour's file, and from picture to picture.
 // The hour is a real recording again and again (RODEIRA_RECORDING=FILE, whose view, cars and traffic are looked at),
 // or, without one, a car at 1 kHz and twenty others at 100 Hz that were never computed. It needs 2 to 5 GB in the

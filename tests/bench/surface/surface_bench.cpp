@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured and made surfaces, a point at a time.
 #include <benchmark/benchmark.h>
 

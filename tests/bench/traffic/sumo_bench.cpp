@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a step costs SUMO on the same streets: netconvert reads the OpenDRIVE that is written of the same map, and
 // `sumo` drives as many vehicles over it, from places and by turns drawn by lot, in steps of the same 10 ms. Where SUMO
 // is not installed the benchmark says so.

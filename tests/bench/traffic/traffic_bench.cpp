@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a step of traffic costs: planar mode on closed-meshed grids of streets, by the number of vehicles. The grids are
 // maps that tools/make_grid.py writes; RODEIRA_GRIDS is the folder with grid4.motors, grid10.motors, grid32.motors and
 // grid37.motors.

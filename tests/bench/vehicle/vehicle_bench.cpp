@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a step of the bicycle costs, and its tyre formula. Simulated seconds a second = 1e6 / (microseconds a 1 ms
 // step).
 #include <benchmark/benchmark.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What pictures cost: a world's meshes once, a frame of 1280 x 720 pixels each time, its PNG file.
 // RODEIRA_BENCH_SIZE=1920x1080 draws frames and worlds in that size.
 #include <benchmark/benchmark.h>

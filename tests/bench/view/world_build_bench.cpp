@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira world build`, by the clock and in processor time of all threads: asked are 10 s for HASTE on two cores and 3
 // s for Town04. Each world is read and written into a fresh folder; once more where nothing has changed; and once more
 // after one sign has moved.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures come in as PNG, JPEG, BMP and TIFF; what is none is refused; coarser levels are means.
 #include "common/editor/background.hpp"
 

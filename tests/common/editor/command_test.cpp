@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each action of a person: what it does to the file, that undo gives the same bytes again, and what is refused.
 #include <gtest/gtest.h>
 

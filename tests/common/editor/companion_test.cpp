@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // FILE.motors.yaml: what an author wrote stays, whatever is edited beside it.
 #include "common/world/traffic_map/companion_text.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lanes in one gesture, against what they should be by geometry.
 #include "common/editor/lane_tools.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic in the editor is the traffic of `rodeira traffic run`.
 #include "common/editor/preview.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // 10 000 drawn actions on a map, undo and redo among them: whatever comes, the document stays a map that the file can
 // hold, and all of it can be taken back to the first byte.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is chosen by pointing, by a rectangle, by a finding of the check; where dragged handles come to rest.
 #include "common/editor/selection.hpp"
 

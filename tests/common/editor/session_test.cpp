@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A person's session: the last action in green or red, the check before saving, what is unsaved.
 #include "common/editor/session.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Files: nothing that was loaded is lost, a full disk leaves the old ones whole, unsaved work outlives its editor.
 #include "common/editor/store.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Each template is a whole map: the check finds nothing, and traffic drives on it without touching.
 #include "common/editor/templates.hpp"
 

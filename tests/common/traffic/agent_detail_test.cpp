@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is said of a driver is where his car's geometry and his own laws put it: on a circle all of it is known.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // When vehicles of flows arrive: against the distributions' closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How drivers come to the speeds that bends allow.
 #include <gtest/gtest.h>
 

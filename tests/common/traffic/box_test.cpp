@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Nobody blocks the box: who comes to rest does so where nobody else's way crosses his.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

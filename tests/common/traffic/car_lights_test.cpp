@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Brake lights and indicators of traffic, against what the cars then do.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Streets as full as can be, whose chains of who waits for whom close: who goes, so that all of them go on, and who is
 // not counted on to go, so that none closes.
 #include <fmt/format.h>

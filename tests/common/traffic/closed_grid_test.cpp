@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A closed town that is as full as it may be: it goes on (SUMO 1.15 moves 109 vehicles away there within the same
 // time).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Three at a crossing of whom each keeps the next one out: who turns right waits for room at his exit, another one
 // wants to go straight on behind him, and a third one comes across to the same exit.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Flows, routes, turning shares and mixes on whole networks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pedals, gears and fuel of planar cars.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Four cars meet where each has another one on its right.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What agents with the physics of the driver's car do on the road: stop at lights, change lanes, overtake, brake.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Agents with the physics of the driver's car.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What agents are granted on their way: each grant reaches farther than the one before.
 #include <gtest/gtest.h>
 

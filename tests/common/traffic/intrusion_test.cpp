@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit
 // him.
 #include <gtest/gtest.h>

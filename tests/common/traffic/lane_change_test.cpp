@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Changes of lanes: each against MOBIL's inequality, worked out here from the published poses alone.
 #include <gtest/gtest.h>
 

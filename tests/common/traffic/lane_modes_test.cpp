@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a traffic map lets vehicles begin and end (modes of lanes), and who begins among others.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is written of lanes' statistics: table, raster, floating car data, pictures.
 #include <gdal_priv.h>
 #include <gtest/gtest.h>

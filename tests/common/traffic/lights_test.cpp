@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic at lights: who stops and who goes on at amber, nobody at red, and what a green lets pass.
 #include <gtest/gtest.h>
 

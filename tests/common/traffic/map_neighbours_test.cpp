@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lanes of a traffic map that share a border: they are neighbours, and what is painted there decides who may change
 // over or overtake.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where two lanes come together and both have a queue: one by one from each.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a minor road carries across a major one: Siegloch's formula with the gaps that its own cars take.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person who sits in a car of traffic feels along his way, from the published accelerations.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // MOTORS' driver against the laws of its source: values worked out by hand from the printed code, and whole runs.
 #include <gtest/gtest.h>
 

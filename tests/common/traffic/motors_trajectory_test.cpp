@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where MOTORS' driver steers for, and to whom he gives way: against points and rules worked out by hand.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two streets in a row in which nobody can pass who comes: longer, both of them, than a driver sees at rest.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far it is to who is ahead, who touches whom and whose looks cross: each against a search through all pairs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Traffic on networks: the project's maps and the real files, whole runs looked at car by car.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

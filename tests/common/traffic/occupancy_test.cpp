@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who is on each track: what a list of all that were added says.
 #include "common/traffic/occupancy.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Overtaking on a road with marks of its own.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a pass needs, told beforehand.
 #include <gtest/gtest.h>
 

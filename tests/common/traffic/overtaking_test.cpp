@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Overtaking on the lane of oncoming traffic: everything is told from the published poses.
 #include <gtest/gtest.h>
 

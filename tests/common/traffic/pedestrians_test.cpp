@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // People on foot: nobody is touched, who waits is let go, and the arithmetic of it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What agents are told when they come to a place.
 #include "common/traffic/place_orders.hpp"
 

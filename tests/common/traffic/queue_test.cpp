@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A queue that discharges: the IDM integrated apart, and the published saturation flow.
 #include <gtest/gtest.h>
 

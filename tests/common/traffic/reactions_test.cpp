@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How soon agents answer to what is suddenly there: in the step in which they see it first, wherever it is and however
 // their cars move.
 #include <gtest/gtest.h>

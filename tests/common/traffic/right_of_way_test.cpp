@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two cars who would meet: whose right of way it is drives as if he were alone, the other one waits. In right-hand and
 // in left-hand traffic.
 #include <gtest/gtest.h>

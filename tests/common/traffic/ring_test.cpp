@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Identical cars on a ring: equilibrium and stability of the IDM in closed form (Treiber, Kesting, Traffic Flow
 // Dynamics, 2013).
 #include <fmt/format.h>

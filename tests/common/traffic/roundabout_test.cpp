@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A roundabout's entry at which a queue waits, and who circulates past it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where, when and beside whom vehicles of an experiment appear.
 #include <gtest/gtest.h>
 

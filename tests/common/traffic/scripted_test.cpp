@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What experiments tell single vehicles: to overtake, and to change lanes.
 #include <gtest/gtest.h>
 

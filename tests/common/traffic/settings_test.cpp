@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // docs/traffic_settings.md tells of every setting of the traffic: its key, what it is otherwise, and from where to
 // where it goes.
 #include "common/traffic/traffic_settings.hpp"

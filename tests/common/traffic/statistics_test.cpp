@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Statistics of lanes: Edie's identity, what is conserved, steady flow in closed form, fuel.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Agents that are hit: momentum, sliding to rest against closed forms, and what the others do about them.
 #include <gtest/gtest.h>
 

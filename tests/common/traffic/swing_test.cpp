@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far cars with full physics reach beside bends: on a circle in closed form, on maps beside cars of the vehicle
 // library.
 #include <fmt/format.h>

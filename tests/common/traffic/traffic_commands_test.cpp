@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a scenario may tell agents.
 #include <gtest/gtest.h>
 

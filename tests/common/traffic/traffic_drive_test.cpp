@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The autopilot drives the bicycle among the traffic of N222: everyone sees everyone, nobody touches anybody.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Drivers differ as their settings say: what is drawn of them is distributed evenly over its range, each apart from the
 // others.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A road far away that is added to the network changes nothing of the traffic that has nothing to do with it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who wants what of a conflict zone.
 #include "common/traffic/zone_book.hpp"
 

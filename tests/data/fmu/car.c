@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that
  * rolls on its wheels. dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000
  * kg, dheading/dt = v tan(steering wheel / 16) / 2.5 by explicit Euler steps. z is the mean of the ground's four

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person is told who mistypes a command, an option or a value.
 #include "launch/rodeira/option_errors.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The desk by mouse and keyboard, without a display: the thesis' example, and what its editor lacked.
 #include <fmt/format.h>
 

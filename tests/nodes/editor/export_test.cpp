@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A map that was drawn becomes a world, which the program checks and drives on.
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panels beside the map, by mouse and keyboard.
 #include "tests/nodes/editor/desk_fixture.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is asked before something could be lost, and what becomes of each answer.
 #include "tests/nodes/editor/desk_fixture.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira edit` in a real window (Xvfb), drawn with by a mouse and a keyboard (xdotool): the thesis' example from the
 // photograph to the saved map, and traffic on it. Skipped where those two programs are not there.
 #include <fmt/format.h>

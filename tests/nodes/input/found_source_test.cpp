@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What drives where no wheel is named: a wheel that was set up, a game pad, a device whose file is broken, the window's
 // keys.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is promised of the wheel in seconds: runs at real pace, which run alone. SDL's virtual joystick, a motor of the
 // test's.
 #include <gtest/gtest.h>

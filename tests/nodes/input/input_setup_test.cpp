@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira input setup` at SDL's virtual wheel, and a run that finds what it has written.
 #include <gtest/gtest.h>
 

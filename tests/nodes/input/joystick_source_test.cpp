@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The input node at a steering wheel: SDL's virtual joystick, no display and no device.
 #include <gtest/gtest.h>
 #include <unistd.h>

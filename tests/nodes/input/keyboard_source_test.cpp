@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The input node at the keyboard, in a run of one process; the test holds the keys.
 #include <gtest/gtest.h>
 

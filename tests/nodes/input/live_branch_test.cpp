@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A branch whose new driver is a person: recorded up to T, then another source goes on where the first one left the
 // hands.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A car that is left standing on a hill, in a run of one process; the test holds the keys.
 #include <gtest/gtest.h>
 

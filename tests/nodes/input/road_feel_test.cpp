@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a rough road is in the hands: the proving ground's uneven lane, the wheel held straight.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The road server's answers by request and reply, through the bytes that go over DDS: patches, batches and all layers
 // are to the bit what the world says in process.
 #include "nodes/road/road_service.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a window asks for becomes events of the run: the car stands elsewhere, the weather changes, and a recording has
 // it all.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Scenario events in runs of one process: at their exact step, to everybody, with what the traffic makes of them.
 #include <gtest/gtest.h>
 #include <unistd.h>

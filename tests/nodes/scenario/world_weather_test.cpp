@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The weather that a world file says: published by the scenario's node from the beginning on, below what the scenario
 // itself says.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The traffic of a run is the model alone.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

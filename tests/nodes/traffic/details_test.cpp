@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the traffic says of its drivers and engines.
 #include <gtest/gtest.h>
 

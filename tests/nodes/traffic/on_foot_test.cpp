@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // People on foot as they are published.
 #include <gtest/gtest.h>
 

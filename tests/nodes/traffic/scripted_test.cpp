@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a scenario asks of single vehicles, and how soon the traffic answers to the driver's car: from the published
 // samples.
 #include <gtest/gtest.h>

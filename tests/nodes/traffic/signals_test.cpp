@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What traffic publishes of a world's lights, and the autopilot that sees nothing else of them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A car of traffic is hit by the driver's: it takes what the collisions say.
 #include <gtest/gtest.h>
 

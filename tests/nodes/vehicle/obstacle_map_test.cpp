@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of a world stops a car, against where its file says that it stands; and that who asks near something is told of
 // it.
 #include "nodes/vehicle/obstacle_map.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Into the walls of a tunnel: who leaves its road is held by them, and stays on its floor.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "nodes/vehicle/vehicle_wire.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The dashboard before the driver, asked of single pixels: needles, gear and steering wheel say what the car does.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A car's model from a file: it is seen where the procedural car would be, and its wheels turn; without it the
 // procedural one stays.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How a person chooses a vehicle, and what is then said and shown of it.
 #include <SDL.h>
 #include <gtest/gtest.h>

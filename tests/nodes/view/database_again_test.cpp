@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A database after its world was edited: what is built again, in the project's own worlds and where a measured surface
 // changes.
 #include <algorithm>

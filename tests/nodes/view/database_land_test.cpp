@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of land: without any road, and where it lies bare beside some.
 #include <osg/Geometry>
 #include <osgDB/ReadFile>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of what is seen, found and shown: against the ground built in memory.
 #include <osg/Geometry>
 #include <osgDB/ReadFile>

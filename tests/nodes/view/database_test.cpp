@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The files of what is seen: written, read by another program, and after changes.
 #include <osg/Geometry>
 #include <osg/Texture2D>

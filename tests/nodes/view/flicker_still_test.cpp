@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Marks lie on the road's own heights and are drawn over it by a polygon offset: from picture to picture none of them
 // may vanish.
 #include <gtest/gtest.h>

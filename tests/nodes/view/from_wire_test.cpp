@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From a run's messages to what is drawn.
 #include "nodes/view/run_connection/from_wire.hpp"
 

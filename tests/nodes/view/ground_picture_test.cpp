@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures on the ground as a person sees them, from memory and from files: single pixels from straight above.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What hills and bridges keep from the sun. Oracle: a ray towards it over SUELO.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

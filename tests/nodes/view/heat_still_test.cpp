@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A statistic over the ground, asked of single pixels: the shader's colours are those of the scale, 70 parts in 100
 // over what is seen without it.
 #include <gtest/gtest.h>

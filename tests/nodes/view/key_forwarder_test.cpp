@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a window says of the keys held in it, from SDL's events.
 #include "nodes/view/run_connection/key_forwarder.hpp"
 

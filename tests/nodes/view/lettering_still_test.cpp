@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is written on a sign, read pixel by pixel: from left to right by those who come, reversed in their mirrors once
 // they have passed.
 #include <gtest/gtest.h>

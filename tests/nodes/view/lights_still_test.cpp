@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lamps, kinds of vehicles and people, asked of single pixels.
 #include <gtest/gtest.h>
 

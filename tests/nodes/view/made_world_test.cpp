@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Ground that is made where the eye comes near: what is seen of it is what would be seen of a world that was built
 // before.
 #include <chrono>

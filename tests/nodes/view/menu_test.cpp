@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The menu of a window, by a mouse of the test's, without a display.
 #include <SDL.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a driver sees in the mirrors, asked of single pixels: reversed left to right.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenDRIVE worlds as a person sees them, asked of single pixels.
 #include <gtest/gtest.h>
 

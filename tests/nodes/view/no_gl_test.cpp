@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where nothing can be drawn: a sentence that says what is missing and the status of wrong input; where a person would
 // expect that, it goes on without.
 #include <gmock/gmock.h>

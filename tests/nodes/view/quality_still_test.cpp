@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the qualities leave out, and what not; the sun's shadows. Asked of single pixels.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A window before its world is read: it is there, it says so, it lives.
 #include <gtest/gtest.h>
 

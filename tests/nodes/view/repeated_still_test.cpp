@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Trees, posts and whatever is repeated: as one model at many places they are seen as they are seen merged, shadows and
 // mirrors included.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Watching a recording: what keys and mouse do, and what the bar shows. Off-screen: SDL's events need no display.
 #include <SDL.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The keys of a run's window that only show, and the legend of what is shown over the ground. Without a display.
 #include <SDL.h>
 #include <gtest/gtest.h>

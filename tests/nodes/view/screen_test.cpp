@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person's keys do to the picture, without a display.
 #include <SDL.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a picture's person hears, and the PC's sound or the lack of it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A window and the run's control socket: space pauses, and the window says what the clock says.
 #include <SDL.h>
 #include <SDL_opengl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a person sees, asked of single pixels: where a thing of the world projects to, there its colour is.
 #include <gtest/gtest.h>
 

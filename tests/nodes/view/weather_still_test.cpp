@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the weather does to a picture, asked of single pixels.
 #include <gtest/gtest.h>
 

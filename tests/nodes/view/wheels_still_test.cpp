@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The procedural car's wheels as parts of their own: each turns, steers and moves with its suspension, and nothing else
 // of the car does.
 #include <gtest/gtest.h>

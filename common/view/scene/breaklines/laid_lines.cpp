@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/breaklines/laid_lines.hpp"
 
 #include <algorithm>

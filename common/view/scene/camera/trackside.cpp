@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where people stand who watch from beside the road.
 #include <algorithm>
 #include <cmath>

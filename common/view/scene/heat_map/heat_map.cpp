@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/heat_map/heat_map.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/playback/display_clock.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/road_furniture/sign_face.hpp"
 
 #include <fmt/format.h>

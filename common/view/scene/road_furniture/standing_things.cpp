@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands at no road, on SUELO's highest ground.
 #include <algorithm>
 #include <cmath>

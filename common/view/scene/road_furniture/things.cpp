@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands where, and rails and walls along the road.
 #include "common/view/scene/road_furniture/things.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the things of a tile are made from, as a hash.
 #include <fmt/format.h>
 

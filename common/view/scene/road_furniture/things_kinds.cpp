@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a network's signals and objects are, as things that stand.
 #include <algorithm>
 #include <cmath>

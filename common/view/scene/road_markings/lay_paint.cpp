@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paint laid on the ground's triangles.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/terrain/ribbon_cover.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ground that a road shapes, as triangles.
 #include <algorithm>
 #include <cmath>

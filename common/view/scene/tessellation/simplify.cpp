@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines with fewer points for coarser levels (Douglas and Peucker, 1973).
 #include <algorithm>
 #include <map>

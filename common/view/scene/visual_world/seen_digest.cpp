@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/visual_world/seen_digest.hpp"
 
 #include <fmt/format.h>

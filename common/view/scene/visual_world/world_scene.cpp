@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/visual_world/world_scene.hpp"
 
 #include "common/view/scene/ground_materials/lay_picture.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Prints the mathematics digest: with law L7's choice, or, for comparison, with the processor's own.
 #include "common/core/base/mathematics.hpp"
 

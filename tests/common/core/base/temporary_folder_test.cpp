@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Folders that go with their owners, also where the owner was killed.
 #include "common/core/base/temporary_folder.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The clothoid's integral against published Fresnel values, closed forms, and an integration of another kind.
 #include "common/core/geometry/clothoid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Reference lines of lines, arcs, clothoids and cubics: closed forms, an integration of another kind, dense sampling.
 #include "common/core/geometry/plan_axis.hpp"
 

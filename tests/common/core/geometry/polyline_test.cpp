@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Chains of points: exact moves, offsets against closed forms (polygons, a parabola), what is refused.
 #include "common/core/geometry/polyline.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The short series against the library, whose functions are right to half a bit or a little more.
 #include "common/core/geometry/small_angle.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tables against the messages that were recorded.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the generic decoder makes of the embedded IDL texts is what the generated code makes of the IDL files.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The steps of each source: evenly spaced, or the gaps are named.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whatever is cut off or changed: the file opens with a true part of its messages, or is refused with a sentence.
 #include <gtest/gtest.h>
 

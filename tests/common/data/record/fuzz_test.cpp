@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many seeded mutations of small files: the reader, Verify and Repair never crash, and never hand out a message that
 // was not written. RODEIRA_FUZZ_FILES sets how many files are tried, RODEIRA_FUZZ_FIRST with which number they begin.
 #include <gtest/gtest.h>

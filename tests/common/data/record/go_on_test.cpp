@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Another writer goes on with the recording of one that has died: nothing that was whole is lost, and nothing is
 // destroyed.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The file against MCAP's description, walked by a small parser of its own: order of records, offsets, checksums.
 // (The reference reader has its say in npm_test.cpp.)
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The reference reader's word: what the writer wrote is read and decoded by npm's @mcap/core and @foxglove/omgidl-*.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

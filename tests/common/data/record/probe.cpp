@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/common/data/record/probe.hpp"
 
 #include <fastcdr/Cdr.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What was written comes back: content, order by log time (ties in file order), queries.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A repaired file is what the writer would have written of the part that is left.
 #include <gtest/gtest.h>
 #include <unistd.h>

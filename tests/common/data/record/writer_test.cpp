@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The writer: the same calls give the same bytes, chunks have their bounds, and a failing disk is an Error.
 #include <fcntl.h>
 #include <gtest/gtest.h>

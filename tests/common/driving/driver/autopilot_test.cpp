@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The autopilot drives the bicycle: told as drives.
 #include "common/driving/driver/autopilot.hpp"
 

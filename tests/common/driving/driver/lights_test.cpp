@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The autopilot at a traffic light, in a car: it stops where it can, passes where it cannot, and drives on at green.
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Routes through networks, and a car that is driven along them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Coming to rest without a jerk.
 #include "common/driving/driver/smooth.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The speed that a banked bend allows, against forces resolved apart from the plan.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Manoeuvres against what can be said of them without a car: the linear single-track model, balances of energy and
 // force, symmetry. Then the project's cars go through them all.
 #include "common/driving/manoeuvres/manoeuvre.hpp"

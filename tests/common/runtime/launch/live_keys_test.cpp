@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The border between a window's keys and who drives by them.
 #include "common/runtime/launch/live_keys.hpp"
 

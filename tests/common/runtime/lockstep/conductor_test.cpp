@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The operator's commands against a clock, in simulated wall time.
 #include "common/runtime/lockstep/conductor.hpp"
 

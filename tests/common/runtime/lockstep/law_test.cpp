@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Law L1 as it is lived: whatever the order of arrival, the threads and the rates, every sample is the one of the law.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a run dies at any moment: what the others see and what is recorded is that of a run without deaths.
 #include "common/runtime/lockstep/recovery.hpp"
 

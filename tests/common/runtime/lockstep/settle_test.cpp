@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node has given to its own threads is waited for before each activation, and that waiting is not its step's
 // time.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording at any step: the same samples as by reading it from its beginning, and only the chunks that are needed.
 #include "common/runtime/replay/tape.hpp"
 

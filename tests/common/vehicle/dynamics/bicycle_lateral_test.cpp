@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Bends: the single-track car's closed forms.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Along the road: standing, holding, rolling, braking, top speed, gears.
 #include <gtest/gtest.h>
 

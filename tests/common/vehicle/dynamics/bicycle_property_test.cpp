@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What holds whatever the driver does and wherever the car is.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

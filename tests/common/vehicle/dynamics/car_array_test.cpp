@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Many cars at once: each has the bits that it has alone, on any number of threads, whoever else is there, and from a
 // snapshot.
 #include "common/vehicle/dynamics/car_array.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cars that hit something: momentum, energy and rebound against closed forms, whatever the model; and the same bits
 // from a snapshot taken while they touch.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The car's box among obstacles: what touches, the force of it, momentum and rebound against closed forms, and the same
 // bits.
 #include <gtest/gtest.h>

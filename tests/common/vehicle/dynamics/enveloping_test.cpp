@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A rigid ring on planes, over an edge and over a half-round bump against its closed forms, and cars that drive with
 // it.
 #include "common/vehicle/dynamics/enveloping.hpp"

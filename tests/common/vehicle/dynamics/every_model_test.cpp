@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What holds whatever the model is: a story from drop to reverse, left and right, slopes, places, and the same bits
 // again.
 #include <gtest/gtest.h>

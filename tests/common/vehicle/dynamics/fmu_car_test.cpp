@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A laboratory's own car as an FMU: it drives by its own equations, is saved and restored where it offers that, and
 // fails in a sentence.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/magic_formula.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it
 // repeats.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The prototype's handling against the single-track closed form with its own axles' stiffnesses, measured on a virtual
 // rig.
 #include "common/vehicle/dynamics/multibody_model.hpp"

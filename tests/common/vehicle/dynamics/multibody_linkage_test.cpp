@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Toe and camber of the prototype's wheels over their travel against the linkages' geometry, solved by itself:
 // rotations of the arms about their pivots and intersections of spheres, from nothing but the points as drawn.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The car in ODE: how it stands, drives, turns, stops, holds and falls over, and that it repeats.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The slip-curve tyre: through its points, smooth, of one sign, on an ellipse where it slips both ways.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The importer of FMUs: what is sound runs, what is not is refused in a sentence.
 #include "tests/common/vehicle/fmi/test_fmu.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keyboard and wheel files, and the sentences for wrong ones.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Beginners at the keyboard, who know no angles, only keys that are down or up, keep the lane of a winding road.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The multibody benchmark library's problems (lim.ii.udc.es/mbsbenchmark) against its published numbers.
 #include "tests/common/vehicle/multibody/run_mechanism.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The sparse factorisation against Eigen's dense one.
 #include <gtest/gtest.h>
 

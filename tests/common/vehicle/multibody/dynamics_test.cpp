@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mechanisms against closed forms: order, energy, free bodies, driven coordinates, redundant joints.
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Forces of mechanisms against closed forms: those of joints, drag, springs, bushings, anti-roll bars, torques.
 #include <Eigen/Geometry>
 #include <Eigen/LU>

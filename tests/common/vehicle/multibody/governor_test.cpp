@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A05 of the benchmark library, the stiff flyball governor: against its three equations of motion, written down from
 // Lagrange's and integrated by Runge and Kutta at a step that follows the stiff springs.
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Wrong mechanism files get one sentence with file and line.
 #include <gmock/gmock.h>
 

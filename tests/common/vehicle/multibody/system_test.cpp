@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a node needs of a mechanism: no allocation, the same bits, and again after a restore. Counts every allocation of
 // this program.
 #include <cstdlib>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a network's squares end its plane goes on: around them and in gaps between them, once everywhere.
 #include "common/view/scene/terrain/far_plane.hpp"
 

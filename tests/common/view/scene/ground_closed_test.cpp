@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ground as it is drawn, against itself: it has no hole, and nothing of it looks down.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The levels of the drawn ground against what is asked of each: 1 mm in plan and 3 mm in height at the finest, 2, 10
 // and 50 cm at the others, on roads, verges, cuts and fills.
 #include <gtest/gtest.h>

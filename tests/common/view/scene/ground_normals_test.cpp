@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How the drawn ground is lit: by normals that a picture can take at samples outside the triangle, and that are SUELO's
 // where the ground turns sharply.
 #include <gtest/gtest.h>

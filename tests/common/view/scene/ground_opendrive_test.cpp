@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ground of OpenDRIVE worlds as it is drawn, their own files and others', against SUELO.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

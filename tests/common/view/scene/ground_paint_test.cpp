@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The paint as it is drawn, against what the file says.
 #include <gtest/gtest.h>
 

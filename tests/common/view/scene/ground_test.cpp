@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The ground as it is drawn, against SUELO.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a window shows from picture to picture: the clock, the history of poses and the cameras together.
 #include <gtest/gtest.h>
 

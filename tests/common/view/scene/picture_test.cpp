@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where pictures lie on the ground: against x and y, and what of them the hashes know.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // How far the building of a world's picture has come, as it is told to who waits for it.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Models at many places: where their triangles are when they are merged, and what of a tile is repeated at all.
 #include "common/view/scene/mesh/repeated.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The lines and rows of points that a road is drawn by, against its formulas between the points: chord errors, and how
 // far apart points lie.
 #include "common/view/scene/breaklines/road_lines.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crossings, stop lines and arrows painted on roads: against areas in closed form, the Vienna Convention's measures and
 // symmetry.
 #include "common/view/scene/road_markings/road_paint.hpp"

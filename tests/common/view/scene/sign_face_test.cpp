@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signs' faces: areas in closed form, symmetries, colours where the Vienna Convention has them.
 #include "common/view/scene/road_furniture/sign_face.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands at no road is seen where its file says, on SUELO's ground.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/lighting/sun_view.hpp"
 
 #include <gtest/gtest.h>

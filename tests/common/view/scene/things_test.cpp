@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands at roads, as it is drawn: against closed forms, SUELO, and the roads' own frames.
 #include "common/view/scene/road_furniture/things.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines are cut where they pass from tile to tile.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Tunnels as they are seen: a tube around the road at every level of detail, that leaves it clear; portals where it
 // begins and ends.
 #include "common/view/scene/road_furniture/tubes.hpp"

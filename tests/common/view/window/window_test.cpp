@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A window without a display: panels obey pushed events, pictures show them.
 #include "common/view/window/window.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Axes as an author writes them, against closed forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

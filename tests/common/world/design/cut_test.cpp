@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A part of a road is the road there.
 #include "common/world/design/cut.hpp"
 

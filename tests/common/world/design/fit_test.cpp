@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that run into themselves, out of their terrain, or fold: each is a sentence with file, line and station,
 // computed by hand here.
 #include <gmock/gmock.h>

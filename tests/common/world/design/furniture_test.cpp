@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Signs, objects, structures and speed limits of a world file, and what roads go on into, against what their keys say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that go on into one another: what does not meet there is told with both stations. The numbers are computed by
 // hand here.
 #include <gmock/gmock.h>

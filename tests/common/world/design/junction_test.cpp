@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that cross and meet: what is cut, joined, made level, painted.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

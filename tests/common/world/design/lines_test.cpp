@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines of a world file: which are painted, how wide, in what strokes, where, and from where to where.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

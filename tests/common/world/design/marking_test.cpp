@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Crossings, stop lines and arrows of a world file, against the places that their keys say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

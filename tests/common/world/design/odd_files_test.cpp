@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What mutated files found: each is a road or a sentence.
 #include <gmock/gmock.h>
 

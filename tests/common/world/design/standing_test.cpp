@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What stands at no road, as a world file names it: where each thing stands, computed by hand.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

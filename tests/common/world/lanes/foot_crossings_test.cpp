@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where crossings for people on foot lie: worked out by hand on straight roads.
 #include <gtest/gtest.h>
 

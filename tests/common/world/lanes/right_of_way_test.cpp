@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Who has the right of way where two lanes meet, by signs, by the file, and by the rules of right-hand and of left-hand
 // traffic.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/common/world/network/against_oracle.hpp"
 
 #include <gtest/gtest.h>

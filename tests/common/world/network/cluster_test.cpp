@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points asked together against the same points asked one by one: not a bit differs.
 #include "common/world/network/cluster.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "tests/common/world/network/file_oracle.hpp"
 
 #include <gtest/gtest.h>

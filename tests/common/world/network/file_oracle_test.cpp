@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where points lie on real files, against an oracle that has nothing in common with the network (file_oracle.hpp).
 #include "tests/common/world/network/file_oracle.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The heights of a junction's own: what OpenDRIVE 1.8 says of its grid, against polynomials; the way from a road onto
 // it.
 #include "common/world/network/junction_grid.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What goes on into what, by a small network whose answers can be seen: a road that splits in a junction.
 #include <gtest/gtest.h>
 

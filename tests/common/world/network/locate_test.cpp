@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where a point lies: closed forms, the index against all bands one by one, hints.
 #include <gtest/gtest.h>
 

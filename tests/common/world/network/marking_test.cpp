@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lines of paint against circles, whose lengths are known, and against the marks' own words.
 #include "common/world/network/marking.hpp"
 

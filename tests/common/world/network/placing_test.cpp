@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where things at roads stand, against circles and counts in closed form.
 #include "common/world/network/placing.hpp"
 

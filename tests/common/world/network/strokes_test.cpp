@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Dashes against a polyline of the line itself.
 #include "common/world/network/strokes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface of a road: closed forms, rotations, derivatives against differences.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Boards that hold several signs: ASAM OpenDRIVE 1.8, 14.7. What is on one has its place and is for whom the board is,
 // unless it says so itself.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What of an OpenDRIVE file is read, what is refused, and how it is said.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

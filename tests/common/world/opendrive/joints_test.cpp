@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where roads, lanes and records go on: steps, kinks, banks that jump, bends too sharp for their lanes. Expected
 // numbers are computed by hand.
 #include <gmock/gmock.h>

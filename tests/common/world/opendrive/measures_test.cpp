@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Numbers that are a slip of the hand: measures beyond all that is built, and counts without end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

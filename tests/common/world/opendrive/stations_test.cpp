@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Records and things that begin where their road or lane section is not, and ids that stand twice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Names and words that OpenDRIVE does not have, and elements that stand twice.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

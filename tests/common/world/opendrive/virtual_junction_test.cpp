@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that leave the middle of another one, and come onto it: ASAM OpenDRIVE 1.8, 12.7, with its own example.
 #include <gmock/gmock.h>
 

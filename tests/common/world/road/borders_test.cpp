@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lanes with borders: against the same road written with widths, whose polynomials are worked out here, and SUMO's
 // netconvert.
 #include <gmock/gmock.h>

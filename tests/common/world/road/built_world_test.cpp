@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds of version 2: roads, junctions and terrain as one ground.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a world file says of a road's section, superelevation and kerbs, as SUELO answers it: against closed forms in x
 // and y.
 #include <gtest/gtest.h>

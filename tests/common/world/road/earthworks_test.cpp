@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cuts and fills against what they are by definition: of all points of all roads' edges none is left out.
 #include <gtest/gtest.h>
 

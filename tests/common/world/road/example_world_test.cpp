@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The example says every key that a world file may say, and the document tells of each of them.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A file's junction with a boundary and heights of its own (OpenDRIVE 1.8): SUELO on it, and what of it is refused.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

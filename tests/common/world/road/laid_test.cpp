@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Patches and bumps on a road, under SUELO: against their closed forms.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What is made of a square when it is first asked for: the same for whoever asks, and for every point of the square.
 #include "common/world/road/lazy_squares.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds whose vehicles keep left: the mirror image of a world whose vehicles keep right, in everything. And what the
 // known templates give.
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Paint of OpenDRIVE roads under SUELO: against the dashes' closed form, and against all lines of real files looked
 // through one by one.
 #include "common/world/road/mark_paint.hpp"

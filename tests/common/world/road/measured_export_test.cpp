@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured and made surfaces of a world that is written as OpenDRIVE: read again from another folder they are the same
 // heights.
 #include <gmock/gmock.h>

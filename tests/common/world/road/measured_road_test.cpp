@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured surfaces (OpenCRG) that OpenDRIVE files lay on roads: every mode and orientation against the formula that
 // they were made from.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Where points lie on N222, as the world's own network says, against an oracle that reads the exported file by other
 // means.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The world that is shipped is what it says it is.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What SUMO's netconvert makes of an exported world, against the network it was made of.
 #include "tests/common/world/road/netconvert.hpp"
 

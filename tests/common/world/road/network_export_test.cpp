@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The project's worlds of version 2 as OpenDRIVE: read again by the strict rules they hold the same roads, lanes, ways,
 // lines, signs and objects, and SUMO's netconvert finds all of their edges, lanes and ways.
 #include <fmt/format.h>

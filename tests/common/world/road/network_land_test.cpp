@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The land beside the roads of OpenDRIVE files: banks between roads of different heights, and no step anywhere.
 #include "common/world/road/network_land.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds that are OpenDRIVE files: SUELO on them, their start, their plan.
 #include "common/world/road/network_world.hpp"
 

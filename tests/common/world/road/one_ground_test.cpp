@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUELO where roads of an OpenDRIVE file lie over one another: one ground, without steps, named by the lane that
 // Network::Locate names.
 #include "common/world/road/one_ground.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads of a world file that pass over one another without a bridge, and tunnels without a hill: told by `world check`
 // with stations, which are computed by hand here.
 #include "common/world/road/passes.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A world file's road as a network road: the same surface, lanes, limits and paint.
 #include "common/world/road/road_network.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Lists of what may reach a point: nothing that does is left out.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds on which things stand at no road: on a bare elevation grid, on a plane, beside roads.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

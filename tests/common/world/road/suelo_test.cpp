@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SUELO on worlds: what it answers, that the ground has no steps, that nothing but the world decides a bit.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

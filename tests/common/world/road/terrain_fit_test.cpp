@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads of version 2 lie on their terrain: where one leaves it, file, line and station are said.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

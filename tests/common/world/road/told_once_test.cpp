@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Mistakes of world files that passed in silence, or were followed by what only followed from them: each is one
 // sentence with its line.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A tunnel's road, the hill over it, and the floor beside it.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

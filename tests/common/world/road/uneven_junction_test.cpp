@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured and made surfaces of roads that go on through a junction: against the surfaces themselves, and against the
 // same road alone.
 #include <gmock/gmock.h>

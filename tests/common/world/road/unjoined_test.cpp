@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Roads that lie on one another without a junction: named with both stations, which are computed by hand here.
 #include "common/world/road/unjoined.hpp"
 

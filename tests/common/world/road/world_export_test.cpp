@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Worlds as OpenDRIVE: read again by the strict rules, they are the same roads; another program reads them too.
 #include "common/world/road/world_export.hpp"
 

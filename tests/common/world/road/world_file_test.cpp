@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // World files: what changes the content hash and what does not; every kind of mistake gets its sentence.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `rodeira world check | info | query | build` say.
 #include "common/world/road/world_report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The project's own worlds are what they say they are.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenCRG files of others against the values of ASAM's OpenCRG library (C, 1.2), and what is refused.
 #include "common/world/surface/crg_file.hpp"
 

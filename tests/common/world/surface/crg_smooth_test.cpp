@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Measured surfaces without their short waves: what is bilinear stays, waves shorter than the reach go, missing heights
 // stay missing.
 #include "common/world/surface/crg_smooth.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Curved regular grids against closed forms: bilinear functions, circles, and every continuation beyond the borders.
 #include "common/world/surface/crg_surface.hpp"
 

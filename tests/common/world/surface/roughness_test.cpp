@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // ISO 8608 against its own formula: Welch's estimate of the spectrum of sampled tracks, the variance, the structure of
 // the surface along and across, the coherence of two tracks.
 #include "common/world/surface/roughness.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elevation files: the crater's published values, our writer read by GDAL, and every way in which a file can be broken.
 #include "common/world/terrain/elevation_file.hpp"
 

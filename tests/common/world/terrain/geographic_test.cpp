@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps and the earth: against worked examples that are published, places that follow from a projection's definition,
 // and back.
 #include "common/world/terrain/geographic.hpp"

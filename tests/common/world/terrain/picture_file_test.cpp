@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Pictures that GDAL's own drivers wrote, and one written byte by byte: the same pixels, and where they lie.
 #include "common/world/terrain/picture_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Elevation files that GDAL's own drivers wrote, in every format that both can: the same heights at the same places.
 #include <gdal_priv.h>
 #include <gmock/gmock.h>

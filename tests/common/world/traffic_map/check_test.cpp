@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The integrity check: a map without anything wrong, and each thing that can be, alone.
 #include "common/world/traffic_map/check.hpp"
 

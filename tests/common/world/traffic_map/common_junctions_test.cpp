@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Maps with common junctions and connecting roads, as other programs read them: the same lanes, the same ways between
 // them.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Cubics against closed forms: straight lines, parabolas, semi-cubical parabolas, circles' approximations; and against
 // sums of chords.
 #include "common/world/traffic_map/cubic.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A lane's middle, width, bend and height against closed forms.
 #include "common/world/traffic_map/lane_shape.hpp"
 

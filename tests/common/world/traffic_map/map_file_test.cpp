@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The format as the thesis prints it: figure 18 and appendix A.15 to A.17 load, and come back to the byte.
 #include "common/world/traffic_map/map_file.hpp"
 

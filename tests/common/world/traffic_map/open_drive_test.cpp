@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The OpenDRIVE file read again by its own rules, and compared with the map's lanes.
 #include "common/world/traffic_map/open_drive.hpp"
 

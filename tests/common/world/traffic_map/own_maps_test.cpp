@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The maps in configs/maps: nothing is wrong with them, they come back to the byte, and every way leads to an end.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

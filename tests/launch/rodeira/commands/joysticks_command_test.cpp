@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira joysticks`, and what the doctor says of them.
 #include "launch/rodeira/commands/joysticks_command.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira map` as a user sees it: what is printed, what is written, the exit status.
 #include "launch/rodeira/commands/map_command.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"

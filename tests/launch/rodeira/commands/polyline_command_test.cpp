@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira polyline` on the axes of worlds' roads.
 #include "launch/rodeira/commands/polyline_command.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira traffic run` as a user sees it: how much traffic there is, and who is refused.
 #include "launch/rodeira/commands/traffic_command.hpp"
 

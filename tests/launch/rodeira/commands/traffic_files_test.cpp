@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What `rodeira traffic run` writes, file by file, and which wishes it refuses.
 #include <fmt/format.h>
 #include <gmock/gmock.h>

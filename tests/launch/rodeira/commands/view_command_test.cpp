@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira view LAUNCH.yaml --screen NAME --headset`: which run that is.
 #include "launch/rodeira/commands/view_command.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira world build`: which files it writes for which world.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // OpenGL off-screen, and what is said where one of the three packages that it needs is out of sight.
 #include "launch/rodeira/doctor/doctor_gl.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What each check of this PC says where something is wrong.
 #include "launch/rodeira/doctor/doctor_machine.hpp"
 

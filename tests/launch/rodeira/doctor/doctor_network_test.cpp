@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the checks of shared memory, ports and DDS say where something is wrong.
 #include "launch/rodeira/doctor/doctor_network.hpp"
 

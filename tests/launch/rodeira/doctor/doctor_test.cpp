@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // `rodeira doctor` as a person runs it.
 #include "launch/rodeira/doctor/doctor.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording is driven on from any moment: its past is the parent's to the bit, its future its own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Whole recordings with drawn changes, given to everything that opens one: whatever stands in them, there is a sentence
 // or a result, and nothing that was changed passes for what was recorded. RODEIRA_FUZZ_RECORDINGS sets how many,
 // RODEIRA_FUZZ_FIRST with which number they begin.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording is a fact: computed again it is the same to the bit, and whatever is not is found and named.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

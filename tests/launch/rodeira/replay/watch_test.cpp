@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A recording is watched: the frames and the movements of the live view, from the file alone.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Keys of a terminal and lines of a socket. The terminal is a pseudo-terminal with a child that has it as its own.
 #include "launch/rodeira/run/operator.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The start window by a person's mouse and keys: a world, a vehicle, a recording are chosen, a run is begun, read and
 // stopped.
 #include <gmock/gmock.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The start window's choices and the commands that they are; the window itself, without a display.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A steering wheel is set up in the start window: SDL's virtual joystick, a window without a display, a mouse of pushed
 // events.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A small OpenXR runtime without a headset: what the view calls, and what OpenXR's loader asks of a runtime. Two eyes
 // of 320 x 240 pixels.
 #define GL_GLEXT_PROTOTYPES

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Two eyes through OpenXR's own loader and a runtime that keeps what it is shown (fake_openxr.cpp). Where something
 // must be seen follows from OpenXR's words alone: a pose, angles to the edges, a metre is a metre.
 #include <dlfcn.h>
