@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Digests of whole runs, pinned: a refactoring keeps them. A change of behaviour changes them on purpose, is named in
+// docs/changelog.md, and brings the new digests.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/core/base/files.hpp"
+#include "common/core/base/hash.hpp"
+#include "common/core/base/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira {
+namespace {
+
+struct PinnedRun {
+  const char* launch_file;
+  const char* digest;  // of ten seconds without a view
+};
+
+void PrintTo(const PinnedRun& run, std::ostream* out) { *out << run.launch_file; }
+
+class PinnedRuns : public ::testing::TestWithParam<PinnedRun> {};
+
+TEST_P(PinnedRuns, KeepTheirDigest) {
+  const auto ended = system_test::RunCommand(
+      {system_test::Bin("rodeira"), "run", system_test::LaunchFile(GetParam().launch_file), "--in-process",
+       "--headless", "--no-record", "--for", "10", "--set", "nodes.view.kind=none"});
+  ASSERT_EQ(ended.status, 0) << ended.out;
+  EXPECT_EQ(system_test::DigestIn(ended.out), GetParam().digest);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    LaunchFiles, PinnedRuns,
+    ::testing::Values(PinnedRun{"demo.yaml", "54ceddc25198ebd3"}, PinnedRun{"first_drive.yaml", "c6bd46e314d133e7"},
+                      PinnedRun{"scripted.yaml", "3efacb4fc5e0052b"}, PinnedRun{"car_ahead.yaml", "68f87614de0aba69"},
+                      PinnedRun{"rain.yaml", "305af9a158f9341e"}, PinnedRun{"lights.yaml", "55bb3e338ae269d2"}));
+
+struct PinnedTraffic {
+  const char* map;
+  const char* vehicles;
+  const char* seconds;
+  const char* digest;  // of trajectories.csv
+};
+
+void PrintTo(const PinnedTraffic& traffic, std::ostream* out) { *out << traffic.map; }
+
+class PinnedTrajectories : public ::testing::TestWithParam<PinnedTraffic> {};
+
+TEST_P(PinnedTrajectories, KeepTheirDigest) {
+  const auto folder = base::TemporaryFolder::Make("rodeira-pinned").value();
+  const auto ended = system_test::RunCommand({system_test::Bin("rodeira"), "traffic", "run",
+                                              SourceDir() + "/" + GetParam().map, "--vehicles", GetParam().vehicles,
+                                              "--for", GetParam().seconds, "--quiet", "--csv", folder.path().string()});
+  ASSERT_EQ(ended.status, 0) << ended.out;
+  const auto text = base::ReadText(folder.path() / "trajectories.csv");
+  ASSERT_TRUE(text) << text.error().Text();
+  EXPECT_EQ(base::Hex(base::Hash(text.value())), GetParam().digest);
+}
+
+INSTANTIATE_TEST_SUITE_P(Maps, PinnedTrajectories,
+                         ::testing::Values(PinnedTraffic{"configs/maps/town.motors", "40", "60", "86d3576586066ee2"},
+                                           PinnedTraffic{"configs/maps/roundabout.motors", "30", "60",
+                                                         "f923dae30a000e68"},
+                                           PinnedTraffic{"configs/worlds/n222.yaml", "40", "30", "0d4db264c1b7eb5e"}));
+
+}  // namespace
+}  // namespace rodeira
