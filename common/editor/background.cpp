@@ -52,7 +52,7 @@ using Dataset = std::unique_ptr<GDALDataset>;
 
 constexpr const char* kExpected = "a PNG, JPEG, BMP or TIFF file was expected";
 
-base::Result<Dataset> Open(const std::string& name) {
+base::Result<Dataset> OpenPicture(const std::string& name) {
   GDALAllRegister();
   constexpr const char* kDrivers[] = {"PNG", "JPEG", "BMP", "GTiff", nullptr};
   Dataset set(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers));
@@ -168,7 +168,7 @@ base::Result<std::string> ToPng(Pixels& pixels) {
 base::Result<Pixels> DecodePicture(std::string_view bytes, const Progress& progress) {
   const Quiet quiet;
   const MemoryFile file(bytes);
-  auto set = Open(file.name());
+  auto set = OpenPicture(file.name());
   if (!set) return set.error();
   Pixels pixels{set.value()->GetRasterXSize(), set.value()->GetRasterYSize(), {}};
   pixels.rgb.resize(3 * static_cast<std::size_t>(pixels.width_px) * static_cast<std::size_t>(pixels.height_px));
@@ -181,7 +181,7 @@ base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes,
                                                          const Sooner& preview) {
   const Quiet quiet;
   const MemoryFile file(bytes);
-  auto set = Open(file.name());
+  auto set = OpenPicture(file.name());
   if (!set) return set.error();
   if (auto small = preview ? ReadSmall(*set.value()) : std::nullopt)
     preview(std::make_shared<const Pyramid>(std::move(*small)));

@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/editor/offset.hpp"
 
 namespace rodeira::editor {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kGap_m = 0.3;
 constexpr double kNarrowest_m = 0.5, kWidest_m = 50.0;
-const double kCosKink = std::cos(15.0 * kPi / 180.0);
+const double kCosKink = std::cos(15.0 * base::kPi / 180.0);
 
 struct Ends {
   std::int32_t lane = 0;
@@ -89,9 +89,9 @@ base::Result<Edit> LaneBeside(Document& document, std::int32_t number, bool on_l
 }
 
 Points CurveBetween(const Eigen::Vector2d& from_W, double from_rad, const Eigen::Vector2d& to_W, double to_rad) {
-  const double turn = std::remainder(to_rad - from_rad, 2.0 * kPi), chord = (to_W - from_W).norm();
+  const double turn = std::remainder(to_rad - from_rad, 2.0 * base::kPi), chord = (to_W - from_W).norm();
   double handle_m = chord / 3.0;
-  if (std::abs(turn) > 1e-6 && std::abs(turn) < 0.9 * kPi)
+  if (std::abs(turn) > 1e-6 && std::abs(turn) < 0.9 * base::kPi)
     handle_m = 4.0 / 3.0 * std::tan(std::abs(turn) / 4.0) * chord / (2.0 * std::sin(std::abs(turn) / 2.0));
   const Eigen::Vector2d head(std::cos(from_rad), std::sin(from_rad)), tail(std::cos(to_rad), std::sin(to_rad));
   return {from_W, from_W + handle_m * head, to_W - handle_m * tail, to_W};

@@ -7,7 +7,6 @@ namespace rodeira::editor {
 namespace {
 
 constexpr int kPieces = 24;  // that a curve is looked at in
-constexpr double kTogether_m = 1e-3;
 
 Eigen::Vector2d PointOf(const traffic_map::ControlPoint& point) {
   return {static_cast<double>(point.x_m), static_cast<double>(point.y_m)};
@@ -180,7 +179,7 @@ std::vector<Handle> HandlesTogether(const Document& document, const Eigen::Vecto
   std::vector<Handle> handles;
   for (const auto& line : document.map.curves) {
     for (int i = 0; i < 4; ++i) {
-      if ((PointOf(line.value.points[static_cast<std::size_t>(i)]) - p_W).norm() <= kTogether_m)
+      if ((PointOf(line.value.points[static_cast<std::size_t>(i)]) - p_W).norm() <= kJoined_m)
         handles.push_back({line.value.id, i});
     }
   }

@@ -14,6 +14,8 @@
 
 namespace rodeira::editor {
 
+inline constexpr double kJoined_m = 1e-3;  // control points no farther apart are joined
+
 // A control point of a curve, 0 to 3.
 struct Handle {
   std::int32_t curve = 0;

@@ -4,8 +4,6 @@
 namespace rodeira::editor {
 namespace {
 
-constexpr double kTogether_m = 1e-3;
-
 Snapped SnapEnd(const Document& document, const std::set<std::int32_t>& dragged, const Eigen::Vector2d& p_W,
                 double radius_m) {
   Snapped snapped{p_W};
@@ -34,7 +32,7 @@ Snapped SnapTangent(const Document& document, const Handle& handle, const std::s
     if (dragged.contains(line.value.id) || line.value.id == handle.curve) continue;
     const traffic_map::Cubic cubic = CubicOf(line.value);
     for (const bool begins : {true, false}) {
-      if ((cubic.p_W[begins ? 0 : 3] - end).norm() > kTogether_m) continue;
+      if ((cubic.p_W[begins ? 0 : 3] - end).norm() > kJoined_m) continue;
       const Eigen::Vector2d along = cubic.Tangent(begins ? 0.0 : 1.0);
       const Eigen::Vector2d foot = end + (p_W - end).dot(along) * along;
       const double distance = (foot - p_W).norm();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/editor/sketch.hpp"
 
 namespace rodeira::editor {
@@ -14,11 +15,10 @@ namespace {
 using traffic_map::BorderType;
 using traffic_map::LaneMode;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kArms = 4;
 constexpr double kRing_m = 16.0;     // radius of the ring's middle
 constexpr double kBeside_rad = 0.5;  // from an arm to where its ways leave and join the ring
-constexpr double kMergeAngle_rad = kPi / 12.0;
+constexpr double kMergeAngle_rad = base::kPi / 12.0;
 
 // An arm's two lanes: the one that comes to the junction and the one that leaves it.
 struct Arm {
@@ -30,8 +30,8 @@ Arm DrawArm(Sketch& sketch, const Pose& outward, double near_m, const TemplatePl
   const double half = 0.5 * place.lane_m;
   Arm arm;
   arm.out = outward.Moved(near_m, -half);
-  arm.in = outward.Moved(near_m, half).Turned(kPi);
-  arm.entry = sketch.Lane(outward.Moved(near_m + place.arm_m, half).Turned(kPi), arm.in, place.lane_m,
+  arm.in = outward.Moved(near_m, half).Turned(base::kPi);
+  arm.entry = sketch.Lane(outward.Moved(near_m + place.arm_m, half).Turned(base::kPi), arm.in, place.lane_m,
                           BorderType::kSingle, BorderType::kBoundary, LaneMode::kStart);
   arm.exit = sketch.Lane(arm.out, outward.Moved(near_m + place.arm_m, -half), place.lane_m, BorderType::kSingle,
                          BorderType::kBoundary, LaneMode::kEnd);
@@ -43,7 +43,7 @@ void DrawCrossing(Sketch& sketch, const TemplatePlace& place) {
   std::array<Arm, kArms> arms;
   for (int i = 0; i < kArms; ++i)
     arms[static_cast<std::size_t>(i)] =
-        DrawArm(sketch, Pose{place.middle_W, place.heading_rad + i * kPi / 2.0}, near_m, place);
+        DrawArm(sketch, Pose{place.middle_W, place.heading_rad + i * base::kPi / 2.0}, near_m, place);
   for (std::size_t i = 0; i < arms.size(); ++i) {
     for (std::size_t turn = 1; turn < arms.size(); ++turn) {
       const Arm& to = arms[(i + turn) % arms.size()];
@@ -57,16 +57,16 @@ void DrawCrossing(Sketch& sketch, const TemplatePlace& place) {
 // Counter-clockwise, as right-hand traffic goes.
 void DrawRoundabout(Sketch& sketch, const TemplatePlace& place) {
   const auto on_ring = [&](double angle_rad) {
-    return Pose{place.middle_W, angle_rad}.Moved(kRing_m, 0.0).Turned(kPi / 2.0);
+    return Pose{place.middle_W, angle_rad}.Moved(kRing_m, 0.0).Turned(base::kPi / 2.0);
   };
   std::array<std::int32_t, kArms> onward{}, beside{},
       leave{};  // of each arm: the ring's lane from it to the next, the one past it, the way out
   for (std::size_t i = 0; i < onward.size(); ++i) {
-    const double angle = place.heading_rad + static_cast<double>(i) * kPi / 2.0;
+    const double angle = place.heading_rad + static_cast<double>(i) * base::kPi / 2.0;
     const Arm arm = DrawArm(sketch, Pose{place.middle_W, angle}, kRing_m + 14.0, place);
     const Pose leaves = on_ring(angle - kBeside_rad), joins = on_ring(angle + kBeside_rad);
     beside[i] = sketch.Lane(leaves, joins, place.lane_m, BorderType::kBoundary, BorderType::kNone);
-    onward[i] = sketch.Lane(joins, on_ring(angle + kPi / 2.0 - kBeside_rad), place.lane_m, BorderType::kBoundary,
+    onward[i] = sketch.Lane(joins, on_ring(angle + base::kPi / 2.0 - kBeside_rad), place.lane_m, BorderType::kBoundary,
                             BorderType::kBoundary);
     const std::int32_t join = sketch.Lane(arm.in, joins, place.lane_m, BorderType::kNone, BorderType::kBoundary);
     leave[i] = sketch.Lane(leaves, arm.out, place.lane_m, BorderType::kNone, BorderType::kBoundary);

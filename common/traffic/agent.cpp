@@ -5,14 +5,15 @@
 #include <cmath>
 #include <vector>
 
+#include "common/traffic/lane_change.hpp"
+
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kSideways_mps2 = 1.2;  // lateral acceleration of a change to another middle
-constexpr double kSideways_mps = 0.8;   // and its speed
+constexpr double kBlendAcceleration_mps2 = 1.2;  // lateral acceleration of the move to the next lane's middle
+constexpr double kBlendSpeed_mps = 0.8;          // its lateral speed
 constexpr double kShortestBlend_m = 3.0;
 constexpr double kLongestBlend_m = 90.0;
-constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so are one
 constexpr std::size_t kPieceNumbers = 7;
 
 }  // namespace
@@ -178,8 +179,8 @@ Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& lin
   piece.begin_m = last.zero_m + graph[last.track].length_m();
   piece.zero_m = piece.begin_m - link.from_d_m;
   piece.blend_from_m = piece.begin_m;
-  if ((last.aside_m != 0.0 || piece.begin_m < last.blend_from_m + last.blend_m) && std::fabs(link.offset_m) < kSame_m &&
-      std::fabs(link.slope) < kSame) {
+  if ((last.aside_m != 0.0 || piece.begin_m < last.blend_from_m + last.blend_m) &&
+      std::fabs(link.offset_m) < kSameLaneOffset_m && std::fabs(link.slope) < kSameLaneSlope) {
     piece.offset_m = last.offset_m, piece.slope = last.slope, piece.blend_m = last.blend_m,
     piece.blend_from_m = last.blend_from_m, piece.aside_m = last.aside_m;
     return piece;  // the lane goes on, and so does the change to its middle
@@ -190,8 +191,8 @@ Piece Onward(const lanes::Graph& graph, const Path& path, const lanes::Link& lin
   // The quintic's largest acceleration is 5.77 offset/blend² v², its largest speed 1.875 offset/blend v.
   const double size = std::fabs(piece.offset_m);
   const double wanted =
-      std::max({speed_mps * std::sqrt(5.77 * size / kSideways_mps2), 1.875 * speed_mps * size / kSideways_mps,
-                6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
+      std::max({speed_mps * std::sqrt(5.77 * size / kBlendAcceleration_mps2),
+                1.875 * speed_mps * size / kBlendSpeed_mps, 6.0 * size, 4.0 * speed_mps * std::fabs(piece.slope)});
   piece.blend_m = std::clamp(wanted, kShortestBlend_m, kLongestBlend_m);
   return piece;
 }

@@ -44,7 +44,8 @@ struct Kind {
   std::span<const Body> bodies;
   double liveliness, top_mps;
 };
-constexpr double kBeside_m = 0.4;  // what a car with full physics runs beside its line, both ways together
+// A vehicle with full physics leaves its line by this, to both sides together.
+constexpr double kFullPhysicsWidth_m = 0.4;
 constexpr double kNoTop_mps = 1e3;
 constexpr std::array<Kind, 4> kKinds{
     {{kCars, 1.0, kNoTop_mps}, {kVans, 1.0, kNoTop_mps}, {kLorries, 0.6, 80.0 / 3.6}, {kBuses, 0.7, 100.0 / 3.6}}};
@@ -151,7 +152,7 @@ lanes::LargestCar LargestOf(const TrafficSettings& settings) {
     largest.width_m = std::max(largest.width_m, traits.width_m);
     largest.wheelbase_m = std::max(largest.wheelbase_m, traits.wheelbase_m);
   }
-  if (settings.physics == Physics::kFull) largest.width_m += kBeside_m;
+  if (settings.physics == Physics::kFull) largest.width_m += kFullPhysicsWidth_m;
   return largest;
 }
 

@@ -7,16 +7,15 @@
 #include <utility>
 
 #include "common/core/base/assert.hpp"
+#include "common/traffic/spawn.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kZoneClear_m = 1.0;
-constexpr double kNarrow_m = 2.0;
-constexpr double kHardest_mps2 = 4.0;    // neither it nor who follows it brakes harder because it is there
-constexpr double kBehindZones_m = 20.0;  // so far behind them those who have been let in may want to stand
-constexpr double kNear_m = 30.0;         // farther away nobody's rectangle can touch it
+constexpr double kMaxSpawnBraking_mps2 = 4.0;  // neither the spawned vehicle nor its follower brakes harder
+constexpr double kBehindZones_m = 20.0;        // so far behind them those who have been let in may want to stand
+constexpr double kNear_m = 30.0;               // farther away nobody's rectangle can touch it
 
 }  // namespace
 
@@ -26,7 +25,8 @@ bool TrafficModel::IsAppearing(std::uint32_t id) const {
 
 // Whether it could ever stand there.
 base::Status TrafficModel::CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const {
-  const double half = 0.5 * traits_[id].length_m, low = d_m - half - kZoneClear_m, high = d_m + half + kZoneClear_m;
+  const double half = 0.5 * traits_[id].length_m, low = d_m - half - kZoneClearance_m,
+               high = d_m + half + kZoneClearance_m;
   const lanes::Track& lane = graph()[track];
   const auto refused = [&](const char* what) {
     return base::WrongInput(
@@ -37,7 +37,7 @@ base::Status TrafficModel::CheckPlace(std::uint32_t id, std::uint32_t track, dou
   };
   if (d_m - half < 0.0 || d_m + half > lane.length_m()) return refused("across the lane's end");
   if (lane.junction >= 0) return refused("within a junction");
-  if (lane.curve.WidthAt(d_m) < kNarrow_m) return refused("where the lane is less than 2 m wide");
+  if (lane.curve.WidthAt(d_m) < kMinSpawnWidth_m) return refused("where the lane is less than 2 m wide");
   for (const lanes::ZoneSide& part : zones().Of(track)) {
     if (part.in_m < high && part.out_m > low) return refused("where other ways cross, merge or part");
   }
@@ -157,9 +157,10 @@ bool TrafficModel::TryAppear(const Appearing& next) {
   agent.speed_mps = speed;
   const double limit = std::max(speed, Limit_mps(next.id, next.track, next.d_m));
   const Ahead ahead = FindAhead(next.id);
-  if (ahead.any && Following(next.id, limit, true, ahead.gap_m, ahead.speed_mps) < -kHardest_mps2) return wait();
+  if (ahead.any && Following(next.id, limit, true, ahead.gap_m, ahead.speed_mps) < -kMaxSpawnBraking_mps2)
+    return wait();
   const Behind follower = FindBehind(next.id, next.track, next.d_m, next.d_m - half);
-  if (follower.any && FollowerDoes(follower, true, follower.gap_m, speed) < -kHardest_mps2) return wait();
+  if (follower.any && FollowerDoes(follower, true, follower.gap_m, speed) < -kMaxSpawnBraking_mps2) return wait();
   if (full_ && !PlaceFull(next.id)) return wait();
   ahead_[next.id] = ahead;
   Part(next.track);

@@ -5,20 +5,21 @@
 #include <cmath>
 
 #include "common/traffic/each_driving.hpp"
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kPatience_s = 40.0;  // at rest for others; longer than this and others let one go
-constexpr double kGap_s = 1.0;        // after the own clearing before who goes first may arrive
-constexpr double kBehind_s = 0.5;     // after the own arrival who holds a zone may be out of it at the latest
-constexpr double kZips_mps = 7.0,
-                 kSoon_s = 4.0;  // who comes so slowly, and so soon, to where lanes merge takes his turn
-constexpr double kAtRest_mps = 0.05;
-constexpr std::size_t kAhead = 6;  // agents: so far ahead memory is fetched
-constexpr double kAtLine_m = 1.5;  // a full stop counts within this before the line
+// A vehicle that has waited longer has priority over vehicles that have waited less.
+constexpr double kPriorityWait_s = 40.0;
+constexpr double kGap_s = 1.0;     // after the own clearing before who goes first may arrive
+constexpr double kBehind_s = 0.5;  // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kZipSpeed_mps = 7.0,
+                 kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
+constexpr std::size_t kZonePrefetch = 6;  // agents ahead whose zones are prefetched
+constexpr double kAtLine_m = 1.5;         // a full stop counts within this before the line
 
 // The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
 int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
@@ -34,7 +35,7 @@ int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
 
 }  // namespace
 
-bool TrafficModel::Urgent(std::uint32_t id) const { return agents_[id].waited_s > kPatience_s; }
+bool TrafficModel::Urgent(std::uint32_t id) const { return agents_[id].waited_s > kPriorityWait_s; }
 
 // Where two ways merge who holds the zone takes up room behind it, too.
 bool TrafficModel::RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder) {
@@ -110,7 +111,8 @@ bool TrafficModel::Yields(std::uint32_t id, const Crossing& crossing) {
   for (const Comer& comer : comers) {
     if (comer.id == id) continue;
     const bool agents = comer.id < agents_.size();
-    const bool slow = agents && agents_[comer.id].speed_mps < kZips_mps && passages_[comer.id].arrives_s < kSoon_s;
+    const bool slow =
+        agents && agents_[comer.id].speed_mps < kZipSpeed_mps && passages_[comer.id].arrives_s < kZipTime_s;
     const bool its_turn = slow && last == crossing.side;
     if (slow && last == theirs) continue;
     if (agents && Urgent(id) && agents_[comer.id].waited_s < agent.waited_s) continue;
@@ -162,13 +164,13 @@ void TrafficModel::ComeToLine(std::uint32_t id, double dt_s) {
   Passage& passage = passages_[id];
   passage.barred = bars_[id] < passage.line_m;
   const double to_line = passage.line_m - agent.o_m - half;
-  if (passage.any && passage.must_stop && agent.speed_mps < kAtRest_mps && to_line < kAtLine_m) {
+  if (passage.any && passage.must_stop && agent.speed_mps < kStandstill_mps && to_line < kAtLine_m) {
     agent.stopped_m = passage.line_m;
     passage.must_stop = false;
   }
   if (!passage.any || agent.speed_mps > 1.0)
     agent.waited_s = 0.0;
-  else if (agent.speed_mps < kAtRest_mps && !passage.red && !passage.barred)
+  else if (agent.speed_mps < kStandstill_mps && !passage.red && !passage.barred)
     agent.waited_s += dt_s;
 }
 
@@ -187,9 +189,9 @@ void TrafficModel::Arbitrate(double dt_s) {
       passage.any = false, passage.key = {};
       continue;
     }
-    FetchZones(id + kAhead);
+    FetchZones(id + kZonePrefetch);
     HoldZones(id);
-    if (!agents_[id].grants.empty() && agents_[id].speed_mps < kAtRest_mps) held_up_.push_back(id);
+    if (!agents_[id].grants.empty() && agents_[id].speed_mps < kStandstill_mps) held_up_.push_back(id);
   }
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {  // how far who is ahead comes depends on who holds his zones
     Passage& passage = passages_[id];
@@ -238,7 +240,7 @@ void TrafficModel::Arbitrate(double dt_s) {
   }
   ResolveDeadlocks();
   EachDriving([&](std::uint32_t id) {
-    FetchZones(id + kAhead);
+    FetchZones(id + kZonePrefetch);
     YieldInZones(id);
     const Agent& agent = agents_[id];
     beside_[id] = agent.change.side != 0 || HasBeside(id, agent.path.back().track);

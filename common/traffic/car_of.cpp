@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "common/core/base/constants.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kFullBrake_mps2 = 9.0;
 constexpr double kHandbrake_mps2 = 3.0;
 constexpr double kDamping = 0.3;         // share of the critical
@@ -20,7 +20,7 @@ constexpr double kMostSteer_rad = 0.75;
 // clutch brakes the car for it.
 constexpr double kSwap_s = 0.5, kClose_s = 0.7;
 
-double Rpm(double rpm) { return rpm * 2.0 * std::numbers::pi / 60.0; }
+double Rpm(double rpm) { return rpm * 2.0 * base::kPi / 60.0; }
 
 // What cars and heavy vehicles differ in beside their measures: of_mass_kg is what the engine below belongs to, loads
 // and brakes are shares, track_less_m of the width.
@@ -72,7 +72,7 @@ dynamics::PowertrainSettings HeavyPowertrain(double size) {
 }
 
 dynamics::SuspensionSettings SpringsUnder(double wheel_load_N, const Make& make) {
-  const double mass_kg = wheel_load_N / kGravity_mps2, rate = 2.0 * std::numbers::pi * make.natural_Hz;
+  const double mass_kg = wheel_load_N / base::kGravity_mps2, rate = 2.0 * base::kPi * make.natural_Hz;
   dynamics::SuspensionSettings springs;
   springs.spring_Npm = mass_kg * rate * rate;
   springs.damper_Nspm = 2.0 * kDamping * mass_kg * rate;
@@ -101,7 +101,7 @@ dynamics::BodySettings BodyOf(const AgentTraits& traits, const Make& make) {
 dynamics::BicycleSettings CarOf(const AgentTraits& traits) {
   const bool heavy = traits.kind == VehicleKind::kLorry || traits.kind == VehicleKind::kBus;
   const Make& make = heavy ? kHeavy : kCar;
-  const double m = traits.mass_kg, weight_N = m * kGravity_mps2, size = m / make.of_mass_kg;
+  const double m = traits.mass_kg, weight_N = m * base::kGravity_mps2, size = m / make.of_mass_kg;
   dynamics::BicycleSettings car;
   car.body = BodyOf(traits, make);
   car.steering.ratio = make.steering_ratio;
@@ -145,7 +145,7 @@ double TipsAt_mps2(const TrafficSettings& settings) {
   for (const std::uint32_t body : BodiesOf(settings)) {
     const dynamics::BicycleSettings& car = CarOfBody(body);
     const double track_m = std::min(car.dimensions.track_front_m, car.dimensions.track_rear_m);
-    least = std::min(least, kGravity_mps2 * track_m / (2.0 * car.body.cg_height_m));
+    least = std::min(least, base::kGravity_mps2 * track_m / (2.0 * car.body.cg_height_m));
   }
   return least;
 }

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/traffic/travel_time.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kOverLine_m = 0.3;  // a front so far beyond a line that lies where a zone begins still waits before it
 constexpr double kLaterThan_s = 30.0;  // of no interest now
 
 }  // namespace
@@ -33,7 +33,7 @@ void TrafficModel::FetchZones(std::size_t id) const {
 void TrafficModel::HoldZones(std::uint32_t id) {
   const Agent& agent = agents_[id];
   const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
-  const double to = std::max(front - kOverLine_m, agent.granted_m);
+  const double to = std::max(front - kZoneOverhang_m, agent.granted_m);
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear || !stretch.crosses) continue;

@@ -11,20 +11,19 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kAtRest_mps = 0.05;
-constexpr double kClose_m = 1.0;     // more than its standing gap from who is ahead: it stands for him
-constexpr double kOverLine_m = 0.3;  // a front so far beyond where a zone begins still waits before it (claims.cpp)
+// Beyond its minimum gap: a vehicle no farther behind another one queues behind it.
+constexpr double kQueuedGap_m = 1.0;
 
 }  // namespace
 
 // Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead
 // only where it has come up to him, and else for who keeps it in its own zones.
 std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
-  if (agents_[id].speed_mps > kAtRest_mps) return -1;
+  if (agents_[id].speed_mps > kStandstill_mps) return -1;
   const Ahead& ahead = ahead_[id];
   const Passage& passage = passages_[id];
   const bool is_in = !agents_[id].grants.empty();
-  if (is_in && ahead.id >= 0 && ahead.gap_m < traits_[id].idm.standing_gap_m + kClose_m) return ahead.id;
+  if (is_in && ahead.id >= 0 && ahead.gap_m < traits_[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
   const std::int64_t keeps = is_in ? KeptInZonesBy(id) : -1;
   if (keeps >= 0) return keeps;
   if (passage.any && passage.head && passage.due) return passage.waits_for;
@@ -51,7 +50,7 @@ std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vect
 bool TrafficModel::GiveBack(std::uint32_t id) {
   Agent& agent = agents_[id];
   if (agent.grants.empty()) return false;
-  const double front = FrontOf(id), rear = front - traits_[id].length_m, to = front - kOverLine_m;
+  const double front = FrontOf(id), rear = front - traits_[id].length_m, to = front - kZoneOverhang_m;
   if (agent.granted_m <= to) return false;
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > to) break;

@@ -8,7 +8,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLeast_mps = 0.01;
+constexpr double kMinDivisorSpeed_mps = 0.01;
 constexpr double kSlow_mps = 0.3;
 constexpr double kAbove = 1.0 + 1e-9;  // than any rounding of a square
 constexpr double kLeastGap_m = 0.02;
@@ -46,7 +46,7 @@ driver::SpeedPlan::Allowed TrafficModel::Allowed(std::uint32_t id, double odomet
     const double squared = there * there + 2.0 * b * (stretch.begin_m - odometer_m);
     if (squared > kAbove * allowed.speed_mps * allowed.speed_mps) continue;  // its root is no less
     const double now = std::sqrt(squared);
-    if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kLeast_mps)};
+    if (now < allowed.speed_mps) allowed = {now, -b / std::max(now, kMinDivisorSpeed_mps)};
   }
   return allowed;
 }
@@ -78,7 +78,7 @@ double TrafficModel::StopAt(std::uint32_t id, double odometer_m, double share) c
   const double gap = odometer_m - agents_[id].o_m - 0.5 * traits_[id].length_m;
   if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
   const driver::StopProfile there = driver::StopIn(gap, b, settings_.smooth.planned_mps3);
-  const double stop = -there.deceleration_mps2 * v / std::max(there.speed_mps, kLeast_mps);
+  const double stop = -there.deceleration_mps2 * v / std::max(there.speed_mps, kMinDivisorSpeed_mps);
   return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, settings_.smooth.planned_mps3))
                              : stop + (there.speed_mps - v) / settings_.tracking_s;
 }

@@ -4,20 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
-constexpr double kHolding = 0.15;  // of the brake, while standing
-constexpr double kSoon_s = 1.0;    // a change of gear farther away asks for nothing yet
+constexpr double kHolding = 0.15;          // of the brake, while standing
+constexpr double kShiftLookAhead_s = 1.0;  // a gear change farther away has no effect yet
 constexpr double kFree_mps2 = 1e3;
 constexpr double kSpare = 0.9;  // of the jerk: the rest is for a grade that changes meanwhile
 
 // What keeps a rolling car back beside engine and brakes.
 double Resistance_N(const dynamics::BicycleSettings& car, double speed_mps, double grade) {
-  const double weight_N = car.body.mass_kg * kGravity_mps2 / std::sqrt(1.0 + grade * grade);
+  const double weight_N = car.body.mass_kg * base::kGravity_mps2 / std::sqrt(1.0 + grade * grade);
   return weight_N * (grade + car.wheel.rolling_resistance) +
          dynamics::AirDrag(car.body.air_density_kgpm3, car.body.drag_area_m2, speed_mps);
 }
@@ -49,11 +49,11 @@ PlanarCar::PlanarCar(const dynamics::BicycleSettings& of)
 namespace {
 
 // What it takes to drive so.
-struct Demand {
+struct DriveDemand {
   const PlanarCar& car;
   double speed_mps, resistance_N, force_N, at_wheels_Nm, wheels_radps;
 
-  Demand(const PlanarCar& planar, double v, double acceleration_mps2, double grade) : car(planar), speed_mps(v) {
+  DriveDemand(const PlanarCar& planar, double v, double acceleration_mps2, double grade) : car(planar), speed_mps(v) {
     const dynamics::BicycleSettings& of = planar.settings();
     resistance_N = Resistance_N(of, v, grade);
     force_N = of.body.mass_kg * acceleration_mps2 + resistance_N;
@@ -74,7 +74,7 @@ struct Demand {
 };
 
 // The highest gear in which the engine neither labours nor is too weak.
-int BestGear(const Demand& demand) {
+int BestGear(const DriveDemand& demand) {
   const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   int gear = demand.car.gears();
   while (gear > 1 && (demand.Turns_radps(gear) < p.automatic.down_light_radps ||
@@ -83,7 +83,7 @@ int BestGear(const Demand& demand) {
   return gear;
 }
 
-int NextGear(const Demand& demand, const Driving& before) {
+int NextGear(const DriveDemand& demand, const Driving& before) {
   const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   const int best = BestGear(demand), gear = before.gear;
   if (before.engine_radps <= 0.0 || best == gear) return best;
@@ -106,17 +106,17 @@ int NextGear(const Demand& demand, const Driving& before) {
 
 Driving Standing(const PlanarCar& car, double grade) {
   const dynamics::BicycleSettings& of = car.settings();
-  return {0.0, std::min(1.0, kHolding + of.body.mass_kg * kGravity_mps2 * std::fabs(grade) / car.full_brake_N()), 1.0,
-          of.powertrain.engine.idle_radps, 1};
+  return {0.0, std::min(1.0, kHolding + of.body.mass_kg * base::kGravity_mps2 * std::fabs(grade) / car.full_brake_N()),
+          1.0, of.powertrain.engine.idle_radps, 1};
 }
 
 // How fast the engine turns in a gear.
-double EngineIn_radps(int gear, const Demand& demand) {
+double EngineIn_radps(int gear, const DriveDemand& demand) {
   return std::max(demand.car.settings().powertrain.engine.idle_radps, demand.Turns_radps(gear));
 }
 
 // The pedals for it in a gear.
-Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
+Driving DrivingIn(int gear, const DriveDemand& demand, const Torques& torques) {
   const dynamics::PowertrainSettings& p = demand.car.settings().powertrain;
   Driving driving;
   driving.gear = gear;
@@ -136,12 +136,12 @@ Driving DrivingIn(int gear, const Demand& demand, const Torques& torques) {
   return driving;
 }
 
-Torques TorquesIn(int gear, const Demand& demand) {
+Torques TorquesIn(int gear, const DriveDemand& demand) {
   return {demand.car.settings().powertrain.engine, EngineIn_radps(gear, demand)};
 }
 
-double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N,
-                      const Torques& torques) {
+double AccelerationWith(const PlanarCar& car, const Driving& driving, double speed_mps, double resistance_N,
+                        const Torques& torques) {
   const dynamics::BicycleSettings& of = car.settings();
   const double net_Nm = torques.Net(driving.throttle) * (driving.throttle > 0.0 ? 1.0 : 1.0 - driving.clutch);
   const double push_N = AtWheels(of.powertrain.gearbox, car.Ratio(driving.gear), net_Nm) / of.wheel.rolling_radius_m;
@@ -150,7 +150,7 @@ double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed
   return (push_N - resistance_N - brake_N) / of.body.mass_kg;
 }
 
-double FuelFlow_mgps(const PlanarCar& car, const Driving& driving, const Torques& torques) {
+double FuelFlowWith_mgps(const PlanarCar& car, const Driving& driving, const Torques& torques) {
   const dynamics::EngineSettings& engine = car.settings().powertrain.engine;
   double indicated_Nm = driving.throttle * (torques.full_Nm + torques.drag_Nm);
   if (driving.clutch > 0.0) indicated_Nm = std::max(indicated_Nm, torques.drag_Nm);  // idle control
@@ -161,7 +161,7 @@ double FuelFlow_mgps(const PlanarCar& car, const Driving& driving, const Torques
 
 Driving DrivingFor(const PlanarCar& car, double speed_mps, double acceleration_mps2, double grade) {
   if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) return Standing(car, grade);
-  const Demand demand(car, speed_mps, acceleration_mps2, grade);
+  const DriveDemand demand(car, speed_mps, acceleration_mps2, grade);
   const int gear = BestGear(demand);
   return DrivingIn(gear, demand, TorquesIn(gear, demand));
 }
@@ -172,12 +172,12 @@ Driving DriveOn(const PlanarCar& car, const Driving& before, double speed_mps, d
 }
 
 double AccelerationOf(const PlanarCar& car, const Driving& driving, double speed_mps, double grade) {
-  return AccelerationOf(car, driving, speed_mps, Resistance_N(car.settings(), speed_mps, grade),
-                        Torques(car.settings().powertrain.engine, driving.engine_radps));
+  return AccelerationWith(car, driving, speed_mps, Resistance_N(car.settings(), speed_mps, grade),
+                          Torques(car.settings().powertrain.engine, driving.engine_radps));
 }
 
 double FuelFlow_mgps(const PlanarCar& car, const Driving& driving) {
-  return FuelFlow_mgps(car, driving, Torques(car.settings().powertrain.engine, driving.engine_radps));
+  return FuelFlowWith_mgps(car, driving, Torques(car.settings().powertrain.engine, driving.engine_radps));
 }
 
 double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, double speed_mps, double acceleration_mps2,
@@ -186,7 +186,7 @@ double AtMostBeforeChange_mps2(const PlanarCar& car, const Driving& before, doub
   const dynamics::BicycleSettings& of = car.settings();
   const double fastest_radps = of.powertrain.engine.resume_radps, ratio = car.Ratio(before.gear);
   const double changes_mps = fastest_radps / ratio * of.wheel.rolling_radius_m;
-  if (speed_mps > changes_mps || changes_mps > speed_mps + kSoon_s * acceleration_mps2) return kFree_mps2;
+  if (speed_mps > changes_mps || changes_mps > speed_mps + kShiftLookAhead_s * acceleration_mps2) return kFree_mps2;
   Driving then;
   then.gear = before.gear + 1;
   then.throttle = 1.0;
@@ -199,16 +199,16 @@ Driven Drive(const PlanarCar& car, const Driving& before, double speed_mps, doub
              double dt_s) {
   if (speed_mps <= 0.0 && acceleration_mps2 <= 0.0) {
     const Driving held = Standing(car, grade);
-    return {held, AccelerationOf(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()),
-            FuelFlow_mgps(car, held, car.idling())};
+    return {held, AccelerationWith(car, held, speed_mps, Resistance_N(car.settings(), speed_mps, grade), car.idling()),
+            FuelFlowWith_mgps(car, held, car.idling())};
   }
-  const Demand demand(car, speed_mps, acceleration_mps2, grade);
+  const DriveDemand demand(car, speed_mps, acceleration_mps2, grade);
   const int gear = NextGear(demand, before);
   const Torques torques = TorquesIn(gear, demand);
   Driving driving = DrivingIn(gear, demand, torques);
   driving.gear_s = gear == before.gear ? before.gear_s + dt_s : 0.0;
-  return {driving, AccelerationOf(car, driving, speed_mps, demand.resistance_N, torques),
-          FuelFlow_mgps(car, driving, torques)};
+  return {driving, AccelerationWith(car, driving, speed_mps, demand.resistance_N, torques),
+          FuelFlowWith_mgps(car, driving, torques)};
 }
 
 }  // namespace rodeira::traffic

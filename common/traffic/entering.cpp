@@ -5,17 +5,17 @@
 #include <utility>
 
 #include "common/core/base/random.hpp"
+#include "common/traffic/spawn.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLane = 102;
-constexpr double kGentle_mps2 = 0.8;     // an entering car needs no harder braking than this
-constexpr double kEnteringShare = 0.95;  // of the speed it wants
-constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
-constexpr double kStand_m = 2.0;         // beside its length, between zones that it enters before
-constexpr double kUntouched_m = 0.4;     // between who enters by MOTORS' rule and who is ahead, at least
+constexpr double kEnteringShare = 0.95;         // of the speed it wants
+constexpr double kEnteringBrake = 0.9;          // share of its comfortable braking before the first line
+constexpr double kEntryStandingMargin_m = 2.0;  // beyond its length, to stand between two zones near its entry
+constexpr double kUntouched_m = 0.4;            // between who enters by MOTORS' rule and who is ahead, at least
 
 }  // namespace
 
@@ -115,7 +115,7 @@ bool TrafficModel::IsExpected(std::uint32_t track, double gap_m) const {
 // another one holds any of them.
 bool TrafficModel::TakeFirstZones(std::uint32_t id) {
   Agent& agent = agents_[id];
-  const double stand = traits_[id].length_m + kStand_m;
+  const double stand = traits_[id].length_m + kEntryStandingMargin_m;
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.begin_m > agent.granted_m + stand) break;
     for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
@@ -171,7 +171,7 @@ bool TrafficModel::TryEnter(std::uint32_t id) {
     const auto safe = [&](double v) {
       return ahead.gap_m > 2.0 * traits.idm.standing_gap_m &&
              ahead.gap_m >= traits.idm.standing_gap_m + v * traits.idm.time_gap_s &&
-             driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kGentle_mps2;
+             driver::IdmAcceleration(traits.idm, v, limit, ahead.gap_m, ahead.speed_mps) > -kSpawnBraking_mps2;
     };
     if (!safe(speed)) speed = std::clamp(ahead.speed_mps, 0.0, speed);
     if (!as_motors && !safe(speed)) return wait();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/traffic/car_of.hpp"
 #include "common/traffic/hands.hpp"
@@ -12,7 +13,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kStanding_mps = 1e-3;
+constexpr double kMinPlanSpeed_mps = 1e-3;
 constexpr double kAsFast = 1.05;  // an engine that turns faster than this share of what its wheels ask for slips
 constexpr double kSlows_mps2 = -0.3;
 constexpr double kSlipFrom_mps = 1.0;  // slower, the motion of the rear axle says nothing of its slip angle
@@ -40,7 +41,7 @@ driver::PedalSettings PedalsOf(const dynamics::BicycleChassis& chassis, const dy
   // much as the lorry.
   const double turning_kgm2 = dynamics::kWheels * car.wheel.inertia_kgm2 + held * ratio * ratio * p.engine.inertia_kgm2;
   const double turning_mps2 = wanted_mps2 * turning_kgm2 / (radius * radius * m);
-  feet.rolling_mps2 = 9.81 * car.wheel.rolling_resistance + drags * engine_mps2 * drag_Nm + turning_mps2;
+  feet.rolling_mps2 = base::kGravity_mps2 * car.wheel.rolling_resistance + drags * engine_mps2 * drag_Nm + turning_mps2;
   feet.air_1pm = 0.5 * car.body.air_density_kgpm3 * car.body.drag_area_m2 / m;
   return feet;
 }
@@ -72,7 +73,7 @@ Eigen::Vector2d FullCars::RearAxle_W(std::uint32_t id) const {
 // With rear wheels that do not slide the middle moves by atan(½ tan δ) off where the car points.
 double FullCars::PlanSpeed_mps(std::uint32_t id) const {
   const Eigen::Vector2d v = cars_.car(id).body.VelocityAt(cars_.p_WB_W(id)).head<2>();
-  if (v.norm() < kStanding_mps) return 0.0;
+  if (v.norm() < kMinPlanSpeed_mps) return 0.0;
   const Eigen::Vector2d ahead = (cars_.car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>().normalized(),
                         left(-ahead.y(), ahead.x());
   const double half =

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/traffic/drivetrain.hpp"
+#include "common/traffic/graph_bounds.hpp"
 #include "common/traffic/lane_tables.hpp"
 
 namespace rodeira::traffic {
@@ -31,21 +32,15 @@ struct Raster {
   std::vector<Pixel> pixels;
 };
 
-// Its frame, without pixels.
-base::Result<Raster> FrameOf(const lanes::Graph& graph, double pixel_m, const std::string& file) {
-  double west = 1e18, east = -1e18, south = 1e18, north = -1e18;
-  for (const lanes::Track& track : graph.tracks()) {
-    for (const auto& node : track.curve.nodes()) {
-      west = std::min(west, node.p_W.x()), east = std::max(east, node.p_W.x());
-      south = std::min(south, node.p_W.y()), north = std::max(north, node.p_W.y());
-    }
-  }
+// A raster around all lanes, without pixels.
+base::Result<Raster> MakeRaster(const lanes::Graph& graph, double pixel_m, const std::string& file) {
+  const GraphBounds bounds = BoundsOf(graph);
   Raster raster;
   raster.pixel_m = pixel_m;
-  raster.west_m = pixel_m * std::floor(west / pixel_m);
-  raster.north_m = pixel_m * std::ceil(north / pixel_m);
-  const double columns = std::floor((east - raster.west_m) / pixel_m) + 1.0,
-               rows = std::floor((raster.north_m - south) / pixel_m) + 1.0;
+  raster.west_m = pixel_m * std::floor(bounds.west_m / pixel_m);
+  raster.north_m = pixel_m * std::ceil(bounds.north_m / pixel_m);
+  const double columns = std::floor((bounds.east_m - raster.west_m) / pixel_m) + 1.0,
+               rows = std::floor((raster.north_m - bounds.south_m) / pixel_m) + 1.0;
   if (!(columns * rows <= kMostPixels) || columns < 1.0 || rows < 1.0) {
     return base::WrongInput(
         fmt::format("{:.0f} by {:.0f} pixels of {} m were found; at most 10^8 were expected (larger pixels make fewer)",
@@ -58,7 +53,7 @@ base::Result<Raster> FrameOf(const lanes::Graph& graph, double pixel_m, const st
 
 base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& statistics, double pixel_m,
                             const std::string& file) {
-  auto framed = FrameOf(graph, pixel_m, file);
+  auto framed = MakeRaster(graph, pixel_m, file);
   if (!framed) return framed.error();
   Raster raster = std::move(framed).value();
   const auto columns = static_cast<double>(raster.columns), rows = static_cast<double>(raster.rows);
@@ -84,7 +79,7 @@ base::Result<Raster> Gather(const lanes::Graph& graph, const LaneStatistics& sta
 }  // namespace
 
 base::Status CheckHeatRaster(const lanes::Graph& graph, double pixel_m, const std::string& file) {
-  const auto frame = FrameOf(graph, pixel_m, file);
+  const auto frame = MakeRaster(graph, pixel_m, file);
   if (!frame) return frame.error();
   return {};
 }

@@ -3,21 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/traffic/lane_change.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kSideways_mps2 = 0.9;      // lateral acceleration of the path …
-constexpr double kSidewaysJerk_mps3 = 2.5;  // … and its jerk
-constexpr double kShortest_m = 24.0;
-constexpr double kNarrowest_m = 2.6;            // lanes are no narrower
-constexpr double kApart_m = 6.0;                // nor their middles farther apart …
-constexpr double kAside = 0.1;                  // … nor pointing farther apart
-constexpr double kTightest_1pm = 0.02;          // bends are no tighter
-constexpr double kLook_m = 4.0;                 // apart, along the way
-constexpr double kSame_m = 1e-4, kSame = 1e-4;  // lanes that meet so go on as one
-constexpr double kRouteSight_m = 500.0;         // so far ahead a driver thinks of the lane that his route goes on from
+constexpr double kApart_m = 6.0;             // between the middles of the two lanes, at most …
+constexpr double kAside = 0.1;               // … and between their directions, rad
+constexpr double kTightest_1pm = 0.02;       // bends are no tighter
+constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a lane is checked
+constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
 constexpr double kClear_m = 1.3;  // from a lane's middle to what is beside it: half of a wide car and the margin
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
@@ -28,9 +24,10 @@ const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
 
 // Wide enough and not too bent between two distances.
 bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
-  for (double d = low_m; d < high_m + kLook_m; d += kLook_m) {
+  for (double d = low_m; d < high_m + kLaneSamplingStep_m; d += kLaneSamplingStep_m) {
     const double at = std::min(d, high_m);
-    if (curve.WidthAt(at) < kNarrowest_m || std::fabs(curve.At(at).curvature_1pm) > kTightest_1pm) return false;
+    if (curve.WidthAt(at) < kMinLaneChangeWidth_m || std::fabs(curve.At(at).curvature_1pm) > kTightest_1pm)
+      return false;
   }
   return true;
 }
@@ -62,11 +59,10 @@ std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const
   piece.slope = at.ahead_W.dot(to.left_W()) / std::max(0.2, at.ahead_W.dot(to.ahead_W));
   const double size = std::fabs(piece.offset_m);
   if (size > kApart_m || std::fabs(piece.slope) > kAside) return std::nullopt;
-  // The quintic's largest acceleration is 5.77 offset/T², its largest jerk 60 offset/T³.
-  const double time = std::max(std::sqrt(5.77 * size / kSideways_mps2), std::cbrt(60.0 * size / kSidewaysJerk_mps3));
+  const double time = LaneChangeTime_s(piece.offset_m);
   const double fastest = std::min(agent.speed_mps + traits_[id].idm.acceleration_mps2 * time,
                                   std::max(agent.speed_mps, Limit_mps(id, *beside, there)));
-  piece.blend_m = std::max(kShortest_m, time * fastest);
+  piece.blend_m = std::max(kMinLaneChangeLength_m, time * fastest);
   return piece;
 }
 
@@ -80,7 +76,8 @@ bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
     if (begin > to_m) break;
     if (before != nullptr && !beside && begin > from_m) {
       const lanes::Link* link = LinkTo(graph()[before->track], stretch.track);
-      if (link == nullptr || std::fabs(link->offset_m) > kSame_m || std::fabs(link->slope) > kSame) return false;
+      if (link == nullptr || std::fabs(link->offset_m) > kSameLaneOffset_m || std::fabs(link->slope) > kSameLaneSlope)
+        return false;
     }
     before = &stretch;
     if (stretch.end_m < from_m || stretch.changes) continue;

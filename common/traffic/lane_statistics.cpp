@@ -12,8 +12,8 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kQueuing_mps = 5.0 / 3.6;
-constexpr double kSoon_m = 0.3;       // before the end of its cell somebody may leave it in the next step
-constexpr std::uint32_t kAhead = 16;  // vehicles whose memory is on its way while one is told: their cells lie anywhere
+constexpr double kCellEndMargin_m = 0.3;     // a vehicle this near to the end of its cell may leave it in the next step
+constexpr std::uint32_t kCellPrefetch = 16;  // vehicles ahead whose cells are prefetched
 
 double FreeTime_s(double way_m, double free_mps) { return free_mps > 0.0 ? way_m / free_mps : 0.0; }
 
@@ -128,7 +128,7 @@ void LaneStatistics::FetchFor(const TrafficModel& model, std::uint32_t id) const
   const Agent& agent = model.agent(id);
   __builtin_prefetch(&agent);
   __builtin_prefetch(&agent.fuel_mgps);
-  if (seen_[id].o_m + kSoon_m < seen_[id].until_m) return;
+  if (seen_[id].o_m + kCellEndMargin_m < seen_[id].until_m) return;
   __builtin_prefetch(&agent.path);
   __builtin_prefetch(&cells_[seen_[id].cell], 1);
 }
@@ -137,7 +137,7 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
   watched_s_ += dt_s;
   pending_ = true;
   for (std::uint32_t id = 0; id < seen_.size(); ++id) {
-    if (id + kAhead < seen_.size()) FetchFor(model, id + kAhead);
+    if (id + kCellPrefetch < seen_.size()) FetchFor(model, id + kCellPrefetch);
     const Agent& agent = model.agent(id);
     Seen& seen = seen_[id];
     const bool same = seen.on_road && agent.on_road && seen.trip == agent.trip;

@@ -10,35 +10,21 @@
 
 #include "common/core/base/csv_cell.hpp"
 #include "common/traffic/drivetrain.hpp"
+#include "common/traffic/graph_bounds.hpp"
 #include "common/traffic/xml_text.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kWide_px = 1000.0, kRim_px = 20.0, kTop_px = 40.0, kLane_m = 3.0;
-constexpr int kShades = 20;
+constexpr double kMapWidth_px = 1000.0, kRim_px = 20.0, kMapTop_px = 40.0, kLane_m = 3.0;
+constexpr int kSpeedShades = 20;
 
 // From red over yellow to green.
 std::string ShadeOf(int shade) {
-  const double u = static_cast<double>(shade) / (kShades - 1);
+  const double u = static_cast<double>(shade) / (kSpeedShades - 1);
   const int red = static_cast<int>(std::lround(u < 0.5 ? 205.0 : 205.0 - 350.0 * (u - 0.5))),
             green = static_cast<int>(std::lround(u < 0.5 ? 340.0 * u : 170.0));
   return fmt::format("#{:02x}{:02x}28", red, green);
-}
-
-struct Frame {
-  double west_m = 1e18, south_m = 1e18, east_m = -1e18, north_m = -1e18;
-};
-
-Frame FrameOf(const lanes::Graph& graph) {
-  Frame frame;
-  for (const lanes::Track& track : graph.tracks()) {
-    for (const auto& node : track.curve.nodes()) {
-      frame.west_m = std::min(frame.west_m, node.p_W.x()), frame.east_m = std::max(frame.east_m, node.p_W.x());
-      frame.south_m = std::min(frame.south_m, node.p_W.y()), frame.north_m = std::max(frame.north_m, node.p_W.y());
-    }
-  }
-  return frame;
 }
 
 const std::string& RoadOf(const lanes::Graph& graph, std::uint32_t track) {
@@ -129,10 +115,10 @@ std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistic
 }
 
 std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics, const std::string& title) {
-  const Frame frame = FrameOf(graph);
-  const double scale = kWide_px / std::max({frame.east_m - frame.west_m, frame.north_m - frame.south_m, 1.0});
+  const GraphBounds frame = BoundsOf(graph);
+  const double scale = kMapWidth_px / std::max({frame.east_m - frame.west_m, frame.north_m - frame.south_m, 1.0});
   const double wide = 2.0 * kRim_px + scale * std::max(0.0, frame.east_m - frame.west_m),
-               high = kTop_px + kRim_px + scale * std::max(0.0, frame.north_m - frame.south_m);
+               high = kMapTop_px + kRim_px + scale * std::max(0.0, frame.north_m - frame.south_m);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' "
       "font-family='sans-serif' font-size='12'>\n"
@@ -143,7 +129,7 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
     const LaneCell& cell = statistics.CellsOf(track)[i];
     if (!(cell.time_s > 0.0)) return -1;
     const double limit = graph.SpeedLimit_mps(track, (static_cast<double>(i) + 0.5) * statistics.CellLength_m(track));
-    return std::clamp(static_cast<int>(cell.Speed_mps() / limit * kShades), 0, kShades - 1);
+    return std::clamp(static_cast<int>(cell.Speed_mps() / limit * kSpeedShades), 0, kSpeedShades - 1);
   };
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const std::size_t count = statistics.CellsOf(track).size();
@@ -155,20 +141,20 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
       for (std::size_t k = i; k <= end; ++k) {
         const Eigen::Vector3d p = graph[track].curve.At(static_cast<double>(k) * statistics.CellLength_m(track)).p_W;
         fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", kRim_px + scale * (p.x() - frame.west_m),
-                       kTop_px + scale * (frame.north_m - p.y()));
+                       kMapTop_px + scale * (frame.north_m - p.y()));
       }
       svg += "'/>\n";
       i = end;
     }
   }
   svg += "</g>\n";
-  for (int shade = 0; shade < kShades; ++shade) {
+  for (int shade = 0; shade < kSpeedShades; ++shade) {
     fmt::format_to(std::back_inserter(svg), "<rect x='{}' y='26' width='6' height='8' fill='{}'/>",
                    kRim_px + 6.0 * shade, ShadeOf(shade));
   }
   fmt::format_to(std::back_inserter(svg),
                  "<text x='{}' y='34'>mean speed, from standing to the limit; grey: nobody</text>\n</svg>\n",
-                 kRim_px + 6.0 * kShades + 8.0);
+                 kRim_px + 6.0 * kSpeedShades + 8.0);
   return svg;
 }
 

@@ -13,7 +13,7 @@ namespace {
 // (Gazis, Herman, Maradudin 1960).
 constexpr double kForAmber_mps2 = 2.9;
 constexpr double kOthers_mps2 = 2.8;  // of who is no agent
-constexpr double kSame_m = 0.01;
+constexpr double kLineTolerance_m = 0.01;
 
 // The way to rest from an acceleration, by a jerk to that braking and from it.
 double StopsIn(double v, double acceleration_mps2, double jerk_mps3) {
@@ -50,8 +50,8 @@ bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const 
     if (stretch.begin_m > to_m) break;
     for (const StopLine& line : map_->plans[stretch.track].lines) {
       const double at = stretch.zero_m + line.d_m;
-      if (line.light >= 0 && at >= from_m - kSame_m && at <= to_m + kSame_m && at >= stretch.begin_m &&
-          !IsGreen(line.light))
+      if (line.light >= 0 && at >= from_m - kLineTolerance_m && at <= to_m + kLineTolerance_m &&
+          at >= stretch.begin_m && !IsGreen(line.light))
         return false;
     }
   }
@@ -70,7 +70,7 @@ void TrafficModel::ObeyLights(std::uint32_t id) {
     const double gap = grant.light_m - front;
     if (grant.light_m < 0.0 || gap < 0.0 || stops > gap) continue;
     if (AllGreen(id, grant.light_m, grant.to_m)) continue;
-    agent.granted_m = std::min(agent.granted_m, grant.light_m - kSame_m);
+    agent.granted_m = std::min(agent.granted_m, grant.light_m - kLineTolerance_m);
     agent.grants.resize(i);
   }
 }

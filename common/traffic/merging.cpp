@@ -14,7 +14,6 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 0.6;          // before the zone the front stops
 constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
 constexpr double kYielded_mps2 = 1.0;  // by which others may have to brake, on the average, for who merges before them
 constexpr double kLag_s = 1.0;         // … and so much later than that one they come
@@ -92,7 +91,7 @@ void TrafficModel::EachLeaves(std::uint32_t id, const Tell& tell) const {
   const double front = FrontOf(id);
   EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
     const double gap = merges ? MergingGap(id, out, holder) : -1.0;
-    double leaves = in >= front ? StopAt(id, in - kLine_m) : kFree_mps2;
+    double leaves = in >= front ? StopAt(id, in - kStopDistance_m) : kFree_mps2;
     if (gap > 0.0) {
       const double following = FollowComing(id, holder.id, gap);
       leaves = in >= front ? std::max(leaves, following) : following;
@@ -107,7 +106,7 @@ void TrafficModel::EachLeaves(std::uint32_t id, const Tell& tell) const {
 double TrafficModel::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
   const double front = FrontOf(id), apart = traits_[id].idm.standing_gap_m + kLoose_m;
   EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
-    const double line = in >= front ? in - kLine_m - kShort_m : front;
+    const double line = in >= front ? in - kStopDistance_m - kShort_m : front;
     if (line >= to_m) return;
     const double comes = ReachOf(holder.id, depth + 1);
     if (merges) {

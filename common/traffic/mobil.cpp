@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
+#include "common/traffic/lane_change.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr std::int64_t kEvery_ns = 500'000'000;      // an agent thinks of another lane so often
-constexpr std::int64_t kApart_ns = 37'000'000;       // one after the other
-constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after a change
+constexpr std::int64_t kEvery_ns = 500'000'000;  // an agent thinks of another lane so often
+constexpr std::int64_t kApart_ns = 37'000'000;   // one after the other
 constexpr double kSlowest_mps = 3.0;
-constexpr double kReaction_s = 2.0, kGentle_mps2 = 1.2;  // before whatever the other lane leads to it can stop by this
-constexpr double kBeside_m = 1e-6;                       // whose middle is no farther ahead or behind is neither
-constexpr double kOnLane_m = 1.5;   // vehicles whose sides are nearer to a lane's middle drive on it
+// With these the vehicle can stop before anything that the other lane leads to.
+constexpr double kAnticipation_s = 2.0, kAnticipatedBraking_mps2 = 1.2;
+constexpr double kAlongsideTolerance_m = 1e-6;  // a vehicle whose middle is no farther ahead or behind is alongside
 constexpr double kSeeks_m = 350.0;  // so far before its lane parts from its route it looks for a gap by driving slower
 constexpr double kSooner_m = 30.0;  // a lane that ends so much sooner is no choice …
 constexpr double kEnding_mps2 = 1.0;  // … and one that ends, or parts from the route, is left for so much …
@@ -58,7 +58,8 @@ Behind TrafficModel::FindBehind(std::uint32_t id, std::uint32_t track, double mi
       break;
     }
     for (const Block& block : blocks_[at.track]) {
-      if (block.middle_m >= at.middle_m || block.span.right_m > kOnLane_m || block.span.left_m < -kOnLane_m) continue;
+      if (block.middle_m >= at.middle_m || block.span.right_m > kOnLaneOffset_m || block.span.left_m < -kOnLaneOffset_m)
+        continue;
       consider(-1, at.track, block.span.front_m, at.rear_m - block.span.front_m, block.span.speed_mps);
     }
     if (here || at.rear_m - longest_half_m_ > std::min(settings_.sight_m, behind.any ? behind.gap_m : kNoBarrier_m))
@@ -97,7 +98,7 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
   if (!IsPlain(id, rear, to) || !MayCross(id, side, piece->begin_m, to - half)) return std::nullopt;
   const double beside_m = agent.o_m - piece->zero_m;
   for (const Occupant& other : occupants_.Beyond(piece->track, beside_m)) {
-    if (other.middle_m() > beside_m + kBeside_m) break;
+    if (other.middle_m() > beside_m + kAlongsideTolerance_m) break;
     if (other.id != id) return std::nullopt;
   }
   const Ahead own_ahead = ahead_[id];
@@ -108,7 +109,8 @@ std::optional<Sideways> TrafficModel::Weigh(std::uint32_t id, int side, bool tol
   agent.path.push_back(*piece);
   FindStretches(id, SightOf(agent));
   const double v = agent.speed_mps,
-               stops = piece->begin_m + std::min(SightOf(agent), kReaction_s * v + v * v / (2.0 * kGentle_mps2));
+               stops = piece->begin_m +
+                       std::min(SightOf(agent), kAnticipation_s * v + v * v / (2.0 * kAnticipatedBraking_mps2));
   const bool plain = IsPlain(id, rear, std::max(to, stops));
   const double ends = LaneEnds(id);
   const Ahead ahead = plain ? FindAhead(id) : Ahead();
@@ -166,7 +168,7 @@ void TrafficModel::ChangeLanes(std::int64_t step_ns) {
     if (agent.change.side != 0) {
       if (agent.o_m - 0.5 * traits_[id].length_m <= agent.change.to_m) continue;
       agent.change = {};
-      agent.settled_ns = time_ns_ + kSettles_ns;
+      agent.settled_ns = time_ns_ + kLaneChangeCooldown_ns;
     }
     if (agent.brake_mps2 > 0.0 || !HasBeside(id, agent.path.back().track)) continue;
     if (const int side = ToldSide(id); side != 0) {

@@ -3,17 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <span>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/plane.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kFrames_Hz = 50.0;  // Unity's; the source states none
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
+constexpr double kRpm = 2.0 * base::kPi / 60.0;
 constexpr double kFree_deg = 10.0, kBend_deg = 20.0, kSharp_deg = 40.0;
 constexpr double kBend_mps = 12.0, kSharp_mps = 5.0;
 constexpr double kUp_radps = 1500.0 * kRpm, kDown_radps = 1100.0 * kRpm;
@@ -27,7 +26,7 @@ double Between(double x, double x0, double y0, double x1, double y1) { return y0
 }  // namespace
 
 double TargetWeight(double distance_m) {
-  return 2.0 / std::numbers::pi * std::atan(2.0 * (0.5 * distance_m) * (0.5 * distance_m));
+  return 2.0 / base::kPi * std::atan(2.0 * (0.5 * distance_m) * (0.5 * distance_m));
 }
 
 double SteeringAngle(double to_path_rad, double to_target_rad, double weight, double most_rad) {
@@ -35,7 +34,7 @@ double SteeringAngle(double to_path_rad, double to_target_rad, double weight, do
 }
 
 double TurningSpeed_mps(double angle_rad, double limit_mps) {
-  const double angle = std::fabs(angle_rad) / kDegree;
+  const double angle = std::fabs(angle_rad) / base::kRadiansPerDegree;
   double speed = kSharp_mps;
   if (angle <= kFree_deg)
     speed = limit_mps;
@@ -47,12 +46,12 @@ double TurningSpeed_mps(double angle_rad, double limit_mps) {
 }
 
 double MotorsThrottle(double to_path_rad) {
-  const double angle = to_path_rad / kDegree;
+  const double angle = to_path_rad / base::kRadiansPerDegree;
   return 0.5 * std::exp2(-0.0006 * angle * angle);
 }
 
 double MotorsBrake(double excess_mps, bool stops) {
-  return std::min(1.0, 2.0 / std::numbers::pi * std::atan(excess_mps) + (stops ? kStopBrake : 0.0));
+  return std::min(1.0, 2.0 / base::kPi * std::atan(excess_mps) + (stops ? kStopBrake : 0.0));
 }
 
 bool SegmentsCross(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const Eigen::Vector2d& b0,
@@ -64,10 +63,10 @@ bool SegmentsCross(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1, const E
 }
 
 MotorsDriver::MotorsDriver(double responsiveness, double aggression_deg)
-    : responsiveness_(responsiveness), aggression_radps_(aggression_deg * kDegree * kFrames_Hz) {}
+    : responsiveness_(responsiveness), aggression_radps_(aggression_deg * base::kRadiansPerDegree * kFrames_Hz) {}
 
 void MotorsDriver::Begin(int gear) {
-  *this = MotorsDriver(responsiveness_, aggression_radps_ / kDegree / kFrames_Hz);
+  *this = MotorsDriver(responsiveness_, aggression_radps_ / base::kRadiansPerDegree / kFrames_Hz);
   gear_ = std::max(1, gear);
 }
 

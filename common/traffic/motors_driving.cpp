@@ -17,7 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 // Purposes of draws; never renumber.
-enum Draws : std::uint64_t { kResponsiveness = 301, kAggression = 302, kWeight = 303 };
+enum MotorsDraw : std::uint64_t { kDrawResponsiveness = 301, kDrawAggression = 302, kDrawWeight = 303 };
 
 constexpr double kLeftmost =
     0.65;  // the weights are drawn between this and what is left of 1; the source states no range
@@ -33,8 +33,8 @@ double AngleBetween(const Vector2d& from, const Vector2d& to) {
 
 void TrafficModel::StartMotors() {
   for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    motors_.emplace_back(base::RandomUniform({settings_.seed, id, kResponsiveness}, 0.5, 1.0),
-                         base::RandomUniform({settings_.seed, id, kAggression}, 3.0, 4.0));
+    motors_.emplace_back(base::RandomUniform({settings_.seed, id, kDrawResponsiveness}, 0.5, 1.0),
+                         base::RandomUniform({settings_.seed, id, kDrawAggression}, 3.0, 4.0));
   }
   segments_.resize(agents_.size());
 }
@@ -61,7 +61,7 @@ void TrafficModel::TakeLane(std::uint32_t id, const Piece& piece) {
   driver.track = piece.track;
   driver.zero_m = piece.zero_m;
   driver.weight =
-      base::RandomUniform({settings_.seed, id, kWeight, driver.trip, driver.lanes++}, 1.0 - kLeftmost, kLeftmost);
+      base::RandomUniform({settings_.seed, id, kDrawWeight, driver.trip, driver.lanes++}, 1.0 - kLeftmost, kLeftmost);
   driver.join_W.setZero();
   driver.checkpoint = 0;
   if (onward) driver.join_W = 0.5 * (target - MotorsPoint(driver, 0));

@@ -11,7 +11,7 @@ namespace rodeira::traffic {
 namespace {
 
 // From one direction to another, positive to the left.
-double TurnOf(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+double HeadingChange_rad(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }
 
@@ -76,11 +76,13 @@ void TrafficModel::DriveFull(std::uint32_t id, double wanted_mps2, double dt_s) 
   rear = FrameOf(id, rear_m);
   const double soon_m = std::min(AnsweredWay_m(agent.speed_mps), agent.o_m + half - rear_m);
   const PathFrame soon = FrameOf(id, rear_m + soon_m);
-  const double aside = RearLine_m(traits_[id].wheelbase_m, traits_[id].length_m,
-                                  TurnOf(FrameOf(id, agent.o_m - half).ahead_W, FrameOf(id, agent.o_m + half).ahead_W));
+  const double aside =
+      RearLine_m(traits_[id].wheelbase_m, traits_[id].length_m,
+                 HeadingChange_rad(FrameOf(id, agent.o_m - half).ahead_W, FrameOf(id, agent.o_m + half).ahead_W));
   const Eigen::Vector2d left(-rear.ahead_W.y(), rear.ahead_W.x());
-  full_->Drive(id, wanted_mps2,
-               {rear.p_W.head<2>() + aside * left, rear.ahead_W, TurnOf(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
+  full_->Drive(
+      id, wanted_mps2,
+      {rear.p_W.head<2>() + aside * left, rear.ahead_W, HeadingChange_rad(rear.ahead_W, soon.ahead_W) / soon_m}, dt_s);
   const bool stands = agent.speed_mps <= 0.0 || full_->foot(id).holds();  // whatever is wanted below 0
   agent.wish_mps2 = stands ? std::max(0.0, wanted_mps2) : wanted_mps2;
 }

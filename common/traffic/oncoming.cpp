@@ -8,12 +8,11 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kBehind_m = 2.0;        // a vehicle whose end is so far behind one's own has gone by
-constexpr double kOvertakers_m = 100.0;  // so far behind nobody may drive on the other lane
-constexpr double kOnLane_m = 1.5;        // vehicles whose sides are nearer to a lane's middle drive on it
-constexpr double kMoves_mps = 0.5;
-constexpr double kEvery_m = 50.0;  // limits are looked at so often
-constexpr double kTrust_s = 0.5;   // who comes brakes for somebody who is back less than this before it is there
+constexpr double kPassedDistance_m = 2.0;   // a vehicle whose rear is this far behind the own rear has passed
+constexpr double kOvertakers_m = 100.0;     // so far behind nobody may drive on the other lane
+constexpr double kWrongWaySpeed_mps = 0.5;  // a vehicle that drives faster against the lane's direction overtakes
+constexpr double kEvery_m = 50.0;           // limits are looked at so often
+constexpr double kTrust_s = 0.5;  // who comes brakes for somebody who is back less than this before it is there
 constexpr double kStops_mps2 = 3.0;
 
 }  // namespace
@@ -43,7 +42,7 @@ Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
   const double fastest = std::max(1.0, settings_.speed_factor_high);
   Oncoming found{front + settings_.overtaking.sight_m, 1.0, false};
   const auto comes = [&](double from_m, double to_m, double speed_mps) {
-    if (to_m < rear - kBehind_m) return;
+    if (to_m < rear - kPassedDistance_m) return;
     found.from_m = std::min(found.from_m, from_m);
     found.speed_mps = std::max(found.speed_mps, speed_mps);
   };
@@ -69,9 +68,10 @@ Oncoming TrafficModel::FindOncoming(std::uint32_t id) const {
       if (other.id != id && here(other.rear_m) > rear - kOvertakers_m) found.own_way = true;
     }
     for (const Block& block : blocks_[track]) {
-      if (block.span.right_m > kOnLane_m || block.span.left_m < -kOnLane_m) continue;
+      if (block.span.right_m > kOnLaneOffset_m || block.span.left_m < -kOnLaneOffset_m) continue;
       comes(here(block.span.front_m), here(block.span.rear_m), std::fabs(block.span.speed_mps));
-      if (block.span.speed_mps < -kMoves_mps && here(block.span.rear_m) > rear - kOvertakers_m) found.own_way = true;
+      if (block.span.speed_mps < -kWrongWaySpeed_mps && here(block.span.rear_m) > rear - kOvertakers_m)
+        found.own_way = true;
     }
     before = opposite;
     if (map_->enters[track] || graph()[track].before.empty()) {

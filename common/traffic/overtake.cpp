@@ -3,20 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/traffic/lane_change.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr std::int64_t kSettles_ns = 4'000'000'000;  // after it
-constexpr double kTooNear_s = 1.5;        // who comes: with less to spare it falls back, if that is sooner done
-constexpr double kSlower_mps = 4.0;       // than who was to be passed, while it falls back …
-constexpr double kFallsBack_mps2 = 2.5;   // … and its braking
-constexpr double kLeastPassed_mps = 5.0;  // who is slower is not fallen back behind
-constexpr double kHardest_mps2 = 2.0;     // braking of who follows, when it goes back …
-constexpr double kHardestOwn_mps2 = 2.5;  // … and its own
+constexpr double kTooNear_s = 1.5;                // who comes: with less to spare it falls back, if that is sooner done
+constexpr double kSlower_mps = 4.0;               // than who was to be passed, while it falls back …
+constexpr double kFallsBack_mps2 = 2.5;           // … and its braking
+constexpr double kLeastPassed_mps = 5.0;          // who is slower is not fallen back behind
+constexpr double kMaxFollowerBraking_mps2 = 2.0;  // braking of the follower when the overtaking vehicle goes back …
+constexpr double kMaxOwnBraking_mps2 = 2.5;       // … and its own
 constexpr double kNever_s = 1e9;
-constexpr double kShortest_m = 24.0;
 constexpr double kLastPart = 0.2;  // of the path back, on the own side (PlanPass)
 
 }  // namespace
@@ -55,13 +54,13 @@ bool TrafficModel::MayGoBack(std::uint32_t id, bool behind) const {
   const double half = 0.5 * traits_[id].length_m, v = agent.speed_mps, gap = traits_[id].idm.standing_gap_m;
   if (agent.o_m + half < last.blend_from_m + last.blend_m) return false;  // still on its path out
   const Behind follower = FindBehind(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
-  if (follower.any &&
-      (follower.gap_m < gap || (!behind && FollowerDoes(follower, true, follower.gap_m, v) < -kHardest_mps2)))
+  if (follower.any && (follower.gap_m < gap ||
+                       (!behind && FollowerDoes(follower, true, follower.gap_m, v) < -kMaxFollowerBraking_mps2)))
     return false;
   const Ahead ahead = FindAhead(id);
   if (!ahead.any) return true;
   return ahead.gap_m >= gap && Following(id, Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m,
-                                         ahead.speed_mps) >= -kHardestOwn_mps2;
+                                         ahead.speed_mps) >= -kMaxOwnBraking_mps2;
 }
 
 void TrafficModel::GoBack(std::uint32_t id) {
@@ -72,7 +71,7 @@ void TrafficModel::GoBack(std::uint32_t id) {
   const PassCase pass = CaseOf(id, {}, 0.0, last.aside_m, front);
   Piece piece{last.track, last.zero_m, front, at.offset_m, at.slope};
   piece.blend_from_m = front;
-  piece.blend_m = std::max(kShortest_m, pass.back_s * agent.speed_mps);
+  piece.blend_m = std::max(kMinLaneChangeLength_m, pass.back_s * agent.speed_mps);
   agent.path.push_back(piece);
   agent.overtaking.back = true;
   agent.overtaking.to_m = front + piece.blend_m;
@@ -143,7 +142,7 @@ void TrafficModel::Overtake(std::int64_t step_ns) {
     }
     if (agent.overtaking.back && agent.o_m - 0.5 * traits_[id].length_m > agent.overtaking.to_m) {
       agent.overtaking = {};
-      agent.settled_ns = time_ns_ + kSettles_ns;
+      agent.settled_ns = time_ns_ + kLaneChangeCooldown_ns;
       continue;
     }
     DriveOvertaking(id);

@@ -6,40 +6,32 @@
 #include <utility>
 
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/lane_change.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kHeldUp_mps2 = 0.3;    // so much less than on a free road
-constexpr double kGain_mps = 4.0;       // so much faster than who is passed at least …
-constexpr double kToldGain_mps = 1.0;   // … and who is told to
-constexpr double kToldNear_s = 4.0;     // he begins no farther behind who is ahead than this, and his standing gap
-constexpr double kBeside_m = 0.45;      // from side to side
-constexpr double kMostAside = 0.97;     // of the way to the other lane's middle that it may need
-constexpr double kSideways_mps2 = 0.9;  // as changes of lanes are
-constexpr double kSidewaysJerk_mps3 = 2.5;
-constexpr double kShortest_m = 24.0;
-constexpr double kFasterOut_mps = 4.5;  // than now it is at most at the end of its path out
-constexpr double kHaste = 1.4;          // of its usual acceleration
-constexpr double kOfHaste = 0.8;        // that it counts on, of what its engine gives there
+constexpr double kHeldUp_mps2 = 0.3;   // so much less than on a free road
+constexpr double kGain_mps = 4.0;      // so much faster than who is passed at least …
+constexpr double kToldGain_mps = 1.0;  // … and who is told to
+constexpr double kToldNear_s = 4.0;    // he begins no farther behind who is ahead than this, and his standing gap
+constexpr double kOvertakingClearance_m = 0.45;  // lateral, between the two vehicles
+constexpr double kMostAside = 0.97;              // of the way to the other lane's middle that it may need
+constexpr double kFasterOut_mps = 4.5;           // than now it is at most at the end of its path out
+constexpr double kHaste = 1.4;                   // of its usual acceleration
+constexpr double kOfHaste = 0.8;                 // that it counts on, of what its engine gives there
 constexpr double kLeastGain_mps2 = 0.15;
-constexpr double kBackGap_s = 0.7;    // and its standing gap, before who was passed when it goes back
-constexpr double kRoom_s = 1.0;       // and its standing gap, behind who drives before that one
-constexpr double kBrakes_mps2 = 2.0;  // there
-constexpr double kSpare_m = 10.0;
-constexpr double kLook_m = 10.0;
-constexpr double kNarrowest_m = 2.6,
-                 kUneven_m = 0.25;  // of the other lane: its width, and its middle against a line along the own one
-constexpr double kSoon_m = 150.0;   // first guess of the way
+constexpr double kBackGap_s = 0.7;                  // and its standing gap, before who was passed when it goes back
+constexpr double kRoom_s = 1.0;                     // and its standing gap, behind who drives before that one
+constexpr double kBrakes_mps2 = 2.0;                // there
+constexpr double kLegalMargin_m = 10.0;             // beyond the return for which marks and signs are checked
+constexpr double kOvertakingSamplingStep_m = 10.0;  // between two places at which the way is checked
+constexpr double kUneven_m = 0.25;                  // of the other lane's middle against a line along the own one
+constexpr double kInitialLength_m = 150.0;          // first guess of the overtaking distance
 constexpr int kGuesses = 4;
 
 double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kGain_mps; }
-
-double BackTime(double aside_m) {
-  return std::max(std::sqrt(5.77 * std::fabs(aside_m) / kSideways_mps2),
-                  std::cbrt(60.0 * std::fabs(aside_m) / kSidewaysJerk_mps3));
-}
 
 }  // namespace
 
@@ -74,7 +66,8 @@ bool TrafficModel::IsHeldUp(std::uint32_t id) const {
 // The least that it may, and wants to, drive between two odometers.
 double TrafficModel::TopSpeed(std::uint32_t id, double from_m, double to_m) const {
   double top = Cap_mps(id);
-  for (double at = from_m; at < to_m + kLook_m; at += kLook_m) top = std::min(top, AllowedAt(id, std::min(at, to_m)));
+  for (double at = from_m; at < to_m + kOvertakingSamplingStep_m; at += kOvertakingSamplingStep_m)
+    top = std::min(top, AllowedAt(id, std::min(at, to_m)));
   return top;
 }
 
@@ -93,9 +86,9 @@ std::optional<Piece> TrafficModel::PieceOut(std::uint32_t id, double top_mps) co
   piece.blend_from_m = begin;
   piece.aside_m = (to.p_W - at.p_W).head<2>().dot(at.left_W());
   piece.offset_m = -piece.aside_m;
-  const double time = BackTime(piece.aside_m);
-  piece.blend_m =
-      std::max(kShortest_m, time * std::min(std::max(agent.speed_mps, top_mps), agent.speed_mps + kFasterOut_mps));
+  const double time = LaneChangeTime_s(piece.aside_m);
+  piece.blend_m = std::max(kMinLaneChangeLength_m,
+                           time * std::min(std::max(agent.speed_mps, top_mps), agent.speed_mps + kFasterOut_mps));
   return piece;
 }
 
@@ -107,7 +100,8 @@ PassCase TrafficModel::CaseOf(std::uint32_t id, const Ahead& passed, double top_
   const double front = agent.o_m + 0.5 * traits.length_m;
   double steepest = 0.0;
   for (const Stretch& stretch : stretches_[id]) {
-    for (double at = std::max(front, stretch.begin_m); at < std::min(to_m, stretch.end_m); at += kLook_m) {
+    for (double at = std::max(front, stretch.begin_m); at < std::min(to_m, stretch.end_m);
+         at += kOvertakingSamplingStep_m) {
       steepest = std::max(steepest, graph()[stretch.track].curve.At(at - stretch.zero_m).grade);
     }
   }
@@ -122,7 +116,7 @@ PassCase TrafficModel::CaseOf(std::uint32_t id, const Ahead& passed, double top_
   pass.gains_mps2 *= kOfHaste;
   pass.relative_m = std::max(
       0.0, passed.gap_m + passed.length_m + traits.idm.standing_gap_m + kBackGap_s * pass.passed_mps + traits.length_m);
-  pass.back_s = BackTime(aside_m), pass.back_least_m = kShortest_m;
+  pass.back_s = LaneChangeTime_s(aside_m), pass.back_least_m = kMinLaneChangeLength_m;
   pass.length_m = traits.length_m;
   return pass;
 }
@@ -147,11 +141,11 @@ bool TrafficModel::MayOvertake(std::uint32_t id, double to_m, double aside_m) co
     for (const lanes::ZoneSide& part : zones().Of(track)) {
       if (part.in_m < until && part.out_m > from) return false;
     }
-    for (double d = low; d < high + kLook_m; d += kLook_m) {
+    for (double d = low; d < high + kOvertakingSamplingStep_m; d += kOvertakingSamplingStep_m) {
       const double there = graph().Across(stretch.track, std::min(d, high), track);
       const lanes::CurvePoint at = graph()[stretch.track].curve.At(std::min(d, high));
       const double offset = (curve.At(there).p_W - at.p_W).head<2>().dot(at.left_W());
-      if (curve.WidthAt(there) < kNarrowest_m || std::fabs(offset - aside_m) > kUneven_m) return false;
+      if (curve.WidthAt(there) < kMinLaneChangeWidth_m || std::fabs(offset - aside_m) > kUneven_m) return false;
     }
   }
   return true;
@@ -184,14 +178,15 @@ std::optional<Piece> TrafficModel::WeighOvertaking(std::uint32_t id, Overtaking&
   if (oncoming.own_way) return std::nullopt;
   std::optional<Piece> piece;
   PassPlan plan;
-  double to = front + kSoon_m, top = 0.0;
+  double to = front + kInitialLength_m, top = 0.0;
   for (int guess = 0; guess < kGuesses; ++guess) {
     top = TopSpeed(id, front, to);
     if (top < std::max(v, passed.speed_mps + GainFor(agents_[id]))) return std::nullopt;
     piece = PieceOut(id, top);
     if (!piece) return std::nullopt;
     way.side = piece->aside_m > 0.0 ? 1 : -1;
-    const double needs = 0.5 * traits.width_m + kBeside_m + (way.side > 0 ? passed.left_m : -passed.right_m);
+    const double needs =
+        0.5 * traits.width_m + kOvertakingClearance_m + (way.side > 0 ? passed.left_m : -passed.right_m);
     if (needs > kMostAside * std::fabs(piece->aside_m)) return std::nullopt;
     way.clear_m = front + piece->blend_m * QuinticShareAt(needs / std::fabs(piece->aside_m));
     PassCase pass = CaseOf(id, passed, top, piece->aside_m, to);
@@ -206,7 +201,7 @@ std::optional<Piece> TrafficModel::WeighOvertaking(std::uint32_t id, Overtaking&
     if (guess > 0 && to <= before) break;
   }
   way.passed = passed.id, way.passed_body = passed.body;
-  way.legal_m = to + kSpare_m;
+  way.legal_m = to + kLegalMargin_m;
   way.to_m = to, way.back_s = plan.time_s;
   if (!MayOvertake(id, way.legal_m, piece->aside_m) || !HasRoomBefore(id, way, plan, top)) return std::nullopt;
   return piece;

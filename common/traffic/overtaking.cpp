@@ -8,7 +8,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLeast_mps = 1.0;
+constexpr double kMinOvertakingSpeed_mps = 1.0;
 constexpr double kOnOwnSide = 0.8;  // of the path back: six in a hundred of its width are left
 constexpr int kHalvings = 40;
 
@@ -40,12 +40,13 @@ void Overtaking::Restore(base::StateReader& reader) {
 
 PassPlan PlanPass(const PassCase& at) {
   PassPlan plan;
-  const double out = at.to_clear_m / std::max(kLeast_mps, at.speed_mps);
+  const double out = at.to_clear_m / std::max(kMinOvertakingSpeed_mps, at.speed_mps);
   const double gained = std::max(0.0, at.relative_m - out * (at.speed_mps - at.passed_mps));
   const double gaining =
       TravelTime(gained, std::max(0.0, at.speed_mps - at.passed_mps), at.top_mps - at.passed_mps, at.gains_mps2);
   plan.gaining_s = out + gaining;
-  plan.speed_mps = std::max({kLeast_mps, at.speed_mps, std::min(at.top_mps, at.speed_mps + at.gains_mps2 * gaining)});
+  plan.speed_mps =
+      std::max({kMinOvertakingSpeed_mps, at.speed_mps, std::min(at.top_mps, at.speed_mps + at.gains_mps2 * gaining)});
   const double back = std::max(at.back_least_m, at.back_s * plan.speed_mps);
   plan.way_m = at.to_clear_m + gained + at.passed_mps * gaining + back;
   plan.time_s = plan.gaining_s + (kOnOwnSide * back + at.length_m) / plan.speed_mps;

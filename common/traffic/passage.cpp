@@ -11,12 +11,11 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 0.6;   // before the first zone, and before a light's line, the front stops
-constexpr double kStand_m = 2.5;  // more than its length a car needs to stand between two zones
+constexpr double kStandingMargin_m = 2.5;  // beyond its length, for a vehicle to stand between two zones
 constexpr double kReaction_s = 1.0;
 constexpr double kEarly_m = 4.0;
-constexpr double kStopped_m = 2.0;   // at most so far before a STOP line
-constexpr double kOverLine_m = 0.3;  // a front so far beyond a light's line has passed it
+constexpr double kStopped_m = 2.0;         // at most so far before a STOP line
+constexpr double kPastSignalLine_m = 0.3;  // a front this far beyond a signal line has passed it
 constexpr double kFarther_m =
     20.0;  // than where it would stand behind the zones that it knows it looks for the next ones
 
@@ -82,15 +81,16 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
   auto crossings = std::move(passage.crossings);
   crossings.clear();
   passage = Passage();
-  const double stand = traits_[id].length_m + kStand_m;
+  const double stand = traits_[id].length_m + kStandingMargin_m;
   passage.key = {ways_[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
     if (!passage.any)
-      passage.line_m = crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kLine_m);
+      passage.line_m =
+          crossing.zone < 0 && !passage.lit ? crossing.in_m : std::max(front, crossing.in_m - kStopDistance_m);
     passage.any = true;
     passage.end_m = std::max(passage.end_m, crossing.out_m);
     crossings.push_back(crossing);
-    passage.key.until_m = std::min(passage.key.until_m, crossing.in_m - kLine_m);
+    passage.key.until_m = std::min(passage.key.until_m, crossing.in_m - kStopDistance_m);
   };
   for (const Stretch& stretch : stretches_[id]) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
@@ -105,7 +105,7 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
       for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
         const double at = stretch.zero_m + lines[next].d_m;
         const bool light = lines[next].light >= 0;
-        if (at < front - (light ? kOverLine_m : kStopped_m) || at <= agent.granted_m || at < stretch.begin_m)
+        if (at < front - (light ? kPastSignalLine_m : kStopped_m) || at <= agent.granted_m || at < stretch.begin_m)
           continue;  // a STOP line alone is granted once
         if (light) {
           if (passage.any && at > passage.end_m + stand) break;
@@ -120,12 +120,12 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
     };
     for (const lanes::ZoneSide& part : sides) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
-      if (out <= rear || out <= agent.granted_m || in < front - 0.5 * kLine_m) continue;
-      take_lines(in + kLine_m);
+      if (out <= rear || out <= agent.granted_m || in < front - 0.5 * kStopDistance_m) continue;
+      take_lines(in + kStopDistance_m);
       if (passage.any && in > passage.end_m + stand) break;
       take({static_cast<std::int32_t>(part.zone), part.side, in, out});
     }
-    if (!passage.any || passage.end_m + stand > stretch.end_m) take_lines(stretch.end_m + kLine_m);
+    if (!passage.any || passage.end_m + stand > stretch.end_m) take_lines(stretch.end_m + kStopDistance_m);
   }
   passage.crossings = std::move(crossings);
   if (!passage.any) return;

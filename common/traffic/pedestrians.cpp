@@ -17,11 +17,17 @@ namespace rodeira::traffic {
 namespace {
 
 // Purposes of draws; never renumber.
-enum Draws : std::uint64_t { kSide = 201, kSpeed = 202, kFile = 203, kHeight = 204, kColour = 205 };
+enum PedestrianDraw : std::uint64_t {
+  kDrawSide = 201,
+  kDrawSpeed = 202,
+  kDrawFile = 203,
+  kDrawHeight = 204,
+  kDrawColour = 205
+};
 
 constexpr std::uint64_t kFlows = 1'000'000;  // numbers of the crossings' flows lie beyond those of vehicles
-constexpr double kFile_m = 0.7;              // beside one another …
-constexpr double kBehind_m = 0.7;            // … and behind one another
+constexpr double kFile_m = 0.7;              // between pedestrians side by side …
+constexpr double kPedestrianGap_m = 0.7;     // … and one behind the other
 constexpr double kAtKerb_m = 1e-9;
 constexpr std::array<std::uint32_t, 6> kClothes{0x2F4B6E, 0x7A2E2E, 0x3E5B3A, 0xC8B48A, 0x55505A, 0xB4562C};
 
@@ -132,7 +138,7 @@ double Pedestrians::Draw(const Person& person, std::uint64_t what) const {
 }
 
 double Pedestrians::WalkingSpeed(const Person& person) const {
-  return settings_.slowest_mps + (settings_.fastest_mps - settings_.slowest_mps) * Draw(person, kSpeed);
+  return settings_.slowest_mps + (settings_.fastest_mps - settings_.slowest_mps) * Draw(person, kDrawSpeed);
 }
 
 // So many can walk beside one another each way.
@@ -141,7 +147,7 @@ int Pedestrians::FilesOf(std::uint32_t crossing) const {
 }
 
 int Pedestrians::FileOf(const Person& person) const {
-  return static_cast<int>(Draw(person, kFile) * static_cast<double>(FilesOf(person.crossing)));
+  return static_cast<int>(Draw(person, kDrawFile) * static_cast<double>(FilesOf(person.crossing)));
 }
 
 double Pedestrians::BeforeOf(const Person& person) const {
@@ -194,7 +200,7 @@ void Pedestrians::Come(std::uint32_t crossing, std::uint32_t side) {
   free->u_m = -BeforeOf(*free);
   for (const std::uint32_t p : order_[crossing]) {  // there is no room for two
     if (people_[p].side == side && FileOf(people_[p]) == FileOf(*free))
-      free->u_m = std::min(free->u_m, people_[p].u_m - kBehind_m);
+      free->u_m = std::min(free->u_m, people_[p].u_m - kPedestrianGap_m);
   }
   order_[crossing].push_back(static_cast<std::uint32_t>(free - people_.begin()));
 }
@@ -209,7 +215,7 @@ void Pedestrians::Step(double dt_s, std::int64_t until_ns) {
       double& before = last[person.side * files + static_cast<std::size_t>(FileOf(person))];
       if (person.is_hit) continue;
       if (!person.walks && person.u_m >= -kAtKerb_m) person.waited_s += dt_s;
-      const double stop = std::min(person.walks ? 1e9 : 0.0, before - kBehind_m);
+      const double stop = std::min(person.walks ? 1e9 : 0.0, before - kPedestrianGap_m);
       const double u = std::max(person.u_m, std::min(person.u_m + WalkingSpeed(person) * dt_s, stop));
       person.speed_mps = (u - person.u_m) / dt_s;
       person.gone_m += u - person.u_m;
@@ -221,7 +227,7 @@ void Pedestrians::Step(double dt_s, std::int64_t until_ns) {
     while (count.next_ns >= 0 && count.next_ns < until_ns) {
       Person drawn;
       drawn.crossing = c, drawn.number = count.arrived;
-      Come(c, Draw(drawn, kSide) < 0.5 ? 0 : 1);
+      Come(c, Draw(drawn, kDrawSide) < 0.5 ? 0 : 1);
       ++count.flowed;
       count.next_ns = NextAt(c);
     }
@@ -258,8 +264,9 @@ std::vector<PersonPose> Pedestrians::Poses() const {
     pose.heading_rad = std::atan2(ahead.y(), ahead.x());
     pose.speed_mps = person.speed_mps;
     pose.stride_rad = geometry::WrapAngle(person.gone_m / kStrideRadius_m);
-    pose.height_m = 1.6 + 0.25 * Draw(person, kHeight);
-    pose.colour_rgb = kClothes[static_cast<std::size_t>(Draw(person, kColour) * static_cast<double>(kClothes.size()))];
+    pose.height_m = 1.6 + 0.25 * Draw(person, kDrawHeight);
+    pose.colour_rgb =
+        kClothes[static_cast<std::size_t>(Draw(person, kDrawColour) * static_cast<double>(kClothes.size()))];
     poses.push_back(pose);
   }
   return poses;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/core/base/random.hpp"
+#include "common/traffic/spawn.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
@@ -12,11 +13,8 @@ namespace {
 constexpr std::uint64_t kDrawJitter = 101;
 constexpr double kStartJitter = 0.6;    // share of the spacing
 constexpr double kStartClear_m = 15.0;  // from others, at the beginning
-constexpr double kGentle_mps2 = 0.8;    // an entering car needs no harder braking than this
 constexpr double kFast_mps = 40.0;
 constexpr int kSweeps = 4;
-constexpr double kZoneClear_m = 1.0;
-constexpr double kNarrow_m = 2.0;
 
 }  // namespace
 
@@ -49,15 +47,16 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
     const double half = 0.5 * traits.length_m, d = at - before;
     bool room = !tracks.empty();
     const lanes::Track* track = room ? &graph()[tracks[place]] : nullptr;
-    room = room && d - half > 0.0 && d + half < track->length_m() && track->curve.WidthAt(d) > kNarrow_m;
+    room = room && d - half > 0.0 && d + half < track->length_m() && track->curve.WidthAt(d) > kMinSpawnWidth_m;
     if (room) {
       for (const lanes::ZoneSide& part : zones().Of(tracks[place])) {
         const lanes::Zone& zone = zones()[part.zone];
         const auto mine = static_cast<std::size_t>(part.side);
-        if (zone.in_m[mine] < d + half + kZoneClear_m && zone.out_m[mine] > d - half - kZoneClear_m) room = false;
+        if (zone.in_m[mine] < d + half + kZoneClearance_m && zone.out_m[mine] > d - half - kZoneClearance_m)
+          room = false;
       }
       for (const StopLine& line : map_->plans[tracks[place]].lines) {
-        if (std::fabs(line.d_m - d) < half + kZoneClear_m) room = false;
+        if (std::fabs(line.d_m - d) < half + kZoneClearance_m) room = false;
       }
       const lanes::CurvePoint p = track->curve.At(d);
       driver::Footprint own{id,  p.p_W.x(),       p.p_W.y(),           std::atan2(p.ahead_W.y(), p.ahead_W.x()),
@@ -95,7 +94,8 @@ void TrafficModel::PlaceAll(std::span<const driver::Footprint> others) {
       const double leader =
           ahead_[id].id < 0 ? ahead_[id].speed_mps : agents_[static_cast<std::size_t>(ahead_[id].id)].speed_mps;
       double& v = agents_[id].speed_mps;
-      while (v > 0.1 && driver::IdmAcceleration(traits_[id].idm, v, 100.0, ahead_[id].gap_m, leader) < -kGentle_mps2)
+      while (v > 0.1 &&
+             driver::IdmAcceleration(traits_[id].idm, v, 100.0, ahead_[id].gap_m, leader) < -kSpawnBraking_mps2)
         v *= 0.95;
     }
   }

@@ -10,17 +10,17 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kHardest_mps2 = 3.0;  // braking by which it is told where a vehicle could stand that may stop
-constexpr double kSameLine_m = 1.2;    // lines nearer to one another than this are one
+constexpr double kStoppingBraking_mps2 = 3.0;  // assumed of a vehicle that may stop
+constexpr double kSameLine_m = 1.2;            // lines nearer to one another than this are one
 constexpr double kNever_m = 1e18;
-constexpr double kRoom_m = 5.0;  // before who stands anywhere else than at a line
-constexpr int kDeepest = 256;    // longer columns count as ending there
+constexpr double kMinGapAhead_m = 5.0;  // ahead of a vehicle that stands anywhere else than at a line
+constexpr int kDeepest = 256;           // longer columns count as ending there
 constexpr double kStands_mps = 0.5, kFollows_s = 1.2,
                  kClose_m =
                      3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
 constexpr double kWaits_s = 3.0;  // within its zones for who leaves it room, at most, as told beforehand
 
-double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kHardest_mps2); }
+double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kStoppingBraking_mps2); }
 
 }  // namespace
 
@@ -142,8 +142,8 @@ void TrafficModel::FindRoom(std::uint32_t id) {
 bool TrafficModel::RoomAhead(std::uint32_t id) const {
   const Passage& passage = passages_[id];
   const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
-  const bool at_line = passage.any && passage.line_m < front + kRoom_m;
-  return at_line ? !passage.taken && ahead_[id].gap_m > passage.room_m - front : ahead_[id].gap_m > kRoom_m;
+  const bool at_line = passage.any && passage.line_m < front + kMinGapAhead_m;
+  return at_line ? !passage.taken && ahead_[id].gap_m > passage.room_m - front : ahead_[id].gap_m > kMinGapAhead_m;
 }
 
 }  // namespace rodeira::traffic

@@ -11,14 +11,14 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kRoom_m = 30.0;  // a change of lanes takes so much way with marks that allow it
-constexpr double kLook_m = 10.0;
-constexpr double kSame_m = 1e-6;
+constexpr double kLaneChangeRoom_m = 30.0;    // a lane change takes this length with marks that allow it
+constexpr double kMarkSamplingStep_m = 10.0;  // between two places at which the marks are checked
+constexpr double kLengthTolerance_m = 1e-6;
 
 bool MayChange(const lanes::Graph& graph, const lanes::EdgeMarks& marks, std::uint32_t track, lanes::Side side) {
   if (!(side == lanes::Side::kLeft ? graph[track].left : graph[track].right)) return false;
-  for (double d = 0.0; d + kRoom_m <= graph[track].length_m(); d += kLook_m) {
-    if (marks.MayCross(track, side, d, d + kRoom_m)) return true;
+  for (double d = 0.0; d + kLaneChangeRoom_m <= graph[track].length_m(); d += kMarkSamplingStep_m) {
+    if (marks.MayCross(track, side, d, d + kLaneChangeRoom_m)) return true;
   }
   return false;
 }
@@ -84,7 +84,7 @@ void Route::FindWays(const lanes::Graph& graph, const lanes::EdgeMarks& marks, s
   for (std::uint32_t track = 0; track < left.size(); ++track) {  // who may as well change later, does not have to now
     const auto& next = graph[track].next;
     if (left[track].must_change && std::any_of(next.begin(), next.end(), [&](const lanes::Link& on) {
-          return left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kSame_m;
+          return left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kLengthTolerance_m;
         }))
       left[track].must_change = false;
   }

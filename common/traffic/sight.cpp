@@ -13,8 +13,8 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kComfort_mps2 = 1.5;  // braking within which everything of interest lies …
-constexpr double kSpare_m = 60.0;      // … and so much more
+constexpr double kComfort_mps2 = 1.5;    // braking within which everything of interest lies …
+constexpr double kSightMargin_m = 60.0;  // … and so much more
 constexpr double kWithout_m = 1e-9;
 constexpr double kAnySpeed_mps = 1e3;
 
@@ -22,7 +22,7 @@ constexpr double kAnySpeed_mps = 1e3;
 
 double TrafficModel::SightOf(const Agent& agent) const {
   return std::min(settings_.sight_m,
-                  agent.speed_mps * agent.speed_mps / (2.0 * kComfort_mps2) + 3.0 * agent.speed_mps + kSpare_m);
+                  agent.speed_mps * agent.speed_mps / (2.0 * kComfort_mps2) + 3.0 * agent.speed_mps + kSightMargin_m);
 }
 
 // Whether those of the last time, without some at their end, are still what FindStretches would find.

@@ -62,6 +62,9 @@ struct Choice {
   std::uint32_t link = 0, leg = 0;
 };
 
+// A vehicle with all of its width farther than this from a lane's middle is not on that lane.
+inline constexpr double kOnLaneOffset_m = 1.5;
+
 // A vehicle that is no agent, on a track.
 struct Block {
   driver::LaneSpan span;

@@ -4,19 +4,19 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kSlidingFriction = 0.7;  // of locked wheels on dry asphalt
-constexpr double kGravity_mps2 = 9.81;
-constexpr double kNoticed_mps = 1e-3;  // some kilonewtons for a millisecond
-constexpr double kReach_m = 12.0;      // lanes so near give it its height
+constexpr double kNoticed_mps = 1e-3;     // some kilonewtons for a millisecond
+constexpr double kReach_m = 12.0;         // lanes so near give it its height
 
 // What static friction holds: less than its wheels can take in a step, of momentum and of its moment about the middle.
 bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
-  const double takes_mps = kSlidingFriction * kGravity_mps2 * dt_s,
+  const double takes_mps = kSlidingFriction * base::kGravity_mps2 * dt_s,
                arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
   const double gyration2 = (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
   return struck.v_W.norm() + std::fabs(struck.yaw_rate_radps) * gyration2 / arm <= takes_mps;

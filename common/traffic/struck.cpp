@@ -6,20 +6,20 @@
 #include <cmath>
 #include <span>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/core/geometry/plane.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kSubstep_s = 1e-3;
 
 double Inertia(const AgentTraits& traits) {
   return traits.mass_kg * (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
 }
 
-Eigen::Vector2d Turned(const Eigen::Vector2d& r, double rate) { return {-rate * r.y(), rate * r.x()}; }
+Eigen::Vector2d RotationalVelocity(const Eigen::Vector2d& r, double rate) { return {-rate * r.y(), rate * r.x()}; }
 
 }  // namespace
 
@@ -31,7 +31,7 @@ void Struck::Push(const AgentTraits& traits, const Eigen::Vector2d& impulse_Ns, 
 // By the middle of short steps. What friction would turn round within one of them comes to rest.
 void Struck::Slide(const AgentTraits& traits, double mu, double dt_s) {
   const int count = std::max(1, static_cast<int>(std::ceil(dt_s / kSubstep_s)));
-  const double h = dt_s / count, weight = 0.25 * traits.mass_kg * mu * kGravity_mps2, inertia = Inertia(traits);
+  const double h = dt_s / count, weight = 0.25 * traits.mass_kg * mu * base::kGravity_mps2, inertia = Inertia(traits);
   const Eigen::Vector2d corner(0.5 * traits.wheelbase_m, 0.5 * traits.width_m);
   for (int i = 0; i < count && !at_rest(); ++i) {
     const Eigen::Vector2d ahead(std::cos(heading_rad), std::sin(heading_rad)), left(-ahead.y(), ahead.x());
@@ -40,7 +40,7 @@ void Struck::Slide(const AgentTraits& traits, double mu, double dt_s) {
     for (const auto& [along, across] :
          {std::array{1.0, 1.0}, std::array{1.0, -1.0}, std::array{-1.0, 1.0}, std::array{-1.0, -1.0}}) {
       const Eigen::Vector2d r = along * corner.x() * ahead + across * corner.y() * left;
-      const Eigen::Vector2d v = v_W + Turned(r, yaw_rate_radps);
+      const Eigen::Vector2d v = v_W + RotationalVelocity(r, yaw_rate_radps);
       const double speed = v.norm();
       if (speed == 0.0) continue;
       const Eigen::Vector2d f = -weight / speed * v;

@@ -6,24 +6,24 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "common/traffic/car_of.hpp"
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/road_network.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr std::size_t kIncidents = 20;
-constexpr double kStanding_mps = 0.05;
-constexpr double kMoves_mps = 0.5;
+constexpr double kMoving_mps = 0.5;
 constexpr double kHard_mps2 = 3.0;
-constexpr double kOnLane_m = 1e-3;
+constexpr double kOffLaneTolerance_m = 1e-3;
 constexpr double kWidest_m = 4.0, kHalfTyre_m = 0.1;
 constexpr double kSmooth_mps3 = 3.0 * (1.0 + 1e-6), kLateral_mps2 = 3.0,
-                 kYaw_radps2 = 200.0 * std::numbers::pi / 180.0;  // what is told of
+                 kYaw_radps2 = 200.0 * base::kPi / 180.0;  // what is told of
 
 class Watcher {
  public:
@@ -60,7 +60,7 @@ class Watcher {
       if (pose.acceleration_mps2 < -kHard_mps2 && before_[k].acceleration_mps2 >= -kHard_mps2)
         Tell("brakes at {:.2f} m/s2", pose, -pose.acceleration_mps2);
       result_.hardest_mps2 = std::max(result_.hardest_mps2, -pose.acceleration_mps2);
-      if (pose.speed_mps < kMoves_mps) continue;
+      if (pose.speed_mps < kMoving_mps) continue;
       const dynamics::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
       result_.foot_mps2 =
           std::max(result_.foot_mps2, model.agent(pose.id).driving.brake * FullBrake_N(car) / car.body.mass_kg);
@@ -90,7 +90,7 @@ class Watcher {
       const Eigen::Vector3d forward = at.q_WB * Eigen::Vector3d::UnitX();
       return std::atan2(forward.y(), forward.x());
     };
-    const double rate = std::remainder(heading(pose) - heading(before), 2.0 * std::numbers::pi) / settings_.step_s;
+    const double rate = std::remainder(heading(pose) - heading(before), 2.0 * base::kPi) / settings_.step_s;
     const double jerk = std::fabs(pose.acceleration_mps2 - before.acceleration_mps2) / settings_.step_s,
                  lateral = std::fabs(pose.speed_mps * rate);
     double& worst = model.Hurries(pose.id) ? result_.emergency_jerk_mps3 : result_.planned_jerk_mps3;
@@ -112,14 +112,14 @@ class Watcher {
     for (const AgentPose& pose : model.poses()) {
       const auto place = network_.Locate(pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), &hint_);
       const network::Lane* lane = place ? network_.Find(place->lane) : nullptr;
-      if (lane == nullptr || place->distance_m > kOnLane_m || !network::IsDrivable(lane->type)) {
+      if (lane == nullptr || place->distance_m > kOffLaneTolerance_m || !network::IsDrivable(lane->type)) {
         ++result_.off_lane;
         Tell("off its lane ({} m)", pose, place ? place->distance_m : -1.0);
       }
       LookAtWheels(model, pose);
       double& stands = stands_s_[pose.id];
       double& with_room = with_room_s_[pose.id];
-      if (pose.speed_mps > kStanding_mps) {
+      if (pose.speed_mps > kStandstill_mps) {
         stands = with_room = 0.0;
         continue;
       }
@@ -142,12 +142,12 @@ class Watcher {
   bool IsForVehicles(const TrafficModel& model, const Eigen::Vector3d& p_W) {
     const auto place = network_.Locate(p_W.x(), p_W.y(), p_W.z(), &hint_);
     const network::Lane* lane = place ? network_.Find(place->lane) : nullptr;
-    if (lane != nullptr && place->distance_m <= kOnLane_m &&
+    if (lane != nullptr && place->distance_m <= kOffLaneTolerance_m &&
         (network::IsDrivable(lane->type) || lane->type == network::LaneType::kShoulder))
       return true;
     for (const lanes::Graph::Beside& beside : model.graph().TracksAt(p_W.head<2>(), kWidest_m)) {
       const lanes::Curve& curve = model.graph()[beside.track].curve;
-      if (std::fabs(beside.foot.offset_m) <= 0.5 * curve.WidthAt(beside.foot.d_m) + kOnLane_m &&
+      if (std::fabs(beside.foot.offset_m) <= 0.5 * curve.WidthAt(beside.foot.d_m) + kOffLaneTolerance_m &&
           std::fabs(curve.At(beside.foot.d_m).p_W.z() - p_W.z()) < network::Network::kLevel_m)
         return true;
     }

@@ -18,13 +18,13 @@ constexpr double kTight = 0.16;     // wheelbase over radius of bends that are l
                                     // less than 0.2 m farther out than lines do
 constexpr double kAround_m = 16.0;  // of way before and behind such a track …
 constexpr double kSettles_m = 8.0;  // … of which so much settles how the car lies there
-constexpr double kStep_s = 0.02, kLook_m = 0.5, kOutline_m = 0.9;
+constexpr double kStep_s = 0.02, kOutlineStep_m = 0.5, kOutline_m = 0.9;
 constexpr double kPlan_m = 0.5;
 constexpr double kPlannedBraking_mps2 = 1.5;
-constexpr double kLeast_mps = 0.5;
+constexpr double kMinSwingSpeed_mps = 0.5;
 constexpr std::array kShares{
     1.0, 0.6, 0.3};  // of the planned speed: hands are late at the first, at the last who comes from rest cuts the bend
-constexpr std::size_t kMostWays = 64;  // through one track
+constexpr std::size_t kMaxPaths = 64;  // through one track
 
 class Swinger {
  public:
@@ -67,7 +67,7 @@ class Swinger {
   void Back(std::vector<std::uint32_t> way, double gone_m, std::vector<std::vector<std::uint32_t>>& ways) const {
     const auto& before = graph_[way.back()].before;
     if (gone_m >= kAround_m || before.empty()) {
-      if (ways.size() < kMostWays) ways.push_back(std::move(way));
+      if (ways.size() < kMaxPaths) ways.push_back(std::move(way));
       return;
     }
     for (const std::uint32_t from : before) {
@@ -80,7 +80,7 @@ class Swinger {
   bool Append(Path& path, std::uint32_t track) const {
     for (const lanes::Link& link : graph_[path.back().track].next) {
       if (link.to != track) continue;
-      path.push_back(Onward(graph_, path, link, kLeast_mps));
+      path.push_back(Onward(graph_, path, link, kMinSwingSpeed_mps));
       return true;
     }
     return false;
@@ -89,13 +89,13 @@ class Swinger {
   void On(const Path& path, double to_m, std::size_t& ways) {
     const auto& next = graph_[path.back().track].next;
     if (path.back().zero_m + graph_[path.back().track].length_m() >= to_m || next.empty()) {
-      if (ways++ >= kMostWays) return;
+      if (ways++ >= kMaxPaths) return;
       for (const double share : kShares) Drive(path, to_m, share);
       return;
     }
     for (const lanes::Link& link : next) {
       Path on = path;
-      on.push_back(Onward(graph_, path, link, kLeast_mps));
+      on.push_back(Onward(graph_, path, link, kMinSwingSpeed_mps));
       On(on, to_m, ways);
     }
   }
@@ -127,9 +127,10 @@ class Swinger {
            next_look_m = graph_[path.front().track].before.empty() ? o : o + kSettles_m;
     while (o < end_m) {
       const Eigen::Vector2d ahead(std::cos(heading), std::sin(heading));
-      if (o >= next_look_m) Look(path, rear + half_base * ahead, ahead, o), next_look_m += kLook_m;
-      const double speed = std::max(
-          kLeast_mps, share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
+      if (o >= next_look_m) Look(path, rear + half_base * ahead, ahead, o), next_look_m += kOutlineStep_m;
+      const double speed =
+          std::max(kMinSwingSpeed_mps,
+                   share * std::sqrt(squared[std::min(squared.size() - 1, static_cast<std::size_t>(o / kPlan_m))]));
       double rear_m = o - half_base;
       PathFrame beside = FrameAt(graph_, path, rear_m);
       rear_m += beside.ahead_W.dot(rear - beside.p_W.head<2>()) / beside.stretch;

@@ -9,7 +9,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kAside_m = 1.0;
+constexpr double kGradeHalfStep_m = 1.0;
 constexpr double kTurn = 0.45;        // rad by which a way must bend to be a turn …
 constexpr double kLongTurn_m = 80.0;  // … no longer than this
 
@@ -26,7 +26,7 @@ bool HasOneLimit(const lanes::Graph& graph, std::uint32_t track) {
 }
 
 // To which side a track turns that is one of several ways on.
-int TurnOf(const lanes::Graph& graph, std::uint32_t track) {
+int TurnDirection(const lanes::Graph& graph, std::uint32_t track) {
   const lanes::Track& at = graph[track];
   const auto on_ring = [&](std::uint32_t other) { return lanes::OnRing(graph, other); };
   if (on_ring(track)) return kRing;
@@ -47,7 +47,7 @@ driver::LaneFrame TrackWay::At(double d_m) const {
 }
 
 double TrackWay::VerticalCurvature_1pm(double d_m) const {
-  const double low = std::max(0.0, d_m - kAside_m), high = std::min(length_m(), d_m + kAside_m);
+  const double low = std::max(0.0, d_m - kGradeHalfStep_m), high = std::min(length_m(), d_m + kGradeHalfStep_m);
   return high > low ? (curve().At(high).grade - curve().At(low).grade) / (high - low) : 0.0;
 }
 
@@ -81,7 +81,7 @@ TrackPlan::TrackPlan(const lanes::Graph& graph, std::uint32_t track, const drive
     : plan(TrackWay(graph, track), settings),
       limit_mps(graph.SpeedLimit_mps(track, 0.0)),
       one_limit(HasOneLimit(graph, track)),
-      turn(TurnOf(graph, track)) {
+      turn(TurnDirection(graph, track)) {
   for (const lanes::LightPlace& light : lanes::LightsOf(graph, track)) lines.push_back({light.d_m, light.controller});
   if (!lines.empty()) return;
   for (const lanes::SignPlace& sign : lanes::SignsOf(graph, track)) {

@@ -14,8 +14,8 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr std::uint64_t kDrawLink = 103;
-constexpr std::size_t kAhead = 6;   // agents: so far ahead memory is fetched
-constexpr double kGentle_m = 3e-4;  // what a bend makes of the way of a step, and no more
+constexpr std::size_t kBendPrefetch = 6;  // agents ahead whose bends are prefetched
+constexpr double kGentle_m = 3e-4;        // what a bend makes of the way of a step, and no more
 
 }  // namespace
 
@@ -217,11 +217,11 @@ void TrafficModel::FetchBend(std::size_t id) const {
     return of < below_.size() && below_[of].track < graph().tracks().size() && !below_[of].straight;
   };
   constexpr std::size_t kLine_bytes = 64;
-  if (const std::size_t later = id + 2 * kAhead; bends(later)) {
+  if (const std::size_t later = id + 2 * kBendPrefetch; bends(later)) {
     const auto* curve = reinterpret_cast<const char*>(&graph()[below_[later].track].curve);
     for (std::size_t at = 0; at < sizeof(lanes::Curve); at += kLine_bytes) __builtin_prefetch(curve + at);
   }
-  if (const std::size_t soon = id + kAhead; bends(soon)) {
+  if (const std::size_t soon = id + kBendPrefetch; bends(soon)) {
     const Below& below = below_[soon];  // all that may be read of it: another thread may move it now
     graph()[below.track].curve.Fetch(0.5 *
                                      (std::max(0.0, below.plan.from_m) + std::min(below.length_m, below.plan.to_m)));

@@ -23,7 +23,7 @@ driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits) 
 namespace {
 
 // Looking the way from its rear axle to its front one, leaning as the surface does across.
-Eigen::Quaterniond Turned(const Eigen::Vector3d& along_W, const Eigen::Vector2d& ahead_W, double bank) {
+Eigen::Quaterniond AttitudeAlong(const Eigen::Vector3d& along_W, const Eigen::Vector2d& ahead_W, double bank) {
   const Eigen::Vector3d across(-ahead_W.y(), ahead_W.x(), bank);
   Eigen::Matrix3d axes;
   axes.col(0) = along_W.normalized();
@@ -34,8 +34,8 @@ Eigen::Quaterniond Turned(const Eigen::Vector3d& along_W, const Eigen::Vector2d&
 
 }  // namespace
 
-Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight) {
-  return Turned(straight.along_W, straight.along_W.head<2>(), straight.bank);
+Eigen::Quaterniond AttitudeOn(const lanes::Curve::Straight& straight) {
+  return AttitudeAlong(straight.along_W, straight.along_W.head<2>(), straight.bank);
 }
 
 double GradeOf(const Eigen::Quaterniond& q_WB) {
@@ -63,14 +63,14 @@ AgentPose TrafficModel::PoseOf(std::uint32_t id) const {
   if (const lanes::Curve::Straight* straight = StraightBelow(id); straight != nullptr && straight->bank_1pm == 0.0) {
     const Piece& piece = agent.path.front();
     pose.p_WB_W = straight->p_W + (agent.o_m - piece.zero_m) * straight->along_W;
-    pose.q_WB = below.track == piece.track ? *below.turned : TurnedOn(*straight);
+    pose.q_WB = below.track == piece.track ? *below.turned : AttitudeOn(*straight);
   } else {
     const PathFrame at = FrameOf(id, agent.o_m);
     const double half_base = HalfBase(id);
     const Eigen::Vector3d front = FrameOf(id, agent.o_m + half_base).p_W;
     const Eigen::Vector3d rear = FrameOf(id, agent.o_m - half_base).p_W;
     pose.p_WB_W = 0.5 * (front + rear);
-    pose.q_WB = Turned(front - rear, at.ahead_W, at.bank);
+    pose.q_WB = AttitudeAlong(front - rear, at.ahead_W, at.bank);
     pose.steer_rad = std::atan(traits.wheelbase_m * at.curvature_1pm);
   }
   pose.speed_mps = agent.speed_mps;

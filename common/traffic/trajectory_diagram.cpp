@@ -14,18 +14,18 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kWide_px = 900.0, kHigh_px = 460.0, kLeft_px = 60.0, kTop_px = 40.0;
-constexpr std::array<const char*, 5> kShades = {"#b2182b", "#ef8a62", "#d9c24c", "#67a9cf",
-                                                "#2166ac"};  // from standing to the limit
+constexpr double kPlotWidth_px = 900.0, kPlotHeight_px = 460.0, kPlotLeft_px = 60.0, kPlotTop_px = 40.0;
+constexpr std::array<const char*, 5> kSpeedColours = {"#b2182b", "#ef8a62", "#d9c24c", "#67a9cf",
+                                                      "#2166ac"};  // from standing to the limit
 
 int ShadeAt(double speed_mps, double limit_mps) {
-  return std::clamp(static_cast<int>(speed_mps / limit_mps * static_cast<double>(kShades.size())), 0,
-                    static_cast<int>(kShades.size()) - 1);
+  return std::clamp(static_cast<int>(speed_mps / limit_mps * static_cast<double>(kSpeedColours.size())), 0,
+                    static_cast<int>(kSpeedColours.size()) - 1);
 }
 
 void Legend(std::string& svg) {
-  double x = kLeft_px;
-  for (const char* shade : kShades) {
+  double x = kPlotLeft_px;
+  for (const char* shade : kSpeedColours) {
     fmt::format_to(std::back_inserter(svg), "<rect x='{:.0f}' y='26' width='20' height='8' fill='{}'/>", x, shade);
     x += 20.0;
   }
@@ -48,8 +48,8 @@ void TrajectoryDiagram::Add(double time_s, const TrafficModel& model) {
 
 std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::string& title) const {
   const double length = graph[track_].length_m(), limit = graph.SpeedLimit_mps(track_, 0.5 * length);
-  const auto x = [&](double t) { return kLeft_px + kWide_px * t / std::max(last_s_, 1e-9); };
-  const auto y = [&](double d) { return kTop_px + kHigh_px * (1.0 - d / length); };
+  const auto x = [&](double t) { return kPlotLeft_px + kPlotWidth_px * t / std::max(last_s_, 1e-9); };
+  const auto y = [&](double d) { return kPlotTop_px + kPlotHeight_px * (1.0 - d / length); };
   std::set<std::uint32_t> here;
   for (const auto& [who, points] : ways_) here.insert(who.first);
   std::string svg = fmt::format(
@@ -58,14 +58,14 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
       "<rect width='{0:.0f}' height='{1:.0f}' fill='white'/>\n<text x='{2}' y='20' font-size='14'>{3}, {7} of them "
       "here</text>\n"
       "<rect x='{2}' y='{4}' width='{5}' height='{6}' fill='none' stroke='#bbb'/>\n",
-      kLeft_px + kWide_px + 20.0, kTop_px + kHigh_px + 40.0, kLeft_px, XmlText(title), kTop_px, kWide_px, kHigh_px,
-      here.size());
+      kPlotLeft_px + kPlotWidth_px + 20.0, kPlotTop_px + kPlotHeight_px + 40.0, kPlotLeft_px, XmlText(title),
+      kPlotTop_px, kPlotWidth_px, kPlotHeight_px, here.size());
   Legend(svg);
   for (int k = 0; k <= 4; ++k) {
     fmt::format_to(std::back_inserter(svg),
                    "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' "
                    "text-anchor='end'>{:.4g} m</text>\n",
-                   x(0.25 * k * last_s_), kTop_px + kHigh_px + 18.0, 0.25 * k * last_s_, kLeft_px - 6.0,
+                   x(0.25 * k * last_s_), kPlotTop_px + kPlotHeight_px + 18.0, 0.25 * k * last_s_, kPlotLeft_px - 6.0,
                    y(0.25 * k * length) + 4.0, 0.25 * k * length);
   }
   svg += "<g fill='none' stroke-width='1'>\n";
@@ -82,7 +82,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
         fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", x(points[k].time_s), y(points[k].d_m));
       if (end > i)
         fmt::format_to(std::back_inserter(svg), "<polyline stroke='{}' points='{}'/>\n",
-                       kShades[static_cast<std::size_t>(shade)], line);
+                       kSpeedColours[static_cast<std::size_t>(shade)], line);
       i = std::max(end, i + 1);
     }
   }

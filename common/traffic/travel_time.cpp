@@ -7,13 +7,13 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLeast_mps = 0.5;
+constexpr double kMinTopSpeed_mps = 0.5;
 
 }  // namespace
 
 double TravelTime(double distance_m, double speed_mps, double most_mps, double start_mps2) {
   if (distance_m <= 0.0) return 0.0;
-  const double v = speed_mps, top = std::max({most_mps, v, kLeast_mps});
+  const double v = speed_mps, top = std::max({most_mps, v, kMinTopSpeed_mps});
   const double gaining = (top * top - v * v) / (2.0 * start_mps2);
   if (distance_m >= gaining) return (top - v) / start_mps2 + (distance_m - gaining) / top;
   return (std::sqrt(v * v + 2.0 * start_mps2 * distance_m) - v) / start_mps2;
@@ -24,7 +24,7 @@ double TravelTime(double distance_m, double speed_mps, double most_mps, double s
 double TravelTime(double distance_m, double speed_mps, double most_mps, double start_mps2, const Setting& off) {
   if (distance_m <= 0.0) return 0.0;
   const double gains = std::max(0.0, start_mps2 - off.acceleration_mps2), j = off.jerk_mps3;
-  const double top = std::max({most_mps, speed_mps, kLeast_mps}), v = speed_mps - gains * gains / (2.0 * j);
+  const double top = std::max({most_mps, speed_mps, kMinTopSpeed_mps}), v = speed_mps - gains * gains / (2.0 * j);
   const double way = distance_m - gains * gains * gains / (6.0 * j * j), at_speed = distance_m / top;
   const double gaining = (top * top - v * v) / (2.0 * start_mps2);
   if (way >= gaining) return std::max(at_speed, (top - v) / start_mps2 + (way - gaining) / top);

@@ -6,32 +6,32 @@
 #include <cmath>
 #include <tuple>
 
+#include "common/traffic/queueing.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kLine_m = 1.0;      // before the walkway the front stops
-constexpr double kReaction_s = 0.5;  // before the brakes do
-constexpr double kAtRest_mps = 0.05;
-constexpr double kPatience_s = 20.0;     // so long a car waits for those on foot before they let it go
-constexpr double kRoom_m = 3.0;          // … if it has so much before it
-constexpr double kDrivers_mps2 = 2.0;    // braking that is expected of other vehicles …
-constexpr double kDriversReact_s = 1.0;  // … and when it begins
-constexpr double kAside_m = 1.5;         // from a lane's middle: farther away a vehicle is not on it
-constexpr double kEntering = 0.6;        // share of the comfortable braking that an entering car may need
-constexpr double kShareOfRed = 0.8;      // in which people step out, where red is shorter than they need
-constexpr std::size_t kMostWays = 64;
+constexpr double kCrosswalkStopDistance_m = 1.0;  // from a stopped front to the crossing
+constexpr double kBrakeReaction_s = 0.5;          // until the brakes act
+constexpr double kMaxPedestrianWait_s = 20.0;     // pedestrians let a vehicle go that has waited for them this long …
+constexpr double kMinClearAhead_m = 3.0;          // … and has this much space ahead
+constexpr double kDrivers_mps2 = 2.0;             // braking that is expected of other vehicles …
+constexpr double kDriversReact_s = 1.0;           // … and when it begins
+constexpr double kEntering = 0.6;                 // share of the comfortable braking that an entering car may need
+constexpr double kShareOfRed = 0.8;               // in which people step out, where red is shorter than they need
+constexpr std::size_t kMaxTracksAhead = 64;
 
 double NeedsToStop(double speed_mps, double braking_mps2) {
-  return speed_mps * speed_mps / (2.0 * braking_mps2) + kReaction_s * speed_mps;
+  return speed_mps * speed_mps / (2.0 * braking_mps2) + kBrakeReaction_s * speed_mps;
 }
 
 }  // namespace
 
 double TrafficModel::StoppingWay(std::uint32_t id) const {
   const double v = agents_[id].speed_mps;
-  return v * v / (2.0 * kYieldingShare * traits_[id].idm.braking_mps2) + 2.0 * kReaction_s * v + 2.0 * kLine_m;
+  return v * v / (2.0 * kYieldingShare * traits_[id].idm.braking_mps2) + 2.0 * kBrakeReaction_s * v +
+         2.0 * kCrosswalkStopDistance_m;
 }
 
 bool TrafficModel::NearCrossing(std::uint32_t track, double low_m, double high_m) const {
@@ -39,7 +39,7 @@ bool TrafficModel::NearCrossing(std::uint32_t track, double low_m, double high_m
   const auto& here = people_->OfTrack(track);
   return std::any_of(here.begin(), here.end(), [&](const Pedestrians::OnTrack& on) {
     const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
-    return pass.in_m - kLine_m < high_m && pass.out_m > low_m;
+    return pass.in_m - kCrosswalkStopDistance_m < high_m && pass.out_m > low_m;
   });
 }
 
@@ -70,18 +70,19 @@ void TrafficModel::CarsAtCrossings() {
     for (const Stretch& stretch : stretches_[id]) {
       for (const Pedestrians::OnTrack& on : people_->OfTrack(stretch.track)) {
         const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
-        const double in = stretch.zero_m + pass.in_m, out = stretch.zero_m + pass.out_m, line = in - kLine_m;
+        const double in = stretch.zero_m + pass.in_m, out = stretch.zero_m + pass.out_m,
+                     line = in - kCrosswalkStopDistance_m;
         if (out <= rear || out < stretch.begin_m || in > stretch.end_m) continue;
         AtCrossing& at = at_crossings_[on.crossing];
         if (front > in) {
           at.held = true;
-          at.blocked = at.blocked || v < kAtRest_mps;
+          at.blocked = at.blocked || v < kStandstill_mps;
           continue;
         }
         const bool yields =
             yielding_[id].crossing == on.crossing + 1 && v * v <= 2.0 * traits_[id].idm.hardest_mps2 * (in - front);
-        const bool able =
-            yields || v < kAtRest_mps || NeedsToStop(v, kYieldingShare * traits_[id].idm.braking_mps2) <= line - front;
+        const bool able = yields || v < kStandstill_mps ||
+                          NeedsToStop(v, kYieldingShare * traits_[id].idm.braking_mps2) <= line - front;
         to_crossings_.push_back({id, on.crossing, on.pass, std::max(front, line), able});
       }
     }
@@ -97,7 +98,8 @@ void TrafficModel::CarsAtCrossings() {
     if (i == 0 || to.crossing != to_crossings_[i - 1].crossing || to.pass != to_crossings_[i - 1].pass) queue_m = 0.0;
     const double v = agents_[to.id].speed_mps,
                  needed = NeedsToStop(v, kYieldingShare * traits_[to.id].idm.braking_mps2);
-    if (!to.able || (v >= kAtRest_mps && yielding_[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m))
+    if (!to.able ||
+        (v >= kStandstill_mps && yielding_[to.id].crossing != to.crossing + 1 && needed > gap(to) - queue_m))
       at_crossings_[to.crossing].held = true;
     queue_m += traits_[to.id].length_m + settings_.idm.standing_gap_m;
   }
@@ -111,20 +113,20 @@ void TrafficModel::OthersAtCrossings() {
   };
   for (std::uint32_t track = 0; track < blocks_.size(); ++track) {
     for (const Block& block : blocks_[track]) {
-      if (block.span.left_m < -kAside_m || block.span.right_m > kAside_m) continue;
+      if (block.span.left_m < -kOnLaneOffset_m || block.span.right_m > kOnLaneOffset_m) continue;
       const double v = std::fabs(block.span.speed_mps), length = block.span.front_m - block.span.rear_m;
       const double stops_m = v * v / (2.0 * kDrivers_mps2) + kDriversReact_s * v;
       const bool along = block.span.speed_mps >= 0.0;
       std::vector<At> open{{track, -block.span.front_m}};
-      for (std::size_t i = 0; i < open.size() && i < kMostWays; ++i) {
+      for (std::size_t i = 0; i < open.size() && i < kMaxTracksAhead; ++i) {
         const At at = open[i];
         for (const Pedestrians::OnTrack& on : people_->OfTrack(at.track)) {
           const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
           const double gap = at.ahead_m + pass.in_m;              // from its front
           const double back = -length - at.ahead_m - pass.out_m;  // from its rear, to what lies behind it
           const bool there = gap < 0.0 && back < 0.0;
-          if (there) at_crossings_[on.crossing].blocked = at_crossings_[on.crossing].blocked || v < kAtRest_mps;
-          if (there || (v >= kAtRest_mps && (along ? gap >= 0.0 && gap < stops_m : back >= 0.0 && back < stops_m)))
+          if (there) at_crossings_[on.crossing].blocked = at_crossings_[on.crossing].blocked || v < kStandstill_mps;
+          if (there || (v >= kStandstill_mps && (along ? gap >= 0.0 && gap < stops_m : back >= 0.0 && back < stops_m)))
             at_crossings_[on.crossing].held = true;
         }
         const double end = at.ahead_m + graph()[at.track].length_m();
@@ -140,15 +142,16 @@ void TrafficModel::Yield(double dt_s) {
   for (const ToCrossing& to : to_crossings_) {
     const AtCrossing& at = at_crossings_[to.crossing];
     const double waited = yielding_[to.id].waited_s;
-    const bool awaited = people_->Waits(to.crossing) && at.go && !at.blocked && to.able && waited < kPatience_s;
+    const bool awaited =
+        people_->Waits(to.crossing) && at.go && !at.blocked && to.able && waited < kMaxPedestrianWait_s;
     if (!awaited && !people_->IsUsed(to.crossing, to.pass)) continue;
     if (to.line_m >= bars_[to.id]) continue;
     bars_[to.id] = to.line_m;
-    now[to.id] = {to.crossing + 1, agents_[to.id].speed_mps < kAtRest_mps ? waited + dt_s : 0.0};
+    now[to.id] = {to.crossing + 1, agents_[to.id].speed_mps < kStandstill_mps ? waited + dt_s : 0.0};
   }
   for (const ToCrossing& to : to_crossings_) {  // who is let go by those on foot has waited long until it drives
     const Yielding& before = yielding_[to.id];
-    if (now[to.id].crossing == 0 && before.crossing == to.crossing + 1 && before.waited_s >= kPatience_s)
+    if (now[to.id].crossing == 0 && before.crossing == to.crossing + 1 && before.waited_s >= kMaxPedestrianWait_s)
       now[to.id] = before;
   }
   yielding_ = std::move(now);
@@ -162,7 +165,8 @@ void TrafficModel::LookAtPeople(double dt_s) {
   OthersAtCrossings();
   for (const ToCrossing& to : to_crossings_) {
     const Yielding& yielding = yielding_[to.id];
-    if (yielding.crossing == to.crossing + 1 && yielding.waited_s >= kPatience_s && ahead_[to.id].gap_m > kRoom_m)
+    if (yielding.crossing == to.crossing + 1 && yielding.waited_s >= kMaxPedestrianWait_s &&
+        ahead_[to.id].gap_m > kMinClearAhead_m)
       at_crossings_[to.crossing].tired = true;
   }
   for (std::uint32_t c = 0; c < at_crossings_.size(); ++c) {
@@ -184,11 +188,11 @@ double TrafficModel::AtMostForPeople(std::uint32_t id) const {
       if (!people_->IsUsed(on.crossing, on.pass) && !people_->Waits(on.crossing)) continue;
       const lanes::FootPass& pass = people_->crossings()[on.crossing].passes[on.pass];
       if (stretch.zero_m + pass.out_m <= rear) continue;
-      const double way = stretch.zero_m + pass.in_m - kLine_m - front;
+      const double way = stretch.zero_m + pass.in_m - kCrosswalkStopDistance_m - front;
       if (way < 0.0) return -1.0;
       const double b = kEntering * traits_[id].idm.braking_mps2;
-      speed = std::min(speed, b * (std::sqrt(kReaction_s * kReaction_s + 2.0 * way / b) -
-                                   kReaction_s));  // v²/(2b) + v·reaction = way
+      speed = std::min(speed, b * (std::sqrt(kBrakeReaction_s * kBrakeReaction_s + 2.0 * way / b) -
+                                   kBrakeReaction_s));  // v²/(2b) + v·reaction = way
     }
   }
   return speed;

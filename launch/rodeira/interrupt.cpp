@@ -10,13 +10,13 @@ namespace {
 
 std::atomic<bool> g_interrupted = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
-void OnInterrupt(int) { g_interrupted = true; }
+void SetInterrupted(int) { g_interrupted = true; }
 
 }  // namespace
 
 void CatchInterrupts() {
-  ::signal(SIGINT, OnInterrupt);
-  ::signal(SIGTERM, OnInterrupt);
+  ::signal(SIGINT, SetInterrupted);
+  ::signal(SIGTERM, SetInterrupted);
   ::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using editor::Document;
 
-bool SideFields(Work& work, const std::string& name, traffic_map::LaneSide& side) {
+bool LaneSideFields(Work& work, const std::string& name, traffic_map::LaneSide& side) {
   ImGui::PushID(name.c_str());
   int type = static_cast<int>(side.type);
   ImGui::AlignTextToFramePadding();
@@ -30,8 +30,8 @@ void DrawLane(Work& work, std::int32_t number) {
   if (!at) return;
   traffic_map::Lane lane = work.session.document().map.lanes[*at].value;
   ImGui::Text("lane %d", number);
-  bool changed = SideFields(work, "left", lane.left);
-  changed |= SideFields(work, "right", lane.right);
+  bool changed = LaneSideFields(work, "left", lane.left);
+  changed |= LaneSideFields(work, "right", lane.right);
   int mode = static_cast<int>(lane.mode);
   if (OneOf(work, "mode", "mode", mode, kModeNames, 150.0f))
     lane.mode = static_cast<traffic_map::LaneMode>(mode), changed = true;

@@ -144,7 +144,7 @@ void Desk::KeepWork() {
   if (taken_up) editor::Keeper::Discard(*taken_up);
 }
 
-int RunDesk(const std::filesystem::path& file) {
+int RunEditor(const std::filesystem::path& file) {
   window::Settings settings;
   settings.title = "Rodeira";
   auto opened = window::Window::Open(settings);

@@ -44,6 +44,6 @@ class Desk {
 };
 
 // `rodeira edit [FILE.motors]`: until the window is closed. The exit status.
-int RunDesk(const std::filesystem::path& file);
+int RunEditor(const std::filesystem::path& file);
 
 }  // namespace rodeira::nodes

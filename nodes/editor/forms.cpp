@@ -28,7 +28,7 @@ Answer Buttons(Work& work, const char* yes, const char* no = "Cancel", const cha
   return answer;
 }
 
-void SideFields(Work& work, const char* name, int& curve, bool& inverted, int& type) {
+void CurveFields(Work& work, const char* name, int& curve, bool& inverted, int& type) {
   ImGui::PushID(name);
   ImGui::SetNextItemWidth(110.0f);
   ImGui::InputInt(name, &curve, 0);
@@ -41,8 +41,8 @@ void SideFields(Work& work, const char* name, int& curve, bool& inverted, int& t
 Answer DrawLaneForm(Work& work) {
   LaneForm& form = work.lane_form;
   if (work.form_opens) ImGui::SetKeyboardFocusHere();
-  SideFields(work, "left curve", form.left, form.left_inverted, form.left_type);
-  SideFields(work, "right curve", form.right, form.right_inverted, form.right_type);
+  CurveFields(work, "left curve", form.left, form.left_inverted, form.left_type);
+  CurveFields(work, "right curve", form.right, form.right_inverted, form.right_type);
   for (int mode = 0; mode < 3; ++mode) {
     if (mode > 0) ImGui::SameLine();
     ImGui::RadioButton(kModeNames[mode], &form.mode, mode);

@@ -19,7 +19,7 @@ namespace {
 namespace topics = idl::topics;
 
 // What the autopilot reads of a published state: pose and motion.
-dynamics::VehicleState FromWire(const msg::VehicleState& in) {
+dynamics::VehicleState StateFromWire(const msg::VehicleState& in) {
   dynamics::VehicleState out;
   out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
   out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
@@ -75,7 +75,7 @@ class AutopilotSource final : public Source {
       for (const msg::TrafficAgent& agent : traffic.value().agents()) others_.push_back(FootprintOf(agent));
     }
     if (auto status = SeeLights(inbox); !status) return status.error();
-    const dynamics::VehicleState state = FromWire(own.value());
+    const dynamics::VehicleState state = StateFromWire(own.value());
     return autopilot_.Step({state, dimensions_, others_, lights_}, step.dt_s);
   }
 

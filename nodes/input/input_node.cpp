@@ -36,7 +36,7 @@ msg::Controls ToWire(const dynamics::Controls& in, const input_devices::Signals&
   return out;
 }
 
-dynamics::Controls FromWire(const msg::Controls& in) {
+dynamics::Controls ControlsFromWire(const msg::Controls& in) {
   dynamics::Controls out;
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.throttle = in.throttle();
@@ -74,7 +74,7 @@ class InputNode final : public lockstep::Node {
     if (published.empty()) return base::WrongInput("no published controls were found");
     const auto last = idl::Decode<msg::Controls>(*published.back().payload);
     if (!last) return last.error();
-    source_->TakeOver(FromWire(last.value()), SignalsOf(last.value()));
+    source_->TakeOver(ControlsFromWire(last.value()), SignalsOf(last.value()));
     return {};
   }
   bool is_brief() const override { return source_->is_brief(); }

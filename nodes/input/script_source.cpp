@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
 
 namespace rodeira::nodes {
@@ -38,14 +38,14 @@ struct Column {
   bool whole = false;
 };
 
-constexpr double kTurns = 10.0 * std::numbers::pi;  // more than any steering wheel turns
+constexpr double kTurns = 10.0 * base::kPi;  // more than any steering wheel turns
 
 const std::vector<Column>& Columns() {
   static const std::vector<Column> kColumns = {
       {"time_s", 0.0, 1e7, [](Controls&, double) {}},
       {"steering_wheel_rad", -kTurns, kTurns, [](Controls& c, double x) { c.steering_wheel_rad = x; }},
       {"steering_wheel_deg", -1800.0, 1800.0,
-       [](Controls& c, double x) { c.steering_wheel_rad = x * std::numbers::pi / 180.0; }},
+       [](Controls& c, double x) { c.steering_wheel_rad = x * base::kPi / 180.0; }},
       {"throttle", 0.0, 1.0, [](Controls& c, double x) { c.throttle = x; }},
       {"brake", 0.0, 1.0, [](Controls& c, double x) { c.brake = x; }},
       {"clutch", 0.0, 1.0, [](Controls& c, double x) { c.clutch = x; }},

@@ -8,7 +8,7 @@
 #include <optional>
 #include <utility>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/world/road/world.hpp"
@@ -108,7 +108,7 @@ class VehicleNode final : public lockstep::Node {
     dynamics::InitialCondition there;
     there.x_m = place.x_m, there.y_m = place.y_m;
     if (place.z_m) there.z_hint_m = *place.z_m;
-    there.heading_rad = heading_deg * geometry::kPi / 180.0;
+    there.heading_rad = heading_deg * base::kPi / 180.0;
     const base::Status placed = model_->Initialise(there, ground_);
     if (!placed) fmt::print(stderr, "rodeira: node '{}': it stays where it is: {}\n", name_, placed.error().Text());
   }
@@ -167,7 +167,7 @@ Settings Read(const config::Map& config) {
     settings.initial.x_m = start.Number("x_m");
     settings.initial.y_m = start.Number("y_m");
   }
-  settings.initial.heading_rad = start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0;
+  settings.initial.heading_rad = start.Number("heading_deg", {-360.0, 360.0}, 0.0) * base::kPi / 180.0;
   settings.initial.speed_mps = start.Number("speed_mps", {-20.0, 100.0}, 0.0);
   settings.asks = config.Choice("ground", {"local", "remote"}, "local") == "remote";
   settings.hits = config.Choice("collisions", {"all", "traffic", "none"}, "all");

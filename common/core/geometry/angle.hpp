@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "common/core/base/constants.hpp"
+
 namespace rodeira::geometry {
 
-inline constexpr double kPi = 3.14159265358979323846;
+using base::kPi;
 
 // The same direction in (-pi, pi]; exact for angles that lie there already.
 double WrapAngle(double angle_rad);

@@ -8,20 +8,18 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/clothoid.hpp"
+#include "common/core/geometry/plane.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
 
-// The half length h of a panel. Its power series has 12 terms; what follows is below (k h)^12 / 12! for the curvature k
-// and below (sqrt(k') h)^12 / sqrt(12!) for the change k' of the curvature, both under 2e-14 of h with these bounds.
-constexpr double kHalfTurn_rad = 0.2;
-constexpr double kHalfTwist = 0.16;
-constexpr double kHalfPanel_m = 8.0;  // so that a grid cell finds few panels
-constexpr double kLastStep_m = 1e-7;
-
-Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& direction) {
-  return {v.x() * direction.x() - v.y() * direction.y(), v.x() * direction.y() + v.y() * direction.x()};
-}
+// Bounds of a panel's half length h: k h, sqrt(k') h and h itself, for the curvature k and its change k'. The power
+// series has 12 terms. Its remainder is below (k h)^12 / 12! and below (sqrt(k') h)^12 / sqrt(12!), both under 2e-14 of
+// h.
+constexpr double kMaxClothoidHalfTurn_rad = 0.2;
+constexpr double kMaxClothoidHalfTwist = 0.16;
+constexpr double kMaxClothoidHalf_m = 8.0;  // so that a grid cell finds few panels
 
 constexpr double kFlat_m = 1e-9;      // where p is nowhere farther ahead or behind, all points are equally near
 constexpr double kShortest_m = 1e-9;  // of the intervals in which feet are told apart
@@ -80,7 +78,7 @@ class Search {
       const Seen seen = At(u);
       (seen.ahead_m > 0.0 ? low : high) = u;
       const double step = seen.ahead_m / seen.fall;
-      if (std::fabs(step) <= kLastStep_m) {  // Newton doubles the digits: what is left after it is rounding
+      if (std::fabs(step) <= kLastNewtonStep_m) {  // Newton doubles the digits: what is left after it is rounding
         u = std::clamp(u + step, from, to);
         break;
       }
@@ -126,8 +124,8 @@ class Search {
 std::vector<ClothoidPanel> CutClothoid(const PlanPoint& start, double rate_1pm2, double length_m) {
   const double steepest =
       std::max(std::fabs(start.curvature_1pm), std::fabs(start.curvature_1pm + rate_1pm2 * length_m));
-  const double per_metre =
-      std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate_1pm2)) / kHalfTwist});
+  const double per_metre = std::max({1.0 / kMaxClothoidHalf_m, steepest / kMaxClothoidHalfTurn_rad,
+                                     std::sqrt(std::fabs(rate_1pm2)) / kMaxClothoidHalfTwist});
   const double count = std::ceil(0.5 * length_m * per_metre);
   RODEIRA_ASSERT(count < 1e7);
   const double half = 0.5 * length_m / count;
@@ -139,7 +137,7 @@ std::vector<ClothoidPanel> CutClothoid(const PlanPoint& start, double rate_1pm2,
     panel.heading_rad = start.heading_rad + (start.curvature_1pm + 0.5 * rate_1pm2 * s) * s;
     panel.curvature_1pm = start.curvature_1pm + rate_1pm2 * s;
     panel.curvature_rate_1pm2 = rate_1pm2;
-    panel.middle_W = start.p_W + Turned(ClothoidIntegral(start.curvature_1pm, rate_1pm2, s), start.tangent_W);
+    panel.middle_W = start.p_W + Rotate(ClothoidIntegral(start.curvature_1pm, rate_1pm2, s), start.tangent_W);
     // f(u) = exp(i (k u + k' u^2 / 2)) solves f' = i (k + k' u) f, which gives its power series term by term.
     std::complex<double> before = 0.0;
     std::complex<double> term = std::polar(1.0, panel.heading_rad);

@@ -6,11 +6,11 @@
 #include <limits>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
 
-constexpr double kSlack_m = 1e-6;  // far above all rounding: no piece that could be the nearest is left out
 constexpr double kSmallestCell_m = 4.0;
 constexpr double kMostCells = 2e6;
 
@@ -29,7 +29,7 @@ NearGrid::NearGrid(std::span<const Chord> chords, double reach_m) {
   for (const Chord& chord : chords) {
     low = low.cwiseMin(chord.begin_W).cwiseMin(chord.end_W);
     high = high.cwiseMax(chord.begin_W).cwiseMax(chord.end_W);
-    bulge = std::max(bulge, chord.bulge_m + kSlack_m);
+    bulge = std::max(bulge, chord.bulge_m + kSearchMargin_m);
   }
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + bulge);
   const Eigen::Vector2d size = high - low + 2.0 * margin;

@@ -7,11 +7,10 @@
 #include "common/core/geometry/clothoid.hpp"
 #include "common/core/geometry/plane.hpp"
 #include "common/core/geometry/small_arc_tangent.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
-
-constexpr double kLastStep_m = 1e-7;
 
 PlanPoint ArcAt(const AxisPanel& panel, double u_m) {
   const double turned = panel.curvature_1pm * u_m;
@@ -183,7 +182,7 @@ AxisFoot PlanAxis::CubicFoot(const CubicPanel& cubic, const AxisPanel& panel, co
       const double step = value / (first.squaredNorm() - (p_W - at).dot(second));
       const double next = q + step;
       const bool inside = next > low && next < high;
-      if (std::fabs(step) * first.norm() <= kLastStep_m) {
+      if (std::fabs(step) * first.norm() <= kLastNewtonStep_m) {
         if (inside) q = next;
         break;
       }

@@ -11,14 +11,15 @@
 namespace rodeira::geometry {
 namespace {
 
-constexpr double kHalfPanel_m = 16.0;  // a line's; arcs turn by half a radian at most
-constexpr double kHalfTurn_rad = 0.25;
-constexpr double kMostPanels = 1e6;
+constexpr double kMaxPanelHalf_m = 16.0;        // of a panel of a line
+constexpr double kMaxPanelHalfTurn_rad = 0.25;  // of a panel of an arc
+constexpr double kMaxPanels = 1e6;
 constexpr int kDeepest = 24;  // halvings of a cubic
 
 // The Gauss-Legendre rule of 5 nodes on [-1, 1].
-constexpr std::array<double, 3> kNodes = {0.0, 0.53846931010568309104, 0.90617984593866399280};
-constexpr std::array<double, 3> kWeights = {0.56888888888888888889, 0.47862867049936646804, 0.23692688505618908751};
+constexpr std::array<double, 3> kGauss5Nodes = {0.0, 0.53846931010568309104, 0.90617984593866399280};
+constexpr std::array<double, 3> kGauss5Weights = {0.56888888888888888889, 0.47862867049936646804,
+                                                  0.23692688505618908751};
 
 double Speed(const PlanElement& element, double p) {
   const double du = element.u[1] + p * (2.0 * element.u[2] + p * 3.0 * element.u[3]);
@@ -28,9 +29,10 @@ double Speed(const PlanElement& element, double p) {
 
 double Rule(const PlanElement& element, double from, double to) {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
-  double sum = kWeights[0] * Speed(element, middle);
+  double sum = kGauss5Weights[0] * Speed(element, middle);
   for (int i = 1; i < 3; ++i)
-    sum += kWeights[i] * (Speed(element, middle - half * kNodes[i]) + Speed(element, middle + half * kNodes[i]));
+    sum += kGauss5Weights[i] *
+           (Speed(element, middle - half * kGauss5Nodes[i]) + Speed(element, middle + half * kGauss5Nodes[i]));
   return half * sum;
 }
 
@@ -78,9 +80,9 @@ bool PlanAxis::CutClothoidElement(const PlanElement& element) {
                   element.heading_rad,
                   element.curvature_start_1pm};
   const double steepest = std::max(std::fabs(element.curvature_start_1pm), std::fabs(element.curvature_end_1pm));
-  const double per_metre =
-      std::max({1.0 / kHalfPanel_m, steepest / kHalfTurn_rad, std::sqrt(std::fabs(rate)) / kHalfTurn_rad});
-  if (!(element.length_m * per_metre < kMostPanels)) return false;  // NaN too
+  const double per_metre = std::max(
+      {1.0 / kMaxPanelHalf_m, steepest / kMaxPanelHalfTurn_rad, std::sqrt(std::fabs(rate)) / kMaxPanelHalfTurn_rad});
+  if (!(element.length_m * per_metre < kMaxPanels)) return false;  // NaN too
   AxisPanel panel;
   if (rate != 0.0) {
     panel.kind = AxisPanel::Kind::kSeries;
@@ -101,7 +103,8 @@ bool PlanAxis::CutClothoidElement(const PlanElement& element) {
   const double k = element.curvature_start_1pm;
   panel.kind = k == 0.0 ? AxisPanel::Kind::kLine : AxisPanel::Kind::kArc;
   panel.curvature_1pm = k;
-  const double count = std::ceil(0.5 * element.length_m * std::max(1.0 / kHalfPanel_m, std::fabs(k) / kHalfTurn_rad));
+  const double count =
+      std::ceil(0.5 * element.length_m * std::max(1.0 / kMaxPanelHalf_m, std::fabs(k) / kMaxPanelHalfTurn_rad));
   panel.half_m = 0.5 * element.length_m / count;
   for (int i = 0; i < static_cast<int>(count); ++i) {
     const double s = (2 * i + 1) * panel.half_m;
@@ -119,7 +122,7 @@ bool PlanAxis::CutClothoidElement(const PlanElement& element) {
 // says the same length as a quadrature, to 1e-13 of it.
 bool PlanAxis::CutCubicElement(const PlanElement& element) {
   const double whole = CubicLength(element, element.p_end);
-  if (!(whole > 0.0 && std::isfinite(whole) && element.length_m / kHalfPanel_m < kMostPanels)) return false;
+  if (!(whole > 0.0 && std::isfinite(whole) && element.length_m / kMaxPanelHalf_m < kMaxPanels)) return false;
   const double stretch = element.length_m / whole;  // metres of station a metre of curve
   const Eigen::Vector2d ahead(std::cos(element.heading_rad), std::sin(element.heading_rad));
   const Eigen::Vector2d left = Left(ahead);
@@ -164,10 +167,10 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
         std::fabs(Cross(cubic.position_W[1], cubic.position_W[2])) * half / std::max(squared[0], 1e-300);
     const bool fits =
         moving && std::fabs(series_length - stretch * length) <= 1e-12 * stretch * length && bent < 0.25 &&
-        length < 2.0 * kHalfPanel_m &&
+        length < 2.0 * kMaxPanelHalf_m &&
         std::fabs(speed[CubicPanel::kTerms - 1]) * std::pow(half, CubicPanel::kTerms - 1) < 1e-14 * speed[0];
     if (!fits) {
-      if (depth == 0 || static_cast<double>(cubics_.size()) > kMostPanels) {
+      if (depth == 0 || static_cast<double>(cubics_.size()) > kMaxPanels) {
         sound = false;
         return;
       }

@@ -6,15 +6,9 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/clothoid.hpp"
+#include "common/core/geometry/plane.hpp"
 
 namespace rodeira::geometry {
-namespace {
-
-Eigen::Vector2d Turned(const Eigen::Vector2d& v, const Eigen::Vector2d& direction) {
-  return {v.x() * direction.x() - v.y() * direction.y(), v.x() * direction.y() + v.y() * direction.x()};
-}
-
-}  // namespace
 
 PlanCurve::PlanCurve(Eigen::Vector2d start_W, double heading_rad, std::vector<PlanPiece> pieces, double reach_m)
     : pieces_(std::move(pieces)), reach_m_(reach_m) {
@@ -24,7 +18,7 @@ PlanCurve::PlanCurve(Eigen::Vector2d start_W, double heading_rad, std::vector<Pl
     RODEIRA_ASSERT(piece.length_m > 0.0);
     CutPiece(piece, length_m_, start);
     const double rate = (piece.curvature_end_1pm - piece.curvature_start_1pm) / piece.length_m;
-    start.p_W += Turned(ClothoidIntegral(piece.curvature_start_1pm, rate, piece.length_m), start.tangent_W);
+    start.p_W += Rotate(ClothoidIntegral(piece.curvature_start_1pm, rate, piece.length_m), start.tangent_W);
     start.heading_rad += 0.5 * (piece.curvature_start_1pm + piece.curvature_end_1pm) * piece.length_m;
     start.tangent_W = {std::cos(start.heading_rad), std::sin(start.heading_rad)};
     length_m_ += piece.length_m;

@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "common/core/geometry/plan_curve.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
-
-constexpr double kSlack_m = 1e-6;  // far above all rounding: no panel that could be the nearest is left out
 
 double SquaredDistanceToBox(const Eigen::Vector2d& p, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
   const double dx = std::max({low.x() - p.x(), 0.0, p.x() - high.x()});
@@ -28,7 +27,7 @@ void PlanCurve::BuildTree() {
     Box& box = tree_[node];
     if (end - begin == 1) {
       const Panel& panel = panels_[begin];
-      const Eigen::Vector2d margin = Eigen::Vector2d::Constant(panel.bulge_m + kSlack_m);
+      const Eigen::Vector2d margin = Eigen::Vector2d::Constant(panel.bulge_m + kSearchMargin_m);
       box.low = panel.begin_W.cwiseMin(panel.end_W) - margin;
       box.high = panel.begin_W.cwiseMax(panel.end_W) + margin;
       return;

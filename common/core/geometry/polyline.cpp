@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
 
 constexpr double kClosed_m = 1e-6;
-constexpr double kSamePlace_m = 1e-9;  // in plan: no direction leads from one to the other
 
 double PlanDistance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return (a - b).head<2>().norm(); }
 
@@ -74,9 +74,9 @@ base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const s
           "'{}' begins {:.6g} m from where '{}' ends; at most {} m were expected{}", names[i], gap, names[i - 1],
           rules.within_m, to_end <= rules.within_m ? " (its end lies there: --turn turns it round)" : ""));
     }
-    const bool same = gap <= rules.within_m || PlanDistance(next.points_W.front(), end) <= kSamePlace_m;
+    const bool same = gap <= rules.within_m || PlanDistance(next.points_W.front(), end) <= kSamePoint_m;
     for (std::size_t k = same ? 1 : 0; k < next.points_W.size(); ++k) {
-      if (PlanDistance(next.points_W[k], joined.points_W.back()) > kSamePlace_m)
+      if (PlanDistance(next.points_W[k], joined.points_W.back()) > kSamePoint_m)
         joined.points_W.push_back(next.points_W[k]);
     }
   }

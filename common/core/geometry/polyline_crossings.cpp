@@ -5,10 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "common/core/geometry/plane.hpp"
+
 namespace rodeira::geometry {
 namespace {
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // The shares of two segments at which they meet; nothing where they do not, or are parallel.
 std::optional<std::pair<double, double>> Meet(const Eigen::Vector2d& a, const Eigen::Vector2d& b,

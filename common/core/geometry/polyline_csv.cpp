@@ -8,12 +8,12 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/geometry/polyline.hpp"
+#include "common/core/geometry/tolerances.hpp"
 
 namespace rodeira::geometry {
 namespace {
 
 constexpr double kFarthest_m = 1e9;
-constexpr double kSamePlace_m = 1e-9;
 const std::vector<std::string> kColumns = {"x_m", "y_m", "z_m"};
 
 std::vector<std::string_view> Cells(std::string_view line) {
@@ -94,7 +94,7 @@ class CsvReader {
                                  cells[i].substr(0, 40)));
       }
     }
-    if (!line_of_.empty() && (p - polyline_.points_W.back()).head<2>().norm() <= kSamePlace_m) {
+    if (!line_of_.empty() && (p - polyline_.points_W.back()).head<2>().norm() <= kSamePoint_m) {
       return Wrong(fmt::format("the point ({}, {}) is that of line {}; no direction leads from one to the other", p.x(),
                                p.y(), line_of_.back()));
     }

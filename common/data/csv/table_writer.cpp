@@ -8,7 +8,6 @@
 namespace rodeira::csv {
 namespace {
 
-using Use = Slot::Use;
 using decode::Value;
 
 void AppendValue(const Value& value, std::string& out) {
@@ -31,7 +30,7 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-bool IsRowUse(Use use) { return use == Use::kRowCell || use == Use::kRowList; }
+bool IsRowUse(Slot::Use use) { return use == Slot::Use::kRowCell || use == Slot::Use::kRowList; }
 
 }  // namespace
 
@@ -41,7 +40,7 @@ TableWriter::TableWriter(const decode::Type& type, Layout layout, CsvFile file)
   // The row sequence's slots stand together; those that are dropped ("end") belong to it where they lie in its path.
   const std::string prefix = layout_.rows + ".";
   const auto belongs = [&](const Slot& slot) {
-    return IsRowUse(slot.use) || (slot.use == Use::kDropped && slot.name.starts_with(prefix));
+    return IsRowUse(slot.use) || (slot.use == Slot::Use::kDropped && slot.name.starts_with(prefix));
   };
   while (row_slot_ < layout_.slots.size() && !belongs(layout_.slots[row_slot_])) ++row_slot_;
   while (row_slot_ + row_slots_ < layout_.slots.size() && belongs(layout_.slots[row_slot_ + row_slots_])) ++row_slots_;
@@ -51,7 +50,7 @@ void TableWriter::PutHeaderLine() {
   std::string& out = file_.buffer();
   out += layout_.has_header ? "time_s,step,source" : "time_s,source";
   for (const Slot& slot : layout_.slots) {
-    if (slot.use != Use::kCell && slot.use != Use::kList && !IsRowUse(slot.use)) continue;
+    if (slot.use != Slot::Use::kCell && slot.use != Slot::Use::kList && !IsRowUse(slot.use)) continue;
     out += ',';
     AppendCell(slot.name.empty() ? "value" : slot.name, out);
   }
@@ -88,20 +87,20 @@ base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t 
 
 void TableWriter::OnValue(const decode::Path& path, Value value) {
   if (list_depth_ > 0) return AddToList(path, value);
-  const Use use = layout_.slots[slot_].use;
+  const Slot::Use use = layout_.slots[slot_].use;
   switch (use) {
-    case Use::kStep:
+    case Slot::Use::kStep:
       step_ = std::get<std::int64_t>(value);
       break;
-    case Use::kTime:
+    case Slot::Use::kTime:
       time_ns_ = std::get<std::int64_t>(value);
       break;
-    case Use::kDigest:
+    case Slot::Use::kDigest:
       digest_ = std::get<std::uint64_t>(value);
       break;
-    case Use::kSource:
-    case Use::kIncarnation:
-    case Use::kDropped:
+    case Slot::Use::kSource:
+    case Slot::Use::kIncarnation:
+    case Slot::Use::kDropped:
       break;
     default: {
       std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;

@@ -10,7 +10,7 @@
 namespace rodeira::driver {
 namespace {
 
-constexpr double kNodeStep_m = 2.0;
+constexpr double kPathNodeStep_m = 2.0;
 constexpr int kNewtonTurns = 3;  // from an interpolated start, quadratic: far below a nanometre
 
 }  // namespace
@@ -20,7 +20,7 @@ LanePath::LanePath(const road::Road& road, int lane_id) : road_(&road), lane_(ro
   t_m_ = lane_->centre_t_m();
   along_ = lane_->direction >= 0;
   start_heading_rad_ = road.plan().Evaluate(0.0).heading_rad;
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(road.length_m() / kNodeStep_m)));
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(road.length_m() / kPathNodeStep_m)));
   step_s_m_ = road.length_m() / static_cast<double>(count);
   for (std::size_t i = 0; i <= count; ++i) nodes_m_.push_back(AxisLength(static_cast<double>(i) * step_s_m_));
   length_m_ = nodes_m_.back();

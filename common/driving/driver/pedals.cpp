@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
+
 namespace rodeira::driver {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kRolling_mps = 0.03;
 constexpr double kGentle_1ps = 0.5;
 constexpr double kMostLag_mps = 0.8;
@@ -20,7 +21,7 @@ double Toward(double now, double wanted, double most) { return now + std::clamp(
 void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s) {
   if (standing_ && wanted_mps2 > kGoes_mps2) standing_ = false;
   if (!standing_ && wanted_mps2 < kGoes_mps2 && std::fabs(speed_mps) < kEnds_mps) standing_ = true;
-  const double climb = kGravity_mps2 * grade / std::sqrt(1.0 + grade * grade);
+  const double climb = base::kGravity_mps2 * grade / std::sqrt(1.0 + grade * grade);
   if (standing_) {
     reference_mps_ = 0.0;
     trim_mps2_ = 0.0;

@@ -11,7 +11,7 @@ namespace rodeira::driver {
 namespace {
 
 constexpr double kNode_m = 0.5;
-constexpr double kAside_m = 0.25;           // over twice this the bend is measured
+constexpr double kBendHalfLength_m = 0.25;  // the curvature is measured over twice this
 constexpr double kUnsaid_mps = 50.0 / 3.6;  // where a network says no limit
 constexpr double kNoLimit_mps = 130.0 / 3.6;
 constexpr double kBeyond_m = 1e-6;
@@ -92,14 +92,15 @@ LaneFrame RoutePath::At(double d_m) const {
   frame.p_W = MotionAt(SpotAt(d)).p_W;
   frame.heading_rad = std::atan2(ahead.y(), ahead.x());
   frame.grade = ahead.z();
-  const double low = std::max(0.0, d - kAside_m), high = std::min(length_m(), d + kAside_m);
+  const double low = std::max(0.0, d - kBendHalfLength_m), high = std::min(length_m(), d + kBendHalfLength_m);
   const Eigen::Vector2d before = Ahead(low).head<2>(), after = Ahead(high).head<2>();
   frame.curvature_1pm = std::atan2(geometry::Cross(before, after), before.dot(after)) / (high - low);
   return frame;
 }
 
 double RoutePath::VerticalCurvature_1pm(double d_m) const {
-  const double low = std::max(0.0, d_m - 4.0 * kAside_m), high = std::min(length_m(), d_m + 4.0 * kAside_m);
+  const double low = std::max(0.0, d_m - 4.0 * kBendHalfLength_m),
+               high = std::min(length_m(), d_m + 4.0 * kBendHalfLength_m);
   return (Ahead(high).z() - Ahead(low).z()) / (high - low);
 }
 

@@ -4,21 +4,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
+
 namespace rodeira::driver {
 namespace {
 
-constexpr double kNodeStep_m = 1.0;
+constexpr double kPlanNodeStep_m = 1.0;
 constexpr double kSame_m2ps2 = 1e-9;  // a step
 constexpr double kLeastSquared_m2ps2 = 1e-4;
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kLeastShare = 0.25;  // of the comfortable, for a bend on ground that leans outward by itself
 constexpr double kTipShare = 0.6;     // of what tips the car over: springs lean, and wheels meet bumps
 constexpr double kCrawl_mps2 = 0.2;
-constexpr double kAside_m = 0.5;
+constexpr double kBankHalfWidth_m = 0.5;  // the bank is measured over twice this
 
 // The lean across at d: rise over the distance to the left.
 double Bank(const Way& path, double d_m) {
-  return (path.Position(d_m, kAside_m).z() - path.Position(d_m, -kAside_m).z()) / (2.0 * kAside_m);
+  return (path.Position(d_m, kBankHalfWidth_m).z() - path.Position(d_m, -kBankHalfWidth_m).z()) /
+         (2.0 * kBankHalfWidth_m);
 }
 
 double AllowedSquared(const Way& path, const SpeedPlanSettings& settings, double d_m) {
@@ -50,7 +52,7 @@ double LateralAllowed(double outward, const SpeedPlanSettings& settings) {
   if (outward <= 0.0) return std::min(settings.lateral_mps2, std::max(kCrawl_mps2, kTipShare * settings.tips_mps2));
   const double lean = std::atan(outward);
   const auto beside = [&](double most_mps2) {
-    return kGravity_mps2 * std::tan(std::atan(most_mps2 / kGravity_mps2) - lean);
+    return base::kGravity_mps2 * std::tan(std::atan(most_mps2 / base::kGravity_mps2) - lean);
   };
   const double comfortable = std::max(beside(settings.lateral_mps2), kLeastShare * settings.lateral_mps2);
   return std::min(settings.lateral_mps2,
@@ -58,7 +60,7 @@ double LateralAllowed(double outward, const SpeedPlanSettings& settings) {
 }
 
 SpeedPlan::SpeedPlan(const Way& path, const SpeedPlanSettings& settings) {
-  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(path.length_m() / kNodeStep_m)));
+  const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(path.length_m() / kPlanNodeStep_m)));
   const double step = path.length_m() / static_cast<double>(count);
   std::vector<double> squared;
   for (std::size_t i = 0; i <= count; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/driving/manoeuvres/trial.hpp"
@@ -11,9 +12,6 @@ namespace rodeira::manoeuvres {
 namespace {
 
 using dynamics::Controls;
-
-constexpr double kDegrees = 180.0 / geometry::kPi;
-constexpr double kG_mps2 = 9.81;
 
 // Straight line through points, by least squares.
 class Line {
@@ -150,8 +148,9 @@ base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s)
   }
   if (!steer.IsKnown()) return base::Failed("the car does not stay on the circle up to 1 m/s²");
   Outcome outcome{t.table(), {}};
-  outcome.figures.push_back({"understeer gradient", steer.Slope() * kDegrees * kG_mps2, "deg/g"});
-  outcome.figures.push_back({"roll gradient", roll.Slope() * kDegrees * kG_mps2, "deg/g"});
+  outcome.figures.push_back(
+      {"understeer gradient", steer.Slope() * base::kDegreesPerRadian * base::kGravity_mps2, "deg/g"});
+  outcome.figures.push_back({"roll gradient", roll.Slope() * base::kDegreesPerRadian * base::kGravity_mps2, "deg/g"});
   outcome.figures.push_back({"largest lateral acceleration", most, "m/s²"});
   return outcome;
 }
@@ -164,7 +163,7 @@ base::Result<Outcome> StepSteer(dynamics::VehicleModel& car, double step_s) {
   if (!steered) return steered.error();
   const Steered& s = steered.value();
   Outcome outcome{s.trial.table(), {}};
-  outcome.figures.push_back({"steering wheel", angle.value() * kDegrees, "deg"});
+  outcome.figures.push_back({"steering wheel", angle.value() * base::kDegreesPerRadian, "deg"});
   outcome.figures.push_back({"yaw rate gain", s.yaw_rate_radps / angle.value(), "1/s"});
   outcome.figures.push_back({"yaw rate overshoot", (s.most_yaw_rate_radps / s.yaw_rate_radps - 1.0) * 100.0, "%"});
   outcome.figures.push_back({"yaw rate peak after", s.peak_at_s, "s"});
@@ -193,11 +192,11 @@ base::Result<Outcome> Sine(dynamics::VehicleModel& car, double step_s) {
     lateral.Add(kTurning_radps * t.time_s(), t.lateral_mps2());
   }
   Outcome outcome{t.table(), {}};
-  outcome.figures.push_back({"steering wheel", angle.value() * kDegrees, "deg"});
+  outcome.figures.push_back({"steering wheel", angle.value() * base::kDegreesPerRadian, "deg"});
   outcome.figures.push_back({"yaw rate gain", yaw.amplitude() / angle.value(), "1/s"});
   outcome.figures.push_back({"yaw rate delay", yaw.lag_rad() / kTurning_radps * 1e3, "ms"});
   outcome.figures.push_back(
-      {"lateral acceleration gain", lateral.amplitude() / angle.value() / kDegrees, "m/s² per deg"});
+      {"lateral acceleration gain", lateral.amplitude() / angle.value() / base::kDegreesPerRadian, "m/s² per deg"});
   outcome.figures.push_back({"lateral acceleration delay", lateral.lag_rad() / kTurning_radps * 1e3, "ms"});
   return outcome;
 }

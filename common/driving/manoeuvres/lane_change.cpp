@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/driving/driver/steering.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/driving/manoeuvres/trial.hpp"
@@ -14,7 +14,6 @@ namespace {
 
 using dynamics::Controls;
 
-constexpr double kDegrees = 180.0 / geometry::kPi;
 constexpr double kRunUp_m = 25.0, kOffset_m = 3.5;
 // Ends of the sections, from the first one's beginning: entry, over, left lane, back, exit.
 constexpr std::array<double, 5> kEnds_m = {15.0, 45.0, 70.0, 95.0, 125.0};
@@ -103,7 +102,7 @@ base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s) {
   outcome.figures.push_back({"largest distance from the line", off_m, "m"});
   outcome.figures.push_back({"room left to the cones", -outside_m, "m"});
   outcome.figures.push_back({"largest lateral acceleration", lateral, "m/s²"});
-  outcome.figures.push_back({"fastest steering", hands * kDegrees, "deg/s"});
+  outcome.figures.push_back({"fastest steering", hands * base::kDegreesPerRadian, "deg/s"});
   return outcome;
 }
 

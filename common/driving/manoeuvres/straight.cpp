@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/driving/manoeuvres/trial.hpp"
 
@@ -12,7 +12,6 @@ namespace {
 
 using dynamics::Controls;
 
-constexpr double kDegrees = 180.0 / geometry::kPi;
 constexpr double kHundred_mps = 100.0 / 3.6;
 
 // When a quantity that begins at 0 passes a value, between the last step and this one.
@@ -58,7 +57,7 @@ base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGround
     outcome.figures.push_back({"mean deceleration", speed_mps * speed_mps / (2.0 * distance_m), "m/s²"});
   }
   outcome.figures.push_back({"drift to the left", t.state().p_WB_W.y(), "m"});
-  outcome.figures.push_back({"largest yaw", most_heading_rad * kDegrees, "deg"});
+  outcome.figures.push_back({"largest yaw", most_heading_rad * base::kDegreesPerRadian, "deg"});
   return outcome;
 }
 

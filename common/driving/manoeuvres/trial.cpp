@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 
 namespace rodeira::manoeuvres {
 namespace {
 
 constexpr double kEach_s = 0.01;
-constexpr double kDegrees = 180.0 / geometry::kPi;
 
 }  // namespace
 
@@ -55,16 +55,16 @@ void Trial::Write() {
   for (const double value : {time_s(),
                              s.p_WB_W.x(),
                              s.p_WB_W.y(),
-                             heading * kDegrees,
+                             heading * base::kDegreesPerRadian,
                              s.speed_mps() * 3.6,
                              along,
                              lateral_mps2(),
-                             s.w_WB_B.z() * kDegrees,
-                             sideslip * kDegrees,
-                             s.roll_rad() * kDegrees,
-                             s.pitch_rad() * kDegrees,
+                             s.w_WB_B.z() * base::kDegreesPerRadian,
+                             sideslip * base::kDegreesPerRadian,
+                             s.roll_rad() * base::kDegreesPerRadian,
+                             s.pitch_rad() * base::kDegreesPerRadian,
                              s.p_WB_W.z(),
-                             s.steering_wheel_rad * kDegrees,
+                             s.steering_wheel_rad * base::kDegreesPerRadian,
                              s.throttle,
                              s.brake,
                              static_cast<double>(s.gear),

@@ -7,8 +7,6 @@
 namespace rodeira::dds {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 std::optional<lockstep::Step> LastStep(const launch::Launch& launch, const ProcessOptions& options) {
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (!seconds) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "common/runtime/dds/options.hpp"
+#include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/clock.hpp"
 #include "common/runtime/lockstep/conductor.hpp"
@@ -32,7 +33,7 @@ struct LedRun {
   lockstep::Conductor conductor;
   lockstep::Watchdog watchdog;
   lockstep::MissedNodes missed;
-  std::chrono::steady_clock::time_point start;
+  WallClock::time_point start;
 };
 
 }  // namespace rodeira::dds

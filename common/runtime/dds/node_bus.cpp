@@ -8,6 +8,7 @@
 #include <csignal>
 #include <utility>
 
+#include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/sample_difference.hpp"
 #include "idl/topics.hpp"
 
@@ -31,7 +32,6 @@ void NodeBus::HandleSignals() {
 }
 
 namespace topics = idl::topics;
-using WallClock = std::chrono::steady_clock;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
     : roster_(roster),

@@ -30,8 +30,6 @@ namespace {
 namespace fdds = eprosima::fastdds::dds;
 using eprosima::fastrtps::Duration_t;
 
-constexpr int kMilli = 1'000'000;  // nanoseconds
-
 class FastWriter final : public Writer {
  public:
   FastWriter(fdds::Publisher* publisher, fdds::DataWriter* writer, std::string topic)
@@ -94,7 +92,7 @@ class FastParticipant final : public Participant {
         delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
-    times.heartbeatPeriod = Duration_t{0, 3u * kMilli};
+    times.heartbeatPeriod = Duration_t{0, 3u * kNanosecondsPerMillisecond};
     times.nackResponseDelay = Duration_t{0, 0};
     times.nackSupressionDuration = Duration_t{0, 0};
     fdds::DataWriter* writer = publisher_->create_datawriter(made_topic, qos);

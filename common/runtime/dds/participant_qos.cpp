@@ -23,8 +23,6 @@ using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-constexpr int kMilli = 1'000'000;  // nanoseconds
-
 // Shared memory: the defaults (512 KiB, 512 messages) are full after a few hundred unread samples, and full means lost
 // until a heartbeat; sized for two windows of all sources.
 constexpr std::uint32_t kSegmentBytes = 8u << 20;
@@ -108,14 +106,14 @@ void SetDiscovery(const DomainSettings& settings, fdds::DomainParticipantQos& qo
   discovery.leaseDuration = Duration_t{20, 0};
   discovery.leaseDuration_announcementperiod = Duration_t{1, 0};
   discovery.initial_announcements.count = 20;
-  discovery.initial_announcements.period = Duration_t{0, 50u * kMilli};
+  discovery.initial_announcements.period = Duration_t{0, 50u * kNanosecondsPerMillisecond};
   if (wish.kind == launch::DiscoveryKind::kMulticast) return;
   if (wish.kind == launch::DiscoveryKind::kPeers) {
     builtin.metatrafficUnicastLocatorList.push_back(Locator_t());  // any address and port of ours, and no multicast
     for (const std::string& address : wish.addresses) builtin.initialPeersList.push_back(UdpLocator(address, 0));
     return;
   }
-  discovery.discoveryServer_client_syncperiod = Duration_t{0, 100u * kMilli};
+  discovery.discoveryServer_client_syncperiod = Duration_t{0, 100u * kNanosecondsPerMillisecond};
   const Locator_t server = UdpLocator(wish.address, wish.port);
   if (settings.serves_discovery) {
     discovery.discoveryProtocol = eprosima::fastrtps::rtps::DiscoveryProtocol_t::SERVER;

@@ -12,9 +12,9 @@ namespace {
 
 using launch::LiveKey;
 
-class RemoteSender final : public launch::LiveKeysSender {
+class RemoteKeysSender final : public launch::LiveKeysSender {
  public:
-  explicit RemoteSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
+  explicit RemoteKeysSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void Say(std::vector<LiveKey> keys) override {
     msg::LiveKeys out;
     out.window(window_);
@@ -34,7 +34,7 @@ class RemoteSender final : public launch::LiveKeysSender {
   std::uint64_t number_ = 0;
 };
 
-class RemoteReceiver final : public launch::LiveKeysReceiver {
+class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
  public:
   base::Status Open(Participant& participant) {
     auto reader = participant.MakeReader(idl::topics::kLiveKeys, Delivery::kSaidAgain,
@@ -64,11 +64,11 @@ class RemoteReceiver final : public launch::LiveKeysReceiver {
 base::Result<std::unique_ptr<launch::LiveKeysSender>> OpenKeysSender(Participant& participant) {
   auto writer = participant.MakeWriter(idl::topics::kLiveKeys, Delivery::kSaidAgain);
   if (!writer) return writer.error();
-  return std::unique_ptr<launch::LiveKeysSender>(std::make_unique<RemoteSender>(std::move(writer).value()));
+  return std::unique_ptr<launch::LiveKeysSender>(std::make_unique<RemoteKeysSender>(std::move(writer).value()));
 }
 
 base::Result<std::unique_ptr<launch::LiveKeysReceiver>> OpenKeysReceiver(Participant& participant) {
-  auto receiver = std::make_unique<RemoteReceiver>();
+  auto receiver = std::make_unique<RemoteKeysReceiver>();
   if (auto status = receiver->Open(participant); !status) return status.error();
   return std::unique_ptr<launch::LiveKeysReceiver>(std::move(receiver));
 }

@@ -11,9 +11,9 @@
 namespace rodeira::dds {
 namespace {
 
-class RemoteSender final : public launch::LiveRequestsSender {
+class RemoteRequestsSender final : public launch::LiveRequestsSender {
  public:
-  explicit RemoteSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
+  explicit RemoteRequestsSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void Say(std::vector<launch::LiveRequest> requests) override {
     msg::LiveRequests out;
     out.window(window_);
@@ -34,7 +34,7 @@ class RemoteSender final : public launch::LiveRequestsSender {
   const std::uint64_t window_ = launch::DrawWindow();
 };
 
-class RemoteReceiver final : public launch::LiveRequestsReceiver {
+class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
  public:
   base::Status Open(Participant& participant) {
     auto reader = participant.MakeReader(idl::topics::kLiveRequests, Delivery::kSaidAgain,
@@ -66,11 +66,11 @@ class RemoteReceiver final : public launch::LiveRequestsReceiver {
 base::Result<std::unique_ptr<launch::LiveRequestsSender>> OpenRequestsSender(Participant& participant) {
   auto writer = participant.MakeWriter(idl::topics::kLiveRequests, Delivery::kSaidAgain);
   if (!writer) return writer.error();
-  return std::unique_ptr<launch::LiveRequestsSender>(std::make_unique<RemoteSender>(std::move(writer).value()));
+  return std::unique_ptr<launch::LiveRequestsSender>(std::make_unique<RemoteRequestsSender>(std::move(writer).value()));
 }
 
 base::Result<std::unique_ptr<launch::LiveRequestsReceiver>> OpenRequestsReceiver(Participant& participant) {
-  auto receiver = std::make_unique<RemoteReceiver>();
+  auto receiver = std::make_unique<RemoteRequestsReceiver>();
   if (auto status = receiver->Open(participant); !status) return status.error();
   return std::unique_ptr<launch::LiveRequestsReceiver>(std::move(receiver));
 }

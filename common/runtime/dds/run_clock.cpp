@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
-#include <csignal>
 #include <deque>
 #include <mutex>
 #include <random>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/clock_desk.hpp"
 #include "common/runtime/dds/clock_gate.hpp"
 #include "common/runtime/dds/clock_losses.hpp"
@@ -25,6 +25,7 @@
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/run.hpp"
 #include "common/runtime/dds/statements.hpp"
+#include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/triggers.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "common/runtime/launch/agreement.hpp"
@@ -34,11 +35,7 @@ namespace rodeira::dds {
 namespace {
 
 using namespace std::chrono_literals;
-using WallClock = std::chrono::steady_clock;
 namespace topics = idl::topics;
-
-std::atomic<int> g_signals = 0;
-void OnSignal(int) { ++g_signals; }
 
 std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
   std::random_device device;
@@ -168,7 +165,7 @@ class ClockProcess {
     if (now - checked_ < 20ms) return std::nullopt;
     checked_ = now;
     if (auto end = losses_.Watch()) return end;
-    if (const int signals = g_signals; signals > 0) {
+    if (const int signals = StopSignals(); signals > 0) {
       if (signals > 2 || run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
       desk_.StopBySignal();
     }
@@ -271,13 +268,9 @@ int RunClock(int argc, char** argv) {
   const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);
-  if (!launch) {
-    fmt::print(stderr, "rodeira-clock: {}\n", launch.error().Text());
-    return launch.error().exit_status();
-  }
+  if (!launch) return base::PrintError("rodeira-clock", launch.error());
   if (!parsed.options.follow.empty()) return FollowClock(launch.value(), parsed.options);
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  CountStopSignals();
   return ClockProcess(launch.value(), parsed.options).Run();
 }
 

@@ -2,10 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
 #include <cstdlib>
 #include <limits>
 #include <mutex>
@@ -17,6 +15,8 @@
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/run.hpp"
 #include "common/runtime/dds/statements.hpp"
+#include "common/runtime/dds/stop_signals.hpp"
+#include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "common/runtime/launch/agreement.hpp"
 #include "idl/topics.hpp"
@@ -25,16 +25,12 @@ namespace rodeira::dds {
 namespace {
 
 using namespace std::chrono_literals;
-using WallClock = std::chrono::steady_clock;
 namespace topics = idl::topics;
 using lockstep::NodeIndex;
 using lockstep::Phase;
 
 constexpr auto kClockSilence = 3s;  // as the nodes' own (NodeBus::Settings)
 constexpr auto kClosingTime = 3s;   // from an abort to the closing words
-
-std::atomic<int> g_signals = 0;
-void OnSignal(int) { ++g_signals; }
 
 // On a PC where the clock does not run: an observer of grants and reports that says what the clock says there, so that
 // `rodeira run` shows the same and ends with the same status. Its own word goes to the clock only as the failure of a
@@ -113,7 +109,7 @@ class Follower {
     for (;;) {
       const Now now = Look();
       if (now.clock_id == 0) {
-        if (g_signals > 0) return Complain(base::Failed("stopped by a signal"));
+        if (StopSignals() > 0) return Complain(base::Failed("stopped by a signal"));
         Show([&] { Say("waiting for the clock of run '{}' in domain {}", OneLine(options_.run), options_.domain); });
         continue;
       }
@@ -170,7 +166,7 @@ class Follower {
     }
     std::erase_if(lost_, [&](const Lost& lost) { return LifeOf(now, lost.node) > lost.life; });
     for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
-    if (g_signals > 0)
+    if (StopSignals() > 0)
       TellFault(now, {AnyOwnNode(), 0, fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
                 Phase::kFailed);
   }
@@ -270,8 +266,7 @@ class Follower {
 }  // namespace
 
 int FollowClock(const launch::Launch& launch, const ProcessOptions& options) {
-  std::signal(SIGINT, OnSignal);
-  std::signal(SIGTERM, OnSignal);
+  CountStopSignals();
   return Follower(launch, options).Run();
 }
 

@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <condition_variable>
-#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <optional>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/remote_ground.hpp"
@@ -138,11 +138,6 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
   return {};
 }
 
-int Complain(const std::string& who, const base::Error& error) {
-  fmt::print(stderr, "{}: {}\n", who, error.Text());
-  return error.exit_status();
-}
-
 // The node is made and runs; what goes wrong is told to the clock, which ends the run.
 int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
           const ProcessOptions& options) {
@@ -184,18 +179,18 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   NodeBus::HandleSignals();
   const ProcessOptions& options = parsed.options;
   const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
-  if (!launch) return Complain(program, launch.error());
+  if (!launch) return base::PrintError(program, launch.error());
   const auto& roster = launch.value().roster();
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return Complain(program,
-                    base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
-                                                 options.node, kind),
-                                     options.launch_file));
+    return base::PrintError(
+        program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
+                                              options.node, kind),
+                                  options.launch_file));
   }
   const DomainSettings domain = DomainOf(options, launch.value(), options.node);
   auto participant = Participant::Open(domain);
-  if (!participant) return Complain(program, participant.error());
+  if (!participant) return base::PrintError(program, participant.error());
   lockstep::Mailbox mailbox(roster, index);
   NodeBus::Settings settings;
   settings.node = index;
@@ -207,7 +202,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
       domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kAnswerOnWire_bytes;
   settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
-  if (!bus) return Complain(program, bus.error());
+  if (!bus) return base::PrintError(program, bus.error());
   ProcessContext context(launch.value(), index, *participant.value(), mailbox, *bus.value(), options.incarnation);
   return Drive(factory, context, *bus.value(), mailbox, options);
 }

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdio>
 #include <thread>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/run.hpp"
@@ -25,11 +25,6 @@ class ServiceContext final : public launch::NodeContext {
   base::Result<launch::WorldSummary> World() override { RODEIRA_ASSERT(!"a server asks nobody"); }
 };
 
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "{}\n", error.Text());
-  return error.exit_status();
-}
-
 }  // namespace
 
 int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory) {
@@ -40,23 +35,24 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   NodeBus::HandleSignals();
   const ProcessOptions& options = parsed.options;
   const auto launch = launch::Launch::Load(options.launch_file, options.overrides);
-  if (!launch) return Complain(launch.error());
+  if (!launch) return base::PrintError(program, launch.error());
   const auto& roster = launch.value().roster();
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
-    return Complain(base::WrongInput(
-        fmt::format("--node {}: the launch file has no node of this name and of kind '{}'", options.node, kind),
-        options.launch_file));
+    return base::PrintError(
+        program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
+                                              options.node, kind),
+                                  options.launch_file));
   }
   auto participant = Participant::Open(DomainOf(options, launch.value(), options.node));
-  if (!participant) return Complain(participant.error());
+  if (!participant) return base::PrintError(program, participant.error());
   lockstep::Mailbox mailbox(roster, index);
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch::Agreement(launch.value()));
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
-  if (!bus) return Complain(bus.error());
+  if (!bus) return base::PrintError(program, bus.error());
 
   lockstep::Report report;
   report.node = index;
@@ -74,10 +70,10 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   bus.value()->SetWorldHash(service.value()->world_hash());
   auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kSaidAgain);
   auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kForLateComers);
-  if (!replies) return Complain(replies.error());
-  if (!information) return Complain(information.error());
+  if (!replies) return base::PrintError(program, replies.error());
+  if (!information) return base::PrintError(program, information.error());
   if (auto status = information.value()->Write(service.value()->Announcement()); !status)
-    return Complain(status.error());
+    return base::PrintError(program, status.error());
   std::atomic<std::uint64_t> answered = 0;
   // The server waits for nobody, so it may answer on the receive thread itself: one thread change less in every step.
   auto requests =
@@ -87,7 +83,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
         (void)replies.value()->Write(reply.value());
         ++answered;
       });
-  if (!requests) return Complain(requests.error());
+  if (!requests) return base::PrintError(program, requests.error());
   report.phase = lockstep::Phase::kRunning;
   report.waiting = lockstep::Waiting::kGrant;
   bus.value()->Tell(report);

@@ -4,15 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
 
 namespace rodeira::launch {
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 LabScreen ReadScreen(const std::string& name, const config::Map& map) {
   const auto metres = [&](std::string_view key, double low_cm, double high_cm) {
@@ -23,7 +21,7 @@ LabScreen ReadScreen(const std::string& name, const config::Map& map) {
   screen.width_m = metres("width_cm", 1.0, 5000.0);
   screen.height_m = metres("height_cm", 1.0, 5000.0);
   screen.distance_m = metres("distance_cm", 1.0, 5000.0);
-  screen.angle_rad = kDegree * map.Number("angle_deg", {-180.0, 180.0}, 0.0);
+  screen.angle_rad = base::kRadiansPerDegree * map.Number("angle_deg", {-180.0, 180.0}, 0.0);
   screen.eye_height_m = 0.01 * map.Number("eye_height_cm", {-5000.0, 5000.0}, 50.0 * screen.height_m);
   screen.aside_m = 0.01 * map.Number("aside_cm", {-5000.0, 5000.0}, 0.0);
   return screen;

@@ -7,14 +7,14 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kWalking_mps = 1.5;     // above it the car does not go from D to R or back
-constexpr double kMatched_radps = 10.0;  // near enough to the new gear's speed
-constexpr double kMatchGain = 0.02;      // throttle a rad/s that the engine is too slow
+constexpr double kMaxSelectorSpeed_mps = 1.5;  // above it the gearbox does not change between D and R
+constexpr double kMatched_radps = 10.0;        // near enough to the new gear's speed
+constexpr double kMatchGain = 0.02;            // throttle a rad/s that the engine is too slow
 constexpr double kLoadSmoothing_s = 0.4;
 constexpr double kTouched = 0.05;      // less throttle than this is coasting
 constexpr double kAnotherPedal = 0.1;  // the driver has changed his mind
 
-double Between(double light, double full, double throttle) { return light + (full - light) * throttle; }
+double Interpolate(double light, double full, double throttle) { return light + (full - light) * throttle; }
 
 // Torque at the wheels in this gear with this pedal.
 double WheelTorque(const GearboxSettings& gearbox, const EngineSettings& engine, int gear, double wheel_radps,
@@ -51,15 +51,16 @@ bool AutomaticGearbox::MayShiftUp(const AutomaticSettings& settings, const Gearb
   if (load > most) return false;
   if (next == weak_gear_ && load > WheelTorque(gearbox, engine, next, input.wheel_radps, input.throttle)) return false;
   const double pedal = std::clamp((load - least) / (most - least), pedal_, 1.0);
-  const double leave = Between(settings.down_light_radps, settings.down_full_radps, pedal);
+  const double leave = Interpolate(settings.down_light_radps, settings.down_full_radps, pedal);
   return TotalRatio(gearbox, next) * input.wheel_radps > leave * settings.margin;
 }
 
 int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                                     const EngineSettings& engine, const AutomaticInput& input) const {
   const int top = static_cast<int>(gearbox.forward.size());
-  const double up = Between(settings.up_light_radps, settings.up_full_radps, pedal_);
-  const double down = Between(settings.down_light_radps, settings.down_full_radps, std::min(pedal_, input.throttle));
+  const double up = Interpolate(settings.up_light_radps, settings.up_full_radps, pedal_);
+  const double down =
+      Interpolate(settings.down_light_radps, settings.down_full_radps, std::min(pedal_, input.throttle));
   const auto speed_in = [&](int gear) { return TotalRatio(gearbox, gear) * input.wheel_radps; };
   const bool pausing = driven_s_ < settings.pause_s;
 
@@ -79,9 +80,9 @@ int AutomaticGearbox::WantedForward(const AutomaticSettings& settings, const Gea
 int AutomaticGearbox::Wanted(const AutomaticSettings& settings, const GearboxSettings& gearbox,
                              const EngineSettings& engine, const AutomaticInput& input) const {
   if (input.selector == 0) return 0;
-  if (input.selector < 0) return input.speed_mps > kWalking_mps ? 0 : -1;
+  if (input.selector < 0) return input.speed_mps > kMaxSelectorSpeed_mps ? 0 : -1;
   if (gear_ >= 1) return WantedForward(settings, gearbox, engine, input);
-  if (input.speed_mps < -kWalking_mps) return 0;
+  if (input.speed_mps < -kMaxSelectorSpeed_mps) return 0;
   AutomaticGearbox fresh;
   fresh.Start(settings, gearbox, std::max(0.0, input.wheel_radps));
   return fresh.gear_;

@@ -4,24 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kLongestSubstep_s = 0.001;
 constexpr double kLeastLean = 0.3;       // cosine between strut and normal, for walls
-constexpr double kBottom = 0.5;          // share of the radius that a tyre can be pressed in
 constexpr double kMostTilt_rad = 0.45;   // of the body against the ground under it
 constexpr double kSurelyUpright = 0.95;  // a cosine over that of the most tilt
 constexpr double kLeastHeight = 0.4;     // of the centre of gravity over that ground, share of its height at rest
-constexpr double kSteepest = 0.6;        // vertical part of the steepest ground that the body follows
-constexpr double kMostTurn_radps = 20.0;
+constexpr double kMinNormalZ = 0.6;      // of the steepest ground that the body follows
+constexpr double kMaxBodyRate_radps = 20.0;
 
 bool IsFront(std::size_t wheel) { return wheel == kFrontLeft || wheel == kFrontRight; }
 bool IsLeft(std::size_t wheel) { return wheel == kFrontLeft || wheel == kRearLeft; }
-std::size_t AxleOf(std::size_t wheel) { return IsFront(wheel) ? 0 : 1; }
 std::size_t PartnerOf(std::size_t wheel) { return wheel ^ 1u; }
 
 }  // namespace
@@ -29,7 +27,7 @@ std::size_t PartnerOf(std::size_t wheel) { return wheel ^ 1u; }
 BicycleChassis::BicycleChassis(const BicycleSettings& of) : settings(of), tyres(OnWheels(of.tyre)) {
   const BodySettings& body = settings.body;
   p_BG_B = {0.5 * body.wheelbase_m - body.cg_to_front_axle_m, 0.0, body.cg_height_m};
-  const double weight = body.mass_kg * kGravity_mps2;
+  const double weight = body.mass_kg * base::kGravity_mps2;
   const double front_share = 1.0 - body.cg_to_front_axle_m / body.wheelbase_m;
   for (std::size_t i = 0; i < kWheels; ++i)
     static_load_N[i] = 0.5 * weight * (IsFront(i) ? front_share : 1.0 - front_share);
@@ -68,7 +66,7 @@ CornerInput BicycleCar::CornerInputOf(const BicycleChassis& chassis, const Bicyc
   input.free_gap_m = tyre.radius_m - (pose.hub_W[wheel] - w.plane_W).dot(w.normal_W);
   input.lean = std::clamp(pose.up_W.dot(w.normal_W), kLeastLean, 1.0);
   input.other_travel_m = wheels[PartnerOf(wheel)].corner.travel_m();
-  input.bottom_m = kBottom * tyre.radius_m;
+  input.bottom_m = kMaxTyreDeflection * tyre.radius_m;
   return input;
 }
 
@@ -170,7 +168,7 @@ void BicycleCar::PushBody(const BicycleChassis& chassis, const Wrench& push, dou
   const BodySettings& of = chassis.settings.body;
   const double speed = body.v_WG_W.norm();
   findings.drag_N = AirDrag(of.air_density_kgpm3, of.drag_area_m2, speed);
-  Eigen::Vector3d force(0.0, 0.0, -of.mass_kg * kGravity_mps2);
+  Eigen::Vector3d force(0.0, 0.0, -of.mass_kg * base::kGravity_mps2);
   if (speed > 0.0) force -= findings.drag_N / speed * body.v_WG_W;
   force += push.force_W;
   Eigen::Vector3d moment = push.moment_WB_W + (p_WB_W(chassis) - body.p_WG_W).cross(push.force_W);
@@ -198,7 +196,7 @@ Eigen::Vector3d RoadNormal(const BicycleContacts& contacts) {
   const Eigen::Vector3d falling = contacts[kFrontRight].point_W - contacts[kRearLeft].point_W;
   const Eigen::Vector3d cross = falling.cross(rising);
   const double size = cross.norm();
-  if (!(size > 1e-3) || cross.z() < kSteepest * size) return Eigen::Vector3d::UnitZ();
+  if (!(size > 1e-3) || cross.z() < kMinNormalZ * size) return Eigen::Vector3d::UnitZ();
   return cross / size;
 }
 
@@ -217,7 +215,7 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
     body.w_WG_G -= std::min(0.0, body.w_WG_G.dot(turning)) * turning;
   }
   const double turn = body.w_WG_G.norm();
-  if (turn > kMostTurn_radps) body.w_WG_G *= kMostTurn_radps / turn;
+  if (turn > kMaxBodyRate_radps) body.w_WG_G *= kMaxBodyRate_radps / turn;
 
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const BicycleContact& contact : contacts) middle += 0.25 * contact.point_W;

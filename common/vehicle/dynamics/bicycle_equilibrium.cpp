@@ -6,19 +6,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 #include "common/vehicle/dynamics/cruise.hpp"
+#include "common/vehicle/dynamics/equilibrium.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
-constexpr int kGroundTurns = 30;  // the wheels move a little as the body leans, and with them the ground's answers
-constexpr int kNewtonTurns = 40;
+constexpr int kMaxBicycleNewtonIterations = 40;
 constexpr int kBarTurns = 12;  // an anti-roll bar ties two wheels; each turn gains a factor of twenty or more
-constexpr double kSettled_m = 1e-13;
-constexpr double kStandstill_mps = 1e-6;
 
 }  // namespace
 
@@ -107,7 +105,7 @@ Eigen::Vector3d BicycleEquilibrium::Drag(const Eigen::Vector3d& normal) const {
 // What the tyres must give along the road, all together, so that nothing accelerates.
 Eigen::Vector3d BicycleEquilibrium::HoldingForce(const Eigen::Vector3d& normal) const {
   Eigen::Vector3d force = Drag(normal);
-  force.z() -= model_.chassis_.settings.body.mass_kg * kGravity_mps2;
+  force.z() -= model_.chassis_.settings.body.mass_kg * base::kGravity_mps2;
   for (const auto& wheel : model_.car_.wheels) force += wheel.corner.load_N() * wheel.normal_W;
   return force.dot(normal) * normal - force;
 }
@@ -162,7 +160,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
   const Eigen::Vector3d normal = RoadNormal(contacts);
   const std::array<Eigen::Vector3d, kWheels> holding = HoldingForces(contacts, normal);
   Eigen::Vector3d force = HoldingForce(normal) + Drag(normal);
-  force.z() -= model_.chassis_.settings.body.mass_kg * kGravity_mps2;
+  force.z() -= model_.chassis_.settings.body.mass_kg * base::kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < kWheels; ++i) {
     const Eigen::Vector3d bearing = model_.car_.wheels[i].corner.load_N() * model_.car_.wheels[i].normal_W;
@@ -177,7 +175,7 @@ Eigen::Vector3d BicycleEquilibrium::Residual(const Unknowns& unknowns) {
 
 BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
   constexpr double kProbe = 1e-6;
-  for (int turn = 0; turn < kNewtonTurns; ++turn) {
+  for (int turn = 0; turn < kMaxBicycleNewtonIterations; ++turn) {
     const Eigen::Vector3d residual = Residual(unknowns);
     Eigen::Matrix3d slope;
     for (int k = 0; k < 3; ++k) {
@@ -206,7 +204,7 @@ base::Status BicycleEquilibrium::Find(ground::Ground& ground) {
   };
   if (!start.inside) return refusal("that is outside of the world");
   Unknowns unknowns(start.z_m, 0.0, 0.0);
-  for (int turn = 0; turn < kGroundTurns; ++turn) {
+  for (int turn = 0; turn < kMaxGroundIterations; ++turn) {
     Place(unknowns);
     model_.AskGround(ground, 0.0);
     for (std::size_t i = 0; i < kWheels; ++i) {

@@ -7,11 +7,6 @@
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 namespace rodeira::dynamics {
-namespace {
-
-constexpr double kMostStep_s = 0.1;
-
-}  // namespace
 
 void BicycleModel::AskGround(ground::Ground& ground, double steering_wheel_rad) {
   WheelPlaces places;
@@ -26,7 +21,7 @@ void BicycleModel::AskGround(ground::Ground& ground, double steering_wheel_rad) 
 }
 
 void BicycleModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
-  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls cut = Cut(controls);
   AskGround(ground, cut.steering_wheel_rad);
   car_.Step(chassis_, cut, push_, dt_s, findings_);

@@ -28,7 +28,7 @@ BodySettings ReadBody(const Map& map) {
   return body;
 }
 
-SteeringSettings ReadSteering(const Map& map) {
+SteeringSettings ReadBicycleSteering(const Map& map) {
   SteeringSettings steering;
   steering.ratio = map.Number("ratio", {1.0, 50.0});
   steering.limit_rad = map.Number("wheel_limit_rad", {0.1, 50.0});
@@ -42,7 +42,7 @@ SteeringSettings ReadSteering(const Map& map) {
   return steering;
 }
 
-VehicleDimensions ReadDimensions(const Map& root, const BicycleSettings& bicycle) {
+VehicleDimensions ReadBicycleDimensions(const Map& root, const BicycleSettings& bicycle) {
   const Map map = root.Child("dimensions");
   VehicleDimensions dimensions;
   dimensions.wheelbase_m = bicycle.body.wheelbase_m;
@@ -66,7 +66,7 @@ VehicleDimensions ReadDimensions(const Map& root, const BicycleSettings& bicycle
 BicycleSettings ReadBicycle(const Map& root) {
   BicycleSettings bicycle;
   bicycle.body = ReadBody(root.Child("body"));
-  bicycle.steering = ReadSteering(root.Child("steering"));
+  bicycle.steering = ReadBicycleSteering(root.Child("steering"));
   const Map suspension = root.Child("suspension");
   bicycle.suspension = {ReadSuspension(suspension.Child("front")), ReadSuspension(suspension.Child("rear"))};
   const Map tyre = root.Child("tyre");
@@ -75,7 +75,7 @@ BicycleSettings ReadBicycle(const Map& root) {
   bicycle.brakes = ReadBrakes(root.Child("brakes"));
   bicycle.powertrain = ReadPowertrain(root);
   bicycle.front_driven = root.Choice("driven_axle", {"front", "rear"}) != "rear";
-  bicycle.dimensions = ReadDimensions(root, bicycle);
+  bicycle.dimensions = ReadBicycleDimensions(root, bicycle);
   return bicycle;
 }
 

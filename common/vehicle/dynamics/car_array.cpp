@@ -7,11 +7,6 @@
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 
 namespace rodeira::dynamics {
-namespace {
-
-constexpr double kMostStep_s = 0.1;
-
-}  // namespace
 
 base::Result<std::uint32_t> CarArray::AddKind(const BicycleSettings& settings) {
   if (settings.wheel.enveloping != Enveloping::kNone)
@@ -73,7 +68,7 @@ void CarArray::StepRange(std::span<const Controls> controls, double dt_s, std::s
 }
 
 void CarArray::Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew) {
-  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   RODEIRA_ASSERT(controls.size() == cars_.size());
   AskGround(ground);
   base::Share(crew, cars_.size(), [&](std::size_t from, std::size_t to) { StepRange(controls, dt_s, from, to); });

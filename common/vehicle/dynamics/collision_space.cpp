@@ -12,8 +12,6 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr int kMostContacts = 8;
-
 void Put(dGeomID box, const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
   const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
   dGeomSetPosition(box, p.x(), p.y(), p.z());
@@ -55,8 +53,8 @@ std::vector<Impact> CollisionSpace::Touch(const VehicleState& car, std::span<con
     if ((obstacle.centre_W - car.p_WB_W).norm() > box_.reach_m() + obstacle.half_m.norm()) continue;
     dGeomBoxSetLengths(boxes_->other, 2.0 * obstacle.half_m.x(), 2.0 * obstacle.half_m.y(), 2.0 * obstacle.half_m.z());
     Put(boxes_->other, obstacle.centre_W, obstacle.q_WO);
-    std::array<dContactGeom, kMostContacts> contacts;
-    const int count = dCollide(boxes_->car, boxes_->other, kMostContacts, contacts.data(), sizeof(dContactGeom));
+    std::array<dContactGeom, kMaxContacts> contacts;
+    const int count = dCollide(boxes_->car, boxes_->other, kMaxContacts, contacts.data(), sizeof(dContactGeom));
     if (count == 0) continue;
     Impact impact;
     impact.id = obstacle.id;

@@ -4,11 +4,6 @@
 #include <cmath>
 
 namespace rodeira::dynamics {
-namespace {
-
-constexpr double kStandstill_mps = 1e-6;
-
-}  // namespace
 
 bool IsCruise(const InitialCondition& initial) {
   return std::fabs(initial.speed_mps) >= kStandstill_mps && initial.lateral_speed_mps == 0.0 &&

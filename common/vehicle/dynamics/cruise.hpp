@@ -8,6 +8,9 @@
 
 namespace rodeira::dynamics {
 
+// A slower car stands still.
+inline constexpr double kStandstill_mps = 1e-6;
+
 // Straight ahead at a speed, which INI solves as it does the standstill. Turning, or slipping sideways, is no
 // equilibrium: there the wheels roll.
 bool IsCruise(const InitialCondition& initial);

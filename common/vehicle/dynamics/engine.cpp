@@ -19,7 +19,7 @@ double IdleThrottle(const EngineSettings& engine, double speed_radps, double ava
 }
 
 // Hermite's cubic.
-double Between(const TorqueSample& a, double slope_a, const TorqueSample& b, double slope_b, double speed_radps) {
+double HermiteTorque(const TorqueSample& a, double slope_a, const TorqueSample& b, double slope_b, double speed_radps) {
   const double width = b.speed_radps - a.speed_radps, u = (speed_radps - a.speed_radps) / width, v = 1.0 - u;
   return v * v * ((1.0 + 2.0 * u) * a.torque_Nm + u * width * slope_a) +
          u * u * ((1.0 + 2.0 * v) * b.torque_Nm - v * width * slope_b);
@@ -62,7 +62,7 @@ double FullLoadTorque(const EngineSettings& engine, double speed_radps) {
     const TorqueSample& a = curve[i - 1];
     const TorqueSample& b = curve[i];
     if (!engine.full_load_Nmspr.empty())
-      return Between(a, engine.full_load_Nmspr[i - 1], b, engine.full_load_Nmspr[i], speed_radps);
+      return HermiteTorque(a, engine.full_load_Nmspr[i - 1], b, engine.full_load_Nmspr[i], speed_radps);
     return a.torque_Nm + (b.torque_Nm - a.torque_Nm) * (speed_radps - a.speed_radps) / (b.speed_radps - a.speed_radps);
   }
   return curve.back().torque_Nm;

@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSteepest = 2.0;
+constexpr double kMaxSlope = 2.0;
 constexpr double kCell =
     2.0 * kRingReach / kRingPoints;  // length of the ground that a place stands for, share of the radius
 
@@ -38,7 +38,7 @@ struct Touch {
 // that.
 Touch TouchCell(const ground::GroundPoint& point, double middle_m, const Vector3d& heading, double radius_m) {
   const double half = 0.5 * kCell * radius_m;
-  const double slope = std::clamp(-point.normal_W.dot(heading) / point.normal_W.z(), -kSteepest, kSteepest);
+  const double slope = std::clamp(-point.normal_W.dot(heading) / point.normal_W.z(), -kMaxSlope, kMaxSlope);
   const double lowest = radius_m * slope / std::sqrt(1.0 + slope * slope);
   Touch touch;
   touch.ahead_m = std::clamp(lowest, middle_m - half, middle_m + half);

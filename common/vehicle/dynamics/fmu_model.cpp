@@ -14,8 +14,6 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kMostStep_s = 0.1;
-
 Eigen::Quaterniond Attitude(double roll, double pitch, double heading) {
   return Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
          Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
@@ -260,7 +258,7 @@ base::Status FmuModel::Advance(const Controls& controls, double dt_s) {
 }
 
 void FmuModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
-  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   AskGround(ground);
   if (problem_) problem_ = Advance(Cut(controls), dt_s);
   push_ = {};

@@ -7,7 +7,7 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr double kClutchPressed = 0.6;
-constexpr double kWalking_mps = 2.0;
+constexpr double kMaxSpeedAgainstGear_mps = 2.0;  // above it no gear of the other direction engages
 
 }  // namespace
 
@@ -26,7 +26,7 @@ int ShiftByHand(const GearboxSettings& gearbox, int engaged, int lever, double c
   const int wanted = CutGear(gearbox, lever);
   if (wanted == engaged || wanted == 0) return wanted;
   if (clutch_pedal < kClutchPressed) return engaged;
-  const bool against = wanted < 0 ? speed_mps > kWalking_mps : speed_mps < -kWalking_mps;
+  const bool against = wanted < 0 ? speed_mps > kMaxSpeedAgainstGear_mps : speed_mps < -kMaxSpeedAgainstGear_mps;
   return against ? 0 : wanted;
 }
 

@@ -15,13 +15,13 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr int kGroundTurns = 40;  // the wheels move a little as the car settles, and with them the ground's answers
-constexpr double kSettled_m = 1e-10;
+// The wheels move a little as the car settles, and the ground under them with that: how often the ground is asked.
+constexpr int kMaxMultibodyGroundIterations = 40;
+constexpr double kMultibodySettled_m = 1e-10;
 constexpr double kResidual_mps2 = 1e-9;
 constexpr double kAnchor_Npm =
     3e5;  // as a tyre: what a stiffer one does to the carrier by its lever is not in Newton's matrix
 constexpr double kHeld_N = 1e-6;  // what anchors may still hold of a car at a speed
-constexpr double kStandstill_mps = 1e-6;
 
 Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Eigen::Vector3d& up) {
   const Eigen::Vector3d ahead(std::cos(initial.heading_rad), std::sin(initial.heading_rad), 0.0);
@@ -152,7 +152,7 @@ Eigen::Isometry3d MultibodyModel::MoveTo(const InitialCondition& initial, double
   const double turn_rad = std::remainder(initial.heading_rad - heading, 2.0 * geometry::kPi);
   by = std::max(off.norm(), std::fabs(turn_rad));
   Eigen::Isometry3d way = Eigen::Isometry3d::Identity();
-  if (by < kSettled_m) return way;
+  if (by < kMultibodySettled_m) return way;
   way.linear() = Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   way.translation() = now.translation() + off - way.linear() * now.translation();
   const auto& entities = system_->drawing().entities;
@@ -195,7 +195,7 @@ base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Gr
   // The springs that hold the hubs are stretched on a slope: they go with the car when it is moved.
   std::array<Eigen::Vector3d, kWheels> anchors;
   for (std::size_t i = 0; i < kWheels; ++i) anchors[i] = Hub_W(i);
-  for (int turn = 0; turn < kGroundTurns; ++turn) {
+  for (int turn = 0; turn < kMaxMultibodyGroundIterations; ++turn) {
     AskGround(ground);
     for (std::size_t i = 0; i < kWheels; ++i) {
       if (!wheels_[i].inside) return Refusal(initial, "a wheel would stand outside of the world");
@@ -206,7 +206,7 @@ base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Gr
     const double held_N = cruise != nullptr ? UpdateCruise(initial, *cruise) : 0.0;
     double by = 0.0;
     const Eigen::Isometry3d way = MoveTo(initial, by);
-    if (by < kSettled_m && held_N < kHeld_N) return {};
+    if (by < kMultibodySettled_m && held_N < kHeld_N) return {};
     for (std::size_t i = 0; i < kWheels; ++i) anchors[i] = cruise != nullptr ? Hub_W(i) : way * anchors[i];
   }
   return Refusal(initial, "the ground under its wheels is too uneven to stand on");

@@ -11,8 +11,6 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kMostStep_s = 0.1;
-constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
 constexpr int kMostHalvings = 3;
 
 TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
@@ -35,7 +33,7 @@ base::Status MultibodyModel::Build() {
     load.radius_m = settings_.wheel.radius_m;
     load.vertical_Npm = settings_.wheel.vertical_Npm;
     load.damping_Nspm = settings_.tyre_damping_Nspm;
-    load.bottom_m = kBottom * settings_.wheel.radius_m;
+    load.bottom_m = kMaxTyreDeflection * settings_.wheel.radius_m;
     load.spin_inertia_kgm2 = settings_.wheel.inertia_kgm2;
     wheels_[i].load = std::make_shared<WheelLoad>(load);
     drawing.loads.push_back({"wheel", wheels_[i].load});
@@ -105,7 +103,7 @@ void MultibodyModel::AskGround(ground::Ground& ground) {
 }
 
 void MultibodyModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
-  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls cut = Cut(controls);
   AskGround(ground);
   const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});

@@ -42,7 +42,7 @@ MultibodyWheelSettings ReadHungWheel(const Map& map, const DrawingReader& reader
   return wheel;
 }
 
-MultibodySteeringSettings ReadSteering(const Map& map, const DrawingReader& reader) {
+MultibodySteeringSettings ReadMultibodySteering(const Map& map, const DrawingReader& reader) {
   MultibodySteeringSettings steering;
   if (const auto angle = reader.Entity(map, "angle", map.Text("angle"), true)) steering.angle = *angle;
   steering.ratio = map.Number("ratio", {1.0, 50.0});
@@ -58,7 +58,7 @@ double Mean(const MultibodySettings& car, std::size_t a, std::size_t b, int comp
                 entities[static_cast<std::size_t>(car.wheels[b].centre)].at[component]);
 }
 
-VehicleDimensions ReadDimensions(const Map& map, const MultibodySettings& car) {
+VehicleDimensions ReadMultibodyDimensions(const Map& map, const MultibodySettings& car) {
   const auto& entities = car.mechanism.entities;
   const auto track = [&](std::size_t left, std::size_t right) {
     return entities[static_cast<std::size_t>(car.wheels[left].centre)].at.y() -
@@ -100,7 +100,7 @@ MultibodySettings ReadMultibody(const Map& root) {
   car.longest_substep_s = root.Number("longest_substep_s", {1e-5, 0.01}, car.longest_substep_s);
   const Map wheels = root.Child("wheels");
   for (std::size_t i = 0; i < kWheels; ++i) car.wheels[i] = ReadHungWheel(wheels.Child(kWheelNames[i]), reader);
-  car.steering = ReadSteering(root.Child("steering"), reader);
+  car.steering = ReadMultibodySteering(root.Child("steering"), reader);
   const Map tyre = root.Child("tyre");
   car.tyre = {ReadTyre(tyre.Child("front")), ReadTyre(tyre.Child("rear"))};
   car.wheel = ReadWheel(root.Child("wheel"));
@@ -110,7 +110,7 @@ MultibodySettings ReadMultibody(const Map& root) {
   car.front_driven = root.Choice("driven_axle", {"front", "rear"}) != "rear";
   car.mechanism = reader.drawing();
   for (const auto& part : car.mechanism.bodies) car.mass_kg += part.mass_kg;
-  if (!car.mechanism.entities.empty()) car.dimensions = ReadDimensions(root.Child("dimensions"), car);
+  if (!car.mechanism.entities.empty()) car.dimensions = ReadMultibodyDimensions(root.Child("dimensions"), car);
   return car;
 }
 

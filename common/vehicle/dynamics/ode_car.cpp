@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/vehicle/dynamics/ode_library.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
 constexpr double kStopErp = 0.8;  // share of a steer angle's error that a step takes away
 constexpr double kMostSpeed_mps = 120.0;
-constexpr double kMostTurn_radps = 20.0;  // of the chassis
+constexpr double kMaxChassisRate_radps = 20.0;  // of the chassis
 constexpr double kMostSpin_radps = 1000.0;
-constexpr int kMostContacts = 8;
 constexpr double kSoft =
     1e-6;  // speed at which a contact gives way, m/s a newton: four contacts of a box are more than it needs
 
@@ -28,7 +27,7 @@ void Limit(Eigen::Vector3d& v, double most) {
 }  // namespace
 
 double PreloadOf(const OdeSettings& settings, std::size_t wheel) {
-  return LoadAtRest(settings.car, wheel) - settings.wheel_mass_kg * kGravity_mps2;
+  return LoadAtRest(settings.car, wheel) - settings.wheel_mass_kg * base::kGravity_mps2;
 }
 
 struct OdeCar::World {
@@ -53,7 +52,7 @@ OdeCar::World::World(const OdeSettings& of) : settings(of) {
   PrepareOde();
   world = dWorldCreate();
   contacts = dJointGroupCreate(0);
-  dWorldSetGravity(world, 0.0, 0.0, -kGravity_mps2);
+  dWorldSetGravity(world, 0.0, 0.0, -base::kGravity_mps2);
   dWorldSetCFM(world, 0.0);
   dWorldSetAutoDisableFlag(world, 0);
   const OdeChassis chassis = ChassisOf(settings);
@@ -104,8 +103,8 @@ OdeCar::World::~World() {
 
 // Contact joints for the body's box on the ground, for one step.
 void OdeCar::World::Touch() {
-  std::array<dContactGeom, kMostContacts> touching;
-  const int count = dCollide(box, ground, kMostContacts, touching.data(), sizeof(dContactGeom));
+  std::array<dContactGeom, kMaxContacts> touching;
+  const int count = dCollide(box, ground, kMaxContacts, touching.data(), sizeof(dContactGeom));
   for (int i = 0; i < count; ++i) {
     dContact contact{};
     contact.surface.mode = dContactApprox1 | dContactSoftERP | dContactSoftCFM | dContactSlip1 | dContactSlip2;
@@ -129,7 +128,7 @@ void OdeCar::Give(const Bodies& bodies) {
     Eigen::Vector3d v = bodies[i].v_WG_W;
     Eigen::Vector3d w = bodies[i].w_WG_W();
     Limit(v, kMostSpeed_mps);
-    Limit(w, i == kChassis ? kMostTurn_radps : kMostSpin_radps);
+    Limit(w, i == kChassis ? kMaxChassisRate_radps : kMostSpin_radps);
     const Eigen::Vector3d& p = bodies[i].p_WG_W;
     const Eigen::Quaterniond& q = bodies[i].q_WG;
     const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};

@@ -7,17 +7,15 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/vehicle/dynamics/cruise.hpp"
+#include "common/vehicle/dynamics/equilibrium.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
 
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kGravity_mps2 = 9.81;
-constexpr int kGroundTurns = 30;  // the wheels move a little as the body leans, and with them the ground's answers
-constexpr int kNewtonTurns = 60;
-constexpr double kSettled_m = 1e-13;
-constexpr double kStandstill_mps = 1e-6;
+constexpr int kMaxOdeNewtonIterations = 60;
 
 }  // namespace
 
@@ -104,7 +102,7 @@ Eigen::Vector3d OdeEquilibrium::Drag() const {
 
 // Loads at the present place, and what the tyres must hold, shared by load.
 void OdeEquilibrium::Load() {
-  Eigen::Vector3d force(0.0, 0.0, -car().body.mass_kg * kGravity_mps2);
+  Eigen::Vector3d force(0.0, 0.0, -car().body.mass_kg * base::kGravity_mps2);
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   load_N_ = 0.0;
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -135,7 +133,7 @@ Eigen::Vector3d OdeEquilibrium::Holding(std::size_t wheel) const {
 void OdeEquilibrium::ShareAcross() {
   const Eigen::Vector3d centre = model_.chassis().p_WG_W;
   const Eigen::Vector3d across = normal_W_.cross(Along()),
-                        wheel_weight(0.0, 0.0, -model_.settings_.wheel_mass_kg * kGravity_mps2);
+                        wheel_weight(0.0, 0.0, -model_.settings_.wheel_mass_kg * base::kGravity_mps2);
   axle_load_N_ = {};
   for (std::size_t i = 0; i < kWheels; ++i) axle_load_N_[i / 2] += model_.contacts_[i].load_N;
   double yaws_Nm = 0.0;
@@ -161,11 +159,11 @@ OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
   const RigidBody& chassis = model_.chassis();
   const Eigen::Vector3d up = chassis.q_WG * Eigen::Vector3d::UnitZ();
   Eigen::Vector3d force = Drag();
-  force.z() -= model_.measures_.mass_kg * kGravity_mps2;
+  force.z() -= model_.measures_.mass_kg * base::kGravity_mps2;
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
   Vector residual;
   for (std::size_t i = 0; i < kWheels; ++i) {
-    const Eigen::Vector3d weight(0.0, 0.0, -settings.wheel_mass_kg * kGravity_mps2);
+    const Eigen::Vector3d weight(0.0, 0.0, -settings.wheel_mass_kg * base::kGravity_mps2);
     const Eigen::Vector3d road = model_.contacts_[i].load_N * model_.now_.wheels[i].normal_W + Holding(i);
     const double strut = model_.StrutExtra(i) + car().suspension[i / 2].spring_Npm * model_.Travel(i);
     residual[3 + static_cast<int>(i)] = (road + weight).dot(up) - strut;
@@ -184,7 +182,7 @@ OdeEquilibrium::Vector OdeEquilibrium::Residual(const Vector& unknowns) {
 
 OdeEquilibrium::Vector OdeEquilibrium::Balance(Vector unknowns) {
   constexpr double kProbe = 1e-6;
-  for (int turn = 0; turn < kNewtonTurns; ++turn) {
+  for (int turn = 0; turn < kMaxOdeNewtonIterations; ++turn) {
     const Vector residual = Residual(unknowns);
     Eigen::Matrix<double, kUnknowns, kUnknowns> slope;
     for (int k = 0; k < kUnknowns; ++k) {
@@ -215,7 +213,7 @@ base::Status OdeEquilibrium::Find(ground::Ground& ground) {
   if (!start.inside) return refusal("that is outside of the world");
   Vector unknowns = Vector::Zero();
   unknowns[0] = start.z_m;
-  for (int turn = 0; turn < kGroundTurns; ++turn) {
+  for (int turn = 0; turn < kMaxGroundIterations; ++turn) {
     Place(unknowns);
     model_.AskGround(ground);
     for (const auto& wheel : model_.now_.wheels) {

@@ -9,15 +9,6 @@
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 namespace rodeira::dynamics {
-namespace {
-
-constexpr double kMostStep_s = 0.1;
-constexpr double kBottom = 0.5;  // share of the radius that a tyre can be pressed in
-
-std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
-
-}  // namespace
-
 base::Status OdeModel::Build() {
   measures_ = ChassisOf(settings_);
   car_ = std::make_unique<OdeCar>(settings_);
@@ -69,11 +60,11 @@ OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
   Contact contact;
   static_cast<DiscContact&>(contact) =
       MeetPlane(hub.p_WG_W, hub.q_WG * Eigen::Vector3d::UnitY(), tyre.radius_m, w.plane_W, w.normal_W);
-  const double pressed = std::min(contact.deflection_m, kBottom * tyre.radius_m);
+  const double pressed = std::min(contact.deflection_m, kMaxTyreDeflection * tyre.radius_m);
   if (pressed > 0.0) {
     const double closing = -hub.v_WG_W.dot(w.normal_W) / contact.lean;
     contact.load_N = std::clamp(tyre.vertical_Npm * pressed + settings_.tyre_damping_Nspm * closing, 0.0,
-                                tyre.vertical_Npm * kBottom * tyre.radius_m);
+                                tyre.vertical_Npm * kMaxTyreDeflection * tyre.radius_m);
   }
   return contact;
 }
@@ -92,7 +83,7 @@ TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
 }
 
 void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
-  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMostStep_s);
+  RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls cut = Cut(controls);
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
   now_.bodies = car_->bodies();

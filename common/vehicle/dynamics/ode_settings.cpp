@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/vehicle/dynamics/ode_settings.hpp"
 
+#include "common/core/base/constants.hpp"
 #include "common/vehicle/dynamics/parts_file.hpp"
 #include "common/vehicle/dynamics/vehicle_state.hpp"
 
@@ -9,13 +10,11 @@ namespace {
 
 using config::Range;
 
-constexpr double kGravity_mps2 = 9.81;
-
 }  // namespace
 
 double LoadAtRest(const BicycleSettings& car, std::size_t wheel) {
   const double rear_share = car.body.cg_to_front_axle_m / car.body.wheelbase_m;
-  return 0.5 * car.body.mass_kg * kGravity_mps2 * (wheel < kRearLeft ? 1.0 - rear_share : rear_share);
+  return 0.5 * car.body.mass_kg * base::kGravity_mps2 * (wheel < kRearLeft ? 1.0 - rear_share : rear_share);
 }
 
 Eigen::Vector3d HubAtRest_B(const BicycleSettings& car, std::size_t wheel) {

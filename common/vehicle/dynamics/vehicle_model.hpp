@@ -60,6 +60,9 @@ struct Wrench {
   bool any() const { return !force_W.isZero(0.0) || !moment_WB_W.isZero(0.0); }
 };
 
+// The longest step of a model (VehicleModel::Step).
+inline constexpr double kMaxStep_s = 0.1;
+
 // One vehicle. A value that is stepped (law L3): everything that later steps depend on is in Save and Restore, and the
 // same calls give the same bits.
 class VehicleModel {
@@ -71,8 +74,8 @@ class VehicleModel {
   // or a number is not finite; the model is then as before.
   virtual base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) = 0;
 
-  // CALCULO: advances by dt_s (over 0, at most 0.1 s) with the controls held. Asks the ground exactly once, one batch
-  // for four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
+  // CALCULO: advances by dt_s (over 0, at most kMaxStep_s) with the controls held. Asks the ground exactly once, one
+  // batch for four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
   virtual void Step(const Controls& controls, ground::Ground& ground, double dt_s) = 0;
 
   // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is

@@ -18,6 +18,8 @@ namespace rodeira::dynamics {
 // The order of wheels everywhere.
 enum WheelIndex : std::size_t { kFrontLeft = 0, kFrontRight = 1, kRearLeft = 2, kRearRight = 3 };
 inline constexpr std::size_t kWheels = 4;
+// 0: the front axle; 1: the rear axle.
+inline std::size_t AxleOf(std::size_t wheel) { return wheel / 2; }
 
 struct WheelState {
   Eigen::Vector3d hub_B = Eigen::Vector3d::Zero();  // centre of the wheel in the body frame

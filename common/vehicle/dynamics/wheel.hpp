@@ -11,6 +11,9 @@ enum class Enveloping {
   kRing,  // the plane that a rigid ring of the wheel's radius touches
 };
 
+// The largest deflection of a tyre, share of its radius.
+inline constexpr double kMaxTyreDeflection = 0.5;
+
 struct WheelSettings {
   double radius_m = 0.29;           // unloaded
   double rolling_radius_m = 0.283;  // distance rolled for a radian, and lever arm of the longitudinal force

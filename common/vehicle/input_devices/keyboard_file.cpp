@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <numbers>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
 
 namespace rodeira::input_devices {
 namespace {
 
-constexpr std::array<const char*, kActions> kNames{"steer_left",    "steer_right",  "throttle",      "brake",
-                                                   "clutch",        "handbrake",    "starter",       "gear_up",
-                                                   "gear_down",     "gearbox_mode", "indicate_left", "indicate_right",
-                                                   "hazard_lights", "headlights",   "horn"};
+constexpr std::array<const char*, kActions> kActionKeys{
+    "steer_left",    "steer_right",    "throttle",      "brake",      "clutch",
+    "handbrake",     "starter",        "gear_up",       "gear_down",  "gearbox_mode",
+    "indicate_left", "indicate_right", "hazard_lights", "headlights", "horn"};
 constexpr std::array<const char*, kActions> kHelp{"steer left",
                                                   "steer right",
                                                   "throttle",
@@ -36,7 +36,7 @@ constexpr std::array<const char*, kActions> kHelp{"steer left",
 void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
   std::map<Key, std::string> taken;
   for (std::size_t action = 0; action < kActions; ++action) {
-    const config::List names = map.OptionalItems(kNames[action]);
+    const config::List names = map.OptionalItems(kActionKeys[action]);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::string name = names.Text(i);
       const auto key = KeyOf(name);
@@ -48,15 +48,15 @@ void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
         constexpr const char* kTaken = "'{}' is taken for '{}' already; a key that does nothing else was expected";
         names.Problem(i, fmt::format(kTaken, name, other->second));
       } else {
-        taken[*key] = kNames[action];
+        taken[*key] = kActionKeys[action];
         settings.keys[action].push_back(*key);
       }
     }
   }
   for (const Action needed : {Action::kSteerLeft, Action::kSteerRight, Action::kThrottle, Action::kBrake}) {
     const auto at = static_cast<std::size_t>(needed);
-    if (!settings.keys[at].empty() || map.Has(kNames[at])) continue;
-    map.Problem(kNames[at], fmt::format("'keys.{}' is missing; a list of keys was expected", kNames[at]));
+    if (!settings.keys[at].empty() || map.Has(kActionKeys[at])) continue;
+    map.Problem(kActionKeys[at], fmt::format("'keys.{}' is missing; a list of keys was expected", kActionKeys[at]));
   }
 }
 
@@ -76,8 +76,7 @@ KeyboardSettings ReadKeyboard(const config::Map& root) {
   const config::Map keys = root.Child("keys");
   if (root.Has("keys")) ReadKeys(keys, s);
   const config::Map steering = root.OptionalChild("steering");
-  s.lock_rad =
-      steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
   s.half_lock_speed_mps = steering.Number("half_lock_speed_mps", {0.5, 200.0}, s.half_lock_speed_mps);
   s.turn_s = steering.Number("turn_s", {0.05, 10.0}, s.turn_s);
   s.centre_s = steering.Number("centre_s", {0.05, 10.0}, s.centre_s);

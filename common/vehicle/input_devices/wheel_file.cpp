@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <numbers>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/input_devices/wheel_names.hpp"
@@ -91,7 +91,7 @@ void ReadForce(const config::Map& force, WheelSettings& settings) {
   settings.has_force = force.Flag("on", true);
   settings.force_inverted = force.Flag("inverted", false);
   settings.force_lock_rad =
-      force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+      force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
   f.device_Nm = force.Number("device_Nm", {0.1, 50.0}, f.device_Nm);
   f.most_Nm = force.Number("most_Nm", {0.0, f.device_Nm}, std::min(f.most_Nm, f.device_Nm));
   f.share = force.Number("share", {0.0, 2.0}, f.share);
@@ -120,8 +120,7 @@ WheelSettings ReadWheel(const config::Map& root) {
   if (root.Has("devices") && s.devices.empty())
     root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
   const config::Map steering = root.Child("steering");
-  s.lock_rad =
-      steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / std::numbers::pi) * std::numbers::pi / 180.0;
+  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
   s.axes[0] = ReadAxis(steering, s.devices, true);
   for (std::size_t axis = 1; axis < kWheelAxes; ++axis) {
     const bool pedals = axis == static_cast<std::size_t>(WheelAxis::kPedals);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <numbers>
-
+#include "common/core/base/constants.hpp"
 #include "common/core/base/printable.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "common/vehicle/input_devices/wheel_names.hpp"
@@ -36,7 +35,7 @@ std::string WheelText(const WheelSettings& s, const std::string& name) {
                         kAxisNames[i], device(axis->device), axis->axis, axis->min,
                         two_sided ? fmt::format("centre: {}, ", axis->centre) : "", axis->max, axis->inverted,
                         axis->dead_zone, axis->exponent,
-                        steering ? fmt::format(", lock_deg: {}", s.lock_rad * 180.0 / std::numbers::pi) : "");
+                        steering ? fmt::format(", lock_deg: {}", s.lock_rad * 180.0 / base::kPi) : "");
   }
   std::string buttons;
   for (std::size_t i = 0; i < kWheelButtons; ++i) {

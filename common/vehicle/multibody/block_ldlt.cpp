@@ -12,15 +12,15 @@
 namespace rodeira::multibody {
 namespace {
 
-using Pair = double __attribute__((vector_size(16), may_alias));
+using LanePair = double __attribute__((vector_size(16), may_alias));
 
-const Pair* Lanes(const double* v) { return reinterpret_cast<const Pair*>(v); }
-Pair* Lanes(double* v) { return reinterpret_cast<Pair*>(v); }
+const LanePair* Lanes(const double* v) { return reinterpret_cast<const LanePair*>(v); }
+LanePair* Lanes(double* v) { return reinterpret_cast<LanePair*>(v); }
 
 // target -= x wᵀ
 inline void Subtract(const Block& x, const Block& w, Block& target) {
-  const Pair* a = Lanes(x.v.data());
-  Pair* t = Lanes(target.v.data());
+  const LanePair* a = Lanes(x.v.data());
+  LanePair* t = Lanes(target.v.data());
   for (int c = 0; c < 3; ++c) {
     const double w0 = w.v[c], w1 = w.v[4 + c], w2 = w.v[8 + c];
     t[2 * c] -= a[0] * w0 + a[2] * w1 + a[4] * w2;
@@ -144,13 +144,13 @@ bool BlockLdlt::Factorise() {
     Block* column = below + first;
     for (int a = 0; a < size; ++a) {
       column_[static_cast<std::size_t>(a)] = column[a];
-      Pair* x = Lanes(column[a].v.data());  // X = W D⁻¹, by columns
+      LanePair* x = Lanes(column[a].v.data());  // X = W D⁻¹, by columns
       for (int lane = 0; lane < 2; ++lane) {
-        const Pair w0 = x[lane];
-        const Pair w1 = x[2 + lane] - w0 * p.l10;
-        const Pair w2 = x[4 + lane] - w0 * p.l20 - w1 * p.l21;
-        const Pair x2 = w2 * p.i2;
-        const Pair x1 = w1 * p.i1 - x2 * p.l21;
+        const LanePair w0 = x[lane];
+        const LanePair w1 = x[2 + lane] - w0 * p.l10;
+        const LanePair w2 = x[4 + lane] - w0 * p.l20 - w1 * p.l21;
+        const LanePair x2 = w2 * p.i2;
+        const LanePair x1 = w1 * p.i1 - x2 * p.l21;
         x[4 + lane] = x2;
         x[2 + lane] = x1;
         x[lane] = w0 * p.i0 - x1 * p.l10 - x2 * p.l20;
@@ -174,8 +174,8 @@ void BlockLdlt::Solve(const double* b, double* x) {
   for (int j = 0; j < count; ++j) {
     const auto& xj = x_[static_cast<std::size_t>(j)].v;
     for (int k = start_[static_cast<std::size_t>(j)]; k < start_[static_cast<std::size_t>(j) + 1]; ++k) {
-      const Pair* l = Lanes(below[k].v.data());
-      Pair* xi = Lanes(x_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])].v.data());
+      const LanePair* l = Lanes(below[k].v.data());
+      LanePair* xi = Lanes(x_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])].v.data());
       xi[0] -= l[0] * xj[0] + l[2] * xj[1] + l[4] * xj[2];
       xi[1] -= l[1] * xj[0] + l[3] * xj[1] + l[5] * xj[2];
     }
@@ -188,10 +188,10 @@ void BlockLdlt::Solve(const double* b, double* x) {
     const double y2 = w2 * p.i2;
     const double y1 = w1 * p.i1 - p.l21 * y2;
     const double y0 = xj[0] * p.i0 - p.l10 * y1 - p.l20 * y2;
-    Pair s0{}, s1{}, s2{};  // columns of L times x, two lanes each until the end
+    LanePair s0{}, s1{}, s2{};  // columns of L times x, two lanes each until the end
     for (int k = start_[static_cast<std::size_t>(j)]; k < start_[static_cast<std::size_t>(j) + 1]; ++k) {
-      const Pair* l = Lanes(below[k].v.data());
-      const Pair* xi = Lanes(x_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])].v.data());
+      const LanePair* l = Lanes(below[k].v.data());
+      const LanePair* xi = Lanes(x_[static_cast<std::size_t>(rows_[static_cast<std::size_t>(k)])].v.data());
       s0 += l[0] * xi[0] + l[1] * xi[1];
       s1 += l[2] * xi[0] + l[3] * xi[1];
       s2 += l[4] * xi[0] + l[5] * xi[1];
@@ -216,9 +216,9 @@ std::vector<OuterPair> OuterPairs(const BlockLdlt& matrix, std::span<const int> 
 
 void AddOuter(std::span<const OuterPair> pairs, const Triple* gradients, double weight, Block* blocks) {
   for (const OuterPair& pair : pairs) {
-    const Pair* row = Lanes(gradients[pair.row].v.data());
+    const LanePair* row = Lanes(gradients[pair.row].v.data());
     const auto& column = gradients[pair.column].v;
-    Pair* block = Lanes(blocks[pair.block].v.data());
+    LanePair* block = Lanes(blocks[pair.block].v.data());
     for (int c = 0; c < 3; ++c) {
       const double w = weight * column[static_cast<std::size_t>(c)];
       block[2 * c] += row[0] * w;

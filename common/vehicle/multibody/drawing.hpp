@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/base/constants.hpp"
 #include "common/vehicle/multibody/body.hpp"
 #include "common/vehicle/multibody/load.hpp"
 #include "common/vehicle/multibody/row.hpp"
@@ -48,7 +49,7 @@ struct NamedLoad {
 struct Drawing {
   std::string name;
   std::string place;
-  Vector3d gravity_mps2{0.0, 0.0, -9.81};
+  Vector3d gravity_mps2{0.0, 0.0, -base::kGravity_mps2};
   std::vector<EntityDrawing> entities;
   std::vector<std::string> body_names;
   std::vector<BodyParts> bodies;

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
+
 namespace rodeira::multibody {
 
 // A given motion or force over time: c0 + c1 t + c2 t² + amplitude sin(2 pi frequency t + phase).
@@ -26,7 +28,7 @@ struct Law {
   }
 
  private:
-  double omega() const { return 2.0 * 3.14159265358979323846 * frequency_Hz; }
+  double omega() const { return 2.0 * base::kPi * frequency_Hz; }
 };
 
 }  // namespace rodeira::multibody

@@ -12,20 +12,20 @@ namespace rodeira::multibody {
 namespace {
 
 // Two numbers of a row, wherever they stand. What the registers do with them is what one after the other would give.
-using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
+using UnalignedPair = double __attribute__((vector_size(16), aligned(8), may_alias));
 using Bits = long long __attribute__((vector_size(16)));
 
 }  // namespace
 
 double LargestOf(std::span<const double> values) {
   constexpr Bits kWithoutSign = {0x7fffffffffffffffLL, 0x7fffffffffffffffLL};
-  Pair first{}, second{}, nothing{};  // the last stays 0 unless something is not finite
+  UnalignedPair first{}, second{}, nothing{};  // the last stays 0 unless something is not finite
   const std::size_t even = values.size() / 4 * 4;
   for (std::size_t i = 0; i < even; i += 4) {
-    const Pair a = reinterpret_cast<Pair>(reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i)) &
-                                          kWithoutSign);
-    const Pair b = reinterpret_cast<Pair>(
-        reinterpret_cast<Bits>(*reinterpret_cast<const Pair*>(values.data() + i + 2)) & kWithoutSign);
+    const UnalignedPair a = reinterpret_cast<UnalignedPair>(
+        reinterpret_cast<Bits>(*reinterpret_cast<const UnalignedPair*>(values.data() + i)) & kWithoutSign);
+    const UnalignedPair b = reinterpret_cast<UnalignedPair>(
+        reinterpret_cast<Bits>(*reinterpret_cast<const UnalignedPair*>(values.data() + i + 2)) & kWithoutSign);
     first = a > first ? a : first;
     second = b > second ? b : second;
     nothing += 0.0 * a + 0.0 * b;

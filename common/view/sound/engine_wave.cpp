@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/random.hpp"
 
 namespace rodeira::sound {
@@ -15,9 +15,9 @@ EngineWave::EngineWave(double load) {
     const bool firing = k % kFirings == 0;
     const double amplitude =
         firing ? std::pow(static_cast<double>(k) / kFirings, -1.7 + 0.9 * load) : 0.11 * std::pow(k, -0.6);
-    const double phase = base::RandomUniform({17, static_cast<std::uint64_t>(k)}, 0.0, 2.0 * std::numbers::pi);
+    const double phase = base::RandomUniform({17, static_cast<std::uint64_t>(k)}, 0.0, 2.0 * base::kPi);
     for (std::size_t i = 0; i < kPoints; ++i)
-      wave[i] += amplitude * std::sin(2.0 * std::numbers::pi * k * static_cast<double>(i) / kPoints + phase);
+      wave[i] += amplitude * std::sin(2.0 * base::kPi * k * static_cast<double>(i) / kPoints + phase);
   }
   const double most = std::fabs(
       *std::max_element(wave.begin(), wave.end(), [](double a, double b) { return std::fabs(a) < std::fabs(b); }));

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "common/core/base/constants.hpp"
 
 namespace rodeira::sound {
 namespace {
@@ -14,7 +15,7 @@ constexpr double kCrashDecay_s = 0.22;
 constexpr double kIdle_rpm = 400.0;  // below it an engine is not heard
 
 // Of a filter with one pole.
-double PoleOf(double cut_Hz) { return 1.0 - std::exp(-2.0 * std::numbers::pi * cut_Hz * kSample_s); }
+double PoleOf(double cut_Hz) { return 1.0 - std::exp(-2.0 * base::kPi * cut_Hz * kSample_s); }
 
 double Between(double a, double b, double share) { return a + (b - a) * share; }
 
@@ -33,8 +34,7 @@ double HornNote(double& cycle, double frequency_Hz) {
   cycle += frequency_Hz * kSample_s;
   cycle -= std::floor(cycle);
   double note = 0.0;
-  for (int overtone = 1; overtone <= 8; ++overtone)
-    note += std::sin(2.0 * std::numbers::pi * overtone * cycle) / overtone;
+  for (int overtone = 1; overtone <= 8; ++overtone) note += std::sin(2.0 * base::kPi * overtone * cycle) / overtone;
   return note;
 }
 
@@ -60,7 +60,7 @@ double Synth::OneSample(const Voice& voice, State& state) {
   out += 1.5 * std::pow(fast, 1.3) * state.road.low;
 
   // A resonator (Chamberlin's state variable filter) on noise.
-  static const double kTune = 2.0 * std::sin(std::numbers::pi * kSqueal_Hz * kSample_s);
+  static const double kTune = 2.0 * std::sin(base::kPi * kSqueal_Hz * kSample_s);
   Filtered& q = state.squeal;
   q.second += kTune * q.band;
   q.band += kTune * (Noise() - q.second - q.band / kSquealSharpness);
@@ -85,7 +85,7 @@ void Synth::Render(const Heard& heard, std::span<float> stereo) {
     const double share = static_cast<double>(i + 1) / static_cast<double>(count);
     double left = 0.0, right = 0.0;
     const auto add = [&](const Voice& voice, State& state) {
-      const double sample = OneSample(voice, state), angle = (voice.pan + 1.0) * 0.25 * std::numbers::pi;
+      const double sample = OneSample(voice, state), angle = (voice.pan + 1.0) * 0.25 * base::kPi;
       left += sample * std::cos(angle);
       right += sample * std::sin(angle);
     };

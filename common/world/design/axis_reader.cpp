@@ -22,7 +22,6 @@ constexpr double kSmallestRadius_m = 5.0;
 constexpr Range kLength_m = {0.01, 100'000.0};
 constexpr Range kCoordinate_m = {-1e8, 1e8};
 constexpr double kGap_m = 0.05;
-constexpr double kKink_rad = 1e-3;
 
 double ReadCurvature(const Map& map, std::string_view key) {
   const double radius = map.Number(key);
@@ -91,12 +90,12 @@ void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, P
   element.start_W = p;
   element.heading_rad = before.heading_rad + geometry::WrapAngle(heading - before.heading_rad);
   if (first) return;
-  if (gap > kGap_m || kink > kKink_rad) {
+  if (gap > kGap_m || kink > kMaxKink_rad) {
     item.Problem(
         "from",
         fmt::format("the element begins {:.3f} m and {:.4f} rad away from where the one before ends, at s = {:.3f} m "
                     "({:.3f}, {:.3f}); up to {} m and {} rad are closed",
-                    gap, kink, element.s_m, before.p_W.x(), before.p_W.y(), kGap_m, kKink_rad));
+                    gap, kink, element.s_m, before.p_W.x(), before.p_W.y(), kGap_m, kMaxKink_rad));
   } else if (gap > 1e-6 || kink > 1e-6) {
     axis.warnings.push_back(fmt::format("{}: a gap of {:.4f} m and {:.5f} rad at s = {:.3f} m is closed",
                                         item.Place("from"), gap, kink, element.s_m));

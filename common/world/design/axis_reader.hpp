@@ -12,6 +12,9 @@
 
 namespace rodeira::design {
 
+// The largest kink between two elements of an axis, and between two roads that are joined.
+inline constexpr double kMaxKink_rad = 1e-3;
+
 // The axis of a road as a world file says it: elements that are chained or given by coordinates, or points.
 struct AxisReading {
   std::vector<geometry::PlanElement> elements;

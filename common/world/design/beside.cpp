@@ -11,7 +11,7 @@
 namespace rodeira::design {
 namespace {
 
-using Piece = std::pair<std::size_t, std::size_t>;
+using IndexRange = std::pair<std::size_t, std::size_t>;
 
 }  // namespace
 
@@ -34,9 +34,9 @@ std::vector<double> Beside::Knots() const {
   return knots;
 }
 
-std::vector<Piece> StraightPieces(const std::vector<double>& s_m, const std::vector<double>& t_m, double within_m,
-                                  bool chain) {
-  std::vector<Piece> pieces, open{{0, s_m.size() - 1}};
+std::vector<IndexRange> StraightPieces(const std::vector<double>& s_m, const std::vector<double>& t_m, double within_m,
+                                       bool chain) {
+  std::vector<IndexRange> pieces, open{{0, s_m.size() - 1}};
   while (!open.empty()) {
     const auto [from, to] = open.back();
     open.pop_back();

@@ -251,7 +251,7 @@ bool GoesOn(const network::Bump& bump, const RoadDesign& design, const network::
 
 // What is laid on the roads between junctions, and on the ways along them through junctions. A bump that lies elsewhere
 // is a problem of its road.
-std::vector<network::Laid> LayOn(const std::vector<RoadDesign>& designs, const Layout& layout) {
+std::vector<network::Laid> DistributeLaid(const std::vector<RoadDesign>& designs, const Layout& layout) {
   std::vector<network::Laid> laid;
   if (std::all_of(designs.begin(), designs.end(), [](const RoadDesign& road) { return road.laid.empty(); }))
     return laid;
@@ -351,7 +351,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
   Layout layout = BuildLayout(designs, roads, junctions);
   if (!sound()) return design;
   JoinRoads(links, designs, layout, design.warnings);
-  design.laid = LayOn(designs, layout);
+  design.laid = DistributeLaid(designs, layout);
   for (const Piece& piece : layout.pieces) design.road_places.push_back(designs[piece.design].map.Place());
   for (const RoadDesign& road : designs) WarnBehindEnd(road.map, road.spec.length_m, design.warnings);
   for (std::size_t i = 0; i < roads.size(); ++i) CheckFits(i, designs[i], roads[i], layout.pieces, terrain_is_at);

@@ -45,14 +45,14 @@ Stand ReadStand(const Map& item, double length_m) {
 constexpr double kAstray_m = 0.05;  // how far from its place a row or a rail may pass
 constexpr double kLook_m = 1.0;
 constexpr double kOverhead_m = 4.0;  // what hangs so high is driven under
-constexpr double kMost = 1e5;
 
 // The stations where something stands.
 std::vector<double> StationsOf(const Stand& stand) {
   if (!stand.repeated) return {stand.s_m};
   std::vector<double> stations;
   const double count = std::floor((stand.to_s_m - stand.from_s_m) / stand.every_m + 1e-9);
-  for (double i = 0.0; i <= std::min(count, kMost); i += 1.0) stations.push_back(stand.from_s_m + i * stand.every_m);
+  for (double i = 0.0; i <= std::min(count, kMaxInRow); i += 1.0)
+    stations.push_back(stand.from_s_m + i * stand.every_m);
   return stations;
 }
 
@@ -98,7 +98,7 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   if (text.empty() && (name == "town" || name == "end_of_town"))
     warnings.push_back(
         fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
-  if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost)
+  if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
     return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
   const Beside beside(item, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);
@@ -169,7 +169,7 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
     stand = ReadStand(item, length_m);
     sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
     if (sound && stand.repeated && stand.every_m >= kNearest_m &&
-        (stand.to_s_m - stand.from_s_m) / stand.every_m > kMost)
+        (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
       return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
   }
   const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/core/geometry/angle.hpp"
+#include "common/world/design/axis_reader.hpp"
 #include "common/world/network/meeting.hpp"
 #include "common/world/network/network.hpp"
 
@@ -20,14 +21,13 @@ using network::Lane;
 using network::LaneSection;
 using network::Network;
 
-constexpr double kKink_rad = 1e-3;  // as between the elements of an axis
 constexpr double kListed_m = 1e-3;  // less is neither felt nor seen
 constexpr double kGrade = 0.005;    // a kink that is felt
 constexpr double kAcross_m = 0.05;  // between places across the road that are looked at
 constexpr double kLane_m = 0.5;     // a narrower lane is none
 
 double StationOf(const JoinEnd& at) { return at.end == End::kStart ? 0.0 : at.road.length_m(); }
-const LaneSection& SectionOf(const JoinEnd& at) {
+const LaneSection& LaneSectionAt(const JoinEnd& at) {
   return at.end == End::kStart ? at.road.spec().sections.front() : at.road.spec().sections.back();
 }
 std::uint32_t SectionIndexOf(const JoinEnd& at) {
@@ -50,7 +50,7 @@ struct Steps {
 
 Steps StepsOf(const JoinEnd& own, const JoinEnd& other) {
   const double sign = own.end == other.end ? -1.0 : 1.0, s = StationOf(own), other_s = StationOf(other);
-  const LaneSection &section = SectionOf(own), &other_section = SectionOf(other);
+  const LaneSection &section = LaneSectionAt(own), &other_section = LaneSectionAt(other);
   double right, left, other_right, other_left;
   section.Bounds(own.road.spec().lane_offset, s, s, right, left);
   other_section.Bounds(other.road.spec().lane_offset, other_s, other_s, other_right, other_left);
@@ -92,18 +92,18 @@ bool CheckJoin(const config::Map& link, const JoinEnd& own, const JoinEnd& other
                               std::fabs(meeting.step_m), meeting.step_m > 0.0 ? "higher" : "lower", Named(own),
                               Network::kClosed_m));
   }
-  if (std::fabs(meeting.kink_rad) > kKink_rad) {
+  if (std::fabs(meeting.kink_rad) > kMaxKink_rad) {
     return refuse(
         fmt::format("{} and {} meet with a kink of {:.3f} degrees to the {}; at most {:.3f} degrees was expected",
                     Named(own), Named(other), std::fabs(Degrees(meeting.kink_rad)),
-                    meeting.kink_rad > 0.0 ? "left" : "right", Degrees(kKink_rad)));
+                    meeting.kink_rad > 0.0 ? "left" : "right", Degrees(kMaxKink_rad)));
   }
   const int sign = own.end == other.end ? -1 : 1;
-  for (const auto* side : {&SectionOf(own).left, &SectionOf(own).right}) {
+  for (const auto* side : {&LaneSectionAt(own).left, &LaneSectionAt(own).right}) {
     for (const Lane& lane : *side) {
       if (!network::IsDrivable(lane.type)) continue;
       const double width = own.road.SpanAt(SectionIndexOf(own), lane.id, StationOf(own))->width_m();
-      const Lane* beyond = SectionOf(other).Find(sign * lane.id);
+      const Lane* beyond = LaneSectionAt(other).Find(sign * lane.id);
       if (beyond == nullptr || !network::IsDrivable(beyond->type)) {
         if (width > kLane_m)
           warn(fmt::format("lane {} of {}, {:.2f} m wide, ends there: road '{}' has no lane {} to drive on", lane.id,
@@ -120,9 +120,9 @@ bool CheckJoin(const config::Map& link, const JoinEnd& own, const JoinEnd& other
       if (edges.gap_m > kListed_m) warn(said);
     }
   }
-  for (const auto* side : {&SectionOf(other).left, &SectionOf(other).right}) {
+  for (const auto* side : {&LaneSectionAt(other).left, &LaneSectionAt(other).right}) {
     for (const Lane& lane : *side) {
-      const Lane* before = SectionOf(own).Find(sign * lane.id);
+      const Lane* before = LaneSectionAt(own).Find(sign * lane.id);
       const double width = other.road.SpanAt(SectionIndexOf(other), lane.id, StationOf(other))->width_m();
       if (!network::IsDrivable(lane.type) || (before != nullptr && network::IsDrivable(before->type)) ||
           !(width > kLane_m))

@@ -9,7 +9,7 @@
 namespace rodeira::design {
 namespace {
 
-constexpr double kStep_m = 0.25;
+constexpr double kOutlineStep_m = 0.25;  // between points of a corner
 
 // The corner from one road's edge to the next one's, without its two ends.
 std::vector<Eigen::Vector2d> Corner(const Eigen::Vector2d& from, const Eigen::Vector2d& inward,
@@ -22,7 +22,7 @@ std::vector<Eigen::Vector2d> Corner(const Eigen::Vector2d& from, const Eigen::Ve
     if (ahead > 0.0 && behind > 0.0) first = 0.552 * ahead, second = 0.552 * behind;
   }
   const Eigen::Vector2d p1 = from + first * inward, p2 = to - second * outward;
-  const int steps = std::max(4, static_cast<int>(std::ceil(chord.norm() / kStep_m)));
+  const int steps = std::max(4, static_cast<int>(std::ceil(chord.norm() / kOutlineStep_m)));
   std::vector<Eigen::Vector2d> corners;
   for (int i = 1; i < steps; ++i) {
     const double q = static_cast<double>(i) / steps, r = 1.0 - q;

@@ -24,7 +24,7 @@ bool IsPavedLane(network::LaneType type) {
   return type != network::LaneType::kNone && type != network::LaneType::kMedian;
 }
 
-std::vector<Edge> EdgesOf(const network::Road& road, network::End end) {
+std::vector<Edge> EdgesAtEnd(const network::Road& road, network::End end) {
   const double s = end == network::End::kStart ? 0.0 : road.length_m();
   const std::size_t index = end == network::End::kStart ? 0 : road.spec().sections.size() - 1;
   const network::LaneSection& section = road.spec().sections[index];
@@ -72,7 +72,7 @@ Share ShareOf(const ArmSection& arm, const Eigen::Vector2d& p) {
 }  // namespace
 
 std::pair<Eigen::Vector2d, Eigen::Vector2d> EdgesAt(const network::Road& road, network::End end, bool paved) {
-  const std::vector<Edge> edges = EdgesOf(road, end);
+  const std::vector<Edge> edges = EdgesAtEnd(road, end);
   const auto first = std::find_if(edges.begin(), edges.end(), [&](const Edge& edge) { return !paved || edge.paved; });
   const auto last = std::find_if(edges.rbegin(), edges.rend(), [&](const Edge& edge) { return !paved || edge.paved; });
   const Eigen::Vector2d right = first->p_W.head<2>(), left = last->p_W.head<2>();
@@ -81,7 +81,7 @@ std::pair<Eigen::Vector2d, Eigen::Vector2d> EdgesAt(const network::Road& road, n
 }
 
 ArmSection SectionOf(const network::Road& road, network::End end, double weight) {
-  std::vector<Edge> edges = EdgesOf(road, end);
+  std::vector<Edge> edges = EdgesAtEnd(road, end);
   const bool starts = end == network::End::kStart;
   if (starts) std::reverse(edges.begin(), edges.end());  // from the left, looking out
   ArmSection arm;

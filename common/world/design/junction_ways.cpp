@@ -19,7 +19,7 @@ namespace {
 using geometry::Cubic;
 using geometry::CubicTable;
 
-constexpr double kStep_m = 0.5;
+constexpr double kSurfaceStep_m = 0.5;  // along a connecting road, between heights of the junction
 constexpr double kSideways_mps2 = 2.5;  // at which bends of a junction are driven
 
 // The powers of u of the cubic through four heights, evenly spread over a width; constant where there is hardly any.
@@ -49,9 +49,9 @@ CubicTable Followed(const std::vector<double>& s, const std::vector<double>& val
 
 // The heights of the junction's surface as the road's own: along its axis as cubics with the surface's slopes, across
 // each lane as a cubic through its edges and two points between them.
-void LayOn(const JunctionSurface& surface, const geometry::PlanAxis& axis, network::RoadSpec& spec) {
+void FitToSurface(const JunctionSurface& surface, const geometry::PlanAxis& axis, network::RoadSpec& spec) {
   network::LaneSection& section = spec.sections[0];
-  const int steps = std::max(2, static_cast<int>(std::ceil(axis.length_m() / kStep_m)));
+  const int steps = std::max(2, static_cast<int>(std::ceil(axis.length_m() / kSurfaceStep_m)));
   std::vector<double> stations;
   for (int i = 0; i <= steps; ++i) stations.push_back(axis.length_m() * i / steps);
   const auto height = [&](double s, double t) {
@@ -110,7 +110,7 @@ network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_
   for (auto* side : {&spec.sections[0].left, &spec.sections[0].right}) {
     while (!side->empty() && !network::IsDrivable(side->back().type)) side->pop_back();
   }
-  LayOn(surface, part.axis(), spec);
+  FitToSurface(surface, part.axis(), spec);
   return network::Road(std::move(spec), part.axis());
 }
 
@@ -164,7 +164,7 @@ std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector
   network::LaneSection section;
   section.right.push_back(std::move(lane));
   spec.sections.push_back(std::move(section));
-  LayOn(surface, *axis, spec);
+  FitToSurface(surface, *axis, spec);
   return network::Road(std::move(spec), std::move(*axis));
 }
 

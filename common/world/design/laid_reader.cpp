@@ -20,7 +20,7 @@ using config::Map;
 using network::LaidPiece;
 
 constexpr double kSide_m = 0.3;  // over which a bump passes into the road at its sides, unless said
-constexpr double kRounding_m = 1e-6;
+constexpr double kLaidRounding_m = 1e-6;
 
 // The outermost edges of the lanes that are driven on, at s.
 std::pair<double, double> Driven(const network::RoadSpec& spec, double s_m) {
@@ -53,8 +53,8 @@ LaidPiece ReadPiece(const Map& item, double length_m, const network::RoadSpec& s
   for (const double part : {0.0, 0.5, 1.0}) {
     const double s = piece.from_s_m + part * (piece.to_s_m - piece.from_s_m);
     const double low = EdgeOf(spec, outer_right).Value(s), high = EdgeOf(spec, outer_left).Value(s);
-    if (piece.right_t_m >= low - kRounding_m && piece.left_t_m <= high + kRounding_m) continue;
-    item.Problem(piece.right_t_m < low - kRounding_m ? "from_t_m" : "to_t_m",
+    if (piece.right_t_m >= low - kLaidRounding_m && piece.left_t_m <= high + kLaidRounding_m) continue;
+    item.Problem(piece.right_t_m < low - kLaidRounding_m ? "from_t_m" : "to_t_m",
                  fmt::format("at s = {:.1f} m the road reaches from t = {:.2f} to {:.2f} m only", s, low, high));
     break;
   }
@@ -117,7 +117,8 @@ geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
   }
   std::vector<Knot> knots = ReadKnots(item, "heights", "z_m", {-1.0, 1.0});
   const bool straight = item.Choice("shape", {"straight", "smooth"}, "straight") == "straight";
-  const bool whole = knots.size() > 1 && knots.front().s_m == 0.0 && std::fabs(knots.back().s_m - length) < kRounding_m;
+  const bool whole =
+      knots.size() > 1 && knots.front().s_m == 0.0 && std::fabs(knots.back().s_m - length) < kLaidRounding_m;
   if (!whole || knots.front().value != 0.0 || knots.back().value != 0.0) {
     item.Problem(
         "heights",

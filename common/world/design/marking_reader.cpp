@@ -28,14 +28,14 @@ struct Edges {
   double width_m() const { return left_m - right_m; }
 };
 
-Edges EdgesOf(const network::RoadSpec& spec, const network::Lane& lane, double s_m) {
+Edges LaneEdges(const network::RoadSpec& spec, const network::Lane& lane, double s_m) {
   const double inner = EdgeOf(spec, lane.id > 0 ? lane.id - 1 : lane.id + 1).Value(s_m),
                outer = EdgeOf(spec, lane.id).Value(s_m);
   return {std::min(inner, outer), std::max(inner, outer)};
 }
 
 // The lanes that are driven on, from the left, or the one that 'lane' says.
-std::vector<const network::Lane*> LanesOf(const Map& item, const network::RoadSpec& spec) {
+std::vector<const network::Lane*> MarkedLanes(const Map& item, const network::RoadSpec& spec) {
   const network::LaneSection& section = spec.sections[0];
   if (item.Has("lane")) {
     const auto id = static_cast<int>(item.Integer("lane", -30, 30));
@@ -64,8 +64,8 @@ void Paint(double s_m, double length_m, double road_m, const Edges& edges, netwo
 void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double length = item.Number("length_m", {1.0, 20.0}, 4.0);
   Edges all{1e9, -1e9};
-  for (const network::Lane* lane : LanesOf(item, spec)) {
-    const Edges edges = EdgesOf(spec, *lane, s_m);
+  for (const network::Lane* lane : MarkedLanes(item, spec)) {
+    const Edges edges = LaneEdges(spec, *lane, s_m);
     all = {std::min(all.right_m, edges.right_m), std::max(all.left_m, edges.left_m)};
   }
   if (!(all.width_m() >= kStripe_m)) return;
@@ -89,9 +89,9 @@ void ReadStopLine(const Map& item, double s_m, double road_m, network::RoadSpec&
   const double thickness = item.Number("length_m", {0.1, 2.0}, kStopLine_m);
   const int direction = item.Choice("for", {"along", "against"}, "along") == "along" ? 1 : -1;
   if (item.Has("for") && item.Has("lane")) item.Problem("for", "a stop line has either a 'lane' or 'for' whom it is");
-  for (const network::Lane* lane : LanesOf(item, spec)) {
+  for (const network::Lane* lane : MarkedLanes(item, spec)) {
     if (!item.Has("lane") && lane->direction == -direction) continue;
-    Edges edges = EdgesOf(spec, *lane, s_m);
+    Edges edges = LaneEdges(spec, *lane, s_m);
     edges.right_m += kBesideStopLine_m, edges.left_m -= kBesideStopLine_m;
     if (edges.width_m() > kNarrowest_m) Paint(s_m, thickness, road_m, edges, spec);
   }
@@ -117,8 +117,8 @@ void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
     item.Problem("ways", "an arrow points somewhere; left, straight or right was expected");
   const double length = item.Number("length_m", {1.0, 20.0}, 5.0);
   if (!item.Has("lane")) return;
-  for (const network::Lane* lane : LanesOf(item, spec)) {
-    const Edges edges = EdgesOf(spec, *lane, s_m);
+  for (const network::Lane* lane : MarkedLanes(item, spec)) {
+    const Edges edges = LaneEdges(spec, *lane, s_m);
     network::Object object;
     object.id = fmt::format("{}-object{}", spec.id, spec.objects.size());
     object.type = "roadMark";

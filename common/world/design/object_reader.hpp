@@ -8,6 +8,9 @@
 
 namespace rodeira::design {
 
+// The most objects in a row, as of a row of trees.
+inline constexpr double kMaxInRow = 1e5;
+
 // What stands somewhere, by the keys that do not say where.
 struct ObjectReading {
   network::Object object;

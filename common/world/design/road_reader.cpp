@@ -24,7 +24,7 @@ using config::Map;
 
 constexpr double kSharpest = 0.95;  // curvature times the distance of the inner edge
 
-double LengthOf(const std::vector<geometry::PlanElement>& elements) {
+double PlanLength(const std::vector<geometry::PlanElement>& elements) {
   return elements.empty() ? 1.0 : elements.back().s_m + elements.back().length_m;
 }
 
@@ -37,7 +37,7 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
   const std::string id = place.Text("road");
   const double s = place.Number("s_m", {0.0, 1e7}),
                turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
-  const double own_s = place.Number("own_s_m", {0.0, LengthOf(elements)}, 0.0);
+  const double own_s = place.Number("own_s_m", {0.0, PlanLength(elements)}, 0.0);
   std::vector<std::string> ids;
   for (const RoadDesign& other : before) {
     ids.push_back(other.spec.id);
@@ -87,7 +87,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   context.warnings.insert(context.warnings.end(), axis.warnings.begin(), axis.warnings.end());
   design.elements = std::move(axis.elements);
   const std::optional<double> met = ReadPlacing(map, before, design.elements);
-  const double length = LengthOf(design.elements);
+  const double length = PlanLength(design.elements);
   spec.length_m = length;
   (void)config::SaysTwice(map, "vertical", "z_m");
   if (map.Has("vertical")) {

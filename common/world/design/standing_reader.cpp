@@ -19,13 +19,12 @@ using Eigen::Vector2d;
 
 constexpr config::Range kPlace_m = {-1e8, 1e8};
 constexpr config::Range kTurn_deg = {-360.0, 360.0};
-constexpr double kMost = 1e5;       // of a row
 constexpr double kLongest_m = 1e5;  // of what goes on
 
 double Radians(double deg) { return deg * geometry::kPi / 180.0; }
 
 // The corners of a line; fewer than two, and a problem, where it is none.
-std::vector<Vector2d> ReadLine(const Map& item) {
+std::vector<Vector2d> ReadAlong(const Map& item) {
   std::vector<Vector2d> points;
   const List list = item.Items("along");
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -46,7 +45,7 @@ std::vector<Vector2d> ReadLine(const Map& item) {
   return points;
 }
 
-double LengthOf(const std::vector<Vector2d>& line) {
+double PolylineLength(const std::vector<Vector2d>& line) {
   double length = 0.0;
   for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
   return length;
@@ -55,8 +54,8 @@ double LengthOf(const std::vector<Vector2d>& line) {
 // From the line's beginning on one every so often, turned against it.
 void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t object, network::Standing& standing) {
   const double every = item.Number("every_m", {0.1, 1e6}), turn = Radians(item.Number("rotation_deg", kTurn_deg, 0.0));
-  const double last = std::floor(LengthOf(line) / every + 1e-9);
-  if (last >= kMost) return item.Problem("every_m", "more than 100 000 in a row; fewer were expected");
+  const double last = std::floor(PolylineLength(line) / every + 1e-9);
+  if (last >= kMaxInRow) return item.Problem("every_m", "more than 100 000 in a row; fewer were expected");
   std::size_t piece = 1;
   double before = 0.0;  // the piece's first point, along the line
   for (double i = 0.0; i <= last; i += 1.0) {
@@ -79,7 +78,7 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
     for (const char* key : {"x_m", "y_m", "heading_deg"}) {
       if (item.Has(key)) item.Problem(key, fmt::format("what stands 'along' a line has no '{}' of its own", key));
     }
-    std::vector<Vector2d> line = ReadLine(item);
+    std::vector<Vector2d> line = ReadAlong(item);
     if (line.size() < 2) return;
     for (const Vector2d& p : line) {
       if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
@@ -89,9 +88,9 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
       StandInARow(item, line, index, standing);
     else if (item.Has("every_m"))
       item.Problem("every_m", "what goes on has no 'every_m'");
-    else if (LengthOf(line) > kLongest_m)
-      item.Problem("along",
-                   fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", LengthOf(line), kLongest_m));
+    else if (PolylineLength(line) > kLongest_m)
+      item.Problem("along", fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", PolylineLength(line),
+                                        kLongest_m));
     else
       standing.runs.push_back({index, std::move(line)});
   } else {

@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr const char* kCrossingSign = "293";
-constexpr const char* kOnFoot = "1000002";
 constexpr double kUsual_m = 4.0;  // along the road, where nothing is said
 constexpr double kStep_m = 0.25;  // along tracks
 constexpr double kBody_m = 0.3;   // half of a person, and what a car may be beside its path
@@ -253,7 +252,7 @@ class Finder {
 // A controller with times whose light for people on foot stands beside the crossing.
 std::int64_t LightOnFoot(const network::Network& network, std::uint32_t road, double s_m) {
   for (const network::Signal& signal : network.roads()[road].spec().signals) {
-    if (signal.type != kOnFoot || std::fabs(signal.s_m - s_m) > kLightNear_m) continue;
+    if (signal.type != network::kPedestrianSignal || std::fabs(signal.s_m - s_m) > kLightNear_m) continue;
     for (std::size_t i = 0; i < network.controllers().size(); ++i) {
       const network::Controller& controller = network.controllers()[i];
       const auto controls = [&](const network::ControllerEntry& entry) { return entry.signal_id == signal.id; };

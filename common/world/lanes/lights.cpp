@@ -5,16 +5,11 @@
 #include <cmath>
 
 #include "common/core/geometry/plane.hpp"
+#include "common/world/lanes/approach.hpp"
 #include "common/world/lanes/signs.hpp"
 
 namespace rodeira::lanes {
 namespace {
-
-constexpr double kBack_m = 60.0;
-constexpr double kBehind_m = 1.0;    // a light at the end of a track may stand a little beyond where a zone begins
-constexpr double kAlike_rad = 0.45;  // approaches that point as nearly the same way share a light
-constexpr double kHeadOn_rad = 2.5;  // approaches farther apart than this meet head-on
-constexpr const char* kOnFoot = "1000002";
 
 // The controller with times that a signal obeys.
 std::optional<std::uint32_t> ControllerOf(const network::Network& network, const std::string& signal) {
@@ -31,7 +26,7 @@ std::optional<std::uint32_t> ControllerOf(const network::Network& network, const
 bool OnFoot(const network::Network& network, const std::string& id) {
   for (const network::Road& road : network.roads()) {
     for (const network::Signal& signal : road.spec().signals) {
-      if (signal.id == id) return signal.type == kOnFoot;
+      if (signal.id == id) return signal.type == network::kPedestrianSignal;
     }
   }
   return false;
@@ -56,7 +51,7 @@ std::vector<LaneLight> LightsOfLane(const network::Network& network, const netwo
     if (controller && s_m >= low_s_m && s_m <= high_s_m) lights.push_back({s_m, *controller, id});
   };
   for (const network::Signal& signal : road.signals) {
-    if (signal.type != kOnFoot && HoldsFor(lane.lane, along, signal.orientation, signal.validity))
+    if (signal.type != network::kPedestrianSignal && HoldsFor(lane.lane, along, signal.orientation, signal.validity))
       add(signal.id, signal.s_m);
   }
   for (const network::SignalReference& reference : road.signal_references) {
@@ -85,10 +80,10 @@ std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, doub
   while (true) {
     const auto lights = LightsOf(graph, track);
     for (auto light = lights.rbegin(); light != lights.rend(); ++light) {
-      if (light->d_m <= d_m + kBehind_m) return *light;
+      if (light->d_m <= d_m + kPastZoneBegin_m) return *light;
     }
     back += d_m;
-    if (back > kBack_m || graph[track].before.size() != 1) return std::nullopt;
+    if (back > kMaxUpstream_m || graph[track].before.size() != 1) return std::nullopt;
     track = graph[track].before.front();
     d_m = graph[track].length_m();
   }
@@ -104,7 +99,7 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
     const Eigen::Vector2d from_a = graph[a->track].curve.At(a->d_m).ahead_W,
                           from_b = graph[b->track].curve.At(b->d_m).ahead_W;
     const double turned = std::fabs(std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b)));
-    if (turned < kAlike_rad || turned > kHeadOn_rad) continue;
+    if (turned < kSameDirection_rad || turned > kHeadOn_rad) continue;
     return GreenTogether{{a->controller, b->controller},
                          "the lights " + Named(graph, *a) + " and " + Named(graph, *b) +
                              " are green or amber together, and their ways " +

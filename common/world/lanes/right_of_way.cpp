@@ -8,6 +8,7 @@
 
 #include "common/core/geometry/angle.hpp"
 #include "common/core/geometry/plane.hpp"
+#include "common/world/lanes/approach.hpp"
 #include "common/world/lanes/lights.hpp"
 #include "common/world/lanes/ring.hpp"
 #include "common/world/lanes/signs.hpp"
@@ -15,8 +16,6 @@
 namespace rodeira::lanes {
 namespace {
 
-constexpr double kAlike_rad = 0.45;  // approaches that point as nearly the same way merge rather than cross
-constexpr double kHeadOn_rad = 2.5;  // approaches farther apart than this meet head-on
 constexpr double kSameTurn_rad = 0.1;
 
 // How far a track turns to the left from beginning to end.
@@ -70,7 +69,7 @@ int FirstByRule(const Graph& graph, const Zone& zone) {
   const double turned = std::atan2(geometry::Cross(from_a, from_b), from_a.dot(from_b));
   const double left_a = a.left_hand ? -Turn(a.curve) : Turn(a.curve),
                left_b = b.left_hand ? -Turn(b.curve) : Turn(b.curve);
-  if (std::fabs(turned) < kAlike_rad) {
+  if (std::fabs(turned) < kSameDirection_rad) {
     const double end_a = a.curve.nodes().back().width_m, end_b = b.curve.nodes().back().width_m;
     if (zone.kind == ZoneKind::kMerge && std::fabs(end_a - end_b) > 1.0) return end_a > end_b ? 0 : 1;
     if (std::fabs(std::fabs(left_a) - std::fabs(left_b)) > kSameTurn_rad)

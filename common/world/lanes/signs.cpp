@@ -5,11 +5,10 @@
 #include <cmath>
 #include <string_view>
 
+#include "common/world/lanes/approach.hpp"
+
 namespace rodeira::lanes {
 namespace {
-
-constexpr double kBack_m = 60.0;
-constexpr double kBehind_m = 1.0;  // a sign at the end of a track may stand a little beyond where a zone begins
 
 std::optional<Sign> SignOf(const network::Signal& signal) {
   const std::string_view type = signal.type;
@@ -52,10 +51,10 @@ Sign SignFor(const Graph& graph, std::uint32_t track, double d_m) {
   while (true) {
     const auto signs = SignsOf(graph, track);
     for (auto sign = signs.rbegin(); sign != signs.rend(); ++sign) {
-      if (sign->d_m <= d_m + kBehind_m) return sign->sign;
+      if (sign->d_m <= d_m + kPastZoneBegin_m) return sign->sign;
     }
     back += d_m;
-    if (back > kBack_m || graph[track].before.size() != 1) return Sign::kNone;
+    if (back > kMaxUpstream_m || graph[track].before.size() != 1) return Sign::kNone;
     track = graph[track].before.front();
     d_m = graph[track].length_m();
   }

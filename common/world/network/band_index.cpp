@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/plane.hpp"
 
 namespace rodeira::network {
@@ -30,7 +30,7 @@ double LargestSine(const geometry::CubicTable& angle, double low_s_m, double hig
   double smallest, largest;
   angle.Bounds(low_s_m, high_s_m, smallest, largest);
   const double most = std::max(std::fabs(smallest), std::fabs(largest));
-  return most < 0.5 * std::numbers::pi ? std::sin(most) : 1.0;
+  return most < 0.5 * base::kPi ? std::sin(most) : 1.0;
 }
 
 // Of how steeply a height climbs or falls between two stations.

@@ -20,7 +20,7 @@ using geometry::CubicTable;
 CubicPoint Evaluate(const Cubic& cubic, double s_m) { return {cubic.Value(s_m), cubic.Slope(s_m), 0.0}; }
 
 // The record of a table in force at s, of none a zero; [from, to) becomes no longer than it is in force.
-const Cubic& InForce(const CubicTable& table, double s_m, double& from_s_m, double& to_s_m) {
+const Cubic& RecordInForce(const CubicTable& table, double s_m, double& from_s_m, double& to_s_m) {
   static const Cubic kZero;
   if (table.empty()) return kZero;
   const Cubic& record = table.At(s_m);
@@ -113,8 +113,8 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
   const double infinity = std::numeric_limits<double>::infinity();
   double from = piece.section == 0 ? -infinity : section.s_m;
   double to = piece.section + 1 < spec.sections.size() ? spec.sections[piece.section + 1].s_m : infinity;
-  const Cubic& centre = InForce(spec.lane_offset, s_m, from, to);
-  const Cubic& elevation = InForce(spec.elevation, s_m, from, to);
+  const Cubic& centre = RecordInForce(spec.lane_offset, s_m, from, to);
+  const Cubic& elevation = RecordInForce(spec.elevation, s_m, from, to);
   std::vector<LaneRecord> lanes;
   std::vector<const void*> by = {&section};
   std::vector<double> edges = {centre.a};
@@ -124,7 +124,7 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
     CubicPoint inner = Evaluate(centre, s_m);
     for (const Lane& lane : *side) {
       const bool bordered = lane.bordered();
-      const Cubic& edge = InForce(bordered ? lane.border : lane.width, s_m, from, to);
+      const Cubic& edge = RecordInForce(bordered ? lane.border : lane.width, s_m, from, to);
       const auto number =
           static_cast<int>(side == &section.left ? lanes.size() + 1 : lanes.size() - section.left.size() + 1);
       piece.steady = piece.steady && Constant(edge) && lane.id == (side == &section.left ? number : -number);

@@ -71,7 +71,7 @@ void OneByOne(const LateralProfile& profile, const Cluster& cluster, Heights& he
 
 // Height of a strip at u outward, and its derivatives by s (at fixed u) and by u. False where a record ends among the
 // points.
-bool OnStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numbers& u, Heights& heights) {
+bool EvaluateStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numbers& u, Heights& heights) {
   const std::size_t count = cluster.feet.count;
   Numbers value, slope;
   std::fill_n(heights.z.begin(), count, 0.0);
@@ -99,7 +99,7 @@ bool OnStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numbers& u
 }
 
 // The strips of one side. False where the points lie on more than one of them, or a record ends among them.
-bool OnStrips(const CrossSectionSurface& surface, const Cluster& cluster, Heights& heights) {
+bool EvaluateStrips(const CrossSectionSurface& surface, const Cluster& cluster, Heights& heights) {
   const std::size_t count = cluster.feet.count;
   const InForce offset_record(surface.t_offset, cluster);
   if (!offset_record.common()) return false;
@@ -130,7 +130,7 @@ bool OnStrips(const CrossSectionSurface& surface, const Cluster& cluster, Height
     for (std::size_t i = 0; i < count; ++i) {
       if (holds(i) != here) return false;
     }
-    if (!OnStrip(strip, cluster, here ? u : width, heights)) return false;
+    if (!EvaluateStrip(strip, cluster, here ? u : width, heights)) return false;
     const Numbers& moved = here ? u_slope : width_slope;
     for (std::size_t i = 0; i < count; ++i) heights.by_s[i] += heights.by_t[i] * moved[i];
     if (strip.relative) {
@@ -161,7 +161,7 @@ void SetLateral(const LateralProfile& profile, const Cluster& cluster, Heights& 
                             (!profile.surface.left.empty() || !profile.surface.right.empty());
   if (profile.flat())
     heights.z = heights.by_s = heights.by_t = {};
-  else if (!strips_alone || !OnStrips(profile.surface, cluster, heights))
+  else if (!strips_alone || !EvaluateStrips(profile.surface, cluster, heights))
     OneByOne(profile, cluster, heights);
   for (std::size_t i = 0; i < cluster.feet.count; ++i) {  // both add up their parts from 0, so that a -0 becomes 0
     heights.z[i] = 0.0 + heights.z[i];

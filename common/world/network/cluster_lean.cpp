@@ -14,7 +14,6 @@ namespace rodeira::network {
 namespace {
 
 using geometry::Cubic;
-using Numbers = Cluster::Numbers;
 
 constexpr double kReach_m = 1.0;  // farther from their feet points are left to themselves
 
@@ -35,7 +34,7 @@ bool IsSmall(const geometry::CubicTable& angle, double low_s_m, double high_s_m)
 }
 
 // The largest of finite numbers, without their sign.
-double Largest(const Numbers& numbers, std::size_t count) {
+double Largest(const Cluster::Numbers& numbers, std::size_t count) {
   double low, high;
   Range(numbers, count, low, high);
   return std::max(std::fabs(low), std::fabs(high));
@@ -57,7 +56,7 @@ Along(RollOf, ClimbOf, WayOf)
 
 // How far points have come from their feet, by the last step and in all, and -G' there.
 struct Steps {
-  Numbers u_m, last_m, fall;
+  Cluster::Numbers u_m, last_m, fall;
 };
 
 template <class Line>

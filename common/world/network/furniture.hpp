@@ -29,6 +29,9 @@ struct SeenInWorld {
          roll_rad = 0.0;  // the heading of the traffic that reads it, as offsets of headings are
 };
 
+// The type of a light for pedestrians alone (German catalogue).
+inline constexpr std::string_view kPedestrianSignal = "1000002";
+
 struct Signal {
   std::string id, name;
   double s_m = 0.0, t_m = 0.0, z_offset_m = 0.0;

@@ -11,7 +11,8 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kStep_m = 1e-5;  // over which slopes within a mouth are found: its height has no simple derivative
+constexpr double kSlopeStep_m =
+    1e-5;  // over which slopes within a mouth are found: its height has no simple derivative
 constexpr double kOnTheSide = 1e-9;
 
 // A point of a piece with four corners: `across` of the way from the first to the second, `inward` of the way from
@@ -91,12 +92,12 @@ GroundHeight JunctionGround::At(const Eigen::Vector2d& p_W) const {
     // Within the piece on both sides where it is, otherwise to the side that is within it.
     const auto slope = [&](const Eigen::Vector2d& step) {
       double before = height.z_m, behind = height.z_m;
-      const double length =
-          (HeightIn(mouth, p_W - step, before) ? kStep_m : 0.0) + (HeightIn(mouth, p_W + step, behind) ? kStep_m : 0.0);
+      const double length = (HeightIn(mouth, p_W - step, before) ? kSlopeStep_m : 0.0) +
+                            (HeightIn(mouth, p_W + step, behind) ? kSlopeStep_m : 0.0);
       return length > 0.0 ? (behind - before) / length : 0.0;
     };
-    height.slope_x = slope({kStep_m, 0.0});
-    height.slope_y = slope({0.0, kStep_m});
+    height.slope_x = slope({kSlopeStep_m, 0.0});
+    height.slope_y = slope({0.0, kSlopeStep_m});
     return height;
   }
   return grid_.At(p_W);

@@ -9,7 +9,7 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kShortest_m = 1e-3;
+constexpr double kMinMarking_m = 1e-3;
 
 bool PaintsNothing(const std::string& type) {
   return type.empty() || type == "none" || type == "curb" || type == "edge" || type == "grass";
@@ -94,7 +94,7 @@ void Continue(const Road& road, std::vector<Marking>& markings) {
 }
 
 // The line's length a metre of s.
-double Pace(const Road& road, const Marking& marking, double s_m) {
+double MarkingLengthRate(const Road& road, const Marking& marking, double s_m) {
   const geometry::CubicPoint t = MarkingAt(road, marking, s_m);
   return std::hypot(1.0 - road.axis().Evaluate(s_m).curvature_1pm * t.value, t.slope);
 }
@@ -125,8 +125,9 @@ std::vector<Marking> MarkingsOf(const Road& road) {
     line.colour = painted.colour;
     markings.push_back(line);
   }
-  std::erase_if(markings,
-                [](const Marking& line) { return line.to_s_m - line.from_s_m < kShortest_m || !(line.width_m > 0.0); });
+  std::erase_if(markings, [](const Marking& line) {
+    return line.to_s_m - line.from_s_m < kMinMarking_m || !(line.width_m > 0.0);
+  });
   return markings;
 }
 
@@ -153,7 +154,8 @@ double MarkingLength(const Road& road, const Marking& marking, double from_s_m, 
   double length = 0.0;
   for (int i = 0; i < pieces; ++i) {
     const double middle = from_s_m + (2.0 * i + 1.0) * half;
-    for (std::size_t k = 0; k < 3; ++k) length += half * kWeights[k] * Pace(road, marking, middle + half * kNodes[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      length += half * kWeights[k] * MarkingLengthRate(road, marking, middle + half * kNodes[k]);
   }
   return length;
 }
@@ -168,7 +170,7 @@ std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking) {
   const auto advance = [&](double length) {
     double next = s;
     for (double left = length; std::fabs(left) > 1e-9;) {
-      const double step = left / std::max(Pace(road, marking, next), 1e-3);
+      const double step = left / std::max(MarkingLengthRate(road, marking, next), 1e-3);
       const double to = std::min(next + step, marking.to_s_m + 1e-3);
       left -= MarkingLength(road, marking, next, to);
       next = to;
@@ -188,7 +190,7 @@ std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking) {
     if (painted > 0.0) {
       advance(painted);
       const double to = std::min(s, marking.to_s_m);
-      if (to - from > kShortest_m) strokes.push_back({from, to});
+      if (to - from > kMinMarking_m) strokes.push_back({from, to});
       advance(marking.gap_m);
     } else {
       advance(marking.gap_m + painted);

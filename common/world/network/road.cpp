@@ -15,7 +15,7 @@ namespace {
 
 // The last of the records that begin at s or before; null where none does.
 template <class T>
-const T* InForce(const std::vector<T>& records, double s_m) {
+const T* RecordAt(const std::vector<T>& records, double s_m) {
   const T* found = nullptr;
   for (const T& record : records) {
     if (record.s_m <= s_m) found = &record;
@@ -216,13 +216,13 @@ double Road::DistanceToEdge(const Eigen::Vector2d& p_W, double low_s_m, double h
 }
 
 std::optional<double> Road::SpeedLimitAt(const Lane& lane, double s_m) const {
-  if (const SpeedLimit* limit = InForce(lane.speeds, s_m)) return limit->speed_mps;
-  if (const RoadType* type = InForce(spec_.types, s_m)) return type->speed_mps;
+  if (const SpeedLimit* limit = RecordAt(lane.speeds, s_m)) return limit->speed_mps;
+  if (const RoadType* type = RecordAt(spec_.types, s_m)) return type->speed_mps;
   return std::nullopt;
 }
 
-const RoadMark* Road::MarkAt(const Lane& lane, double s_m) const { return InForce(lane.marks, s_m); }
+const RoadMark* Road::MarkAt(const Lane& lane, double s_m) const { return RecordAt(lane.marks, s_m); }
 
-const LaneMaterial* Road::MaterialAt(const Lane& lane, double s_m) const { return InForce(lane.materials, s_m); }
+const LaneMaterial* Road::MaterialAt(const Lane& lane, double s_m) const { return RecordAt(lane.materials, s_m); }
 
 }  // namespace rodeira::network

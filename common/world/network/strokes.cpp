@@ -8,10 +8,10 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kStep_m = 2.0;
+constexpr double kIntegrationStep_m = 2.0;  // between the ends of two applications of the rule
 
 // How long the line grows over a metre of s: a point at t of an axis with curvature k goes 1 - k t ahead and t' across.
-double Pace(const Road& road, const PaintedLine& line, double s_m) {
+double PaintedLengthRate(const Road& road, const PaintedLine& line, double s_m) {
   const geometry::CubicPoint t = line.t.Evaluate(s_m);
   const double ahead = 1.0 - road.axis().Evaluate(s_m).curvature_1pm * t.value;
   return std::sqrt(ahead * ahead + t.slope * t.slope);
@@ -24,7 +24,8 @@ double Length(const Road& road, const PaintedLine& line, double from_s_m, double
   const double middle = 0.5 * (from_s_m + to_s_m), half = 0.5 * (to_s_m - from_s_m);
   double sum = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
-    sum += kWeights[i] * (Pace(road, line, middle - half * kNodes[i]) + Pace(road, line, middle + half * kNodes[i]));
+    sum += kWeights[i] * (PaintedLengthRate(road, line, middle - half * kNodes[i]) +
+                          PaintedLengthRate(road, line, middle + half * kNodes[i]));
   }
   return half * sum;
 }
@@ -53,13 +54,14 @@ std::vector<Stroke> Strokes(const Road& road, const PaintedLine& line) {
   const std::vector<double> joints = Joints(road, line, from, to);
   for (std::size_t joint = 1; joint < joints.size(); ++joint) {
     const double whole = joints[joint] - joints[joint - 1];
-    const double count = std::ceil(whole / kStep_m);
+    const double count = std::ceil(whole / kIntegrationStep_m);
     for (double k = 0.0; k < count; k += 1.0) {
       const double low = joints[joint - 1] + whole * k / count, high = joints[joint - 1] + whole * (k + 1.0) / count;
       const double grown = Length(road, line, low, high);
       while (length + grown > next) {
         double s = low + (high - low) * (next - length) / grown;
-        for (int i = 0; i < 3; ++i) s += (next - length - Length(road, line, low, s)) / Pace(road, line, s);
+        for (int i = 0; i < 3; ++i)
+          s += (next - length - Length(road, line, low, s)) / PaintedLengthRate(road, line, s);
         s = std::clamp(s, low, high);
         if (painting) strokes.push_back({begin, s});
         begin = s;

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kPiece_m = 8.0;   // at most
 constexpr double kChord_m = 0.02;  // between a piece and the edges that it stands for
-constexpr double kShortest_m = 0.5;
+constexpr double kMinTubePiece_m = 0.5;
 constexpr double kNarrowest_m = 0.5;  // of a road with a tube
 constexpr double kAtEnd_m = 1e-6;     // of a road's end that a tunnel reaches
 
@@ -70,7 +70,7 @@ class TubeOfRoad {
       double right, left;
       section.Bounds(road_.spec().lane_offset, s, s, right, left);
       const double bend = BendOf(road_, s, right, left);
-      if (bend > 0.0) step = std::min(step, std::max(kShortest_m, std::sqrt(8.0 * kChord_m / bend)));
+      if (bend > 0.0) step = std::min(step, std::max(kMinTubePiece_m, std::sqrt(8.0 * kChord_m / bend)));
     }
     const int count = std::max(1, static_cast<int>(std::ceil((to - from) / step - 1e-9)));
     TubePiece piece;

@@ -16,7 +16,7 @@ using geometry::Cubic;
 using geometry::CubicTable;
 using network::Lane;
 
-constexpr double kRounding_m = 1e-6;  // ASAM's own limit
+constexpr double kAsamOverlap_m = 1e-6;  // the limit of ASAM's checker
 
 // The record in force from s on, as a cubic that begins there; a table without any is 0.
 Cubic From(const CubicTable& table, double s_m) {
@@ -67,8 +67,8 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
         }
       }
       for (std::size_t k = 0; k < side->size(); ++k) {
-        const double within_m = -worst[k].value, most_m = tolerance.strict ? kRounding_m : tolerance.gap_m;
-        if (!(within_m > kRounding_m)) continue;
+        const double within_m = -worst[k].value, most_m = tolerance.strict ? kAsamOverlap_m : tolerance.gap_m;
+        if (!(within_m > kAsamOverlap_m)) continue;
         const Finding finding{
             "road.lane.border.overlap_with_inner_lanes",
             fmt::format("the lane's border lies {:.4g} m within the edge of the lane inside of it; {}", within_m,

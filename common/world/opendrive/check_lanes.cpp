@@ -20,7 +20,7 @@ using network::Road;
 
 constexpr double kListed_m = 0.01;  // ASAM's own limit between two lanes
 
-struct Checker {
+struct LaneChecker {
   const Network& network;
   std::span<const RoadLines> lines;
   const Tolerance& tolerance;
@@ -181,7 +181,7 @@ void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, co
   const bool ground_is_wrong = std::any_of(findings.errors.begin(), findings.errors.end(), [](const Finding& error) {
     return error.rule.starts_with("junctions.elevation_grid") || error.rule.starts_with("junctions.boundary");
   });
-  const Checker checker{network, lines, tolerance, findings, ground_is_wrong};
+  const LaneChecker checker{network, lines, tolerance, findings, ground_is_wrong};
   for (const LaneKey& key : network.Lanes()) {
     checker.Beside(key);
     for (const End end : {End::kStart, End::kEnd}) {

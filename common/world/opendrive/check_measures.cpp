@@ -18,8 +18,8 @@ namespace {
 
 using geometry::Cubic;
 
-// A finite number; what is none is told by who reads it.
-double NumberOf(const Node& node, const char* attribute) {
+// 0 where the attribute is absent or not a finite number. The reader of the element reports that.
+double FiniteOrZero(const Node& node, const char* attribute) {
   const double value = node.xml().attribute(attribute).as_double(0.0);
   return std::isfinite(value) ? value : 0.0;
 }
@@ -41,7 +41,7 @@ class Measures {
   void Road(const Node& road) {
     Within within(source_);
     source_.where = {road.Text("id", ""), std::nullopt, std::nullopt};
-    const double length = NumberOf(road, "length");
+    const double length = FiniteOrZero(road, "length");
     if (!(length > 0.0)) return;
     Records(road.Child("elevationProfile"),
             {"elevation", "s", "road.elevation", "the road is at a height of {} here", "m", kHighest_m}, 0.0, length);
@@ -87,12 +87,12 @@ class Measures {
   double Records(const std::vector<Node>& nodes, const Kind& kind, double origin_m, double length_m) {
     double largest = 0.0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-      const double from = NumberOf(nodes[i], kind.from),
-                   next = i + 1 < nodes.size() ? NumberOf(nodes[i + 1], kind.from) : length_m;
+      const double from = FiniteOrZero(nodes[i], kind.from),
+                   next = i + 1 < nodes.size() ? FiniteOrZero(nodes[i + 1], kind.from) : length_m;
       const double low = i == 0 ? 0.0 : std::max(from, 0.0), high = std::min(next, length_m);
       if (low > high || (low == high && i + 1 < nodes.size())) continue;  // it counts nowhere
-      const Cubic cubic{from, NumberOf(nodes[i], "a"), NumberOf(nodes[i], "b"), NumberOf(nodes[i], "c"),
-                        NumberOf(nodes[i], "d")};
+      const Cubic cubic{from, FiniteOrZero(nodes[i], "a"), FiniteOrZero(nodes[i], "b"), FiniteOrZero(nodes[i], "c"),
+                        FiniteOrZero(nodes[i], "d")};
       const Extreme farthest = FarthestOf(cubic, low, high);
       largest = std::max(largest, std::min(std::fabs(farthest.value), kind.most));
       if (!(std::fabs(farthest.value) <= kind.most))
@@ -114,8 +114,8 @@ class Measures {
 
   void Sections(const std::vector<Node>& sections, double length_m, double aside_m) {
     for (std::size_t i = 0; i < sections.size(); ++i) {
-      const double from = NumberOf(sections[i], "s"),
-                   to = i + 1 < sections.size() ? NumberOf(sections[i + 1], "s") : length_m;
+      const double from = FiniteOrZero(sections[i], "s"),
+                   to = i + 1 < sections.size() ? FiniteOrZero(sections[i + 1], "s") : length_m;
       Within within(source_);
       source_.where.s_m = from;
       for (const char* side : {"left", "center", "right"}) {
@@ -142,13 +142,13 @@ class Measures {
             origin_m, length_m);
     for (const Node& height : lane.Children("height")) {
       for (const char* edge : {"inner", "outer"}) {
-        const double found = NumberOf(height, edge);
+        const double found = FiniteOrZero(height, edge);
         if (!(std::fabs(found) <= kHighestLane_m))
-          Wrong(height, "road.lane.height", origin_m + NumberOf(height, "sOffset"),
+          Wrong(height, "road.lane.height", origin_m + FiniteOrZero(height, "sOffset"),
                 "the lane lies {} above the road here", found, "m", kHighestLane_m);
       }
     }
-    for (const Node& mark : lane.Children("roadMark")) Mark(mark, origin_m + NumberOf(mark, "sOffset"), length_m);
+    for (const Node& mark : lane.Children("roadMark")) Mark(mark, origin_m + FiniteOrZero(mark, "sOffset"), length_m);
     return wide;
   }
 
@@ -169,7 +169,7 @@ class Measures {
   }
 
   void At(const Node& node, const char* attribute, std::string_view rule, double s_m, double most) const {
-    const double found = NumberOf(node, attribute);
+    const double found = FiniteOrZero(node, attribute);
     if (std::fabs(found) <= most) return;
     Wrong(node, rule, s_m, fmt::format("<{}> has a {} of {{}}", node.name(), attribute), found, "m", most);
   }
@@ -184,7 +184,7 @@ class Measures {
 
   void Object(const Node& object) const {
     constexpr std::string_view kRule = "road.object.measures";
-    const double s = NumberOf(object, "s");
+    const double s = FiniteOrZero(object, "s");
     All(object, {"t", "zOffset", "length", "width", "height", "radius"}, kRule, s);
     for (const Node& repeat : object.Children("repeat"))
       All(repeat,
@@ -213,7 +213,7 @@ class Measures {
 
   void Signal(const Node& signal) const {
     constexpr std::string_view kRule = "road.signal.measures";
-    const double s = NumberOf(signal, "s");
+    const double s = FiniteOrZero(signal, "s");
     All(signal, {"t", "zOffset", "width", "height"}, kRule, s);
     for (const Node& at : signal.Children("positionRoad")) All(at, {"t", "zOffset"}, kRule, s);
     for (const Node& at : signal.Children("positionInertial")) {
@@ -229,7 +229,7 @@ class Measures {
   }
 
   void Crg(const Node& crg) const {
-    const double s = NumberOf(crg, "sStart");
+    const double s = FiniteOrZero(crg, "sStart");
     At(crg, "tOffset", "road.surface.crg", s, kWidest_m);
     At(crg, "zOffset", "road.surface.crg", s, kHighest_m);
     if (const double scale = crg.xml().attribute("zScale").as_double(1.0); !(std::fabs(scale) <= kMostScale))

@@ -17,9 +17,9 @@ using network::End;
 using network::Network;
 using network::Road;
 
-constexpr double kRounding_m = 1e-9;
+constexpr double kGapRounding_m = 1e-9;  // no gap: what computing leaves
 constexpr double kTurned_rad = 1e-6;
-constexpr double kStep_m = 1e-3;  // less is what the digits of files leave
+constexpr double kMinHeightStep_m = 1e-3;  // smaller steps come from the digits of files
 
 std::string_view Name(End end) { return end == End::kStart ? "start" : "end"; }
 double StationOf(const Road& road, End end) { return end == End::kStart ? 0.0 : road.length_m(); }
@@ -28,7 +28,7 @@ const std::optional<network::RoadLink>& LinkOf(const Road& road, End end) {
   return end == End::kStart ? road.spec().predecessor : road.spec().successor;
 }
 
-struct Checker {
+struct RoadChecker {
   const Network& network;
   std::span<const RoadLines> lines;
   const Tolerance& tolerance;
@@ -93,7 +93,7 @@ struct Checker {
     const bool in_junction = !road.spec().junction.empty() || !other.spec().junction.empty();
     if (gap > tolerance.gap_m && !in_junction)
       findings.errors.push_back(finding);
-    else if (gap > kRounding_m && !in_junction)
+    else if (gap > kGapRounding_m && !in_junction)
       findings.warnings.push_back(finding);
     // Of the other road's links one should lead back. A connecting road is reached by way of the junction.
     const auto& back = LinkOf(other, contact);
@@ -225,7 +225,7 @@ struct Checker {
 void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings) {
   if (std::fabs(step_m) > most_m)
     findings.errors.push_back(finding);
-  else if (std::fabs(step_m) > kStep_m)
+  else if (std::fabs(step_m) > kMinHeightStep_m)
     findings.warnings.push_back(finding);
 }
 
@@ -236,7 +236,7 @@ std::string StepWords(double step_m, double most_m) {
 
 void CheckRoadLinks(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
                     Findings& findings) {
-  const Checker checker{network, lines, tolerance, findings};
+  const RoadChecker checker{network, lines, tolerance, findings};
   checker.Ids();
   checker.Ambiguous();
   checker.Links();

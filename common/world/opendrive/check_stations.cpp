@@ -15,7 +15,7 @@
 namespace rodeira::opendrive {
 namespace {
 
-constexpr double kRounding_m = 1e-6;  // what the digits of a file leave
+constexpr double kStationRounding_m = 1e-6;  // comes from the digits of a file
 
 // Warnings of one kind are one: the first, with how often.
 class Told {
@@ -43,8 +43,8 @@ class Told {
   std::vector<Finding> order_;
 };
 
-// A finite number that is there; what is not is told by who reads it.
-std::optional<double> NumberOf(const Node& node, const char* attribute) {
+// Nothing where the attribute is absent or not a finite number. The reader of the element reports that.
+std::optional<double> FiniteNumber(const Node& node, const char* attribute) {
   const pugi::xml_attribute found = node.xml().attribute(attribute);
   if (!found) return std::nullopt;
   const double value = found.as_double(std::nan(""));
@@ -58,7 +58,7 @@ class Stations {
   void Road(const Node& road) {
     Within within(source_);
     source_.where = {road.Text("id", ""), std::nullopt, std::nullopt};
-    const auto length = NumberOf(road, "length");
+    const auto length = FiniteNumber(road, "length");
     if (!length || !(*length > 0.0)) return;
     Records(road, "type", "road.type.s", *length);
     Records(road.Child("elevationProfile"), "elevation", "road.elevation.s", *length);
@@ -81,11 +81,11 @@ class Stations {
  private:
   // Records count from where they begin; below 0 there is no road, and behind its end none counts.
   void Record(const Node& node, const char* attribute, const std::string& rule, double length_m, std::string_view of) {
-    const auto at = NumberOf(node, attribute);
+    const auto at = FiniteNumber(node, attribute);
     if (!at) return;
-    if (*at < -kRounding_m)
+    if (*at < -kStationRounding_m)
       node.Wrong(rule, fmt::format("<{}> begins at {} {:.6g}; 0 or more was expected", node.name(), attribute, *at));
-    if (*at > length_m + kRounding_m)
+    if (*at > length_m + kStationRounding_m)
       told_.Add(node, rule,
                 fmt::format("<{}> begins at {} {:.6g}, behind the end of its {} ({:.6g} m): it counts nowhere",
                             node.name(), attribute, *at, of, length_m));
@@ -94,18 +94,18 @@ class Stations {
   void Records(const Node& parent, const char* element, const std::string& rule, double length_m) {
     for (const Node& node : parent.Children(element)) {
       Within within(source_);
-      source_.where.s_m = NumberOf(node, "s");
+      source_.where.s_m = FiniteNumber(node, "s");
       Record(node, "s", rule, length_m, "road");
     }
   }
 
   // A function is said from its beginning on; one that begins later and is 0 there says the same.
   void First(const Node& record, const char* attribute, const std::string& rule) {
-    const auto at = NumberOf(record, attribute);
+    const auto at = FiniteNumber(record, attribute);
     const auto is_something = [&](const char* coefficient) {
-      return NumberOf(record, coefficient).value_or(0.0) != 0.0;
+      return FiniteNumber(record, coefficient).value_or(0.0) != 0.0;
     };
-    if (!at || *at <= kRounding_m ||
+    if (!at || *at <= kStationRounding_m ||
         !(is_something("a") || is_something("b") || is_something("c") || is_something("d")))
       return;
     told_.Add(record, rule,
@@ -116,9 +116,9 @@ class Stations {
   void Things(const Node& parent, const std::string& element, double length_m) {
     for (const Node& node : parent.Children(element.c_str())) {
       Within within(source_);
-      const auto at = NumberOf(node, "s");
+      const auto at = FiniteNumber(node, "s");
       source_.where.s_m = at;
-      if (at && (*at < -kRounding_m || *at > length_m + kRounding_m))
+      if (at && (*at < -kStationRounding_m || *at > length_m + kStationRounding_m))
         told_.Add(node, fmt::format("road.{}.s", element),
                   fmt::format("the {} '{}' is at s {:.6g}, and its road goes from 0 to {:.6g} m", element,
                               node.Text("id", ""), *at, length_m));
@@ -128,8 +128,8 @@ class Stations {
 
   void Repeat(const Node& repeat) {
     for (const char* attribute : {"s", "length", "distance"}) {
-      const auto value = NumberOf(repeat, attribute);
-      if (value && *value < -kRounding_m)
+      const auto value = FiniteNumber(repeat, attribute);
+      if (value && *value < -kStationRounding_m)
         repeat.Wrong(fmt::format("road.object.repeat.{}", attribute),
                      fmt::format("<repeat> has a {} of {:.6g}; 0 or more was expected", attribute, *value));
     }
@@ -138,7 +138,7 @@ class Stations {
   void Ids(const Node& parent, const std::string& element, std::map<std::string, std::string>& known) {
     for (const Node& node : parent.Children(element.c_str())) {
       Within within(source_);
-      source_.where.s_m = NumberOf(node, "s");
+      source_.where.s_m = FiniteNumber(node, "s");
       const std::string id = node.Text("id", "");
       const auto [first, is_new] = known.try_emplace(id, source_.where.road);
       if (!id.empty() && !is_new)
@@ -151,8 +151,8 @@ class Stations {
 
   void Sections(const std::vector<Node>& sections, double length_m) {
     for (std::size_t i = 0; i < sections.size(); ++i) {
-      const double from = NumberOf(sections[i], "s").value_or(0.0);
-      const double to = i + 1 < sections.size() ? NumberOf(sections[i + 1], "s").value_or(length_m) : length_m;
+      const double from = FiniteNumber(sections[i], "s").value_or(0.0);
+      const double to = i + 1 < sections.size() ? FiniteNumber(sections[i + 1], "s").value_or(length_m) : length_m;
       Within within(source_);
       source_.where.s_m = from;
       for (const char* side : {"left", "center", "right"}) {

@@ -24,7 +24,7 @@ using network::Road;
 constexpr double kSharpest = 0.95;  // curvature times the distance of the inner edge, as in world files
 constexpr double kNarrow_m = -1e-3;
 
-struct Checker {
+struct SurfaceChecker {
   const Network& network;
   std::span<const RoadLines> lines;
   const Tolerance& tolerance;
@@ -207,7 +207,7 @@ struct Checker {
 
 void CheckSurfaces(const Network& network, std::span<const RoadLines> lines, const Tolerance& tolerance,
                    Findings& findings) {
-  const Checker checker{network, lines, tolerance, findings};
+  const SurfaceChecker checker{network, lines, tolerance, findings};
   for (std::size_t i = 0; i < network.roads().size(); ++i) {
     checker.Elevation(i);
     checker.Across(i);

@@ -15,8 +15,8 @@ namespace {
 using network::Road;
 using Points = std::vector<Eigen::Vector2d>;
 
-constexpr double kStep_m = 0.5;  // between points along a lane's edge
-constexpr double kRounding_m = 1e-6;
+constexpr double kEdgeStep_m = 0.5;           // between points along a lane's edge
+constexpr double kBoundaryRounding_m = 1e-6;  // no gap
 
 // A segment as it lies in the plane; of one across a road's end where on the road its two points are.
 struct Drawn {
@@ -97,7 +97,7 @@ class Drawer {
     const Road& road = *drawn.road;
     const double from = std::clamp(segment.from_s_m, 0.0, road.length_m()),
                  to = std::clamp(segment.to_s_m, 0.0, road.length_m());
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / kStep_m)));
+    const int steps = std::max(1, static_cast<int>(std::ceil(std::fabs(to - from) / kEdgeStep_m)));
     for (int i = 0; i <= steps; ++i) {
       const double s = i == steps ? to : from + (to - from) * i / steps;
       const auto t = EdgeAt(segment, road, segment.lane, s);
@@ -122,7 +122,7 @@ class Drawer {
 
   void Meet(const Drawn& one, const Drawn& next) {
     const double gap = (one.points_W.back() - next.points_W.front()).norm();
-    if (gap <= kRounding_m) return;
+    if (gap <= kBoundaryRounding_m) return;
     std::string message = fmt::format("a gap of {:.4g} m in its boundary before the segment on road {}; {}", gap,
                                       next.road->id(), GapWords(gap, tolerance_.gap_m, Tolerance::Strict().gap_m, "m"));
     if (gap > tolerance_.gap_m) {

@@ -10,7 +10,6 @@ namespace rodeira::opendrive {
 namespace {
 
 constexpr std::string_view kTimes = "rodeira:times";  // cycle, green from, green, amber, red with amber; seconds
-constexpr std::string_view kOnFoot = "1000002";
 constexpr double kGreen_s = 20.0, kAmber_s = 3.0, kAllRed_s = 2.0, kRedAmber_s = 1.0;
 
 std::optional<network::LightTimes> TimesOf(std::string_view text) {
@@ -30,7 +29,7 @@ bool ForVehicles(const network::NetworkSpec& spec, const network::Controller& co
   for (const network::ControllerEntry& entry : controller.controls) {
     for (const network::Road& road : spec.roads) {
       for (const network::Signal& signal : road.spec().signals) {
-        if (signal.id == entry.signal_id && signal.type != kOnFoot) return true;
+        if (signal.id == entry.signal_id && signal.type != network::kPedestrianSignal) return true;
       }
     }
   }

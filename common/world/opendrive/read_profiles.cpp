@@ -45,7 +45,7 @@ CubicTable Coefficients(const Node& element) {
   return ReadCubics(element.Children("coefficients"), "s", 0.0, "road.lateral.css.elem_asc_order");
 }
 
-void ReadSurface(const Node& profile, network::CrossSectionSurface& surface) {
+void ReadCrossSectionSurface(const Node& profile, network::CrossSectionSurface& surface) {
   const Node css = profile.Child("crossSectionSurface");
   if (!css) return;
   surface.t_offset = Coefficients(css.Child("tOffset"));
@@ -76,7 +76,7 @@ void ReadLateral(const Node& road, network::LateralProfile& lateral) {
   const Node profile = road.Child("lateralProfile");
   ReadCrossfall(profile, lateral);
   ReadShapes(profile, lateral);
-  ReadSurface(profile, lateral.surface);
+  ReadCrossSectionSurface(profile, lateral.surface);
 }
 
 void ReadProfiles(const Node& road, network::RoadSpec& spec) {

@@ -12,11 +12,9 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kSample_m = 1e-3;
-
 // The stretches of a panel that stand on the ground.
 template <class Use>
-void Standing(const network::Road& road, double low_m, double high_m, const Use& use) {
+void ForEachGroundStretch(const network::Road& road, double low_m, double high_m, const Use& use) {
   double from = low_m;
   while (from <= high_m) {
     double to = high_m;
@@ -63,8 +61,8 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network,
         const double z = junction->At(edge.from_W + q * (edge.to_W - edge.from_W)).z_m;
         low = std::min(low, z), high = std::max(high, z);
       }
-      heights.push_back({low - kSample_m, high + kSample_m});
-      all = {std::min(all.low_m, low - kSample_m), std::max(all.high_m, high + kSample_m)};
+      heights.push_back({low - kSampleMargin_m, high + kSampleMargin_m});
+      all = {std::min(all.low_m, low - kSampleMargin_m), std::max(all.high_m, high + kSampleMargin_m)};
     }
   }
 }
@@ -114,7 +112,7 @@ void Earthworks::FromRoad(const network::Road& road, std::uint32_t panel_index, 
                           Bounds& bounds) const {
   const geometry::AxisPanel& panel = road.axis().panels()[panel_index];
   const double low = std::max(panel.begin_s_m(), 0.0), high = std::min(panel.end_s_m(), road.length_m());
-  Standing(road, low, high, [&](double from, double to) {
+  ForEachGroundStretch(road, low, high, [&](double from, double to) {
     const EdgePlace place = PlaceOnEdge(road, panel, {from, to}, p_W);
     Edge edge{place.sample.p_W.head<2>(), place.sample.p_W.z(), Eigen::Vector2d::Zero()};
     if (place.pace > 0.0)

@@ -12,7 +12,7 @@
 namespace rodeira::road {
 namespace {
 
-std::string Plain(std::string id) {
+std::string PlainId(std::string id) {
   constexpr std::string_view kRefused = "|\\'\";,:<>&*?!#";
   for (char& c : id) {
     const auto code = static_cast<unsigned char>(c);
@@ -28,12 +28,12 @@ class Ids {
   void Choose() {
     std::set<std::string> taken;
     for (const std::string& id : all_) {
-      if (Plain(id) == id) taken.insert(id);
+      if (PlainId(id) == id) taken.insert(id);
     }
     for (const std::string& id : all_) {
-      if (Plain(id) == id) continue;
-      std::string plain = Plain(id);
-      for (int n = 2; !taken.insert(plain).second; ++n) plain = fmt::format("{}_{}", Plain(id), n);
+      if (PlainId(id) == id) continue;
+      std::string plain = PlainId(id);
+      for (int n = 2; !taken.insert(plain).second; ++n) plain = fmt::format("{}_{}", PlainId(id), n);
       chosen_[id] = plain;
     }
   }

@@ -14,15 +14,15 @@
 namespace rodeira::road {
 namespace {
 
-// A line at a lane's edge, and how far from it.
-struct Mark {
+// A painted line at a lane's edge, and its distance from the edge.
+struct EdgeMark {
   const network::PaintedLine* line;
   double t_offset_m;
 };
 
 // By lane (0: the centre) the marks of a section, from the left.
-std::map<int, std::vector<Mark>> MarksOf(const network::Road& road, const network::LaneSection& section) {
-  std::map<int, std::vector<Mark>> marks;
+std::map<int, std::vector<EdgeMark>> MarksOf(const network::Road& road, const network::LaneSection& section) {
+  std::map<int, std::vector<EdgeMark>> marks;
   for (const network::PaintedLine& line : road.spec().lines) {
     if (line.to_s_m <= section.s_m || line.from_s_m >= section.end_s_m) continue;
     const double s = 0.5 * (std::max(line.from_s_m, section.s_m) + std::min(line.to_s_m, section.end_s_m));
@@ -40,14 +40,14 @@ std::map<int, std::vector<Mark>> MarksOf(const network::Road& road, const networ
   }
   for (auto& [lane, list] : marks) {
     std::stable_sort(list.begin(), list.end(),
-                     [](const Mark& a, const Mark& b) { return a.t_offset_m > b.t_offset_m; });
+                     [](const EdgeMark& a, const EdgeMark& b) { return a.t_offset_m > b.t_offset_m; });
   }
   return marks;
 }
 
-std::string MarksText(const std::vector<Mark>& marks, const network::LaneSection& section) {
+std::string MarksText(const std::vector<EdgeMark>& marks, const network::LaneSection& section) {
   std::set<double> begins;
-  for (const Mark& mark : marks) {
+  for (const EdgeMark& mark : marks) {
     begins.insert(std::max(mark.line->from_s_m, section.s_m));
     if (mark.line->to_s_m < section.end_s_m) begins.insert(mark.line->to_s_m);
   }
@@ -56,7 +56,7 @@ std::string MarksText(const std::vector<Mark>& marks, const network::LaneSection
   for (const double s : begins) {
     std::string type, lines;
     const network::PaintedLine* first = nullptr;
-    for (const Mark& mark : marks) {
+    for (const EdgeMark& mark : marks) {
       const network::PaintedLine& line = *mark.line;
       if (line.from_s_m > s || line.to_s_m <= s) continue;
       if (first == nullptr) first = &line;
@@ -133,7 +133,7 @@ std::string LanesText(const network::Road& road) {
   for (const network::LaneSection& section : road.spec().sections) {
     const auto marks = MarksOf(road, section);
     const auto of = [&](int lane) {
-      return MarksText(marks.contains(lane) ? marks.at(lane) : std::vector<Mark>(), section);
+      return MarksText(marks.contains(lane) ? marks.at(lane) : std::vector<EdgeMark>(), section);
     };
     text += fmt::format("<laneSection s=\"{}\">\n", section.s_m);
     if (!section.left.empty()) {

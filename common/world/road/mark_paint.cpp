@@ -7,12 +7,12 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kStretch_m = 16.0;
-constexpr double kStep_m = 1.0;   // between the places where a line's t is looked at
-constexpr double kRoom_m = 0.05;  // and what it may bend between them
+constexpr double kMarkStretch_m = 16.0;
+constexpr double kMarkStep_m = 1.0;  // between the places where a line's t is looked at
+constexpr double kRoom_m = 0.05;     // and what it may bend between them
 
 std::size_t StretchOf(double s_m, std::size_t count) {
-  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), count - 1);
+  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kMarkStretch_m)), count - 1);
 }
 
 }  // namespace
@@ -20,7 +20,7 @@ std::size_t StretchOf(double s_m, std::size_t count) {
 MarkPaint::MarkPaint(std::shared_ptr<const network::Network> network) : network_(std::move(network)) {
   for (const network::Road& road : network_->roads()) {
     Lines& lines = roads_.emplace_back();
-    lines.by_stretch.resize(static_cast<std::size_t>(road.length_m() / kStretch_m) + 1);
+    lines.by_stretch.resize(static_cast<std::size_t>(road.length_m() / kMarkStretch_m) + 1);
     for (const network::Marking& marking : network::MarkingsOf(road)) Add(road, marking, lines);
   }
 }
@@ -34,14 +34,14 @@ void MarkPaint::Add(const network::Road& road, const network::Marking& marking, 
   const auto number = static_cast<std::uint32_t>(lines.lines.size());
   for (std::size_t stretch = StretchOf(marking.from_s_m, lines.by_stretch.size()); stretch < lines.by_stretch.size();
        ++stretch) {
-    const double from = std::max(marking.from_s_m, kStretch_m * static_cast<double>(stretch)),
-                 to = std::min(marking.to_s_m, kStretch_m * static_cast<double>(stretch + 1));
+    const double from = std::max(marking.from_s_m, kMarkStretch_m * static_cast<double>(stretch)),
+                 to = std::min(marking.to_s_m, kMarkStretch_m * static_cast<double>(stretch + 1));
     if (from > to) break;
     Near near{number, 1e9, -1e9};
-    const double count = std::ceil((to - from) / kStep_m) + 1.0;
+    const double count = std::ceil((to - from) / kMarkStep_m) + 1.0;
     for (double i = 0.0; i <= count; i += 1.0) {
       const geometry::CubicPoint t = network::MarkingAt(road, marking, from + (to - from) * i / count);
-      const double room = kRoom_m + 0.5 * marking.width_m + kStep_m * std::fabs(t.slope);
+      const double room = kRoom_m + 0.5 * marking.width_m + kMarkStep_m * std::fabs(t.slope);
       near.low_t_m = std::min(near.low_t_m, t.value - room);
       near.high_t_m = std::max(near.high_t_m, t.value + room);
     }

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongestName = 72;  // of a line of a .crg's header
 
 // A name that neither a .crg's header nor XML reads in another way.
-std::string Plain(std::string name) {
+std::string PlainFileName(std::string name) {
   const auto odd = [](char c) {
     return !((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' ||
              c == '_');
@@ -31,7 +31,7 @@ std::string Plain(std::string name) {
 }
 
 std::string Unused(const fs::path& like, const std::set<std::string>& used) {
-  const std::string stem = Plain(like.stem().string()), extension = Plain(like.extension().string());
+  const std::string stem = PlainFileName(like.stem().string()), extension = PlainFileName(like.extension().string());
   std::string name = stem + extension;
   for (int i = 2; used.contains(name); ++i) name = fmt::format("{}_{}{}", stem, i, extension);
   return name;
@@ -81,7 +81,7 @@ base::Status Copy(const fs::path& from, const fs::path& to, std::set<std::string
 }  // namespace
 
 MeasuredFiles::MeasuredFiles(const fs::path& exported)
-    : parent_(exported.parent_path()), folder_(Plain(exported.stem().string()) + "_surfaces") {}
+    : parent_(exported.parent_path()), folder_(PlainFileName(exported.stem().string()) + "_surfaces") {}
 
 std::string MeasuredFiles::NameOf(const std::string& file) {
   const std::string path = fs::absolute(file).lexically_normal().string();

@@ -15,7 +15,8 @@ namespace {
 using config::Map;
 
 // On a road: its first lane and its beginning where nothing else is said.
-void PutStart(const Map& map, const design::StartWish& wish, const network::Network& network, StartPose& start) {
+void PutStartOnNetwork(const Map& map, const design::StartWish& wish, const network::Network& network,
+                       StartPose& start) {
   const auto& roads = network.roads();
   std::vector<std::string> ids;
   std::uint32_t at = 0;
@@ -48,7 +49,7 @@ WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::p
   if (start.Has("x_m"))
     spec.value().start = said.start;
   else if (file.root().Has("start"))
-    PutStart(start, wish, *spec.value().network, spec.value().start);
+    PutStartOnNetwork(start, wish, *spec.value().network, spec.value().start);
   spec.value().name = said.name;
   spec.value().friction = said.friction;
   reading.problems = file.Problems();

@@ -6,7 +6,7 @@
 namespace rodeira::road {
 namespace {
 
-class Canonical {
+class CanonicalNetworkWriter {
  public:
   void Put(double value) { out_.Put(value + 0.0); }  // -0 is 0
   void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
@@ -32,7 +32,7 @@ class Canonical {
   base::ByteWriter out_;
 };
 
-void PutLane(Canonical& out, const network::Lane& lane) {
+void PutLane(CanonicalNetworkWriter& out, const network::Lane& lane) {
   out.PutAll(lane.id, static_cast<int>(lane.type), lane.level, lane.direction, lane.width, lane.border);
   out.PutAll(lane.heights.size(), lane.speeds.size(), lane.materials.size());
   for (const auto& height : lane.heights) out.PutAll(height.s_m, height.inner_m, height.outer_m);
@@ -44,7 +44,7 @@ void PutLane(Canonical& out, const network::Lane& lane) {
   }
 }
 
-void PutLateral(Canonical& out, const network::LateralProfile& lateral) {
+void PutLateral(CanonicalNetworkWriter& out, const network::LateralProfile& lateral) {
   out.PutAll(lateral.crossfall_left, lateral.crossfall_right, lateral.shapes.size());
   for (const auto& shape : lateral.shapes) out.PutAll(shape.s_m, shape.height);
   out.Put(lateral.surface.t_offset);
@@ -57,7 +57,7 @@ void PutLateral(Canonical& out, const network::LateralProfile& lateral) {
   }
 }
 
-void PutFurniture(Canonical& out, const network::RoadSpec& spec) {
+void PutFurniture(CanonicalNetworkWriter& out, const network::RoadSpec& spec) {
   out.PutAll(spec.lines.size(), spec.signals.size(), spec.objects.size(), spec.structures.size(), spec.crg.size(),
              spec.unevenness.size());
   for (const auto& line : spec.lines)
@@ -82,7 +82,7 @@ void PutFurniture(Canonical& out, const network::RoadSpec& spec) {
   }
 }
 
-void PutRoad(Canonical& out, const network::Road& road) {
+void PutNetworkRoad(CanonicalNetworkWriter& out, const network::Road& road) {
   const network::RoadSpec& spec = road.spec();
   out.PutAll(spec.left_hand, !spec.junction.empty(), road.length_m(), road.axis().elements().size());
   for (const auto& element : road.axis().elements()) {
@@ -109,9 +109,9 @@ void PutRoad(Canonical& out, const network::Road& road) {
 }  // namespace
 
 base::Digest HashOf(const network::Network& network) {
-  Canonical out;
+  CanonicalNetworkWriter out;
   out.Put(network.roads().size());
-  for (const network::Road& road : network.roads()) PutRoad(out, road);
+  for (const network::Road& road : network.roads()) PutNetworkRoad(out, road);
   out.Put(network.junctions().size());
   for (const network::Junction& junction : network.junctions()) {
     out.PutAll(junction.connections.size(), junction.priorities.size(), junction.outline_W.size(),

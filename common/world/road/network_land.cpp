@@ -6,20 +6,19 @@
 #include <limits>
 
 #include "common/core/geometry/plane.hpp"
+#include "common/world/road/road_edge.hpp"
 
 namespace rodeira::road {
 namespace {
 
 using Eigen::Vector2d;
-using network::Road;
 
 constexpr double kOfRadius = 0.9;       // what moves with p reaches so far to the middle of a bend
 constexpr double kLeastReach_m = 0.5;   // where lanes fold
 constexpr double kPostsOfRadius = 0.1;  // posts in a bend stand so much of its radius apart
 constexpr double kLeastApart_m = 0.5;
 constexpr int kCurvatures = 4;  // samples of a panel's
-constexpr double kSample_m = 1e-3;
-constexpr double kRounding_m = 1e-6;
+constexpr double kDistanceRounding_m = 1e-6;
 constexpr double kStraight_1pm = 1e-7;
 constexpr double kHeldSide_m = 8.0;
 constexpr double kSurelyVerge = 0.8;
@@ -59,7 +58,8 @@ NetworkLand::NetworkLand(std::shared_ptr<const network::Network> network)
   }
   for (const Piece& piece : pieces_) {
     around_.push_back({0.5 * (piece.from_W + piece.to_W),
-                       0.5 * (piece.to_W - piece.from_W).norm() + piece.edges.beside_m + kRounding_m, piece.heights});
+                       0.5 * (piece.to_W - piece.from_W).norm() + piece.edges.beside_m + kDistanceRounding_m,
+                       piece.heights});
   }
   std::vector<SquareLists::Strip> strips;
   for (std::size_t first = 0; first < around_.size(); first += kBlock) {
@@ -74,7 +74,7 @@ NetworkLand::NetworkLand(std::shared_ptr<const network::Network> network)
     block.middle_W = 0.5 * (low_W + high_W), block.radius_m = 0.0;
     for (const Around& around : some)
       block.radius_m = std::max(block.radius_m, (around.middle_W - block.middle_W).norm() + around.radius_m);
-    block.radius_m += kRounding_m;
+    block.radius_m += kDistanceRounding_m;
     strips.push_back({block.middle_W, block.middle_W, block.radius_m + kHolds_m});
   }
   near_ = SquareLists(strips);
@@ -87,7 +87,7 @@ bool NetworkLand::IsOnDeck(std::uint32_t road, double s_m) const {
 }
 
 void NetworkLand::AddPieces(std::uint32_t road_index) {
-  const Road& road = network_->roads()[road_index];
+  const network::Road& road = network_->roads()[road_index];
   const std::vector<geometry::AxisPanel>& panels = road.axis().panels();
   for (const Stretch& standing : StandingOn(road, decks_[road_index])) {
     for (std::uint32_t i = 0; i < panels.size(); ++i) {
@@ -118,7 +118,7 @@ void NetworkLand::AddPieces(std::uint32_t road_index) {
 }
 
 // On both edges at both ends, where a lane section begins, and in a bend some more.
-void NetworkLand::AddPosts(const Road& road, const geometry::AxisPanel& panel, Piece& piece) {
+void NetworkLand::AddPosts(const network::Road& road, const geometry::AxisPanel& panel, Piece& piece) {
   const auto& [from, to] = piece.stretch;
   std::vector<double> stations{from, to};
   for (const network::LaneSection& section : road.spec().sections) {
@@ -166,7 +166,7 @@ void NetworkLand::AddBoundary(const network::JunctionGround& ground) {
       if (k > 0) most = std::max(most, std::fabs(z - last));
       low = std::min(low, z), high = std::max(high, z), last = z;
     }
-    piece.heights = {low - most - kSample_m, high + most + kSample_m};
+    piece.heights = {low - most - kSampleMargin_m, high + most + kSampleMargin_m};
     pieces_.push_back(piece);
   }
 }
@@ -183,7 +183,8 @@ void NetworkLand::FromPost(const Eigen::Vector3d& post_W, const Vector2d& p_W, L
 
 // Behind the end of a road with kerbs: so that nothing steps there, a lane's end holds the land ever less towards the
 // lane's edges, where posts stand.
-void NetworkLand::FromEnd(const EdgePlace& place, const Road& road, const Vector2d& p_W, LandBounds& bounds) const {
+void NetworkLand::FromEnd(const EdgePlace& place, const network::Road& road, const Vector2d& p_W,
+                          LandBounds& bounds) const {
   double outside;
   const network::LaneSpan span = road.SectionAt(place.s_m).At(place.t_m, road.CentreAt(place.s_m), place.s_m, outside);
   const Vector2d apart = p_W - place.sample.p_W.head<2>();
@@ -217,7 +218,7 @@ void NetworkLand::FromPlace(const EdgePlace& place, const Vector2d& station_slop
 }
 
 void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& bounds) const {
-  const Road& road = network_->roads()[piece.road];
+  const network::Road& road = network_->roads()[piece.road];
   const geometry::AxisPanel& panel = road.axis().panels()[piece.panel];
   EdgePlace place = PlaceOnEdge(road, panel, piece.stretch, p_W, piece.steady);
   const bool left = place.found_t_m > road.CentreAt(place.s_m).value;
@@ -251,8 +252,8 @@ void NetworkLand::FromRoad(const Piece& piece, const Vector2d& p_W, LandBounds& 
   }
   const bool all = bounds.every() || !(bounds.nearest_m() < kVerge_m);
   for (const Eigen::Vector3d& post_W : std::span(posts_W_).subspan(piece.first_post, piece.posts)) {
-    const double within_m =
-        bounds.TightensWithin(post_W.z(), post_W.z()) + kRounding_m;  // most hold nothing: that is told without a root
+    const double within_m = bounds.TightensWithin(post_W.z(), post_W.z()) +
+                            kDistanceRounding_m;  // most hold nothing: that is told without a root
     if (all || (within_m > 0.0 && (p_W - post_W.head<2>()).squaredNorm() <= within_m * within_m))
       FromPost(post_W, p_W, bounds);
   }
@@ -308,10 +309,11 @@ NetworkLand::Held NetworkLand::MakeHeld(std::span<const std::uint32_t> blocks, c
   const double told_m = nearest_m < kSurelyVerge * kVerge_m ? nearest_m : std::max(nearest_m, kVerge_m + radius_m);
   for (const auto& [distance_m, index] : known) {
     const EdgeHeights& heights = pieces_[index].heights;
-    const double least_m = distance_m - radius_m - kRounding_m;
-    if (distance_m > told_m + kRounding_m && least_m > bounds.TightensWithin(heights.low_m, heights.high_m)) continue;
+    const double least_m = distance_m - radius_m - kDistanceRounding_m;
+    if (distance_m > told_m + kDistanceRounding_m && least_m > bounds.TightensWithin(heights.low_m, heights.high_m))
+      continue;
     const float low_m = Below(heights.low_m), high_m = -Below(-heights.high_m);
-    held.pieces.push_back({index, Below(distance_m - kRounding_m), low_m, high_m, low_m, high_m});
+    held.pieces.push_back({index, Below(distance_m - kDistanceRounding_m), low_m, high_m, low_m, high_m});
   }
   for (std::size_t i = held.pieces.size(); i-- > 1;) {
     Held::Near &near = held.pieces[i - 1], &behind = held.pieces[i];
@@ -363,8 +365,8 @@ std::optional<PlaneHeight> NetworkLand::At(const Vector2d& p_W) const {
         !(least_m < bounds.TightensWithin(static_cast<double>(near.low_m), static_cast<double>(near.high_m))))
       continue;
     const Piece& piece = pieces_[near.piece];
-    if (is_verge &&
-        !(piece.AsideFrom(p_W) < bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m) + kRounding_m))
+    if (is_verge && !(piece.AsideFrom(p_W) <
+                      bounds.TightensWithin(piece.heights.low_m, piece.heights.high_m) + kDistanceRounding_m))
       continue;
     const double distance_m = piece.DistanceFrom(p_W);
     if (near.piece == *nearest || distance_m >= kHolds_m) continue;
@@ -407,12 +409,13 @@ PlaneHeight NetworkLand::Steep(const LandBounds& tightest, const Vector2d& p_W) 
   const LandBound &low = tightest.low(), &high = tightest.high();
   const double sum = low.distance_m + high.distance_m,
                slope = sum > 0.0 ? std::max(kBank, (low.z_m - high.z_m) / sum) : kBank;
-  const double low_m = low.z_m - slope * low.distance_m - kRounding_m,
-               high_m = high.z_m + slope * high.distance_m + kRounding_m;
-  const double farther_m = std::max(low.distance_m, high.distance_m) + kRounding_m;
+  const double low_m = low.z_m - slope * low.distance_m - kDistanceRounding_m,
+               high_m = high.z_m + slope * high.distance_m + kDistanceRounding_m;
+  const double farther_m = std::max(low.distance_m, high.distance_m) + kDistanceRounding_m;
   const auto within = [&](const EdgeHeights& heights) {
-    return std::min(kHolds_m, std::max({farther_m, tightest.TightensWithin(heights.low_m, heights.high_m) + kRounding_m,
-                                        (heights.high_m - low_m) / slope, (high_m - heights.low_m) / slope}));
+    return std::min(kHolds_m,
+                    std::max({farther_m, tightest.TightensWithin(heights.low_m, heights.high_m) + kDistanceRounding_m,
+                              (heights.high_m - low_m) / slope, (high_m - heights.low_m) / slope}));
   };
   thread_local LandBounds bounds;
   bounds.Clear(true);

@@ -14,7 +14,7 @@ using network::LaneKey;
 using network::LaneType;
 using network::Network;
 
-constexpr double kPicture = 1400.0;  // the longer edge, in SVG units
+constexpr double kNetworkPlotSize = 1400.0;  // the longer edge, in SVG units
 constexpr double kMargin_m = 15.0;
 constexpr double kChord_m = 0.05;  // how far an edge's chord may stand off
 
@@ -38,15 +38,15 @@ const char* Colour(LaneType type, bool in_junction) {
   }
 }
 
-struct Frame {
+struct PlotFrame {
   double west, north, scale;
   std::string Point(const Eigen::Vector3d& p, bool first) const {
     return fmt::format("{}{:.2f} {:.2f}", first ? "M" : "L", (p.x() - west) * scale, (north - p.y()) * scale);
   }
 };
 
-// Stations of a lane section, close enough for its bends.
-std::vector<double> Stations(const network::Road& road, const network::LaneSection& section, double scale) {
+// SectionStations of a lane section, close enough for its bends.
+std::vector<double> SectionStations(const network::Road& road, const network::LaneSection& section, double scale) {
   std::vector<double> stations{section.s_m};
   while (stations.back() < section.end_s_m) {
     const double s = stations.back();
@@ -58,8 +58,8 @@ std::vector<double> Stations(const network::Road& road, const network::LaneSecti
   return stations;
 }
 
-std::string Edge(const Network& network, const LaneKey& key, const std::vector<double>& stations, const Frame& frame,
-                 bool outer, bool back, bool first) {
+std::string Edge(const Network& network, const LaneKey& key, const std::vector<double>& stations,
+                 const PlotFrame& frame, bool outer, bool back, bool first) {
   std::string path;
   const network::Road& road = network.roads()[key.road];
   for (std::size_t i = 0; i < stations.size(); ++i) {
@@ -87,7 +87,7 @@ std::string Line(const network::RoadMark* mark, const std::string& path, double 
 
 // Each road's own stations and the radii of its arcs, where there is room: a dot and how far it is from the road's
 // beginning.
-std::string StationsAndRadii(const Network& network, const Frame& frame, PlotLabels& labels) {
+std::string StationsAndRadii(const Network& network, const PlotFrame& frame, PlotLabels& labels) {
   constexpr double kDot = 2.0;
   double step_m = 50.0;
   while (step_m * frame.scale < 60.0) step_m *= 2.0;
@@ -143,13 +143,13 @@ std::string PlotNetwork(const Network& network) {
   low.array() -= kMargin_m;
   high.array() += kMargin_m;
   const Eigen::Vector2d size = high - low;
-  const Frame frame{low.x(), high.y(), kPicture / size.maxCoeff()};
+  const PlotFrame frame{low.x(), high.y(), kNetworkPlotSize / size.maxCoeff()};
   std::string areas, ways, lines;
   for (const LaneKey& key : network.Lanes()) {
     const network::Road& road = network.roads()[key.road];
     const network::LaneSection& section = network.Section(key);
     const network::Lane& lane = *network.Find(key);
-    const auto stations = Stations(road, section, frame.scale);
+    const auto stations = SectionStations(road, section, frame.scale);
     const bool in_junction = !road.spec().junction.empty();
     const std::string outer = Edge(network, key, stations, frame, true, false, true);
     const char* colour = Colour(lane.type, in_junction);

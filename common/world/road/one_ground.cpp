@@ -51,10 +51,10 @@ struct Block {
 };
 
 // s and t as they change in the plane.
-struct Frame {
+struct RoadGradients {
   Eigen::Vector2d s_W = Eigen::Vector2d::Zero(), t_W = Eigen::Vector2d::Zero();
 
-  explicit Frame(const network::SurfaceSample& sample) {
+  explicit RoadGradients(const network::SurfaceSample& sample) {
     const Eigen::Vector2d ds = sample.ds_W.head<2>(), dt = sample.dt_W.head<2>();
     const double area = geometry::Cross(ds, dt);
     if (!(area > 1e-6)) return;
@@ -64,7 +64,7 @@ struct Frame {
 };
 
 Block BlockAt(const network::LaneSection& section, const geometry::CubicPoint& centre, const network::Place& place,
-              const Frame& frame) {
+              const RoadGradients& gradients) {
   thread_local std::vector<network::LaneSpan> spans;  // from right to left
   spans.clear();
   for (auto lane = section.right.rbegin(); lane != section.right.rend(); ++lane)
@@ -77,7 +77,7 @@ Block BlockAt(const network::LaneSection& section, const geometry::CubicPoint& c
     const bool outer = (span.lane->id > 0) == left;
     const double t = outer ? span.outer_t_m : span.inner_t_m, t_slope = outer ? span.outer_slope : span.inner_slope;
     const double sign = left ? 1.0 : -1.0;
-    return Away{std::max(0.0, sign * (t - place.t_m)), sign * (t_slope * frame.s_W - frame.t_W)};
+    return Away{std::max(0.0, sign * (t - place.t_m)), sign * (t_slope * gradients.s_W - gradients.t_W)};
   };
   Block block;
   auto last = own;
@@ -131,7 +131,7 @@ Weight Part(const Away& a, const Away& b) {
   return {part * part, 2.0 * part / sum * (a.slope_W - part * (a.slope_W + b.slope_W))};
 }
 
-Weight Across(const Block& block, bool drivable) {
+Weight LateralWeight(const Block& block, bool drivable) {
   const bool right = !drivable && block.right_borders, left = !drivable && block.left_borders;
   if (!right && !left) return Between(block.right, block.left);
   Weight weight = right ? More(block.right) : Part(block.right, block.left);
@@ -142,10 +142,10 @@ Weight Across(const Block& block, bool drivable) {
 Weight WeightOf(const Network& network, const Surfacing& surfacing) {
   const network::Place& place = surfacing.place;
   const network::Road& road = network.roads()[place.lane.road];
-  const Frame frame(surfacing.sample);
-  const Block block = BlockAt(network.Section(place.lane), road.CentreAt(place.s_m), place, frame);
-  Weight weight = Across(block, surfacing.claim.drivable);
-  const Away start{place.s_m, frame.s_W}, end{road.length_m() - place.s_m, -frame.s_W};
+  const RoadGradients gradients(surfacing.sample);
+  const Block block = BlockAt(network.Section(place.lane), road.CentreAt(place.s_m), place, gradients);
+  Weight weight = LateralWeight(block, surfacing.claim.drivable);
+  const Away start{place.s_m, gradients.s_W}, end{road.length_m() - place.s_m, -gradients.s_W};
   Times(road.spec().predecessor ? More(start) : Less(start), weight);
   Times(road.spec().successor ? More(end) : Less(end), weight);
   return weight;

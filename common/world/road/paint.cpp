@@ -9,21 +9,21 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kStretch_m = 32.0;
-constexpr double kRounding_m = 1e-6;  // far above all of it
+constexpr double kPaintStretch_m = 32.0;
+constexpr double kPaintRounding_m = 1e-6;  // far above all of it
 
 }  // namespace
 
 Paint::Paint(const network::Network& network) {
   for (const network::Road& road : network.roads()) {
     Lines& lines = roads_.emplace_back();
-    const auto stretches = static_cast<std::size_t>(road.length_m() / kStretch_m) + 1;
+    const auto stretches = static_cast<std::size_t>(road.length_m() / kPaintStretch_m) + 1;
     if (!road.spec().lines.empty()) lines.by_stretch.resize(stretches);
     for (const network::PaintedLine& painted : road.spec().lines) {
       Line line{painted.from_s_m, painted.to_s_m, 0.5 * painted.width_m, 0.0, 0.0, &painted.t, {}};
       painted.t.Bounds(painted.from_s_m, painted.to_s_m, line.low_t_m, line.high_t_m);
-      line.low_t_m -= line.half_width_m + kRounding_m;
-      line.high_t_m += line.half_width_m + kRounding_m;
+      line.low_t_m -= line.half_width_m + kPaintRounding_m;
+      line.high_t_m += line.half_width_m + kPaintRounding_m;
       if (painted.gap_m > 0.0) {
         for (const network::Stroke& stroke : network::Strokes(road, painted)) {
           line.edges_s_m.push_back(stroke.from_s_m);
@@ -31,8 +31,8 @@ Paint::Paint(const network::Network& network) {
         }
       }
       const auto number = static_cast<std::uint32_t>(lines.lines.size());
-      const auto first = static_cast<std::size_t>(std::max(0.0, painted.from_s_m / kStretch_m));
-      const auto last = static_cast<std::size_t>(std::max(0.0, painted.to_s_m / kStretch_m));
+      const auto first = static_cast<std::size_t>(std::max(0.0, painted.from_s_m / kPaintStretch_m));
+      const auto last = static_cast<std::size_t>(std::max(0.0, painted.to_s_m / kPaintStretch_m));
       for (std::size_t i = first; i <= std::min(last, stretches - 1); ++i) lines.by_stretch[i].push_back(number);
       lines.lines.push_back(std::move(line));
     }
@@ -40,7 +40,7 @@ Paint::Paint(const network::Network& network) {
 }
 
 std::size_t Paint::Lines::StretchAt(double s_m) const {
-  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kStretch_m)), by_stretch.size() - 1);
+  return std::min(static_cast<std::size_t>(std::max(0.0, s_m / kPaintStretch_m)), by_stretch.size() - 1);
 }
 
 bool Paint::MayBe(std::uint32_t road, double low_s_m, double high_s_m, double low_t_m, double high_t_m) const {

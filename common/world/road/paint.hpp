@@ -27,7 +27,7 @@ class Paint {
   };
   struct Lines {
     std::vector<Line> lines;
-    std::vector<std::vector<std::uint32_t>> by_stretch;  // of kStretch_m
+    std::vector<std::vector<std::uint32_t>> by_stretch;  // of kPaintStretch_m
 
     std::size_t StretchAt(double s_m) const;
   };

@@ -13,8 +13,7 @@ namespace rodeira::road {
 namespace {
 
 constexpr double kSteeper = 0.8;  // of the reach
-constexpr double kSample_m = 1e-3;
-constexpr int kSamples = 16;  // of a panel's edges
+constexpr int kSamples = 16;      // of a panel's edges
 constexpr double kLeastPace = 0.05;
 
 // How far the edges lie from the axis.
@@ -102,7 +101,7 @@ EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& pan
     sections[i].Bounds(road.spec().lane_offset, from, to, right, left);
     most_right = std::max({most_right, -right, -left}), most_left = std::max({most_left, right, left});
   }
-  const double more = road.axis().Bulge(panel) + kSample_m;
+  const double more = road.axis().Bulge(panel) + kSampleMargin_m;
   return {std::max(most_right, most_left) + more, most_right + more, most_left + more};
 }
 
@@ -121,7 +120,7 @@ EdgeHeights HeightsOfEdges(const network::Road& road, double from_s_m, double to
     }
     last = z;
   }
-  return {low - most - kSample_m, high + most + kSample_m};
+  return {low - most - kSampleMargin_m, high + most + kSampleMargin_m};
 }
 
 EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& panel, const Stretch& stretch,

@@ -21,6 +21,9 @@ struct EdgesAside {
 };
 EdgesAside EdgesBeside(const network::Road& road, const geometry::AxisPanel& panel);
 
+// Added to distances and heights that are found from samples, for what lies between the samples.
+inline constexpr double kSampleMargin_m = 1e-3;
+
 // The lowest and the highest that a road's edges are between two stations, and some room for what lies between the
 // samples.
 struct EdgeHeights {

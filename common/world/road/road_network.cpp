@@ -31,7 +31,7 @@ std::vector<geometry::PlanElement> Elements(const Road& road) {
   return elements;
 }
 
-network::LateralProfile Lateral(const Road& road) {
+network::LateralProfile LateralProfileOf(const Road& road) {
   std::vector<Cubic> records;
   for (const Band& band : road.section().bands())
     records.push_back({band.from_t_m, band.from_z_m, band.slope, 0.0, 0.0});
@@ -86,7 +86,7 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
   spec.left_hand = std::all_of(road.lanes().begin(), road.lanes().end(),
                                [](const Lane& lane) { return lane.direction == (lane.id > 0 ? 1 : -1); });
   spec.elevation = design::Elevation(road.profile(), road.length_m());
-  spec.lateral = Lateral(road);
+  spec.lateral = LateralProfileOf(road);
   spec.earthwork = network::Earthwork{road.section().spec().blend_m};
   network::LaneSection section;
   section.left = Side(road.section(), true, spec.left_hand, friction);

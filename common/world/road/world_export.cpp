@@ -72,7 +72,7 @@ std::string Strips(const std::vector<network::SurfaceStrip>& strips, int sign) {
   return text;
 }
 
-std::string Lateral(const network::RoadSpec& spec) {
+std::string LateralText(const network::RoadSpec& spec) {
   std::string text = "<lateralProfile>\n" + Cubics("superelevation", spec.superelevation);
   for (const network::Shape& shape : spec.lateral.shapes) {
     for (const geometry::Cubic& c : shape.height.records()) {
@@ -236,7 +236,7 @@ std::string RoadText(const network::Road& road, const NameOf& name_of) {
                       LinkText("successor", spec.successor));
   text += Types(spec) + PlanView(road) + "<elevationProfile>\n" + Cubics("elevation", spec.elevation) +
           "</elevationProfile>\n";
-  return text + Lateral(spec) + LanesText(road) + Furniture(spec) + Surface(spec, road.length_m(), name_of) +
+  return text + LateralText(spec) + LanesText(road) + Furniture(spec) + Surface(spec, road.length_m(), name_of) +
          "</road>\n";
 }
 

@@ -10,7 +10,7 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kStep_m = 1.0;
+constexpr double kOutlineStep_m = 1.0;
 constexpr double kSharpest = 0.95;    // curvature times the half width on the inner side
 constexpr double kNearerBy_m = 1e-6;  // what a projection may err, generously
 constexpr double kCapStep_rad = 0.05;
@@ -41,7 +41,7 @@ struct OutlinePoint {
 
 std::vector<OutlinePoint> Outline(const Road& road) {
   std::vector<OutlinePoint> points;
-  const int steps = static_cast<int>(std::ceil(road.length_m() / kStep_m));
+  const int steps = static_cast<int>(std::ceil(road.length_m() / kOutlineStep_m));
   for (int i = 0; i <= steps; ++i) {
     const double s = road.length_m() * i / steps;
     for (const double t : {road.section().blend_left_m(), road.section().blend_right_m()}) {

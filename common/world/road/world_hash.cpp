@@ -8,7 +8,7 @@
 namespace rodeira::road {
 namespace {
 
-class Canonical {
+class CanonicalWorldWriter {
  public:
   void Put(double value) { out_.Put(value + 0.0); }  // -0 is 0
   void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
@@ -25,7 +25,7 @@ class Canonical {
   base::ByteWriter out_;
 };
 
-void PutSection(Canonical& canonical, const SectionSpec& section) {
+void PutSection(CanonicalWorldWriter& canonical, const SectionSpec& section) {
   canonical.Put(section.lanes.size());
   for (const Lane& lane : section.lanes) canonical.PutAll(lane.id, lane.direction, lane.width_m, lane.speed_limit_mps);
   canonical.PutAll(section.fall_left, section.fall_right, section.surface);
@@ -35,7 +35,7 @@ void PutSection(Canonical& canonical, const SectionSpec& section) {
   canonical.PutAll(section.verge.width_m, section.verge.fall, section.verge.surface, section.blend_m);
 }
 
-void PutRoad(Canonical& canonical, const RoadSpec& road) {
+void PutRoadSpec(CanonicalWorldWriter& canonical, const RoadSpec& road) {
   canonical.PutAll(road.start_W.x(), road.start_W.y(), road.heading_rad, road.pieces.size());
   for (const geometry::PlanPiece& piece : road.pieces) {
     canonical.PutAll(piece.length_m, piece.curvature_start_1pm, piece.curvature_end_1pm);
@@ -50,7 +50,7 @@ void PutRoad(Canonical& canonical, const RoadSpec& road) {
 }
 
 // What is run into is part of a world.
-void PutStanding(Canonical& canonical, const network::Standing& standing) {
+void PutStanding(CanonicalWorldWriter& canonical, const network::Standing& standing) {
   canonical.PutAll(7, standing.objects.size(), standing.things.size(), standing.runs.size());
   for (const network::Object& object : standing.objects) {
     canonical.out().PutString(object.subtype);
@@ -67,10 +67,10 @@ void PutStanding(Canonical& canonical, const network::Standing& standing) {
 }  // namespace
 
 base::Digest ContentHash(const WorldSpec& spec) {
-  Canonical canonical;
+  CanonicalWorldWriter canonical;
   canonical.out().PutString("rodeira world/1");
   canonical.Put(spec.roads.size());
-  for (const RoadSpec& road : spec.roads) PutRoad(canonical, road);
+  for (const RoadSpec& road : spec.roads) PutRoadSpec(canonical, road);
   if (spec.grid != nullptr) {
     const terrain::ElevationGrid::Frame& frame = spec.grid->frame();
     canonical.PutAll(1, frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m);

@@ -17,8 +17,8 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kPicture = 1000.0;  // the longer edge, in SVG units
-constexpr int kTiles = 160;          // shaded squares and contour cells along that edge
+constexpr double kWorldPlotSize = 1000.0;  // the longer edge, in SVG units
+constexpr int kTiles = 160;                // shaded squares and contour cells along that edge
 
 // Heights seen through a raster of points, and the way from world to picture.
 struct View {
@@ -38,7 +38,7 @@ struct View {
 };
 
 // A plane has no edge: the picture then shows the roads, or 100 m about the start.
-Extents Frame(const World& world) {
+Extents PlotExtents(const World& world) {
   Extents extents = world.extents();
   if (world.grid() != nullptr) return extents;
   extents = {world.start().x_m - 100.0, world.start().y_m - 100.0, world.start().x_m + 100.0,
@@ -63,10 +63,15 @@ Extents Frame(const World& world) {
 }
 
 View Look(const World& world) {
-  View view{
-      Frame(world), 0.0, 0, 0, {}, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  View view{PlotExtents(world),
+            0.0,
+            0,
+            0,
+            {},
+            std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity()};
   const double width = view.extents.east_m - view.extents.west_m, height = view.extents.north_m - view.extents.south_m;
-  view.scale = kPicture / std::max(width, height);
+  view.scale = kWorldPlotSize / std::max(width, height);
   view.columns = std::max(1, static_cast<int>(kTiles * width / std::max(width, height)));
   view.rows = std::max(1, static_cast<int>(kTiles * height / std::max(width, height)));
   for (int row = 0; row <= view.rows; ++row) {
@@ -274,7 +279,7 @@ std::string Roads(const World& world, const View& view) {
 }
 
 // What stands at no road: trees and bushes as wide as they are, other things as they lie, walls and rails as lines.
-std::string Standing(const World& world, const View& view) {
+std::string StaticObjectsSvg(const World& world, const View& view) {
   if (world.standing() == nullptr) return "";
   std::string svg;
   for (const network::Standing::Thing& thing : world.standing()->things) {
@@ -317,7 +322,7 @@ std::string PlotWorld(const World& world) {
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n" + Shades(view);
   svg += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"#5a4630\" stroke-opacity=\"0.45\" stroke-width=\"0.6\"/>\n",
                      Contours(view, step));
-  svg += Standing(world, view) + Roads(world, view);
+  svg += StaticObjectsSvg(world, view) + Roads(world, view);
   const double sx = view.X(world.start().x_m), sy = view.Y(world.start().y_m);
   svg += fmt::format(
       "<path d=\"M0 0L-11 5L-11 -5Z\" fill=\"#c02020\" transform=\"translate({:.1f} {:.1f}) rotate({:.1f})\"/>\n", sx,

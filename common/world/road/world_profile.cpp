@@ -27,7 +27,7 @@ struct Curve {
 
 std::string Number(double value) { return fmt::format("{:.4g}", value + 0.0); }
 
-std::string Escaped(std::string_view text) {
+std::string EscapedName(std::string_view text) {
   std::string out;
   for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
   return out;
@@ -92,7 +92,7 @@ std::string Radii(const network::Network& network, const RoadChain& chain, doubl
 }
 
 // The slope across beside the axis, rising to the left positive.
-double Across(const network::Road& road, double s_m, double aside_m) {
+double CrossSlope_percent(const network::Road& road, double s_m, double aside_m) {
   const network::SurfaceSample sample = road.Surface(s_m, road.CentreAt(s_m).value + aside_m);
   return 100.0 * sample.dt_W.z() / sample.dt_W.head<2>().norm();
 }
@@ -110,12 +110,12 @@ std::string Profile(const World& world, const RoadChain& chain, double top) {
     terrain.values.push_back(ground.inside ? ground.z_m : std::numeric_limits<double>::quiet_NaN());
     grade.values.push_back(100.0 * z.slope);
     curvature.values.push_back(at.curvature_1pm);
-    left.values.push_back(Across(*road, s, 1.0));
-    right.values.push_back(Across(*road, s, -1.0));
+    left.values.push_back(CrossSlope_percent(*road, s, 1.0));
+    right.values.push_back(CrossSlope_percent(*road, s, -1.0));
   }
   const auto place = [top](int k) { return top + 20.0 + k * (kHeight + kGap); };
   std::string svg = fmt::format("<text x='{}' y='{}' font-size='14'>road {}, {:.1f} m</text>\n", kLeft, top,
-                                Escaped(chain.name), chain.length_m);
+                                EscapedName(chain.name), chain.length_m);
   svg += Diagram(place(0), "height in m: axis (red), terrain under it (green)", {axis, terrain});
   svg += Diagram(place(1), "grade in %, uphill positive", {grade});
   svg += Diagram(place(2), "curvature in 1/m, to the left positive; radii of arcs in m", {curvature}) +

@@ -16,7 +16,6 @@ namespace {
 constexpr double kSharpest_rad = 0.5 * geometry::kPi;
 constexpr double kGapRefused = 1e-2;  // of the length
 constexpr double kGapTold = 1e-4;
-constexpr double kUneven = 1e-3;  // of the increment: points given by x and y
 
 class Builder {
  public:
@@ -101,7 +100,7 @@ class Builder {
     } else if (columns_.x >= 0) {
       for (std::size_t row = 1; row < table_.rows; ++row) {
         const Eigen::Vector2d step = Point(row) - Point(row - 1);
-        if (!(std::fabs(step.norm() - step_m_) <= kUneven * step_m_)) {
+        if (!(std::fabs(step.norm() - step_m_) <= kIncrementTolerance * step_m_)) {
           return Wrong(
               fmt::format("the reference line goes {:.6g} m from row {} to the next; REFERENCE_LINE_INCREMENT says {}",
                           step.norm(), row, step_m_));

@@ -11,7 +11,6 @@ namespace rodeira::surface {
 namespace {
 
 constexpr double kNarrowest_m = 1e-6;  // of two sections
-constexpr double kUneven = 1e-3;       // of the increment
 
 class ColumnFinder {
  public:
@@ -106,7 +105,7 @@ class ColumnFinder {
     if (road_.v_right_m && road_.v_left_m) {
       right = *road_.v_right_m;
       step = (*road_.v_left_m - right) / cells;
-      if (road_.v_increment_m && std::fabs(step - *road_.v_increment_m) > kUneven * step) {
+      if (road_.v_increment_m && std::fabs(step - *road_.v_increment_m) > kIncrementTolerance * step) {
         return Wrong(
             fmt::format("{} long sections from v = {} to {} lie {:.6g} m apart; LONG_SECTION_V_INCREMENT says {}",
                         v.size(), right, *road_.v_left_m, step, *road_.v_increment_m));

@@ -11,6 +11,9 @@
 
 namespace rodeira::surface {
 
+// Share of the increment by which the distance of two rows or long sections may differ from it.
+inline constexpr double kIncrementTolerance = 1e-3;
+
 // Which column of the numbers holds what; -1: none does.
 struct CrgColumns {
   int heading = -1, x = -1, y = -1, slope = -1, banking = -1;

@@ -28,7 +28,7 @@ void Modifier(CrgHeader& header, double value) {
 using R = CrgRoadKeys;
 using M = CrgModifiers;
 
-constexpr CrgKey kRoad[] = {
+constexpr CrgKey kRoadKeys[] = {
     {"reference_line_start_u", -kFar, kFar, Road<&R::start_u_m>},
     {"reference_line_start_x", -kFar, kFar, Road<&R::start_x_m>},
     {"reference_line_start_y", -kFar, kFar, Road<&R::start_y_m>},
@@ -59,7 +59,7 @@ constexpr CrgKey kRoad[] = {
     {"reference_line_end_alt"},
 };
 
-constexpr CrgKey kOption[] = {
+constexpr CrgKey kOptionKeys[] = {
     {"border_mode_u", 0.0, 4.0, Border<&CrgOptions::border_u>, true},
     {"border_mode_v", 0.0, 4.0, Border<&CrgOptions::border_v>, true},
     {"border_offset_u", -kFar, kFar, Option<&CrgOptions::offset_u_m>},
@@ -87,7 +87,7 @@ constexpr CrgKey kOption[] = {
     {"check_tol"},
 };
 
-constexpr CrgKey kModifier[] = {
+constexpr CrgKey kModifierKeys[] = {
     {"scale_z_grid", -1e6, 1e6, Modifier<&M::scale_height>},
     {"scale_slope", -1e6, 1e6, Modifier<&M::scale_slope>},
     {"scale_banking", -1e6, 1e6, Modifier<&M::scale_banking>},
@@ -117,8 +117,8 @@ constexpr CrgKey kModifier[] = {
 
 }  // namespace
 
-std::span<const CrgKey> CrgRoadKeyTable() { return kRoad; }
-std::span<const CrgKey> CrgOptionTable() { return kOption; }
-std::span<const CrgKey> CrgModifierTable() { return kModifier; }
+std::span<const CrgKey> CrgRoadKeyTable() { return kRoadKeys; }
+std::span<const CrgKey> CrgOptionTable() { return kOptionKeys; }
+std::span<const CrgKey> CrgModifierTable() { return kModifierKeys; }
 
 }  // namespace rodeira::surface

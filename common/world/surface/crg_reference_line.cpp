@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kLeaf = 8;     // segments
 constexpr double kStraight = 1e-12;  // of the length: what the points of a straight line may lie beside it
-constexpr double kEven = 1e-12;
+constexpr double kNearZero = 1e-12;
 
 Eigen::Vector2d LeftOf(const Eigen::Vector2d& direction) { return {-direction.y(), direction.x()}; }
 
@@ -26,7 +26,7 @@ CrgReferenceLine::CrgReferenceLine(double begin_u_m, double step_m, std::vector<
   straight_ = true;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const Eigen::Vector2d even = points_.front() + whole * (static_cast<double>(i) / static_cast<double>(segments()));
-    straight_ = straight_ && (points_[i] - even).norm() <= kStraight * length + kEven;
+    straight_ = straight_ && (points_[i] - even).norm() <= kStraight * length + kNearZero;
   }
   if (!straight_) BuildTree(0, segments());
 }
@@ -137,7 +137,7 @@ CrgFoot CrgReferenceLine::Project(double x_m, double y_m) const {
   foot.v_slope_W = LeftOf(along.normalized());
   foot.v_m = (p - points_[i]).dot(foot.v_slope_W);
   const double sum = from_begin + to_end;
-  if (sum > kEven) {  // otherwise the crossing lines meet here: any u is as good
+  if (sum > kNearZero) {  // otherwise the crossing lines meet here: any u is as good
     foot.u_m = begin_u_m_ + step_m_ * (static_cast<double>(i) + std::clamp(from_begin / sum, 0.0, 1.0));
     foot.u_slope_W = step_m_ * (to_end * to_begin_slope - from_begin * to_end_slope) / (sum * sum);
   } else {

@@ -9,8 +9,8 @@
 namespace rodeira::surface {
 namespace {
 
-constexpr double kEven = 1e-9;          // m: sections count as evenly spaced
-constexpr double kClosingCosine = 0.5;  // of 60 degrees
+constexpr double kEvenSpacing_m = 1e-9;  // sections count as evenly spaced
+constexpr double kClosingCosine = 0.5;   // of 60 degrees
 constexpr double kParallel = 1e-9;
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -29,7 +29,7 @@ CrgSurface::CrgSurface(CrgShape shape) : shape_(std::move(shape)) {
   RODEIRA_ASSERT(shape_.heights.size() == rows() * sections && shape_.banking.size() == rows());
   v_step_m_ = (shape_.v_m.back() - shape_.v_m.front()) / static_cast<double>(sections - 1);
   for (std::size_t i = 0; i < sections; ++i) {
-    if (std::fabs(shape_.v_m.front() + static_cast<double>(i) * v_step_m_ - shape_.v_m[i]) > kEven) {
+    if (std::fabs(shape_.v_m.front() + static_cast<double>(i) * v_step_m_ - shape_.v_m[i]) > kEvenSpacing_m) {
       v_step_m_ = 0.0;
       break;
     }

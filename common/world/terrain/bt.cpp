@@ -12,7 +12,7 @@
 namespace rodeira::terrain {
 namespace {
 
-constexpr int kMostPosts = 100'000;  // along one edge
+constexpr int kMaxEdgePosts = 100'000;  // along one edge
 
 template <class T>
 T At(std::span<const std::byte> bytes, std::size_t offset) {
@@ -53,9 +53,9 @@ void ParseLater(std::span<const std::byte> bytes, BtHeader& header) {
 }
 
 base::Status Check(const BtHeader& header) {
-  if (header.columns < 2 || header.rows < 2 || header.columns > kMostPosts || header.rows > kMostPosts) {
+  if (header.columns < 2 || header.rows < 2 || header.columns > kMaxEdgePosts || header.rows > kMaxEdgePosts) {
     return base::WrongInput(fmt::format("the .bt header says {} columns and {} rows; 2 to {} of each were expected",
-                                        header.columns, header.rows, kMostPosts));
+                                        header.columns, header.rows, kMaxEdgePosts));
   }
   if (!(header.bytes_a_post == 4 || (header.bytes_a_post == 2 && !header.floating))) {
     return base::WrongInput(

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostPosts = 400'000'000;  // 1.6 GB of heights
+constexpr std::uint64_t kMaxGridPosts = 400'000'000;  // 1.6 GB of heights
 
 // Drivers that are not asked. A file is read, and nothing else: these call a server, log in to a database, or read what
 // the file only names, among which are addresses of servers, pieces of programs and places in memory.
@@ -210,8 +210,8 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
         path.string());
   }
   if (static_cast<std::uint64_t>(dataset->GetRasterXSize()) * static_cast<std::uint64_t>(dataset->GetRasterYSize()) >
-      kMostPosts) {
-    return base::WrongInput(fmt::format("the grid has more than {} heights", kMostPosts), path.string());
+      kMaxGridPosts) {
+    return base::WrongInput(fmt::format("the grid has more than {} heights", kMaxGridPosts), path.string());
   }
   auto projection = ReadProjection(path, start.value().gzipped, *dataset);
   if (!projection) return projection.error();

@@ -8,7 +8,7 @@
 namespace rodeira::traffic_map {
 namespace {
 
-std::string NameOf(const Finding& finding) {
+std::string ElementName(const Finding& finding) {
   switch (finding.element) {
     case Element::kCurve:
       return fmt::format("curve {}", finding.number);
@@ -32,7 +32,7 @@ std::string NameOf(const Finding& finding) {
 
 }  // namespace
 
-std::string Finding::Text() const { return NameOf(*this) + ": " + sentence; }
+std::string Finding::Text() const { return ElementName(*this) + ": " + sentence; }
 
 std::string Finding::Place(const std::string& file) const {
   const bool beside = element == Element::kHeights || element == Element::kLights || element == Element::kSign ||

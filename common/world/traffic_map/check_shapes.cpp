@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/core/base/constants.hpp"
 #include "common/world/traffic_map/check_rules.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/picture.hpp"
@@ -12,7 +13,7 @@
 namespace rodeira::traffic_map {
 namespace {
 
-constexpr double kShortest_m = 0.01;  // of a curve
+constexpr double kMinCurve_m = 0.01;
 constexpr double kNarrowest_m = 1.5;  // of a lane: the narrowest car
 constexpr double kWidest_m = 12.0;
 constexpr double kWidestGap_m =
@@ -21,7 +22,6 @@ constexpr double kSharpestKink_rad = 0.1;
 constexpr double kHighestStep_m = 0.02;
 constexpr double kSteepest = 0.2;
 constexpr int kSamples = 32;  // along a lane
-constexpr double kDegree = 180.0 / 3.14159265358979323846;
 
 std::vector<std::optional<LaneShape>> ShapesOf(const MapFile& map, const Heights& heights) {
   std::vector<std::optional<LaneShape>> shapes(map.lanes.size());
@@ -32,7 +32,7 @@ std::vector<std::optional<LaneShape>> ShapesOf(const MapFile& map, const Heights
     if (!left || !right || left == right) continue;
     const LaneShape shape(BorderOf(lane.left, map.curves[*left].value, heights),
                           BorderOf(lane.right, map.curves[*right].value, heights));
-    if (shape.left().plan.PolygonLength() < kShortest_m || shape.right().plan.PolygonLength() < kShortest_m) continue;
+    if (shape.left().plan.PolygonLength() < kMinCurve_m || shape.right().plan.PolygonLength() < kMinCurve_m) continue;
     shapes[i] = shape;
   }
   return shapes;
@@ -84,7 +84,7 @@ bool CheckLane(const Line<Lane>& line, const LaneShape& shape, Findings& finding
     return refuse(fmt::format("its curves {} and {} run against each other; {}", line.value.left.curve,
                               line.value.right.curve, Turned(line.value)));
   }
-  if (shape.length_m() < kShortest_m) return refuse("it has no length");
+  if (shape.length_m() < kMinCurve_m) return refuse("it has no length");
   const Worst worst = Sample(shape);
   if (worst.widest_m < 0.0) {
     return refuse(
@@ -119,7 +119,8 @@ void CheckJoint(const Line<Connection>& line, const LaneShape& from, const LaneS
                              "it begins; at most {:.2f} m are closed",
                              gap, kWidestGap_m));
   if (kink > kSharpestKink_rad)
-    findings.Add(Severity::kWarning, line, fmt::format("the direction jumps by {:.1f} degrees", kink * kDegree));
+    findings.Add(Severity::kWarning, line,
+                 fmt::format("the direction jumps by {:.1f} degrees", kink * base::kDegreesPerRadian));
   if (std::abs(step) > kHighestStep_m)
     findings.Add(Severity::kWarning, line, fmt::format("the height jumps by {:.3f} m", step));
 }
@@ -149,7 +150,7 @@ void CheckPicture(const MapFile& map, Findings& findings) {
 void CheckShapes(const MapFile& map, const Heights& heights, Findings& findings) {
   for (const auto& line : map.curves) {
     const Cubic cubic = BorderOf({}, line.value, heights).plan;
-    if (cubic.PolygonLength() < kShortest_m)
+    if (cubic.PolygonLength() < kMinCurve_m)
       findings.Add(Severity::kError, line, "it is empty: its four points coincide");
   }
   std::vector<std::optional<LaneShape>> shapes = ShapesOf(map, heights);

@@ -9,7 +9,7 @@
 namespace rodeira::traffic_map {
 namespace {
 
-constexpr double kShortest_m = 0.05;
+constexpr double kMinPiece_m = 0.05;
 constexpr int kPlaces = 10;  // where a piece is compared with its lane
 
 double Value(const Cubic1& c, double d) { return c[0] + d * (c[1] + d * (c[2] + d * c[3])); }
@@ -74,13 +74,13 @@ DriveError Compare(const LaneShape& lane, const DrivePiece& piece) {
 
 // How far the curve's own length is from the piece's.
 double LengthOff(const DrivePiece& piece) {
-  constexpr int kParts = 32;  // Simpson's rule
+  constexpr int kIntervals = 32;  // Simpson's rule
   double sum = 0.0;
-  for (int i = 0; i <= kParts; ++i) {
-    const double d = piece.length_m * i / kParts;
-    sum += (i == 0 || i == kParts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * std::hypot(Rate(piece.u, d), Rate(piece.v, d));
+  for (int i = 0; i <= kIntervals; ++i) {
+    const double d = piece.length_m * i / kIntervals;
+    sum += (i == 0 || i == kIntervals ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * std::hypot(Rate(piece.u, d), Rate(piece.v, d));
   }
-  return std::fabs(sum * piece.length_m / (3.0 * kParts) - piece.length_m);
+  return std::fabs(sum * piece.length_m / (3.0 * kIntervals) - piece.length_m);
 }
 
 }  // namespace
@@ -101,7 +101,7 @@ base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from
     const DrivePiece piece = Fit(lane, s, ends.back());
     const DriveError off = Compare(lane, piece);
     if (!(off.Most() <= bounds.off_m) || LengthOff(piece) > bounds.length_m) {
-      if (piece.length_m < kShortest_m)
+      if (piece.length_m < kMinPiece_m)
         return base::WrongInput(
             fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
       ends.push_back(0.5 * (s + ends.back()));

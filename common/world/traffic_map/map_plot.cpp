@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/core/base/constants.hpp"
 #include "common/world/traffic_map/border_paint.hpp"
 
 namespace rodeira::traffic_map {
@@ -73,7 +74,7 @@ std::string DrawLane(const MapLane& lane, const Paper& paper) {
 std::string DrawName(const MapLane& lane, const Paper& paper) {
   const LanePoint at = lane.shape.At(0.5 * lane.shape.length_m());
   const double size = std::clamp(0.3 * at.width_m() * paper.scale, 3.0, 9.0);
-  const double degrees = -std::atan2(at.tangent_W.y(), at.tangent_W.x()) * 180.0 / 3.14159265358979323846;
+  const double degrees = -std::atan2(at.tangent_W.y(), at.tangent_W.x()) * 180.0 / base::kPi;
   std::string svg = fmt::format(
       "<path d=\"M{0:.1f} 0L-{0:.1f} {1:.1f}L-{0:.1f} -{1:.1f}Z\" fill=\"#f2c84b\" transform=\"translate({2}) "
       "rotate({3:.1f})\"/>\n",

@@ -5,6 +5,6 @@
 
 namespace rodeira::cli {
 
-int Edit(const EditOptions& options) { return nodes::RunDesk(options.file); }
+int Edit(const EditOptions& options) { return nodes::RunEditor(options.file); }
 
 }  // namespace rodeira::cli

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "common/core/base/print_error.hpp"
 #include "common/data/csv/export.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
@@ -15,10 +16,10 @@ namespace rodeira::cli {
 namespace {
 
 // What is done, on a terminal and after two seconds.
-class Progress {
+class ExportProgress {
  public:
-  explicit Progress(bool quiet) : quiet_(quiet || ::isatty(STDERR_FILENO) == 0) {}
-  ~Progress() {
+  explicit ExportProgress(bool quiet) : quiet_(quiet || ::isatty(STDERR_FILENO) == 0) {}
+  ~ExportProgress() {
     if (shown_) fmt::print(stderr, "\r\033[K");
   }
   bool Show(double share) {
@@ -42,13 +43,10 @@ int Export(const ExportOptions& options) {
   const auto reader = record::McapReader::Open(options.recording);
   const auto report = [&]() -> base::Result<csv::ExportReport> {
     if (!reader) return reader.error();
-    Progress progress(options.quiet);
+    ExportProgress progress(options.quiet);
     return csv::ExportCsv(reader.value(), options.csv, [&progress](double share) { return progress.Show(share); });
   }();
-  if (!report) {
-    fmt::print(stderr, "rodeira: {}\n", report.error().Text());
-    return report.error().exit_status();
-  }
+  if (!report) return base::PrintError("rodeira", report.error());
   if (!options.quiet) {
     constexpr const char* kLine = "{:<24}  {:<24}  {:>9}  {:>9}  {:>10}\n";
     fmt::print(kLine, "table", "topic", "samples", "rows", "size");

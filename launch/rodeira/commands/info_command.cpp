@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <set>
 
+#include "common/core/base/print_error.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/repair.hpp"
 #include "launch/rodeira/replay/recording_audit.hpp"
@@ -51,10 +51,7 @@ void PrintWhatIsEmbedded(const record::McapReader& in) {
 
 int Info(const std::string& file) {
   const auto reader = record::McapReader::Open(file);
-  if (!reader) {
-    fmt::print(stderr, "rodeira: {}\n", reader.error().Text());
-    return reader.error().exit_status();
-  }
+  if (!reader) return base::PrintError("rodeira", reader.error());
   const auto& in = reader.value();
   const RecordingAudit audit = Audit(in);
   PrintWhatItIs(in, file);

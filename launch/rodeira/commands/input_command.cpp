@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "common/core/base/print_error.hpp"
 #include "launch/rodeira/commands/wheel_wizard.hpp"
 #include "launch/rodeira/interrupt.hpp"
 
@@ -15,17 +16,12 @@ namespace {
 
 constexpr double kTick_s = 0.01;
 
-int Refuse(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
 }  // namespace
 
 int SetUpInput(const InputOptions& options, const std::function<void(const std::string&)>& say,
                const std::function<bool()>& wait) {
   auto begun = WheelWizard::Begin();
-  if (!begun) return Refuse(begun.error());
+  if (!begun) return base::PrintError("rodeira", begun.error());
   WheelWizard& wizard = *begun.value();
   for (const nodes::JoystickInfo& info : wizard.devices())
     say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
@@ -37,11 +33,11 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
       said_prompt = wizard.prompt();
       say(fmt::format("{}. {}", wizard.number(), said_prompt));
     }
-    if (!wait()) return Refuse(base::Failed("the setup was broken off; nothing was written"));
-    if (const auto went = wizard.Step(kTick_s); !went) return Refuse(went.error());
+    if (!wait()) return base::PrintError("rodeira", base::Failed("the setup was broken off; nothing was written"));
+    if (const auto went = wizard.Step(kTick_s); !went) return base::PrintError("rodeira", went.error());
   }
   const auto file = wizard.Write(options.out, options.lock_deg);
-  if (!file) return Refuse(file.error());
+  if (!file) return base::PrintError("rodeira", file.error());
   say(fmt::format("written: {}", file.value().string()));
   say(options.out ? fmt::format("drive with it: rodeira run launch/wheel.yaml --set nodes.driver.config.wheel={}",
                                 file.value().string())

@@ -9,17 +9,17 @@
 #include <cstdio>
 #include <thread>
 
+#include "common/core/base/print_error.hpp"
 #include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
 
-using WallClock = std::chrono::steady_clock;
-
 constexpr double kMoved = 655.0;  // a hundredth of an axis' whole way
 
-void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected,
-           std::optional<double> duration_s) {
+void PrintMoves(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected,
+                std::optional<double> duration_s) {
   CatchInterrupts();
   std::vector<std::string> guids;
   for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
@@ -27,8 +27,7 @@ void Watch(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& 
   std::vector<input_devices::DeviceReading> before;
   for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
   const auto begin = WallClock::now();
-  while (!Interrupted() &&
-         (!duration_s || std::chrono::duration<double>(WallClock::now() - begin).count() < *duration_s)) {
+  while (!Interrupted() && (!duration_s || SecondsSince(begin) < *duration_s)) {
     joysticks.Update();
     for (std::size_t place = 0; place < guids.size(); ++place) {
       fmt::print("{}", JoystickMoves(connected[place].name, before[place], joysticks.reading(place)));
@@ -73,16 +72,13 @@ std::string JoystickMoves(const std::string& device, input_devices::DeviceReadin
 
 int ListJoysticks(const JoysticksOptions& options) {
   auto joysticks = nodes::Joysticks::Start();
-  if (!joysticks) {
-    fmt::print(stderr, "rodeira: {}\n", joysticks.error().Text());
-    return joysticks.error().exit_status();
-  }
+  if (!joysticks) return base::PrintError("rodeira", joysticks.error());
   joysticks.value()->Update();
   const auto connected = joysticks.value()->Connected();
   fmt::print("{}", JoystickTable(connected));
   if (!options.watch || connected.empty()) return 0;
   fmt::print("move or press one thing at a time; Ctrl-C ends\n");
-  Watch(*joysticks.value(), connected, options.duration_s);
+  PrintMoves(*joysticks.value(), connected, options.duration_s);
   return 0;
 }
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/traffic/map_lights.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/map_network.hpp"
@@ -19,11 +20,6 @@
 
 namespace rodeira::cli {
 namespace {
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 // What only a network of the map shows: a shape that no road can have, lights that are green together where ways cross.
 std::optional<traffic_map::Finding> CheckDriven(const traffic_map::MapFile& file, const traffic_map::Heights& companion,
@@ -38,11 +34,11 @@ std::optional<traffic_map::Finding> CheckDriven(const traffic_map::MapFile& file
   return traffic::LightsTogether(made.value(), companion, *network.value());
 }
 
-int Check(const std::string& path) {
+int CheckMapFile(const std::string& path) {
   const auto file = traffic_map::LoadMap(path);
-  if (!file) return Complain(file.error());
+  if (!file) return base::PrintError("rodeira", file.error());
   const auto heights = traffic_map::LoadHeightsOf(path);
-  if (!heights) return Complain(heights.error());
+  if (!heights) return base::PrintError("rodeira", heights.error());
   auto findings = traffic_map::CheckMap(file.value(), heights.value());
   const bool whole = std::none_of(findings.begin(), findings.end(), [](const traffic_map::Finding& finding) {
     return finding.severity == traffic_map::Severity::kError;
@@ -64,22 +60,25 @@ int Convert(const MapOptions& options) {
   const std::filesystem::path out = options.out, from = options.file;
   const std::string kind = out.extension();
   if (kind != ".svg" && kind != ".xodr" && kind != ".yaml") {
-    return Complain(base::WrongInput(
-        fmt::format("the file's name ends with '{}'; .svg, .xodr or, for a world, .yaml was expected", kind),
-        options.out));
+    return base::PrintError(
+        "rodeira",
+        base::WrongInput(
+            fmt::format("the file's name ends with '{}'; .svg, .xodr or, for a world, .yaml was expected", kind),
+            options.out));
   }
   const auto made = traffic_map::LoadLaneMap(options.file);
-  if (!made) return Complain(made.error());
+  if (!made) return base::PrintError("rodeira", made.error());
   if (kind == ".svg") {
     if (auto status = base::WriteWhole(out, traffic_map::PlotMap(made.value())); !status)
-      return Complain(status.error());
+      return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }
   const auto written = traffic_map::WriteWorld(made.value(), out, "made of " + from.filename().string());
   if (!written)
-    return Complain(written.error().context.empty() ? base::WrongInput(written.error().message, options.file)
-                                                    : written.error());
+    return base::PrintError("rodeira", written.error().context.empty()
+                                           ? base::WrongInput(written.error().message, options.file)
+                                           : written.error());
   const auto companion = traffic_map::LoadHeightsOf(options.file);
   if (companion && !companion.value().flows.empty()) {
     fmt::print(stderr,
@@ -106,7 +105,7 @@ int Convert(const MapOptions& options) {
 }  // namespace
 
 int MapCommand(const MapOptions& options) {
-  return options.command == "check" ? Check(options.file) : Convert(options);
+  return options.command == "check" ? CheckMapFile(options.file) : Convert(options);
 }
 
 }  // namespace rodeira::cli

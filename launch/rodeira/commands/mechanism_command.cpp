@@ -4,25 +4,17 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/vehicle/multibody/run.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
-double SecondsSince(Clock::time_point from) { return std::chrono::duration<double>(Clock::now() - from).count(); }
-
-void Describe(const multibody::Mechanism& mechanism, const multibody::RunSummary& s, double wall_s) {
+void PrintMechanism(const multibody::Mechanism& mechanism, const multibody::RunSummary& s, double wall_s) {
   const multibody::System& system = *mechanism.system;
   fmt::print("mechanism        {}\n", system.drawing().name.empty() ? "without a name" : system.drawing().name);
   fmt::print("variables        {} ({} degrees of freedom)\n", system.variables(), system.degrees_of_freedom());
@@ -41,10 +33,10 @@ void Describe(const multibody::Mechanism& mechanism, const multibody::RunSummary
 
 int RunMechanismFile(const MechanismOptions& options) {
   auto mechanism = multibody::LoadMechanism(options.file);
-  if (!mechanism) return Complain(mechanism.error());
+  if (!mechanism) return base::PrintError("rodeira", mechanism.error());
   plot::Table table;
   multibody::RunSummary summary;
-  const auto begin = Clock::now();
+  const auto begin = WallClock::now();
   bool shown = false;
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto progress = [&](double share) {
@@ -57,18 +49,19 @@ int RunMechanismFile(const MechanismOptions& options) {
   const double wall_s = SecondsSince(begin);
   if (shown) fmt::print(stderr, "\r     \r");
   if (!status) {
-    if (status.error().code == base::ErrorCode::kWrongInput) return Complain(status.error());
-    return Complain(base::Failed(status.error().message, options.file));
+    if (status.error().code == base::ErrorCode::kWrongInput) return base::PrintError("rodeira", status.error());
+    return base::PrintError("rodeira", base::Failed(status.error().message, options.file));
   }
-  if (!options.quiet) Describe(mechanism.value(), summary, wall_s);
+  if (!options.quiet) PrintMechanism(mechanism.value(), summary, wall_s);
   if (!options.csv.empty()) {
-    if (auto written = base::WriteWhole(options.csv, plot::ToCsv(table)); !written) return Complain(written.error());
+    if (auto written = base::WriteWhole(options.csv, plot::ToCsv(table)); !written)
+      return base::PrintError("rodeira", written.error());
     if (!options.quiet) fmt::print("wrote            {}\n", options.csv);
   }
   if (!options.svg.empty()) {
     const std::string title = mechanism.value().system->drawing().name;
     if (auto written = base::WriteWhole(options.svg, plot::ToSvg(table, title)); !written)
-      return Complain(written.error());
+      return base::PrintError("rodeira", written.error());
     if (!options.quiet) fmt::print("wrote            {}\n", options.svg);
   }
   return 0;

@@ -5,8 +5,9 @@
 
 #include <cstdio>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/files.hpp"
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/core/geometry/polyline_offset.hpp"
 #include "launch/rodeira/commands/world_axis.hpp"
 
@@ -14,11 +15,6 @@ namespace rodeira::cli {
 namespace {
 
 using geometry::Polyline;
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 Eigen::Vector3d Vector(const std::vector<double>& numbers, const Eigen::Vector3d& otherwise) {
   if (numbers.empty()) return otherwise;
@@ -46,7 +42,7 @@ base::Result<Polyline> Made(const std::vector<Polyline>& lines, const PolylineOp
     return geometry::Joined(lines, options.files, {options.within_m, options.bridge, options.turn});
   if (options.command == "translate") return geometry::Translated(line, Vector(options.by_m, Eigen::Vector3d::Zero()));
   if (options.command == "rotate") {
-    return geometry::Rotated(line, options.angle_deg * geometry::kPi / 180.0, Vector(options.about_m, first).head<2>());
+    return geometry::Rotated(line, options.angle_deg * base::kPi / 180.0, Vector(options.about_m, first).head<2>());
   }
   if (options.command == "scale") {
     return geometry::Scaled(line, options.factor, options.z_factor > 0.0 ? options.z_factor : options.factor,
@@ -62,20 +58,20 @@ int Polylines(const PolylineOptions& options) {
   for (const std::string& file : options.files) {
     if (const auto axis = AxisNameOf(file)) {
       auto line = AxisOf(*axis, options.step_m);
-      if (!line) return Complain(line.error());
+      if (!line) return base::PrintError("rodeira", line.error());
       lines.push_back(std::move(line).value());
       continue;
     }
     const auto text = base::ReadText(file);
-    if (!text) return Complain(text.error());
+    if (!text) return base::PrintError("rodeira", text.error());
     auto line = geometry::ReadPolyline(text.value(), file);
-    if (!line) return Complain(line.error());
+    if (!line) return base::PrintError("rodeira", line.error());
     lines.push_back(std::move(line).value());
   }
   const auto made = Made(lines, options);
-  if (!made) return Complain(made.error());
+  if (!made) return base::PrintError("rodeira", made.error());
   if (const auto written = base::WriteWhole(options.out, geometry::PolylineCsv(made.value())); !written) {
-    return Complain(written.error());
+    return base::PrintError("rodeira", written.error());
   }
   fmt::print("wrote {}: {} points, {:.3f} m in plan\n", options.out, made.value().points_W.size(),
              geometry::StationsOf(made.value()).back());

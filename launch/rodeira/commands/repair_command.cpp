@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 
-#include <cstdio>
-
+#include "common/core/base/print_error.hpp"
 #include "common/data/record/repair.hpp"
 #include "common/runtime/replay/repaired_end.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
@@ -16,10 +15,7 @@ int RepairRecording(const std::string& recording, const std::string& out) {
   ::signal(SIGXFSZ, SIG_IGN);
   replay::RepairedEnd end;
   const auto report = record::Repair(recording, out, &end);
-  if (!report) {
-    fmt::print(stderr, "rodeira: {}\n", report.error().Text());
-    return report.error().exit_status();
-  }
+  if (!report) return base::PrintError("rodeira", report.error());
   const auto& done = report.value();
   fmt::print("{}{}  {} of {}\n", done.Text(), out, Size(done.target_bytes), Size(done.source_bytes));
   return 0;

@@ -3,28 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "common/core/base/files.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/world/surface/crg_report.hpp"
 
 namespace rodeira::cli {
-namespace {
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
-}  // namespace
 
 int Surface(const SurfaceOptions& options) {
   const auto file = surface::LoadCrg(options.file);
-  if (!file) return Complain(file.error());
+  if (!file) return base::PrintError("rodeira", file.error());
   fmt::print("file             {}\n{}", options.file, surface::DescribeCrg(file.value()));
   if (options.svg.empty()) return 0;
   if (const auto written = base::WriteWhole(options.svg, surface::PlotCrg(*file.value().surface)); !written) {
-    return Complain(written.error());
+    return base::PrintError("rodeira", written.error());
   }
   fmt::print("wrote            {}\n", options.svg);
   return 0;

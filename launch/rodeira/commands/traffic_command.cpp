@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
 
+#include "common/core/base/print_error.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/map_demand.hpp"
 #include "common/traffic/map_lights.hpp"
@@ -19,20 +19,12 @@
 #include "common/world/road/map_world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double kCell_m = 1.0;  // of the statistics of lanes
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
-double SecondsSince(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 // As the file of settings says; without flows there those of a traffic map's companion.
 base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& options) {
@@ -67,7 +59,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   return settings;
 }
 
-void Describe(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
+void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting,
              r.arrivals);
   fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left,
@@ -100,7 +92,7 @@ struct FlowsSeen {
   std::uint64_t missed = 0;
 };
 
-void Describe(const FlowsSeen& seen) {
+void PrintFlows(const FlowsSeen& seen) {
   for (std::size_t f = 0; f < seen.flows.size(); ++f) {
     fmt::print("flow {:<12}{} arrived, {} of them without a vehicle yet\n", f + 1, seen.flows[f].arrived,
                seen.flows[f].arrived - seen.flows[f].given);
@@ -112,20 +104,20 @@ void Describe(const FlowsSeen& seen) {
 
 int TrafficRun(const TrafficOptions& options) {
   const auto world = road::World::Load(options.map);
-  if (!world) return Complain(world.error());
+  if (!world) return base::PrintError("rodeira", world.error());
   const auto network = traffic::NetworkOf(world.value());
   if (road::IsTrafficMap(options.map)) {
-    if (const auto lit = traffic::CheckLightsOfMap(options.map); !lit) return Complain(lit.error());
+    if (const auto lit = traffic::CheckLightsOfMap(options.map); !lit) return base::PrintError("rodeira", lit.error());
   }
   auto how = HowTrafficIs(options);
-  if (!how) return Complain(how.error());
+  if (!how) return base::PrintError("rodeira", how.error());
   traffic::StudySettings settings;
   settings.traffic = std::move(how).value();
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
   settings.watch_s = std::max(0.1, options.step_s);
   auto opened = TrafficFiles::Open(options, *network);
-  if (!opened) return Complain(opened.error());
+  if (!opened) return base::PrintError("rodeira", opened.error());
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
   settings.warm_s = options.warm_s, settings.every_s = options.every_s;
@@ -135,7 +127,7 @@ int TrafficRun(const TrafficOptions& options) {
       fmt::print(stderr, "rodeira: warning: {}: {}\n", options.map, traffic::Text(bend, graph));
   }
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
-  const auto begin = Clock::now();
+  const auto begin = WallClock::now();
   bool shown = false;
   FlowsSeen flows;
   const auto watch = [&](const traffic::StudyMoment& moment) {
@@ -147,12 +139,12 @@ int TrafficRun(const TrafficOptions& options) {
   };
   const auto result = traffic::RunStudy(settings, world.value(), watch);
   if (shown) fmt::print(stderr, "\r     \r");
-  if (!result) return Complain(result.error());
+  if (!result) return base::PrintError("rodeira", result.error());
   const auto written = files.Close(*network, result.value());
-  if (!written) return Complain(written.error());
+  if (!written) return base::PrintError("rodeira", written.error());
   if (options.quiet) return 0;
-  Describe(options, result.value(), SecondsSince(begin));
-  Describe(flows);
+  PrintStudy(options, result.value(), SecondsSince(begin));
+  PrintFlows(flows);
   for (const std::string& file : written.value()) fmt::print("wrote            {}\n", file);
   return 0;
 }

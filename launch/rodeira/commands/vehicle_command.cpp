@@ -8,15 +8,11 @@
 #include <filesystem>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 
 namespace rodeira::cli {
 namespace {
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 base::Result<std::vector<const manoeuvres::Manoeuvre*>> Chosen(const VehicleOptions& options) {
   std::vector<const manoeuvres::Manoeuvre*> chosen;
@@ -63,9 +59,9 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
 
 int TestVehicle(const VehicleOptions& options) {
   const auto chosen = Chosen(options);
-  if (!chosen) return Complain(chosen.error());
+  if (!chosen) return base::PrintError("rodeira", chosen.error());
   auto car = dynamics::LoadVehicle(options.file);
-  if (!car) return Complain(car.error());
+  if (!car) return base::PrintError("rodeira", car.error());
   const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   int status = 0;
   for (const manoeuvres::Manoeuvre* manoeuvre : chosen.value()) {
@@ -74,13 +70,14 @@ int TestVehicle(const VehicleOptions& options) {
     if (shown) fmt::print(stderr, "\r\033[K");
     if (!options.quiet) fmt::print("{}: {}\n", manoeuvre->name, manoeuvre->what);
     if (!outcome) {
-      status = Complain(base::Error{outcome.error().code, outcome.error().Text(), manoeuvre->name});
+      status = base::PrintError("rodeira", base::Error{outcome.error().code, outcome.error().Text(), manoeuvre->name});
       continue;
     }
     for (const manoeuvres::Figure& figure : outcome.value().figures) {
       if (!options.quiet) fmt::print("  {:<36} {:>10.3f} {}\n", figure.name, figure.value, figure.unit);
     }
-    if (auto written = Write(options, *manoeuvre, outcome.value().table); !written) return Complain(written.error());
+    if (auto written = Write(options, *manoeuvre, outcome.value().table); !written)
+      return base::PrintError("rodeira", written.error());
   }
   if (!options.quiet && !options.out.empty()) fmt::print("wrote {}\n", options.out);
   return status;

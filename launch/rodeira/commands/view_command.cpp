@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
 #include "launch/rodeira/start_window/start_window.hpp"
 
@@ -55,8 +56,7 @@ int View(const ViewOptions& options) {
   }
   const auto run = RunOf(options);
   if (run) return Run(run.value());
-  fmt::print(stderr, "rodeira: {}\n", run.error().Text());
-  return run.error().exit_status();
+  return base::PrintError("rodeira", run.error());
 }
 
 }  // namespace rodeira::cli

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/files.hpp"
 
 namespace rodeira::cli {
@@ -64,7 +64,7 @@ base::Status WheelWizard::Step(double dt_s) {
 base::Result<std::filesystem::path> WheelWizard::Write(const std::optional<std::filesystem::path>& out,
                                                        double lock_deg) const {
   input_devices::WheelSettings settings = setup_.settings();
-  settings.lock_rad = lock_deg * std::numbers::pi / 180.0;
+  settings.lock_rad = lock_deg * base::kPi / 180.0;
   const std::string& guid = settings.devices[settings.AxisOf(input_devices::WheelAxis::kSteering)->device].guid;
   const auto wheel = std::find_if(connected_.begin(), connected_.end(),
                                   [&](const nodes::JoystickInfo& info) { return info.guid == guid; });

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/world/lanes/lights.hpp"
 #include "common/world/lanes/zones.hpp"
 #include "common/world/road/logical_files.hpp"
@@ -29,11 +30,6 @@
 namespace rodeira::cli {
 namespace {
 
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
 // Lights that are green together where their ways cross, which a run that has traffic refuses. What cannot be read is
 // told elsewhere.
 int CheckLights(const std::string& world_file) {
@@ -45,7 +41,7 @@ int CheckLights(const std::string& world_file) {
     return 0;
   const lanes::Graph graph(*world.value()->network());
   const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
-  return status ? 0 : Complain(status.error());
+  return status ? 0 : base::PrintError("rodeira", status.error());
 }
 
 int CheckOpenDrive(const WorldOptions& options) {
@@ -85,11 +81,12 @@ base::Error NoWorldFile(const WorldOptions& options) {
                           options.world_file);
 }
 
-int Check(const WorldOptions& options) {
+int CheckWorldFile(const WorldOptions& options) {
   std::error_code none;
   if (std::filesystem::is_directory(options.world_file, none)) return CheckBuilt(options);
   if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
-  if (options.strict) return Complain(base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
+  if (options.strict)
+    return base::PrintError("rodeira", base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
   for (const std::string& warning : road::WorldWarnings(options.world_file))
     fmt::print(stderr, "rodeira: warning: {}\n", warning);
   const auto problems = road::WorldProblems(options.world_file);
@@ -101,7 +98,7 @@ int Check(const WorldOptions& options) {
 }
 
 int Written(const std::filesystem::path& file, const base::Status& status) {
-  if (!status) return Complain(status.error());
+  if (!status) return base::PrintError("rodeira", status.error());
   fmt::print("{}\n", file.string());
   return 0;
 }
@@ -110,9 +107,9 @@ int Written(const std::filesystem::path& file, const base::Status& status) {
 int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy,
                   std::vector<std::filesystem::path>& files) {
   const auto text = base::ReadText(file);
-  if (!text) return Complain(text.error());
+  if (!text) return base::PrintError("rodeira", text.error());
   const auto warnings = road::CopyMeasured(file, copy, &files);
-  if (!warnings) return Complain(warnings.error());
+  if (!warnings) return base::PrintError("rodeira", warnings.error());
   for (const std::string& warning : warnings.value()) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   return Written(copy, base::WriteWhole(copy, text.value()));
 }
@@ -122,7 +119,7 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
   const std::filesystem::path file(options.world_file), out(options.out);
   if (road::IsGenerated(file)) {
     const auto written = road::BuildWorld(world, file, out);
-    if (!written) return Complain(written.error());
+    if (!written) return base::PrintError("rodeira", written.error());
     fmt::print("{}", written.value());
     std::error_code none;
     for (const char* ending : {".bt", ".prj"}) {
@@ -133,7 +130,7 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
     return status;
   }
   const auto named = road::CopyNamed(file, out);
-  if (!named) return Complain(named.error());
+  if (!named) return base::PrintError("rodeira", named.error());
   files.push_back(file.filename());
   files.insert(files.end(), named.value().begin(), named.value().end());
   return 0;
@@ -152,7 +149,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
     };
   }
   const auto report = nodes::WriteDatabase(world, database);
-  if (!report) return Complain(report.error());
+  if (!report) return base::PrintError("rodeira", report.error());
   fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(),
              report.value().tiles, report.value().built, report.value().tiles - report.value().built);
   return 0;
@@ -162,7 +159,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
 // and a list of all these but what is seen.
 int Build(const WorldOptions& options) {
   const auto loaded = road::World::Load(options.world_file);
-  if (!loaded) return Complain(loaded.error());
+  if (!loaded) return base::PrintError("rodeira", loaded.error());
   const road::World& world = *loaded.value();
   const std::filesystem::path out(options.out), copy = out / "world.xodr";
   std::vector<std::filesystem::path> files;
@@ -192,37 +189,40 @@ int Build(const WorldOptions& options) {
 }  // namespace
 
 int World(const WorldOptions& options) {
-  if (options.command == "check") return Check(options);
+  if (options.command == "check") return CheckWorldFile(options);
   if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export"))
-    return Complain(NoWorldFile(options));
+    return base::PrintError("rodeira", NoWorldFile(options));
   if (options.command == "build") return Build(options);
   const auto world = road::World::Load(options.world_file);
   if (options.command == "export" && world) {
     const auto status = road::WriteOpenDrive(*world.value(), options.out);
     if (!status)
-      return Complain(status.error().context.empty() ? base::WrongInput(status.error().message, options.world_file)
-                                                     : status.error());
+      return base::PrintError("rodeira", status.error().context.empty()
+                                             ? base::WrongInput(status.error().message, options.world_file)
+                                             : status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }
   if (options.command == "map" && world) {
     if (auto status = base::WriteWhole(options.out, road::PlotWorld(*world.value())); !status)
-      return Complain(status.error());
+      return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", options.out);
     if (options.profile.empty()) return 0;
     const std::string profile = road::PlotProfiles(*world.value());
     if (profile.empty())
-      return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
-    if (auto status = base::WriteWhole(options.profile, profile); !status) return Complain(status.error());
+      return base::PrintError(
+          "rodeira", base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (auto status = base::WriteWhole(options.profile, profile); !status)
+      return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", options.profile);
     return 0;
   }
-  if (!world) return Complain(world.error());
+  if (!world) return base::PrintError("rodeira", world.error());
   if (options.command == "query") {
     Eigen::Vector2d at(options.x_m, options.y_m);
     if (options.earth) {
       const auto place = road::PlaceOnMap(*world.value(), options.x_m, options.y_m);
-      if (!place) return Complain(place.error());
+      if (!place) return base::PrintError("rodeira", place.error());
       at = place.value();
     }
     fmt::print("{}", road::DescribePoint(*world.value(), at.x(), at.y(), options.z_hint_m));
@@ -234,8 +234,9 @@ int World(const WorldOptions& options) {
     if (file.empty()) continue;
     const std::string svg = drawn(*world.value());
     if (svg.empty())
-      return Complain(base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
-    if (auto status = base::WriteWhole(file, svg); !status) return Complain(status.error());
+      return base::PrintError(
+          "rodeira", base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+    if (auto status = base::WriteWhole(file, svg); !status) return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", file);
   }
   return 0;

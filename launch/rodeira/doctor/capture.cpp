@@ -10,10 +10,10 @@
 
 #include <cerrno>
 
+#include "launch/rodeira/wall_clock.hpp"
+
 namespace rodeira::cli {
 namespace {
-
-using WallClock = std::chrono::steady_clock;
 
 constexpr std::size_t kLongestOutput = 1u << 20;
 

@@ -23,7 +23,7 @@
 namespace rodeira::cli {
 namespace {
 
-using Check = std::function<Finding()>;
+using CheckFunction = std::function<Finding()>;
 
 Finding LookForJoysticks() {
   auto joysticks = nodes::Joysticks::Start();
@@ -34,7 +34,7 @@ Finding LookForJoysticks() {
 }
 
 // Drawing comes before DDS: it forks, which wants a process without threads.
-std::vector<Check> Checks(const DoctorOptions& options, launch::Transport transport) {
+std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transport transport) {
   LoopBackSettings loop_back;
   loop_back.transport = transport;
   loop_back.domain = options.domain;
@@ -95,7 +95,7 @@ int Doctor(const DoctorOptions& options) {
     if (!options.quiet) fmt::print("{} files of dead processes removed from /dev/shm\n", removed);
   }
   std::vector<Finding> findings;
-  for (const Check& check : Checks(options, transport)) {
+  for (const CheckFunction& check : Checks(options, transport)) {
     findings.push_back(check());
     if (Interrupted()) return 1;
     if (options.quiet && findings.back().verdict == Verdict::kOk) continue;

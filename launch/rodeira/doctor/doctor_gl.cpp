@@ -159,7 +159,7 @@ base::Status Draw(Gl& gl) {
   return {};
 }
 
-std::string TextOf(Gl& gl, GLenum name) {
+std::string GlString(Gl& gl, GLenum name) {
   const GLubyte* text = RODEIRA_GL(gl, glGetString, name);
   return text == nullptr ? "unknown" : reinterpret_cast<const char*>(text);
 }
@@ -181,7 +181,7 @@ int DrawOffScreen(const GlSettings& settings) {
     base::Status status = MakeContext(gl, display);
     if (status.ok()) status = Draw(gl);
     if (status.ok()) {
-      say("drawn", fmt::format("{}, OpenGL {}", TextOf(gl, GL_RENDERER), TextOf(gl, GL_VERSION)));
+      say("drawn", fmt::format("{}, OpenGL {}", GlString(gl, GL_RENDERER), GlString(gl, GL_VERSION)));
       return 0;
     }
     last = status.error().message;

@@ -22,18 +22,18 @@
 #include "launch/rodeira/doctor/doctor_network.hpp"
 #include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
-using WallClock = std::chrono::steady_clock;
 namespace topics = idl::topics;
 
 constexpr int kPoints = 4;  // a car's wheels
 constexpr auto kStartPatience = 20s;
 
-const char* Word(launch::Transport transport) {
+const char* TransportName(launch::Transport transport) {
   return transport == launch::Transport::kSharedMemory ? "shared_memory" : "udp";
 }
 
@@ -95,7 +95,7 @@ base::Bytes Question(std::uint64_t number) {
 
 // Until the answer with this number is here. The other end may not have met us yet, so the question is said again while
 // `again` holds; then once is enough, and saying it twice would hide a loss.
-base::Status Ask(End& end, std::uint64_t number, bool again, const LoopBackSettings& settings) {
+base::Status RequestAnswer(End& end, std::uint64_t number, bool again, const LoopBackSettings& settings) {
   const auto until = WallClock::now() + settings.patience;
   const base::Bytes question = Question(number);
   for (bool first = true; WallClock::now() < until && !settings.cancelled(); first = false) {
@@ -111,7 +111,7 @@ base::Status Ask(End& end, std::uint64_t number, bool again, const LoopBackSetti
   if (settings.cancelled()) return base::Failed("stopped by a signal");
   return base::Failed(
       fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:g} s", number,
-                  settings.round_trips, Word(settings.transport), settings.domain,
+                  settings.round_trips, TransportName(settings.transport), settings.domain,
                   std::chrono::duration<double>(settings.patience).count()));
 }
 
@@ -135,11 +135,12 @@ base::Status WaitUntilReady(Child& partner, const LoopBackSettings& settings) {
 }
 
 base::Result<LoopBack> Measure(End& end, const LoopBackSettings& settings) {
-  if (auto status = Ask(end, 0, true, settings); !status) return status.error();
+  if (auto status = RequestAnswer(end, 0, true, settings); !status) return status.error();
   std::vector<double> times_us;
   for (int i = 1; i <= settings.round_trips; ++i) {
     const auto begin = WallClock::now();
-    if (auto status = Ask(end, static_cast<std::uint64_t>(i), false, settings); !status) return status.error();
+    if (auto status = RequestAnswer(end, static_cast<std::uint64_t>(i), false, settings); !status)
+      return status.error();
     times_us.push_back(std::chrono::duration<double, std::micro>(WallClock::now() - begin).count());
   }
   std::sort(times_us.begin(), times_us.end());
@@ -156,7 +157,7 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   base::Result<LoopBack> measured = base::Failed("not measured");
   auto partner = Child::Start("doctor",
                               {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain),
-                               "--transport", Word(settings.transport)},
+                               "--transport", TransportName(settings.transport)},
                               true);
   if (!partner) return partner.error();
   {

@@ -25,7 +25,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kMega = 1e6;
 constexpr std::uint64_t kSocketBufferBytes = 1u << 20;
 constexpr std::uint64_t kMemoryBytes = 1'000'000'000;
 
@@ -215,10 +214,10 @@ Finding CheckMemory(const std::filesystem::path& proc) {
     if (std::sscanf(line.c_str(), "MemAvailable: %llu kB", &kib) != 1) continue;
     const std::uint64_t bytes = kib * 1024;
     if (bytes >= kMemoryBytes)
-      return Ok("memory", fmt::format("{:.0f} MB are free", static_cast<double>(bytes) / kMega));
-    return Warning("memory",
-                   fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs",
-                               static_cast<double>(bytes) / kMega, static_cast<double>(kMemoryBytes) / kMega));
+      return Ok("memory", fmt::format("{:.0f} MB are free", static_cast<double>(bytes) / kBytesPerMegabyte));
+    return Warning("memory", fmt::format("{:.0f} MB are free; at least {:.0f} MB were expected: close other programs",
+                                         static_cast<double>(bytes) / kBytesPerMegabyte,
+                                         static_cast<double>(kMemoryBytes) / kBytesPerMegabyte));
   }
   return Warning("memory", fmt::format("{} does not say how much is free", (proc / "meminfo").string()));
 }
@@ -244,10 +243,10 @@ Finding CheckDisk(const std::filesystem::path& folder, std::uint64_t wanted_byte
   }
   const std::uint64_t free_bytes = static_cast<std::uint64_t>(info.f_bavail) * info.f_frsize;
   const std::string found = fmt::format("recordings go to {}, where {:.0f} MB are free", folder.string(),
-                                        static_cast<double>(free_bytes) / kMega);
+                                        static_cast<double>(free_bytes) / kBytesPerMegabyte);
   if (free_bytes >= wanted_bytes) return Ok(check, found);
   return Warning(check, fmt::format("{}; at least {:.0f} MB were expected: make room, or set XDG_DATA_HOME", found,
-                                    static_cast<double>(wanted_bytes) / kMega));
+                                    static_cast<double>(wanted_bytes) / kBytesPerMegabyte));
 }
 
 }  // namespace rodeira::cli

@@ -12,7 +12,6 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr double kMega = 1e6;
 constexpr int kParticipants = 10;
 
 // The ports that RTPS reserves (DDSI-RTPS 2.2, 9.6.1.1): one each for the multicast of discovery and of samples, then
@@ -34,7 +33,7 @@ double MegabytesOf(const std::set<std::string>& files, const std::filesystem::pa
     const auto size = std::filesystem::file_size(folder / file, gone);
     if (!gone) bytes += static_cast<double>(size);
   }
-  return bytes / kMega;
+  return bytes / kBytesPerMegabyte;
 }
 
 }  // namespace
@@ -63,11 +62,12 @@ Finding CheckSharedMemory(const std::filesystem::path& folder, std::uint64_t wan
       dead.empty() ? ""
                    : fmt::format("{} file{} of dead processes of yours ({:.0f} MB) there: rodeira doctor --clean",
                                  dead.size(), dead.size() == 1 ? "" : "s", MegabytesOf(dead, folder));
-  const std::string found = fmt::format("{} has {:.0f} MB free", where, static_cast<double>(free_bytes) / kMega);
+  const std::string found =
+      fmt::format("{} has {:.0f} MB free", where, static_cast<double>(free_bytes) / kBytesPerMegabyte);
   if (free_bytes < wanted_bytes) {
-    return Fault(
-        check, fmt::format("{}; at least {:.0f} MB were expected: {}", found, static_cast<double>(wanted_bytes) / kMega,
-                           left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
+    return Fault(check, fmt::format("{}; at least {:.0f} MB were expected: {}", found,
+                                    static_cast<double>(wanted_bytes) / kBytesPerMegabyte,
+                                    left.empty() ? fmt::format("sudo mount -o remount,size=512M {}", where) : left));
   }
   if (!left.empty()) return Warning(check, fmt::format("{}; {}", found, left));
   return Ok(check, found);

@@ -6,6 +6,8 @@
 
 namespace rodeira::cli {
 
+inline constexpr double kBytesPerMegabyte = 1e6;
+
 enum class Verdict {
   kOk,
   kWarning,  // a run works, but something may surprise

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch.hpp"
@@ -19,11 +20,6 @@ namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 bool IsFile(const std::string& text) {
   std::error_code problem;
@@ -97,7 +93,7 @@ void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
 
 int MakeBranch(const ReplayOptions& options) {
   auto wish = WishOf(options);
-  if (!wish) return Complain(wish.error());
+  if (!wish) return base::PrintError("rodeira", wish.error());
   std::unique_ptr<Operator> desk;
   if (wish.value().pace > 0.0) {  // somebody has the time to say something
     desk = std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);
@@ -105,7 +101,7 @@ int MakeBranch(const ReplayOptions& options) {
   }
   const auto outcome = Branch(wish.value());
   desk.reset();  // the terminal is a terminal again
-  if (!outcome) return Complain(outcome.error());
+  if (!outcome) return base::PrintError("rodeira", outcome.error());
   if (outcome.value().difference) {
     fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file,
                outcome.value().difference->Text(), outcome.value().recorded_by_another);

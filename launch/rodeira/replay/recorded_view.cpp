@@ -126,7 +126,7 @@ std::string Rounded(const std::string& words) {
 }
 
 // "weather rain 8", "traffic.brake ahead 4", "traffic.change_lane 3 left"; of a text that somebody wrote only that.
-std::string TextOf(const msg::ScenarioEvent& event) {
+std::string EventText(const msg::ScenarioEvent& event) {
   if (event.name() == scenario::kMark) return Shortened(event.argument());
   const std::string argument = event.argument().empty() ? "" : " " + Rounded(event.argument());
   const scenario::EventKind* kind = scenario::FindEventKind(event.name());
@@ -175,7 +175,7 @@ base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& 
   status = ForEachOf<msg::ScenarioEvents>(run, topics::kScenarioEvents, stop,
                                           [&](const msg::ScenarioEvents& events, std::int64_t time_ns) {
                                             for (const msg::ScenarioEvent& event : events.events())
-                                              marks.push_back({time_ns, TextOf(event), nodes::MarkKind::kEvent});
+                                              marks.push_back({time_ns, EventText(event), nodes::MarkKind::kEvent});
                                           });
   if (!status) return status.error();
   std::ranges::stable_sort(marks, {}, &nodes::ReplayMark::time_ns);

@@ -5,14 +5,15 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
+#include "common/core/base/print_error.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch_command.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -20,17 +21,12 @@ namespace {
 using lockstep::Step;
 constexpr double kMost_s = 1e9;  // whatever the run: steps can be counted that far
 
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
 // A line on the terminal that is written over; nothing where standard error is no terminal.
-class Progress {
+class VerifyProgress {
  public:
-  Progress(bool quiet, double base_step_s, lockstep::Step last)
+  VerifyProgress(bool quiet, double base_step_s, lockstep::Step last)
       : shown_(!quiet && ::isatty(STDERR_FILENO) != 0), base_step_s_(base_step_s), last_(last) {}
-  ~Progress() {
+  ~VerifyProgress() {
     if (shown_) fmt::print(stderr, "\r\033[K");
   }
   void Show(lockstep::Step step) const {
@@ -45,7 +41,7 @@ class Progress {
   lockstep::Step last_;
 };
 
-int Watch(const ReplayOptions& options) {
+int ShowRecording(const ReplayOptions& options) {
   WatchOptions watch = options.watch;
   watch.file = options.file;
   watch.from_s = options.from_s.value_or(0.0);
@@ -59,37 +55,44 @@ int Replay(const ReplayOptions& options) {
   const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) +
                      (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
   if (wishes != 1) {
-    return Complain(
+    return base::PrintError(
+        "rodeira",
         base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
                                      wishes == 0 ? "nothing" : "more than one thing"),
                          "rodeira replay"));
   }
   if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {
-    return Complain(base::WrongInput(
-        fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s), "rodeira replay"));
+    return base::PrintError(
+        "rodeira",
+        base::WrongInput(fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s),
+                         "rodeira replay"));
   }
   if (!options.changes.empty() || options.verify) CatchInterrupts();
   if (!options.changes.empty()) return MakeBranch(options);
   if (!options.record.empty())
-    return Complain(base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
-  if (options.pace) return Complain(base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
-  if (!options.verify) return Watch(options);
+    return base::PrintError(
+        "rodeira", base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
+  if (options.pace)
+    return base::PrintError("rodeira",
+                            base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
+  if (!options.verify) return ShowRecording(options);
   const auto run = replay::RecordedRun::Open(options.file);
-  if (!run) return Complain(run.error());
+  if (!run) return base::PrintError("rodeira", run.error());
   const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;
   const auto from = static_cast<lockstep::Step>(std::floor(options.from_s.value_or(0.0) / base_step_s + 1e-9));
   if (from > run.value().last_step()) {
-    return Complain(base::WrongInput(
-        fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
-                    static_cast<double>(run.value().last_step()) * base_step_s),
-        options.file));
+    return base::PrintError(
+        "rodeira", base::WrongInput(
+                       fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
+                                   static_cast<double>(run.value().last_step()) * base_step_s),
+                       options.file));
   }
-  const Progress progress(options.quiet, base_step_s, run.value().last_step());
-  const auto begin = std::chrono::steady_clock::now();
+  const VerifyProgress progress(options.quiet, base_step_s, run.value().last_step());
+  const auto begin = WallClock::now();
   const auto verdict = Verify(
       run.value(), from, [&](lockstep::Step step) { progress.Show(step); }, Interrupted);
-  if (!verdict) return Complain(verdict.error());
-  const Verdict& found = verdict.value();
+  if (!verdict) return base::PrintError("rodeira", verdict.error());
+  const VerifyResult& found = verdict.value();
   if (!found.substituted.empty())
     fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
   if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
@@ -99,8 +102,7 @@ int Replay(const ReplayOptions& options) {
   }
   fmt::print("identical: {} steps, {} nodes ({} samples, {} snapshots; from {:.3f} s; {:.1f} s of wall time)\n",
              found.last_step - found.first_step, found.nodes, found.samples, found.snapshots,
-             static_cast<double>(found.first_step) * base_step_s,
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+             static_cast<double>(found.first_step) * base_step_s, SecondsSince(begin));
   if (found.first_step > from) {
     fmt::print("not computed: what lies before {:.3f} s is its parent's; verify that one, {}\n",
                static_cast<double>(found.first_step) * base_step_s, run.value().parent());

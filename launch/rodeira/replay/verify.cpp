@@ -11,9 +11,9 @@
 
 namespace rodeira::cli {
 
-base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from,
-                             const std::function<void(lockstep::Step)>& on_progress,
-                             const std::function<bool()>& stop_requested) {
+base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step from,
+                                  const std::function<void(lockstep::Step)>& on_progress,
+                                  const std::function<bool()>& stop_requested) {
   Recomputation wish;
   wish.from = from;
   wish.on_progress = on_progress;
@@ -49,7 +49,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
         run.path().string());
   }
   Recomputed recomputed;
-  Verdict& verdict = recomputed.verdict;
+  VerifyResult& verdict = recomputed.verdict;
   verdict.first_step = at.value();
   for (const lockstep::NodeIndex n : without_state.value()) {
     verdict.without_state.push_back(roster.node(n).name);

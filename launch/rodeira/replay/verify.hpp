@@ -14,7 +14,7 @@
 
 namespace rodeira::cli {
 
-struct Verdict {
+struct VerifyResult {
   lockstep::Step first_step = 0;  // where the computation began: a snapshot at or before what was asked
   lockstep::Step last_step = 0;
   std::size_t nodes = 0;      // computed again
@@ -34,7 +34,7 @@ struct Recomputation {
   std::function<bool()> stop_requested;  // it fails then
 };
 struct Recomputed {
-  Verdict verdict;
+  VerifyResult verdict;
   std::vector<lockstep::Snapshot> snapshots;  // one for each node where they were asked for
   // The nodes, as they stand behind their activation at the step of those snapshots, and what that activation of those
   // without a state published; for a branch, in which only they can go on.
@@ -46,8 +46,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
 // before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its
 // recorded samples, sinks by nobody. Failed where a node fails that did not fail then, and where it was stopped.
-base::Result<Verdict> Verify(const replay::RecordedRun& run, lockstep::Step from,
-                             const std::function<void(lockstep::Step)>& on_progress = {},
-                             const std::function<bool()>& stop_requested = {});
+base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step from,
+                                  const std::function<void(lockstep::Step)>& on_progress = {},
+                                  const std::function<bool()>& stop_requested = {});
 
 }  // namespace rodeira::cli

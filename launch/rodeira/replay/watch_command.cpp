@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
+#include "common/core/base/print_error.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/marks_reader.hpp"
 #include "launch/rodeira/replay/recorded_moments.hpp"
@@ -18,11 +18,6 @@ namespace rodeira::cli {
 namespace {
 
 using lockstep::Step;
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 base::Status CheckTime(const replay::RecordedRun& run, const char* option, double time_s) {
   const double last_s = static_cast<double>(run.last_step()) * static_cast<double>(run.roster().base_step_ns()) * 1e-9;
@@ -129,7 +124,7 @@ base::Status WriteFrames(const WatchOptions& options) {
 int InOrder(base::Status (*work)(const WatchOptions&), const WatchOptions& options) {
   CatchInterrupts();
   const base::Status status = work(options);
-  return status ? 0 : Complain(status.error());
+  return status ? 0 : base::PrintError("rodeira", status.error());
 }
 
 }  // namespace

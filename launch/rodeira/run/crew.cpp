@@ -9,11 +9,12 @@
 #include <thread>
 #include <utility>
 
+#include "launch/rodeira/wall_clock.hpp"
+
 namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
-using WallClock = std::chrono::steady_clock;
 
 base::Status MakeSureItIsDead(Child& child) {
   child.Signal(SIGKILL);

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/runtime/launch/command_text.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
@@ -18,11 +19,6 @@ namespace rodeira::cli {
 namespace {
 
 constexpr std::chrono::seconds kPatience(5);
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
 
 base::Result<std::filesystem::path> FindRun(const std::string& run) {
   const auto folder = ControlFolder();
@@ -47,8 +43,8 @@ base::Result<std::filesystem::path> FindRun(const std::string& run) {
   return living.front();
 }
 
-// The line that comes back, or nothing where none comes in time.
-std::string Ask(int file, const std::string& line) {
+// The answer line; empty if none arrives in time.
+std::string SendCommand(int file, const std::string& line) {
   const std::string text = line + "\n";
   if (::send(file, text.data(), text.size(), MSG_NOSIGNAL) != static_cast<ssize_t>(text.size())) return "";
   std::string answer;
@@ -73,19 +69,20 @@ int Ctl(const CtlOptions& options) {
       line, [](unsigned char c) { return c < 0x20; }, ' ');  // a line is a command
   // Nonsense is refused whether there is a run or not.
   if (const auto command = launch::ParseCommand(line); !command)
-    return Complain(base::WrongInput(command.error().Text(), "ctl"));
+    return base::PrintError("rodeira", base::WrongInput(command.error().Text(), "ctl"));
   const auto socket = FindRun(options.run);
-  if (!socket) return Complain(socket.error());
+  if (!socket) return base::PrintError("rodeira", socket.error());
   const std::string name = socket.value().stem().string();
   const int file = ConnectTo(socket.value());
-  if (file < 0) return Complain(base::Failed(fmt::format("run '{}' has just ended", name), "ctl"));
-  const std::string answer = Ask(file, line);
+  if (file < 0) return base::PrintError("rodeira", base::Failed(fmt::format("run '{}' has just ended", name), "ctl"));
+  const std::string answer = SendCommand(file, line);
   ::close(file);
   const auto space = answer.find(' ');
-  if (space == std::string::npos) return Complain(base::Failed(fmt::format("run '{}' gives no answer", name), "ctl"));
+  if (space == std::string::npos)
+    return base::PrintError("rodeira", base::Failed(fmt::format("run '{}' gives no answer", name), "ctl"));
   const std::string how = answer.substr(0, space), sentence = answer.substr(space + 1);
-  if (how == "wrong") return Complain(base::WrongInput(sentence, "ctl"));
-  if (how != "ok") return Complain(base::Failed(sentence, "ctl"));
+  if (how == "wrong") return base::PrintError("rodeira", base::WrongInput(sentence, "ctl"));
+  if (how != "ok") return base::PrintError("rodeira", base::Failed(sentence, "ctl"));
   fmt::print("{}\n", sentence);
   return 0;
 }

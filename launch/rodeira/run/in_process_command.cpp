@@ -3,16 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/run/local_nodes.hpp"
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -49,10 +50,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   Operator desk(options.run, options.quiet);
   launch::RunLogBoard log;
   auto nodes = LocalNodes::Make(launch, {}, &log);
-  if (!nodes) {
-    fmt::print(stderr, "rodeira: {}\n", nodes.error().Text());
-    return nodes.error().exit_status();
-  }
+  if (!nodes) return base::PrintError("rodeira", nodes.error());
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (seconds)
@@ -63,9 +61,9 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
   CatchInterrupts();
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = WallClock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double wall_s = SecondsSince(start);
   const RunReport report = ReportOf(outcome, roster, wall_s);
   if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);
   if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));

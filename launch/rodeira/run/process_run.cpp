@@ -17,24 +17,20 @@
 #include <set>
 #include <utility>
 
+#include "common/core/base/print_error.hpp"
 #include "launch/rodeira/run/crew.hpp"
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 using namespace std::chrono_literals;
-using WallClock = std::chrono::steady_clock;
 
 std::atomic<int> g_interrupts = 0;
-void OnInterrupt(int) { ++g_interrupts; }
-
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
+void CountInterrupt(int) { ++g_interrupts; }
 
 // The processes of a run, their clock's words, and their end.
 class ProcessRun {
@@ -53,7 +49,7 @@ class ProcessRun {
 
   int Run() {
     struct sigaction action {};
-    action.sa_handler = OnInterrupt;
+    action.sa_handler = CountInterrupt;
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
@@ -61,12 +57,12 @@ class ProcessRun {
     if (status.ok() && placement_.has_clock()) status = crew_.StartNodes();
     if (!status) {
       crew_.EndAll(report_.ended, interrupted_at_);
-      return Complain(status.error());
+      return base::PrintError("rodeira", status.error());
     }
     status = Watch();
     crew_.EndAll(report_.ended, interrupted_at_);
     RemoveLeftOvers(before_);
-    if (!status) return Complain(status.error());
+    if (!status) return base::PrintError("rodeira", status.error());
     Close();
     return ExitStatus();
   }

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <random>
 #include <utility>
 
+#include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/placement.hpp"
@@ -17,11 +17,6 @@
 namespace rodeira::cli {
 namespace {
 
-int Complain(const base::Error& error) {
-  fmt::print(stderr, "rodeira: {}\n", error.Text());
-  return error.exit_status();
-}
-
 std::string FreshRunName() {
   std::random_device device;
   return fmt::format("{:08x}{:08x}", device(), device());
@@ -31,7 +26,7 @@ std::string FreshRunName() {
 
 int Run(const RunOptions& options) {
   if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)
-    return Complain(pace.error());
+    return base::PrintError("rodeira", pace.error());
   launch::Overrides overrides = options.overrides;
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
@@ -44,18 +39,20 @@ int Run(const RunOptions& options) {
   }
   if (launch.ok()) {
     auto found = Placement::Find(launch.value(), resolved, overrides);
-    if (!found) return Complain(found.error());
+    if (!found) return base::PrintError("rodeira", found.error());
     placement = std::move(found).value();
     if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status)
-      return Complain(status.error());
+      return base::PrintError("rodeira", status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (launch.ok() && !resolved.meta.empty()) {
-    if (auto status = AddMeta(launch.value(), resolved.meta, overrides); !status) return Complain(status.error());
+    if (auto status = AddMeta(launch.value(), resolved.meta, overrides); !status)
+      return base::PrintError("rodeira", status.error());
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
-  if (!launch) return Complain(launch.error());
-  if (auto status = launch.value().CheckRecovery(); !status && !options.in_process) return Complain(status.error());
+  if (!launch) return base::PrintError("rodeira", launch.error());
+  if (auto status = launch.value().CheckRecovery(); !status && !options.in_process)
+    return base::PrintError("rodeira", status.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (resolved.run.empty()) resolved.run = FreshRunName();
   if (options.in_process) return RunInProcess(resolved, launch.value());

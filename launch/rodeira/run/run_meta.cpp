@@ -9,7 +9,7 @@ namespace rodeira::cli {
 namespace {
 
 // A YAML text in double quotes, whatever it holds.
-std::string Quoted(std::string_view text) {
+std::string QuotedYaml(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') quoted += '\\';
@@ -49,7 +49,7 @@ base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string
           fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
     }
     overrides.emplace_back("nodes." + recorder + ".config.meta." + key,
-                           Quoted(std::string_view(pair).substr(equals + 1)));
+                           QuotedYaml(std::string_view(pair).substr(equals + 1)));
   }
   return {};
 }

@@ -12,7 +12,7 @@ namespace rodeira::cli {
 namespace {
 
 // The value of "key=" in a line of words, or an empty text.
-std::string_view Word(std::string_view line, std::string_view key) {
+std::string_view ValueOf(std::string_view line, std::string_view key) {
   const std::string with_equals = " " + std::string(key) + "=";
   const auto at = line.find(with_equals);
   if (at == std::string_view::npos) return {};
@@ -22,7 +22,7 @@ std::string_view Word(std::string_view line, std::string_view key) {
 
 template <class T>
 T Number(std::string_view line, std::string_view key) {
-  const std::string_view word = Word(line, key);
+  const std::string_view word = ValueOf(line, key);
   T value{};
   std::from_chars(word.data(), word.data() + word.size(), value);
   return value;
@@ -78,7 +78,7 @@ void RunReport::Take(std::string_view line) {
     node.apart_us = Number<double>(line, "apart_us");
     node.apart_p99_us = Number<double>(line, "apart_p99_us");
     node.server_calls = Number<std::uint64_t>(line, "server_calls");
-    node.cannot_save = Word(line, "saves") == "0";
+    node.cannot_save = ValueOf(line, "saves") == "0";
     nodes.push_back(node);
   } else if (line.starts_with("end ")) {
     ended = true;
@@ -91,7 +91,7 @@ void RunReport::Take(std::string_view line) {
     late_steps = Number<std::uint64_t>(line, "late_steps");
     late_mean_s = Number<double>(line, "late_mean_s");
     late_worst_s = Number<double>(line, "late_worst_s");
-    digest = std::string(Word(line, "digest"));
+    digest = std::string(ValueOf(line, "digest"));
   } else if (!line.starts_with("starting ")) {
     remarks.emplace_back(line);
   }

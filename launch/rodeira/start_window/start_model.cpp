@@ -19,8 +19,8 @@ std::string Named(const fs::path& root, const fs::path& file) {
   return within ? ("../" + relative.string()) : fs::absolute(file).lexically_normal().string();
 }
 
-// As a text of YAML.
-std::string Quoted(const std::string& text) {
+// A path as a YAML text in double quotes.
+std::string QuotedPath(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' || c == '\\' ? std::string{'\\', c} : std::string(1, c);
   return quoted + "\"";
@@ -30,11 +30,12 @@ std::string DriverValue(const StartFiles& files, const StartChoice& choice) {
   if (choice.driver == StartDriver::kKeyboard) return "{source: keyboard, keyboard: ../configs/drivers/keyboard.yaml}";
   if (choice.driver == StartDriver::kAutopilot) {
     return fmt::format("{{source: autopilot, driver: ../configs/drivers/default.yaml, vehicle: {}}}",
-                       Quoted(Named(files.root, choice.vehicle)));
+                       QuotedPath(Named(files.root, choice.vehicle)));
   }
   if (choice.driver == StartDriver::kPad) return "{source: gamepad}";
-  return choice.wheel.empty() ? "{source: joystick, keyboard: ../configs/drivers/keyboard.yaml}"
-                              : fmt::format("{{source: joystick, wheel: {}}}", Quoted(Named(files.root, choice.wheel)));
+  return choice.wheel.empty()
+             ? "{source: joystick, keyboard: ../configs/drivers/keyboard.yaml}"
+             : fmt::format("{{source: joystick, wheel: {}}}", QuotedPath(Named(files.root, choice.wheel)));
 }
 
 }  // namespace
@@ -79,8 +80,8 @@ std::vector<std::string> CommandOf(const StartFiles& files, const StartChoice& c
     arguments.emplace_back("--set");
     arguments.push_back(key + "=" + value);
   };
-  set("world", Quoted(Named(files.root, choice.world)));
-  set("nodes.ego.config.vehicle", Quoted(Named(files.root, choice.vehicle)));
+  set("world", QuotedPath(Named(files.root, choice.world)));
+  set("nodes.ego.config.vehicle", QuotedPath(Named(files.root, choice.vehicle)));
   if (choice.driver != StartDriver::kKeyboard) set("nodes.driver.config", DriverValue(files, choice));
   if (choice.traffic > 0)
     set("nodes.traffic.config.vehicles", std::to_string(choice.traffic));

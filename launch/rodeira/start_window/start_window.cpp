@@ -12,9 +12,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/printable.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/wall_clock.hpp"
 #include "nodes/view/frame/surface.hpp"
 
 namespace rodeira::cli {
@@ -76,8 +78,7 @@ void StartedRun::Stop() const { child_.Signal(SIGINT); }
 
 std::string StartedRun::State() const {
   if (!child_.ended())
-    return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded",
-                       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count());
+    return fmt::format("goes on for {:.0f} s; its own window shows how far it is loaded", SecondsSince(begun_));
   if (child_.exit_status() == 0) return "has ended";
   return child_.Fate();
 }
@@ -222,10 +223,7 @@ int StartByWindow() {
   std::filesystem::path root = FindStartRoot({here, ProgramFolder()});
   if (root == here) root = ".";  // commands are shorter
   auto window = window::Window::Open({window::Kind::kWindow, 820, 640, "Rodeira"});
-  if (!window) {
-    fmt::print(stderr, "rodeira: {}\n", window.error().Text());
-    return window.error().exit_status();
-  }
+  if (!window) return base::PrintError("rodeira", window.error());
   CatchInterrupts();
   StartWindow start(FindStartFiles(root, base::UserDataFolder(), base::UserConfigFolder()),
                     ProgramFolder() + "/rodeira");

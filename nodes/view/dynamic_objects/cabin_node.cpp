@@ -9,13 +9,12 @@
 #include "common/view/scene/camera/camera.hpp"
 #include "common/view/scene/vehicles/cabin.hpp"
 #include "nodes/view/materials/face_texture.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 constexpr int kDial_px = 512, kGear_px = 64;
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // From a facing thing's frame to the eye's.
 osg::Matrixd MatrixOf(const scene::Facing& place) {

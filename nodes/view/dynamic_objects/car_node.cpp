@@ -7,22 +7,19 @@
 #include <osg/PolygonOffset>
 
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "common/core/base/constants.hpp"
 #include "nodes/view/materials/model_file.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 constexpr double kPulse_Hz = 1.25;
 constexpr double kPressed = 0.02;  // of a brake pedal
-
-osg::Matrixd ToOsg(const Eigen::Vector3d& p, const Eigen::Quaterniond& q) {
-  return osg::Matrixd::rotate(osg::Quat(q.x(), q.y(), q.z(), q.w())) * osg::Matrixd::translate(p.x(), p.y(), p.z());
-}
 
 // A material's state with a uniform of one's own. One farther down would win, so it is a copy.
 osg::ref_ptr<osg::StateSet> StateWith(Look& look, scene::Material material, const osg::ref_ptr<osg::Uniform>& uniform) {
@@ -253,8 +250,7 @@ void Fleet::WearModel(const std::string& file) {
 
 void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
                  bool dark) {
-  const double now =
-      0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
+  const double now = 0.5 - 0.5 * std::cos(2.0 * base::kPi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
   const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
   const auto number_of = [&](const scene::AgentPose& agent) {
     return moment.cars.size() + static_cast<std::size_t>(&agent - moment.agents.data());

@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "common/core/base/constants.hpp"
+#include "nodes/view/overlays/gear_name.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 constexpr double kMoving_mps = 1.0, kDriven_m = 10.0;  // less says nothing of litres for 100 km
-
-std::string GearName(std::int32_t gear) { return gear < 0 ? "R" : gear == 0 ? "N" : fmt::format("{}", gear); }
 
 // Consumption at the moment.
 std::string Now(double fuel_lph, double speed_mps) {
@@ -72,7 +72,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
       "{:.1f} km/h   gear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nsteering wheel {:.0f} deg\nnow "
       "{}\nmean {}",
       3.6 * std::fabs(car.speed_mps), GearName(car.gear), car.engine_rpm, 100.0 * car.throttle, 100.0 * car.brake,
-      car.steering_wheel_rad * 180.0 / std::numbers::pi, Now(car.fuel_lph, car.speed_mps),
+      car.steering_wheel_rad * 180.0 / base::kPi, Now(car.fuel_lph, car.speed_mps),
       Mean(car.fuel_used_l - since_l_, driven_m));
 }
 
@@ -85,7 +85,7 @@ std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPo
   const std::string name = fmt::format("traffic {}", agent.id >> 24 & 0xffffffU);
   if (agent.kind == scene::AgentKind::kPedestrian)
     return fmt::format("{}\non foot, {:.1f} km/h", name, 3.6 * agent.speed_mps);
-  const double wheels_deg = agent.steer_rad * 180.0 / std::numbers::pi;
+  const double wheels_deg = agent.steer_rad * 180.0 / base::kPi;
   if (!agent.detail)
     return fmt::format("{}\n{:.1f} km/h{}\nwheels {:.1f} deg", name, 3.6 * agent.speed_mps,
                        agent.lights.brake ? "   brakes" : "", wheels_deg);

@@ -3,9 +3,9 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "common/driving/driver/way_from_start.hpp"
 #include "idl/topics.hpp"
 
@@ -50,7 +50,7 @@ std::optional<DriverAim> DriverAims::Of(const scene::CarPose& car) {
   const auto aim = made->second->AimOf({car.p_WB_W, heading_rad, car.speed_mps, car.wheelbase_m, car.front_m});
   if (!aim) return std::nullopt;
   return DriverAim{aim->speed_mps, Eigen::Rotation2Dd(-heading_rad) * (aim->target_W - car.p_WB_W.head<2>()),
-                   std::remainder(aim->way_heading_rad - heading_rad, 2.0 * std::numbers::pi), aim->look_ahead_W};
+                   std::remainder(aim->way_heading_rad - heading_rad, 2.0 * base::kPi), aim->look_ahead_W};
 }
 
 }  // namespace rodeira::nodes

@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/mesh/loft.hpp"
 #include "common/view/scene/mesh/solids.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -18,8 +19,6 @@ constexpr double kThick_m = 0.12, kTip_m = 0.7, kWide_m = 0.3;  // of an arrow
 constexpr double kPost_m = 1.6, kPathHigh_m = 0.5, kPath_m = 6.0;
 constexpr double kAboveRoof_m = 0.4, kTargetAboveRoof_m = 0.9;
 constexpr double kBall_m = 0.22, kLine_m = 0.06, kStick_m = 0.03;
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 scene::Mesh Tip(scene::Colour colour) {
   const double w = kWide_m, thin = 0.01;
@@ -34,11 +33,11 @@ scene::Mesh Ball(scene::Colour colour) {
   constexpr int kRings = 8, kSides = 12;
   std::vector<std::vector<Eigen::Vector3d>> rings;
   for (int i = 0; i <= kRings; ++i) {
-    const double up = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5),
+    const double up = base::kPi * (static_cast<double>(i) / kRings - 0.5),
                  wide = std::max(1e-3, kBall_m * std::cos(up));
     rings.emplace_back();
     for (int k = 0; k < kSides; ++k) {
-      const double turn = 2.0 * std::numbers::pi * k / kSides;
+      const double turn = 2.0 * base::kPi * k / kSides;
       rings.back().emplace_back(wide * std::cos(turn), wide * std::sin(turn), kBall_m * std::sin(up));
     }
   }

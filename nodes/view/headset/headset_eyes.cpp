@@ -10,7 +10,6 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 constexpr XrDuration kPatience_ns = 5'000'000'000;  // with a picture that the runtime still shows
 
 struct SwapchainImage {  // XrSwapchainImageOpenGLKHR, whose header wants the window system's

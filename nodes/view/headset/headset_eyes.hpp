@@ -13,6 +13,8 @@
 
 namespace rodeira::nodes {
 
+inline constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+
 // One of OpenXR's structures, empty but for what it is.
 template <class Structure>
 Structure Of(XrStructureType type) {

@@ -14,8 +14,6 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
-
 // "xrGetSystem: XR_ERROR_FORM_FACTOR_UNAVAILABLE". `instance` may be null.
 std::string Said(XrInstance instance, const char* function, XrResult result) {
   char name[XR_MAX_RESULT_STRING_SIZE] = {};

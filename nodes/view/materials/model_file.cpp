@@ -11,14 +11,14 @@ namespace rodeira::nodes {
 
 namespace {
 
-std::mutex mutex;  // of the next, and of the nodes in it
-std::map<std::string, osg::ref_ptr<osg::Node>> known;
+std::mutex models_mutex;  // of the next, and of the nodes in it
+std::map<std::string, osg::ref_ptr<osg::Node>> known_models;
 
 }  // namespace
 
 base::Status ReadModel(const std::string& file) {
-  const std::lock_guard lock(mutex);
-  auto& node = known[file];
+  const std::lock_guard lock(models_mutex);
+  auto& node = known_models[file];
   if (!node) node = osgDB::readRefNodeFile(file);
   if (!node) return base::WrongInput("OpenSceneGraph cannot read this model", file);
   return {};
@@ -26,8 +26,8 @@ base::Status ReadModel(const std::string& file) {
 
 osg::ref_ptr<osg::Node> CopyOfModel(const std::string& file) {
   if (!ReadModel(file)) return {};
-  const std::lock_guard lock(mutex);
-  return osg::clone(known.at(file).get(), osg::CopyOp(osg::CopyOp::DEEP_COPY_ALL));
+  const std::lock_guard lock(models_mutex);
+  return osg::clone(known_models.at(file).get(), osg::CopyOp(osg::CopyOp::DEEP_COPY_ALL));
 }
 
 osg::ref_ptr<osg::Group> PlaceModels(const std::vector<scene::PlacedModel>& models) {

@@ -12,10 +12,10 @@ namespace {
 
 constexpr unsigned kUnit = 4;  // of textures; noise, faces and the sun's maps have those before it
 // In the panels' units.
-constexpr float kLeft = 18.0F, kWidth = 380.0F, kBarHeight = 14.0F, kText = 17.0F, kHeight = 72.0F, kGap = 10.0F;
+constexpr float kLeft = 18.0F, kWidth = 380.0F, kBarHeight = 14.0F, kLegendText = 17.0F, kHeight = 72.0F, kGap = 10.0F;
 constexpr float kFromTop = 120.0F;  // below the lines of help and notes
 
-osg::Vec4 Of(scene::Colour colour, float share) {
+osg::Vec4 ToVec4(scene::Colour colour, float share) {
   return {static_cast<float>(colour.red) / 255.0F, static_cast<float>(colour.green) / 255.0F,
           static_cast<float>(colour.blue) / 255.0F, share};
 }
@@ -47,12 +47,13 @@ HeatNode::HeatNode(osg::Group& overlay, osg::StateSet& state)
     : squares_(MakeSquares()), ground_(overlay, {0.04F, 0.05F, 0.07F, 0.55F}) {
   state.addUniform(new osg::Uniform("heat_map", static_cast<int>(kUnit)));
   for (std::size_t i = 0; i < kSteps; ++i) {
-    bar_[i] = std::make_unique<Boxes>(overlay, Of(scene::HeatColour((static_cast<double>(i) + 0.5) / kSteps), 1.0F), 1);
+    bar_[i] =
+        std::make_unique<Boxes>(overlay, ToVec4(scene::HeatColour((static_cast<double>(i) + 0.5) / kSteps), 1.0F), 1);
   }
-  title_ = AddText(overlay, kText, osgText::TextBase::LEFT_BASE_LINE);
-  low_ = AddText(overlay, kText, osgText::TextBase::LEFT_BASE_LINE);
-  middle_ = AddText(overlay, kText, osgText::TextBase::CENTER_BASE_LINE);
-  high_ = AddText(overlay, kText, osgText::TextBase::RIGHT_BASE_LINE);
+  title_ = AddText(overlay, kLegendText, osgText::TextBase::LEFT_BASE_LINE);
+  low_ = AddText(overlay, kLegendText, osgText::TextBase::LEFT_BASE_LINE);
+  middle_ = AddText(overlay, kLegendText, osgText::TextBase::CENTER_BASE_LINE);
+  high_ = AddText(overlay, kLegendText, osgText::TextBase::RIGHT_BASE_LINE);
 }
 
 void HeatNode::Show(osg::StateSet& state, const std::shared_ptr<const HeatPicture>& heat, const PanelSize& size) {

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nodes/view/overlays/gear_name.hpp"
+
 namespace rodeira::nodes {
 namespace {
 
@@ -14,8 +16,6 @@ constexpr float kPanelWidth = 236.0F, kPanelHeight = 92.0F;
 constexpr float kMargin = 18.0F, kWithin = 10.0F;
 constexpr float kAbout = 20.0F, kAboutWidth = 448.0F, kRow = 1.12F;
 const osg::Vec4 kBehind(0.04F, 0.05F, 0.07F, 0.55F);
-
-std::string GearName(std::int32_t gear) { return gear < 0 ? "R" : gear == 0 ? "N" : fmt::format("{}", gear); }
 
 }  // namespace
 

@@ -7,7 +7,7 @@ namespace rodeira::nodes {
 namespace {
 
 // In the panels' units.
-constexpr float kText = 17.0F;
+constexpr float kTimelineText = 17.0F;
 constexpr float kTextLow = 34.0F;
 constexpr float kNoteGap = 7.0F;        // around the text over the bar
 constexpr float kInstruments = 260.0F;  // to the right of it
@@ -29,10 +29,10 @@ TimelineBar::TimelineBar(osg::Group& overlay)
       events_(overlay, {0.35F, 0.85F, 0.55F, 1.0F}, 4),
       marks_(overlay, {0.98F, 0.80F, 0.22F, 1.0F}, 4),
       knob_(overlay, {0.98F, 0.98F, 0.98F, 1.0F}, 5) {
-  where_ = AddText(overlay, kText, osgText::TextBase::LEFT_BASE_LINE);
+  where_ = AddText(overlay, kTimelineText, osgText::TextBase::LEFT_BASE_LINE);
   note_ = AddText(overlay, 20.0F, osgText::TextBase::LEFT_BOTTOM);
   note_->setColor({0.98F, 0.80F, 0.22F, 1.0F});
-  keys_ = AddText(overlay, kText, osgText::TextBase::RIGHT_BASE_LINE);
+  keys_ = AddText(overlay, kTimelineText, osgText::TextBase::RIGHT_BASE_LINE);
   keys_->setColor({0.75F, 0.78F, 0.82F, 1.0F});
 }
 

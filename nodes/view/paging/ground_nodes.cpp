@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "nodes/view/materials/model_file.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr float kMarksSeen_m = 650.0F;
 constexpr float kTreesSeen_m = 1'100.0F;
 constexpr double kHighestTree_m = 12.0;
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nodes/view/renderer/aim_camera.hpp"
 
-#include <numbers>
+#include "common/core/base/constants.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
-namespace {
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-}  // namespace
 
 void AimCamera(osg::Camera& eye, const scene::Camera& camera, double aspect, double far_m) {
   const osg::Vec3d at = ToOsg(camera.eye_W);
@@ -20,7 +16,7 @@ void AimCamera(osg::Camera& eye, const scene::Camera& camera, double aspect, dou
   } else if (half_m > 0.0) {
     eye.setProjectionMatrixAsOrtho(-half_m * aspect, half_m * aspect, -half_m, half_m, kNear_m, far_m);
   } else {
-    eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / std::numbers::pi, aspect, kNear_m, far_m);
+    eye.setProjectionMatrixAsPerspective(camera.vertical_view_rad * 180.0 / base::kPi, aspect, kNear_m, far_m);
   }
 }
 

@@ -15,7 +15,7 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr double kFar_m = 1'500.0;
+constexpr double kMirrorFar_m = 1'500.0;
 constexpr float kCoarser = 2.5F;                // levels of detail in a small picture
 constexpr std::int64_t kNext_ns = 200'000'000;  // from a picture to the next one, at most
 constexpr double kNext_m = 10.0;
@@ -137,7 +137,7 @@ void Mirrors::Show(const Picture& picture, const std::optional<scene::Body>& bod
     glass.camera->setNodeMask(shown && (!one || at == turn_) ? ~0U : 0U);
     glass.pane->setNodeMask(shown ? ~0U : 0U);
     if (!shown) continue;
-    AimCamera(*glass.camera, scene::MirrorCamera(*body, mirror), scene::ShapeOf(mirror), kFar_m);
+    AimCamera(*glass.camera, scene::MirrorCamera(*body, mirror), scene::ShapeOf(mirror), kMirrorFar_m);
     glass.camera->setClearColor({air.horizon.x(), air.horizon.y(), air.horizon.z(), 1.0F});
     SetEye(*glass.camera->getOrCreateStateSet(), air, lit, glass.camera->getViewMatrix());
     shadow.SetEye(*glass.camera->getOrCreateStateSet(), glass.camera->getViewMatrix());

@@ -27,6 +27,7 @@
 #include "nodes/view/materials/look.hpp"
 #include "nodes/view/materials/model_file.hpp"
 #include "nodes/view/materials/plain_geometry.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 #include "nodes/view/overlays/heat_node.hpp"
 #include "nodes/view/overlays/instruments.hpp"
 #include "nodes/view/overlays/overlay.hpp"
@@ -46,8 +47,6 @@ namespace {
 
 constexpr double kFar_m = 15'000.0;
 constexpr double kShadowsAhead_m = 35.0;
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 // About which place shadows are seen best: before the eye where it looks along the road, else about the car.
 Eigen::Vector3d ShadowsAbout(const Picture& picture, const std::optional<scene::Body>& body,

@@ -5,6 +5,7 @@
 #include <osg/PolygonOffset>
 
 #include "nodes/view/materials/look.hpp"
+#include "nodes/view/materials/to_osg.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
 namespace rodeira::nodes {
@@ -53,8 +54,6 @@ osg::ref_ptr<osg::Camera> MakeCamera(osg::Texture2D& map, int side_px, unsigned 
   state->setMode(GL_CULL_FACE, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
   return camera;
 }
-
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 void Aim(osg::Camera& camera, const scene::SunView& sun) {
   const double half_m = 0.5 * sun.side_m;

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/camera/placing.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
-constexpr const char* kOutside = "there is no ground of this world: the car stays where it is";
+constexpr const char* kNoGround = "there is no ground of this world: the car stays where it is";
 
 // Under all of the car's corners.
 bool HasGround(ground::Ground& ground, const scene::CarPlace& place, const scene::CarPose& car) {
@@ -45,17 +45,17 @@ base::Result<scenario::Request> AskPlace(const road::World& world, const scene::
   const scene::CarPose& car = *found.value();
   const auto ground = world.MakeGround();
   const auto met = scene::GroundOn(*ground, ray);
-  if (!met) return base::WrongInput(kOutside);
+  if (!met) return base::WrongInput(kNoGround);
   const scene::CarPlace place = scene::PlaceAt(world, *met, HeadingOf(car));
-  if (!HasGround(*ground, place, car)) return base::WrongInput(kOutside);
+  if (!HasGround(*ground, place, car)) return base::WrongInput(kNoGround);
   return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m},
-                                place.heading_rad * 180.0 / geometry::kPi);
+                                place.heading_rad * 180.0 / base::kPi);
 }
 
 StartPlace PlaceOfStart(const road::World& world, const CarStart& own) {
   const road::StartPose& of_world = world.start();
   const bool own_place = own.x_m && own.y_m;
-  const double heading_deg = own.heading_deg.value_or(own_place ? 0.0 : of_world.heading_rad * 180.0 / geometry::kPi);
+  const double heading_deg = own.heading_deg.value_or(own_place ? 0.0 : of_world.heading_rad * 180.0 / base::kPi);
   return {own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, heading_deg};
 }
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
 
@@ -25,7 +25,7 @@ Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; 
 Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double(v.y()), Double(v.z())}; }
 
 // What lies outside of what can be (a recording from elsewhere) is cut to it.
-weather::Weather FromWire(const msg::WeatherState& message) {
+weather::Weather WeatherFromWire(const msg::WeatherState& message) {
   const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
   return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0),
           cut(message.visibility_m(), 10.0, weather::kClear_m), cut(message.clouds(), 0.0, 1.0),
@@ -33,19 +33,19 @@ weather::Weather FromWire(const msg::WeatherState& message) {
 }
 
 // Of an agent that stood there, heading so, when it was said.
-scene::AgentDetail FromWire(const msg::TrafficDetail& message, const Eigen::Vector2d& at_W, double heading_rad) {
+scene::AgentDetail DetailFromWire(const msg::TrafficDetail& message, const Eigen::Vector2d& at_W, double heading_rad) {
   scene::AgentDetail detail;
   detail.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
   detail.brake = std::clamp(Double(message.brake()), 0.0, 1.0);
   detail.clutch = std::clamp(Double(message.clutch()), 0.0, 1.0);
   detail.gear = message.gear();
-  detail.engine_rpm = Double(message.engine_speed_radps()) * 30.0 / std::numbers::pi;
+  detail.engine_rpm = Double(message.engine_speed_radps()) * 30.0 / base::kPi;
   detail.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
   detail.fuel_used_l = Double(message.fuel_used_kg()) / kPetrol_kgpl;
   detail.target_speed_mps = Double(message.target_speed_mps());
   const Eigen::Vector2d target_W(Double(message.target_x_m()), Double(message.target_y_m()));
   detail.target_B = Eigen::Rotation2Dd(-heading_rad) * (target_W - at_W);
-  detail.path_turn_rad = std::remainder(Double(message.path_heading_rad()) - heading_rad, 2.0 * std::numbers::pi);
+  detail.path_turn_rad = std::remainder(Double(message.path_heading_rad()) - heading_rad, 2.0 * base::kPi);
   detail.look_ahead_W = {Double(message.look_ahead_x_m()), Double(message.look_ahead_y_m())};
   return detail;
 }
@@ -62,7 +62,7 @@ void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const 
     if (found == by_id.end()) continue;
     const Eigen::Vector3d ahead_W = agent.q_WB * Eigen::Vector3d::UnitX();
     const Eigen::Vector2d at_W = (agent.p_WB_W - age_s * agent.speed_mps * ahead_W).head<2>();
-    agent.detail = FromWire(*found->second, at_W, std::atan2(ahead_W.y(), ahead_W.x()));
+    agent.detail = DetailFromWire(*found->second, at_W, std::atan2(ahead_W.y(), ahead_W.x()));
   }
 }
 
@@ -108,7 +108,7 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.brake = Double(message.brake());
   car.lights = LightsOf(message.lights());
   car.gear = message.gear();
-  car.engine_rpm = message.engine_speed_radps() * 30.0 / std::numbers::pi;
+  car.engine_rpm = message.engine_speed_radps() * 30.0 / base::kPi;
   car.fuel_used_l = message.fuel_kg() / kPetrol_kgpl;
   car.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
   car.odometer_m = message.odometer_m();
@@ -190,7 +190,7 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
     } else if (roster.source(source).topic == idl::topics::kWeatherState) {
       const auto message = idl::Decode<msg::WeatherState>(*payload);
       if (!message) return message.error();
-      moment.weather = FromWire(message.value());
+      moment.weather = WeatherFromWire(message.value());
     } else if (roster.source(source).topic == idl::topics::kTrafficDetails) {
       auto message = idl::Decode<msg::TrafficDetails>(*payload);
       if (!message) return message.error();

@@ -3,6 +3,8 @@
 
 #include <osg/Uniform>
 
+#include "nodes/view/materials/to_osg.hpp"
+
 namespace rodeira::nodes {
 namespace {
 
@@ -10,8 +12,6 @@ constexpr double kLampHeight_m = 0.65;
 constexpr std::int64_t kRainAgain_ns =
     10'000'000'000;  // the streaks' way fits into it: fractions of the texture a second are tenths
 
-osg::Vec3f ToOsg(const Eigen::Vector3f& v) { return {v.x(), v.y(), v.z()}; }
-osg::Vec3d ToOsg(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 osg::Vec3f Turned(const osg::Vec3d& direction, const osg::Matrixd& view) {
   return osg::Matrixd::transform3x3(direction, view);
 }
@@ -33,12 +33,12 @@ void Define(osg::StateSet& state, const char* word, bool on) {
 }  // namespace
 
 void SetAir(osg::StateSet& state, const scene::Air& air) {
-  Set(state, "sun_world", ToOsg(air.sun_W));
-  Set(state, "base_light", ToOsg(air.base_light));
-  Set(state, "sky_light", ToOsg(air.sky_light));
-  Set(state, "sun_light", ToOsg(air.sun_light));
-  Set(state, "horizon_colour", ToOsg(air.horizon));
-  Set(state, "zenith_colour", ToOsg(air.zenith));
+  Set(state, "sun_world", ToOsgFloat(air.sun_W));
+  Set(state, "base_light", ToOsgFloat(air.base_light));
+  Set(state, "sky_light", ToOsgFloat(air.sky_light));
+  Set(state, "sun_light", ToOsgFloat(air.sun_light));
+  Set(state, "horizon_colour", ToOsgFloat(air.horizon));
+  Set(state, "zenith_colour", ToOsgFloat(air.zenith));
   Set(state, "sun_disc", air.disc);
   Set(state, "clouds", air.clouds);
   Set(state, "cloud_light", air.cloud_light);
@@ -50,7 +50,7 @@ void SetAir(osg::StateSet& state, const scene::Air& air) {
 }
 
 void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* car, const osg::Matrixd& view) {
-  Set(state, "sun_eye", Turned(osg::Vec3d(ToOsg(air.sun_W)), view));
+  Set(state, "sun_eye", Turned(osg::Vec3d(ToOsgFloat(air.sun_W)), view));
   Set(state, "up_eye", Turned({0.0, 0.0, 1.0}, view));
   const bool switched_on = car != nullptr && (car->lights.dipped || car->lights.main);
   const float headlights = car == nullptr ? 0.0F : switched_on ? air.dusk : air.headlights;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kNearest = 4;
 constexpr double kFarthest_m = 80.0, kHalf_m = 6.0;  // where another car is half as loud as beside it
-constexpr double kOutside = 0.5;                     // of another car's loudness, through one's own body
+constexpr double kOutsideShare = 0.5;                // of another car's loudness, through one's own body
 
 sound::Voice VoiceOf(const scene::AgentPose& agent) {
   return {
@@ -53,8 +53,8 @@ sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double v
     const Eigen::Vector3d to_B = body->q_WB.conjugate() * (p_W - body->p_WB_W);
     const double distance_m = to_B.norm();
     if (distance_m > kFarthest_m) return;
-    voice.gain =
-        kOutside * (1.0 / (1.0 + (distance_m / kHalf_m) * (distance_m / kHalf_m))) * (1.0 - distance_m / kFarthest_m);
+    voice.gain = kOutsideShare * (1.0 / (1.0 + (distance_m / kHalf_m) * (distance_m / kHalf_m))) *
+                 (1.0 - distance_m / kFarthest_m);
     voice.pan = distance_m > 1e-3 ? -to_B.y() / distance_m : 0.0;
     near.push_back({distance_m, id, voice});
   };

@@ -75,7 +75,7 @@ osg::ref_ptr<osg::Geometry> GeometryOf(const scene::Mesh& mesh, const Pictures& 
   return geometry;
 }
 
-osg::ref_ptr<osg::Node> LevelNode(const scene::GroundLevel& level, const Pictures& pictures) {
+osg::ref_ptr<osg::Node> StoredLevelNode(const scene::GroundLevel& level, const Pictures& pictures) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   const auto place = [&](const Eigen::Vector3d& origin_W, osg::Geometry* geometry) {
     osg::ref_ptr<osg::MatrixTransform> at =
@@ -177,7 +177,7 @@ base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, c
   }
   Manifest files;
   for (std::size_t level = 0; level < levels.size(); ++level) {
-    const auto bytes = Serialise(*LevelNode(levels[level], pictures));
+    const auto bytes = Serialise(*StoredLevelNode(levels[level], pictures));
     if (!bytes) return bytes.error();
     const std::string& name = names.levels[level].file;
     files[name] = {base::Hash(bytes.value()), source};

@@ -10,8 +10,8 @@
 #include <iterator>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/user_folders.hpp"
-#include "common/core/geometry/angle.hpp"
 #include "common/runtime/launch/live_keys.hpp"
 #include "common/vehicle/input_devices/key_names.hpp"
 #include "common/view/scene/camera/pick.hpp"
@@ -45,7 +45,7 @@ Picture FirstPicture(const road::World& world, const ViewSettings& settings) {
       world,
       said ? std::next(settings.starts.begin(), static_cast<std::ptrdiff_t>(settings.followed))->second : CarStart{});
   car.p_WB_W = {start.x_m, start.y_m, world.At(start.x_m, start.y_m).z_m};
-  car.q_WB = scene::Attitude(start.heading_deg * geometry::kPi / 180.0, 0.0, 0.0);
+  car.q_WB = scene::Attitude(start.heading_deg * base::kPi / 180.0, 0.0, 0.0);
   for (std::size_t i = 0; i < 4; ++i) car.wheels[i].hub_B = {i < 2 ? 1.2 : -1.2, i % 2 == 0 ? 0.7 : -0.7, 0.29};
   scene::Moment moment;
   moment.cars.push_back(car);

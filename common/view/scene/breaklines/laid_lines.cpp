@@ -10,21 +10,21 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kStep_m = 0.25;         // within a bump two lines are never farther apart, along it
-constexpr double kLongest_m = 8.0;       // beside a patch
-constexpr double kShortest_m = 0.02;     // where a height has a kink nothing is gained by going on
-constexpr double kMeasuredStep_m = 0.5;  // what is seen of measured surfaces has no waves shorter than some 2 m
-constexpr double kOfTolerance = 0.8;     // between two places that are asked it may be farther off
-constexpr double kHint_m = 0.3;          // what is farther away is another road's
-constexpr int kAcross = 6;               // parts of a bump across, at least
+constexpr double kMaxBumpStep_m = 0.25;     // within a bump two lines are never farther apart, along it
+constexpr double kMaxPatchStep_m = 8.0;     // beside a patch
+constexpr double kMinSubdivision_m = 0.02;  // at a kink in the height a finer subdivision gains nothing
+constexpr double kMeasuredStep_m = 0.5;     // what is seen of measured surfaces has no waves shorter than some 2 m
+constexpr double kOfTolerance = 0.8;        // between two places that are asked it may be farther off
+constexpr double kHint_m = 0.3;             // what is farther away is another road's
+constexpr int kAcross = 6;                  // parts of a bump across, at least
 
 // Values between two, so close that what they stand for is straight enough from each to the next: `off` says how far it
 // is from straight between two of them.
-std::vector<double> Between(double from, double to, double longest, const std::function<double(double, double)>& off,
-                            double tolerance) {
+std::vector<double> Subdivide(double from, double to, double longest, const std::function<double(double, double)>& off,
+                              double tolerance) {
   std::vector<double> values = {from};
   const std::function<void(double, double)> divide = [&](double a, double b) {
-    if (b - a > kShortest_m && off(a, b) > tolerance) {
+    if (b - a > kMinSubdivision_m && off(a, b) > tolerance) {
       divide(a, 0.5 * (a + b));
       divide(0.5 * (a + b), b);
     } else {
@@ -54,7 +54,8 @@ class Piece {
         off = std::max(off, Off(At(a, t), At(0.5 * (a + b), t), At(b, t)));
       return off;
     };
-    const std::vector<double> stations = Between(from_s_m_, to_s_m_, bump_ ? kStep_m : kLongest_m, along_off, 1.0);
+    const std::vector<double> stations =
+        Subdivide(from_s_m_, to_s_m_, bump_ ? kMaxBumpStep_m : kMaxPatchStep_m, along_off, 1.0);
     std::vector<double> across = {right_t_m_, left_t_m_};
     if (bump_) {
       const double highest = *std::max_element(stations.begin(), stations.end(), [&](double a, double b) {
@@ -63,7 +64,7 @@ class Piece {
       const auto across_off = [&](double a, double b) {
         return Off(At(highest, a), At(highest, 0.5 * (a + b)), At(highest, b));
       };
-      across = Between(right_t_m_, left_t_m_, (left_t_m_ - right_t_m_) / kAcross, across_off, 1.0);
+      across = Subdivide(right_t_m_, left_t_m_, (left_t_m_ - right_t_m_) / kAcross, across_off, 1.0);
     }
     for (const double t : across) lines.push_back(Line(stations, [&](double s) { return At(s, t); }));
     for (const double s : bump_ ? stations : std::vector<double>{from_s_m_, to_s_m_}) {
@@ -131,7 +132,7 @@ void MeetMeasured(const road::World& world, const network::Road& road, const Tol
       const double length_m = (b - a).head<2>().norm();
       const int parts = std::max(4, static_cast<int>(std::ceil(length_m / kMeasuredStep_m)));
       bool off = false;
-      for (int k = 1; k < parts && !off && length_m > 2.0 * kShortest_m; ++k) {
+      for (int k = 1; k < parts && !off && length_m > 2.0 * kMinSubdivision_m; ++k) {
         const Eigen::Vector3d p = a + static_cast<double>(k) / parts * (b - a);
         off = std::fabs(meet(p).z() - p.z()) > kOfTolerance * tolerance.height_m;
       }

@@ -10,8 +10,8 @@ namespace {
 using network::LaneSection;
 using network::Road;
 
-constexpr double kLongest_m = 24.0;   // between two stations
-constexpr double kShortest_m = 0.05;  // where a formula has a kink nothing is gained by going on
+constexpr double kMaxStationStep_m = 24.0;  // between two stations
+constexpr double kMinStationStep_m = 0.05;  // at a kink a finer subdivision gains nothing
 constexpr double kAtQuarters =
     0.91;  // of how far a cubic lies from its chord at most, this much at least is seen at one of the chord's quarters
 constexpr int kMostParts = 16;  // of a lane, across
@@ -110,7 +110,7 @@ class SectionLines {
     if (kept.size() > 1) kept.back() = high;
     std::vector<double> all = {kept.front()};
     for (std::size_t i = 0; i + 1 < kept.size(); ++i) {
-      const int count = std::max(1, static_cast<int>(std::ceil((kept[i + 1] - kept[i]) / kLongest_m)));
+      const int count = std::max(1, static_cast<int>(std::ceil((kept[i + 1] - kept[i]) / kMaxStationStep_m)));
       for (int k = 1; k <= count; ++k)
         all.push_back(k == count ? kept[i + 1] : kept[i] + (kept[i + 1] - kept[i]) * k / count);
     }
@@ -162,7 +162,7 @@ class SectionLines {
   void Refine(double from, double to, const Line3& last, int depth) {
     const Line3 first = rows_.back();
     bool fits = true;
-    if (to - from > kShortest_m && depth < 20) {
+    if (to - from > kMinStationStep_m && depth < 20) {
       for (const double part : {0.5, 0.25, 0.75}) fits = fits && Fits(first, last, Row(from + part * (to - from)));
     }
     if (fits) {

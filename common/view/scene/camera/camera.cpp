@@ -6,7 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
+#include "common/view/scene/smooth_step.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = geometry::kPi / 180.0;
 constexpr double kClearance_m = 0.9;  // of an eye outside of the car over the ground
 constexpr auto kNames = std::to_array<std::string_view>({"chase", "driver", "bonnet", "orbit", "top", "trackside"});
 
@@ -23,12 +23,6 @@ Vector2d NoseInPlan(const Body& car) {
   const Vector3d nose = car.q_WB * Vector3d::UnitX();
   const double length = std::hypot(nose.x(), nose.y());
   return length > 1e-3 ? Vector2d(nose.x() / length, nose.y() / length) : Vector2d::UnitX();
-}
-
-// 0 up to `from`, 1 from `to` on, smooth between.
-double Smooth(double x, double from, double to) {
-  const double share = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return share * share * (3.0 - 2.0 * share);
 }
 
 constexpr double kChase_m = 7.2, kChaseHigh_m = 2.45;
@@ -63,8 +57,9 @@ double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> othe
     const double front = std::min(first, -rear), aside = std::max({low, -high, 0.0});
     const double sight_z_m = roof_z_m + (eye_z_m - roof_z_m) * std::min(-front / kChase_m, 1.0);
     const double wheels_m = other.p_WB_W.z() - sight_z_m;  // over the line of sight: on a bridge
-    const double weight = (1.0 - Smooth(aside, kInTheWay_m, kClear_m)) *
-                          Smooth(wheels_m + other.height_m, -kBelow_m, kAbove_m) * (1.0 - Smooth(wheels_m, 0.0, 1.0));
+    const double weight = (1.0 - SmoothStep(aside, kInTheWay_m, kClear_m)) *
+                          SmoothStep(wheels_m + other.height_m, -kBelow_m, kAbove_m) *
+                          (1.0 - SmoothStep(wheels_m, 0.0, 1.0));
     const double wanted = std::clamp(-front - kBefore_m, kLeastChase_m, kChase_m);
     distance = std::min(distance, kChase_m - weight * (kChase_m - wanted));
   }
@@ -138,8 +133,9 @@ std::optional<Body> BodyAt(const Moment& moment, std::size_t number) {
 }
 
 void Aim::Turn(double by_azimuth_rad, double by_elevation_rad) {
-  azimuth_rad = std::remainder(azimuth_rad + by_azimuth_rad, 2.0 * geometry::kPi);
-  elevation_rad = std::clamp(elevation_rad + by_elevation_rad, -5.0 * kDegree, 85.0 * kDegree);
+  azimuth_rad = std::remainder(azimuth_rad + by_azimuth_rad, 2.0 * base::kPi);
+  elevation_rad =
+      std::clamp(elevation_rad + by_elevation_rad, -5.0 * base::kRadiansPerDegree, 85.0 * base::kRadiansPerDegree);
 }
 
 void Aim::Zoom(double factor) {
@@ -158,7 +154,7 @@ Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Bo
       (away_m - kLeastChase_m) /
       (kChase_m - kLeastChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
   const Vector3d target = car.p_WB_W + 9.0 * share * ahead + Vector3d(0.0, 0.0, 0.75);
-  return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+  return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * base::kRadiansPerDegree);
 }
 
 Vector3d DriversEye_B(const Body& car) {
@@ -170,7 +166,7 @@ Vector3d DriversEye_B(const Body& car) {
 Camera DriverCamera(const Body& car) {
   const Vector3d forward_B(1.0, 0.0, -0.015);
   return LookFrom(car.p_WB_W + car.q_WB * DriversEye_B(car), car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(),
-                  52.0 * kDegree);
+                  52.0 * base::kRadiansPerDegree);
 }
 
 Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
@@ -188,7 +184,8 @@ Camera ScreenCamera(const Body& car, const ScreenPlane& screen) {
 Camera BonnetCamera(const Body& car) {
   const Vector3d eye_B(car.front_m - 0.30 * car.length_m, 0.0, 0.74 * car.height_m);  // before the windscreen
   const Vector3d forward_B(1.0, 0.0, -0.03);
-  return LookFrom(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(), 52.0 * kDegree);
+  return LookFrom(car.p_WB_W + car.q_WB * eye_B, car.q_WB * forward_B, car.q_WB * Vector3d::UnitZ(),
+                  52.0 * base::kRadiansPerDegree);
 }
 
 Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
@@ -198,14 +195,14 @@ Camera OrbitCamera(const Body& car, const Aim& aim, const road::World& world) {
   const double level_m = aim.distance_m * std::cos(aim.elevation_rad);
   const Vector3d eye = AboveGround(
       middle + Vector3d(level_m * out.x(), level_m * out.y(), aim.distance_m * std::sin(aim.elevation_rad)), world);
-  return LookFrom(eye, middle - eye, Vector3d::UnitZ(), 48.0 * kDegree);
+  return LookFrom(eye, middle - eye, Vector3d::UnitZ(), 48.0 * base::kRadiansPerDegree);
 }
 
 Camera TopCamera(const Body& car, const Aim& aim) {
   // As high as the eye of a pinhole camera would be that shows as much: what is left out far away is the same.
   const double above_m = std::max(60.0, 1.2 * aim.map_height_m);
-  Camera camera =
-      LookFrom(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(), 48.0 * kDegree);
+  Camera camera = LookFrom(car.p_WB_W + Vector3d(0.0, 0.0, above_m), -Vector3d::UnitZ(), Vector3d::UnitY(),
+                           48.0 * base::kRadiansPerDegree);
   camera.parallel_height_m = aim.map_height_m;
   return camera;
 }

@@ -4,20 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = geometry::kPi / 180.0;
-constexpr double kOutward_rad = 8.0 * kDegree;
-constexpr double kOuterLook_rad = 45.0 * kDegree,
-                 kInsideLook_rad = -5.0 * kDegree;  // of the driver, positive to the left
-constexpr double kInsideView_rad = 38.0 * kDegree, kOuterView_rad = 26.0 * kDegree;
+constexpr double kOutward_rad = 8.0 * base::kRadiansPerDegree;
+constexpr double kOuterLook_rad = 45.0 * base::kRadiansPerDegree,
+                 kInsideLook_rad = -5.0 * base::kRadiansPerDegree;  // of the driver, positive to the left
+constexpr double kInsideView_rad = 38.0 * base::kRadiansPerDegree, kOuterView_rad = 26.0 * base::kRadiansPerDegree;
 
-constexpr double kEdge = 0.012;  // between a picture's edge and a mirror, of the picture's width
+constexpr double kMirrorMargin = 0.012;  // between a picture's edge and a mirror, of the picture's width
 
 double SideOf(Mirror mirror) { return mirror == Mirror::kLeft ? 1.0 : mirror == Mirror::kRight ? -1.0 : 0.0; }
 
@@ -47,7 +46,7 @@ std::array<bool, kMirrors> MirrorsOn(std::span<const ScreenPlane> screens, std::
     const double look_rad = mirror == Mirror::kInside ? kInsideLook_rad : SideOf(mirror) * kOuterLook_rad;
     const auto away_rad = [look_rad](const ScreenPlane& screen) {
       const double middle_rad = screen.angle_rad - std::atan2(screen.aside_m, screen.distance_m);
-      return std::fabs(std::remainder(middle_rad - look_rad, 2.0 * geometry::kPi));
+      return std::fabs(std::remainder(middle_rad - look_rad, 2.0 * base::kPi));
     };
     const auto nearest = std::ranges::min_element(screens, {}, away_rad);
     on[static_cast<std::size_t>(mirror)] = nearest - screens.begin() == static_cast<std::ptrdiff_t>(which);
@@ -73,13 +72,13 @@ MirrorPlace PlaceOf(Mirror mirror, double aspect) {
   const double wide = mirror == Mirror::kInside ? 0.26 : 0.17, high = wide * aspect / ShapeOf(mirror);
   switch (mirror) {
     case Mirror::kLeft:
-      return {kEdge, 0.30, kEdge + wide, 0.30 + high};
+      return {kMirrorMargin, 0.30, kMirrorMargin + wide, 0.30 + high};
     case Mirror::kRight:
-      return {1.0 - kEdge - wide, 0.30, 1.0 - kEdge, 0.30 + high};
+      return {1.0 - kMirrorMargin - wide, 0.30, 1.0 - kMirrorMargin, 0.30 + high};
     case Mirror::kInside:
       break;
   }
-  return {0.56, 1.0 - kEdge * aspect - high, 0.56 + wide, 1.0 - kEdge * aspect};
+  return {0.56, 1.0 - kMirrorMargin * aspect - high, 0.56 + wide, 1.0 - kMirrorMargin * aspect};
 }
 
 MirrorPlace PlaceOn(const ScreenPlane& screen, const Body& car, Mirror mirror, double aspect) {
@@ -88,8 +87,9 @@ MirrorPlace PlaceOn(const ScreenPlane& screen, const Body& car, Mirror mirror, d
   const auto seen = camera.Project(car.p_WB_W + car.q_WB * MirrorAt_B(car, mirror), 1, 1);
   if (mirror == Mirror::kInside || !seen) return usual;
   const double wide = usual.right - usual.left, high = usual.high - usual.low;
-  const double left = std::clamp(seen->x() - 0.5 * wide, kEdge, 1.0 - kEdge - wide);
-  const double low = std::clamp(1.0 - seen->y() - 0.5 * high, kEdge * aspect, 1.0 - kEdge * aspect - high);
+  const double left = std::clamp(seen->x() - 0.5 * wide, kMirrorMargin, 1.0 - kMirrorMargin - wide);
+  const double low =
+      std::clamp(1.0 - seen->y() - 0.5 * high, kMirrorMargin * aspect, 1.0 - kMirrorMargin * aspect - high);
   return {left, low, left + wide, low + high};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 
 namespace rodeira::scene {
@@ -11,8 +12,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSteepest = 1.5;  // no ground rises faster towards the ray, so that it is not passed through
-constexpr double kShortest_m = 0.02;
+constexpr double kMaxGroundRise = 1.5;  // no ground rises faster towards the ray, so that it is not passed through
+constexpr double kMinRayStep_m = 0.02;
 constexpr double kOutside_m = 5.0;  // of a way where no ground is known
 constexpr double kMet_m = 1e-4;
 constexpr int kHalvings = 40;
@@ -37,7 +38,8 @@ Vector3d Meet(ground::Ground& ground, const Ray& ray, double above_m, double bel
 }  // namespace
 
 std::optional<Vector3d> GroundOn(ground::Ground& ground, const Ray& ray, double far_m) {
-  const double closing = std::max(-ray.along_W.z(), 0.0) + kSteepest * std::hypot(ray.along_W.x(), ray.along_W.y());
+  const double closing =
+      std::max(-ray.along_W.z(), 0.0) + kMaxGroundRise * std::hypot(ray.along_W.x(), ray.along_W.y());
   std::optional<double> above_m;  // the last place over the ground
   for (double way_m = 0.0; way_m <= far_m;) {
     const Vector3d at = ray.from_W + way_m * ray.along_W;
@@ -53,7 +55,7 @@ std::optional<Vector3d> GroundOn(ground::Ground& ground, const Ray& ray, double 
       return Meet(ground, ray, *above_m, way_m);
     }
     above_m = way_m;
-    way_m += std::max(kShortest_m, *over / std::max(closing, 1e-6));
+    way_m += std::max(kMinRayStep_m, *over / std::max(closing, 1e-6));
   }
   return std::nullopt;
 }
@@ -68,7 +70,7 @@ CarPlace PlaceAt(const road::World& world, const Vector3d& p_W, double heading_r
   if (lane == nullptr || !network::IsDrivable(lane->type)) return place;
   const double along = network->roads()[found->lane.road].axis().Evaluate(found->s_m).heading_rad;
   const bool against = lane->direction < 0 || (lane->direction == 0 && std::cos(heading_rad - along) < 0.0);
-  place.heading_rad = geometry::WrapAngle(along + (against ? geometry::kPi : 0.0));
+  place.heading_rad = geometry::WrapAngle(along + (against ? base::kPi : 0.0));
   place.on_lane = true;
   return place;
 }

@@ -11,13 +11,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kApart_m = 120.0;   // posts along a road
-constexpr double kLattice_m = 80.0;  // posts where there is none
-constexpr double kAside_m = 1.5;     // of the road's edge
+constexpr double kPostSpacing_m = 120.0;  // posts along a road
+constexpr double kLattice_m = 80.0;       // posts where there is none
+constexpr double kAside_m = 1.5;          // of the road's edge
 constexpr double kMostAside_m = 30.0;
-constexpr double kFarOff_m = 60.0;  // from there on no road is near
-constexpr double kEye_m = 1.9;      // over the ground: somebody on a box
-constexpr double kSeen_m = 7.0;     // of the world at the car, from the picture's lower to its upper edge
+constexpr double kFarOff_m = 60.0;        // from there on no road is near
+constexpr double kEye_m = 1.9;            // over the ground: somebody on a box
+constexpr double kTracksideView_m = 7.0;  // of the world at the car, from the picture's lower to its upper edge
 constexpr double kNarrowest_rad = 0.05, kWidest_rad = 1.1;
 
 // The road's edge at s on one side, from its reference line, positive to the left.
@@ -38,8 +38,8 @@ Vector2d Post(const Body& car, const road::World& world) {
     return {(std::floor(p.x() / kLattice_m) + 0.5) * kLattice_m, (std::floor(p.y() / kLattice_m) + 0.5) * kLattice_m};
   }
   const network::Road& road = world.network()->roads()[place->lane.road];
-  const double number = std::floor(place->s_m / kApart_m);
-  const double s_m = std::min((number + 0.5) * kApart_m, road.length_m());
+  const double number = std::floor(place->s_m / kPostSpacing_m);
+  const double s_m = std::min((number + 0.5) * kPostSpacing_m, road.length_m());
   const bool left = std::fmod(number, 2.0) != 0.0;
   const double t_m = EdgeAt(road, s_m, left) + (left ? kAside_m : -kAside_m);
   return road.Surface(s_m, t_m).p_W.head<2>();
@@ -58,7 +58,7 @@ Camera TracksideCamera(const Body& car, const road::World& world) {
   const bool steep = std::hypot(forward.x(), forward.y()) < 1e-3 * forward.norm();
   return LookFrom(
       eye, forward, steep ? Vector3d::UnitY() : Vector3d::UnitZ(),
-      std::clamp(2.0 * std::atan(0.5 * kSeen_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad));
+      std::clamp(2.0 * std::atan(0.5 * kTracksideView_m / std::max(towards.norm(), 0.1)), kNarrowest_rad, kWidest_rad));
 }
 
 }  // namespace rodeira::scene

@@ -17,7 +17,9 @@ constexpr std::array<HeatScale, kHeatKinds> kScales{
     HeatScale{"speed", "% of the limit", 0.0, 100.0}, HeatScale{"flow", "vehicles/h", 0.0, 1800.0},
     HeatScale{"density", "vehicles/km", 80.0, 0.0}, HeatScale{"fuel", "l/100 km", 20.0, 0.0}};
 
-std::uint8_t Part(double value) { return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0))); }
+std::uint8_t ColourByte(double value) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
+}
 
 // Calls `each` for the pairs of equal ids.
 template <class Pose, class Each>
@@ -38,8 +40,8 @@ const HeatScale& ScaleOf(HeatKind kind) { return kScales[static_cast<std::size_t
 
 Colour HeatColour(double share) {
   Colour colour = Colour::Of(0);
-  colour.red = Part(2.0 - 2.0 * share);
-  colour.green = Part(2.0 * share);
+  colour.red = ColourByte(2.0 - 2.0 * share);
+  colour.green = ColourByte(2.0 * share);
   return colour;
 }
 

@@ -44,7 +44,7 @@ std::vector<Surface> SurfacesOf(const HeatMap& map, const Eigen::Vector3d& about
   return surfaces;
 }
 
-std::uint16_t Part(double share, double least) {
+std::uint16_t TexelOf(double share, double least) {
   return static_cast<std::uint16_t>(std::lround(std::clamp(65535.0 * share, least, 65535.0)));
 }
 
@@ -76,8 +76,8 @@ HeatRaster MakeHeatRaster(const HeatMap& map, HeatKind kind, const Eigen::Vector
     std::uint16_t* texel = &raster.texels[4 * (static_cast<std::size_t>(surface.row - south) * raster.columns +
                                                static_cast<std::size_t>(surface.column - west))];
     if (texel[1] != 0) texel += 2;  // above the lowest; of more than two the highest stays
-    texel[0] = Part((*value - scale.red) / (scale.green - scale.red), 0.0);
-    texel[1] = Part((surface.height_m() - lowest_m) / raster.range_m, 1.0);
+    texel[0] = TexelOf((*value - scale.red) / (scale.green - scale.red), 0.0);
+    texel[1] = TexelOf((surface.height_m() - lowest_m) / raster.range_m, 1.0);
   }
   return raster;
 }

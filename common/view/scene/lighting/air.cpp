@@ -5,17 +5,17 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
+#include "common/view/scene/smooth_step.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = geometry::kPi / 180.0;
-constexpr double kLatitude_rad = 42.0 * kDegree;
+constexpr double kLatitude_rad = 42.0 * base::kRadiansPerDegree;
 
-double HourAngle_rad(double hour) { return (hour - 12.0) * 15.0 * kDegree; }
+double HourAngle_rad(double hour) { return (hour - 12.0) * 15.0 * base::kRadiansPerDegree; }
 
 // Colours of a cloudless sky and its light at a height of the sun; between two rows evenly.
 struct Row {
@@ -48,11 +48,6 @@ Row ClearSky(double height_deg) {
   return kRows.back();
 }
 
-double Smooth(double low, double high, double value) {
-  const double share = std::clamp((value - low) / (high - low), 0.0, 1.0);
-  return share * share * (3.0 - 2.0 * share);
-}
-
 // The same brightness without colour.
 Vector3d Grey(const Vector3d& colour) {
   return Vector3d::Constant(0.30 * colour.x() + 0.59 * colour.y() + 0.11 * colour.z());
@@ -66,10 +61,10 @@ Air MakeAir(const weather::Weather& weather) {
   const double angle = HourAngle_rad(weather.hour);
   const Vector3d sun(-std::sin(angle), -std::sin(kLatitude_rad) * std::cos(angle),
                      std::cos(kLatitude_rad) * std::cos(angle));
-  const double height_deg = SunHeight_rad(weather.hour) / kDegree;
+  const double height_deg = SunHeight_rad(weather.hour) / base::kRadiansPerDegree;
   Row sky = ClearSky(height_deg);
   // Up to half of the sky clouds only stand in it; then they close it, take the sun and spread its light.
-  const double closed = Smooth(0.5, 1.0, weather.clouds), fog = Smooth(2000.0, 200.0, weather.visibility_m);
+  const double closed = SmoothStep(weather.clouds, 0.5, 1.0), fog = SmoothStep(weather.visibility_m, 2000.0, 200.0);
   const double shaded = std::max(closed, fog);
   sky.base += shaded * 0.22 * sky.sun;
   sky.sky += shaded * 0.15 * sky.sun;
@@ -83,14 +78,14 @@ Air MakeAir(const weather::Weather& weather) {
   air.sun_light = sky.sun.cast<float>();
   air.horizon = sky.horizon.cast<float>();
   air.zenith = sky.zenith.cast<float>();
-  air.disc = static_cast<float>((1.0 - shaded) * Smooth(-2.0, 4.0, height_deg));
+  air.disc = static_cast<float>((1.0 - shaded) * SmoothStep(height_deg, -2.0, 4.0));
   air.cloud_light = static_cast<float>(std::min(1.0, Grey(sky.horizon).x() * (1.0 + 0.17 * (1.0 - closed))));
   air.clouds = static_cast<float>(weather.clouds);
   air.fog_per_m = static_cast<float>(3.0 / weather.visibility_m - 3.0 / weather::kClear_m);
   air.wetness = static_cast<float>(weather.wetness);
   air.rain = static_cast<float>(std::min(1.0, std::sqrt(weather.rain_mmph / 50.0)));
   const bool on = height_deg < 3.0 || weather.visibility_m < 300.0 || weather.rain_mmph > 0.0;
-  air.dusk = static_cast<float>(1.0 - 0.9 * Smooth(0.15, 0.75, Grey(sky.base + sky.sky + 0.5 * sky.sun).x()));
+  air.dusk = static_cast<float>(1.0 - 0.9 * SmoothStep(Grey(sky.base + sky.sky + 0.5 * sky.sun).x(), 0.15, 0.75));
   air.headlights = on ? air.dusk : 0.0F;
   return air;
 }

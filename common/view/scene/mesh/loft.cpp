@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -52,7 +52,7 @@ Mesh Disc(double radius_m, double half_width_m, double bevel_m, int sides, Mater
   for (const auto& [y, radius] : profile) {
     std::vector<Eigen::Vector3d> ring;
     for (int k = 0; k < sides; ++k) {
-      const double angle = 2.0 * geometry::kPi * k / sides;
+      const double angle = 2.0 * base::kPi * k / sides;
       ring.emplace_back(radius * std::sin(angle), y, radius * std::cos(angle));
     }
     rings.push_back(std::move(ring));

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/core/geometry/plane.hpp"
 
@@ -63,7 +64,7 @@ Mesh Pole(double low_m, double high_m, double foot_m, double top_m, int sides, C
   mesh.material = Material::kMatt;
   std::vector<Vector3d> lid;
   for (int k = 0; k < sides; ++k) {
-    const double angle = 2.0 * geometry::kPi * k / sides;
+    const double angle = 2.0 * base::kPi * k / sides;
     const Vector3d out(std::cos(angle), std::sin(angle), 0.0);
     mesh.Add(foot_m * out + low_m * Vector3d::UnitZ(), out, colour);
     mesh.Add(top_m * out + high_m * Vector3d::UnitZ(), out, colour);
@@ -94,7 +95,7 @@ void AddBar(Mesh& mesh, const BarEnd& from, const BarEnd& to, bool round, int si
   std::vector<Vector3d> begin, end;
   const int count = round ? sides : 4;
   for (int k = 0; k < count; ++k) {
-    const double angle = 2.0 * geometry::kPi * (k + (round ? 0.0 : 0.5)) / count;
+    const double angle = 2.0 * base::kPi * (k + (round ? 0.0 : 0.5)) / count;
     const double scale = round ? 1.0 : std::sqrt(2.0);  // to the corners of the rectangle
     const double c = scale * std::cos(angle), s = scale * std::sin(angle);
     begin.push_back(from.p_W + from.wide_m * c * wide + from.high_m * s * high);

@@ -5,12 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 
 namespace rodeira::scene {
 namespace {
 
-constexpr int kRound = 32;  // corners of a circle
+constexpr int kCircleCorners = 32;
 
 }  // namespace
 
@@ -47,9 +47,9 @@ void Canvas::Fill(Points outline, Colour colour) {
 }
 
 void Canvas::Disc(const Eigen::Vector2d& middle, double radius, Colour colour) {
-  std::array<Eigen::Vector2d, kRound> ring;
-  for (int k = 0; k < kRound; ++k) {
-    const double angle = 2.0 * geometry::kPi * k / kRound;
+  std::array<Eigen::Vector2d, kCircleCorners> ring;
+  for (int k = 0; k < kCircleCorners; ++k) {
+    const double angle = 2.0 * base::kPi * k / kCircleCorners;
     ring[static_cast<std::size_t>(k)] = middle + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   }
   Fill(ring, colour);

@@ -9,6 +9,8 @@
 
 namespace rodeira::scene {
 
+using Polyline = std::vector<Eigen::Vector2d>;
+
 // A picture of plain pixels: rows from below.
 struct Raster {
   int width_px = 0;

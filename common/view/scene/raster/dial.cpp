@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/raster/lettering.hpp"
 
 namespace rodeira::scene {
@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr Colour kFace = Colour::Of(0x0b0c0f), kScale = Colour::Of(0xe8ebee), kRim = Colour::Of(0x3a3e44);
+constexpr Colour kFace = Colour::Of(0x0b0c0f), kScale = Colour::Of(0xe8ebee), kDialRim = Colour::Of(0x3a3e44);
 
 Vector2d On(double angle_rad, double radius) { return {radius * std::cos(angle_rad), radius * std::sin(angle_rad)}; }
 
@@ -23,12 +23,12 @@ Vector2d On(double angle_rad, double radius) { return {radius * std::cos(angle_r
 
 double NeedleAngle_rad(const Dial& dial, double value) {
   const double share = std::clamp(value / dial.most, 0.0, 1.0);
-  return (225.0 - 270.0 * share) * geometry::kPi / 180.0;
+  return (225.0 - 270.0 * share) * base::kPi / 180.0;
 }
 
 Raster DrawDial(const Dial& dial, int size_px) {
   Canvas canvas(size_px, size_px, kFace);
-  canvas.Disc(Vector2d::Zero(), 0.99, kRim);
+  canvas.Disc(Vector2d::Zero(), 0.99, kDialRim);
   canvas.Disc(Vector2d::Zero(), 0.95, kFace);
   const auto tick = [&](double value, double from, double width) {
     const double angle = NeedleAngle_rad(dial, value);

@@ -76,7 +76,7 @@ struct Parts {
 };
 Parts PartsOf(unsigned code) {
   constexpr const char *kGrave = "1827", *kAcute = "2738", *kRoof = "172837", *kTilde = "~07183748",
-                       *kDots = "1717 3737", *kRing = "@17183837", *kTail = "202a1b";
+                       *kDots = "1717 3737", *kRing = "@17183837", *kTailStroke = "202a1b";
   if (code >= 0xE0 && code != 0xF7 && code != 0xFF) code -= 0x20;
   constexpr const char* kBases = "AAAAAA CEEEEIIII NOOOOO OUUUUY";  // from 0xC0 on
   if (code < 0xC0 || code > 0xDD) return {};
@@ -120,7 +120,7 @@ Parts PartsOf(unsigned code) {
       accent = kRing;
       break;
     case 0xC7:
-      accent = kTail;
+      accent = kTailStroke;
       break;
     default:
       break;
@@ -128,12 +128,10 @@ Parts PartsOf(unsigned code) {
   return {kBases[code - 0xC0], accent};
 }
 
-using Line = std::vector<Eigen::Vector2d>;
-
 // Cuts corners three times (Chaikin); the ends of an open line stay.
-Line Smooth(Line line, bool closed) {
+Polyline CutCorners(Polyline line, bool closed) {
   for (int round = 0; round < 3; ++round) {
-    Line cut;
+    Polyline cut;
     if (!closed) cut.push_back(line.front());
     for (std::size_t i = 0; i + (closed ? 0 : 1) < line.size(); ++i) {
       const Eigen::Vector2d &a = line[i], &b = line[(i + 1) % line.size()];
@@ -147,7 +145,7 @@ Line Smooth(Line line, bool closed) {
   return line;
 }
 
-void AddStrokes(std::string_view text, double x, std::vector<Line>& lines, double& width) {
+void AddStrokes(std::string_view text, double x, std::vector<Polyline>& lines, double& width) {
   const auto digit = [](char c) {
     return c >= 'a' ? static_cast<double>('a' - c) - 1.0 : static_cast<double>(c - '0');
   };
@@ -155,12 +153,12 @@ void AddStrokes(std::string_view text, double x, std::vector<Line>& lines, doubl
     const std::string_view word = text.substr(0, text.find(' '));
     text.remove_prefix(std::min(text.size(), word.size() + 1));
     const bool smooth = word[0] == '~', closed = word[0] == '@';
-    Line line;
+    Polyline line;
     for (std::size_t i = smooth || closed ? 1 : 0; i + 1 < word.size(); i += 2) {
       width = std::max(width, digit(word[i]));
       line.emplace_back(x + digit(word[i]), digit(word[i + 1]));
     }
-    lines.push_back(smooth || closed ? Smooth(std::move(line), closed) : std::move(line));
+    lines.push_back(smooth || closed ? CutCorners(std::move(line), closed) : std::move(line));
   }
 }
 
@@ -168,7 +166,7 @@ void AddStrokes(std::string_view text, double x, std::vector<Line>& lines, doubl
 
 void Letter(Canvas& canvas, std::string_view text, const Eigen::Vector2d& middle, double height, double most,
             Colour colour) {
-  std::vector<Line> lines;
+  std::vector<Polyline> lines;
   double x = 0.0;
   for (std::size_t i = 0; i < text.size(); ++i) {
     auto code = static_cast<unsigned char>(text[i]);
@@ -190,7 +188,7 @@ void Letter(Canvas& canvas, std::string_view text, const Eigen::Vector2d& middle
   if (lines.empty()) return;
   const double length = x - kGap + kThick, scale = height / (6.0 + kThick),
                narrow = std::min(1.0, most / (length * scale));
-  for (Line& line : lines) {
+  for (Polyline& line : lines) {
     for (Eigen::Vector2d& p : line) {
       p = middle + scale * Eigen::Vector2d(narrow * (p.x() - 0.5 * (length - kThick)), p.y() - 3.0);
     }

@@ -21,7 +21,7 @@ constexpr double kPlate_m = 0.004;   // thickness
 constexpr double kThickBar_m = 0.5;  // is seen from afar
 constexpr double kTwoPosts_m = 1.0;  // plates as wide as this have two
 
-const Colour kSteel = Colour::Of(0x9aa0a3);
+const Colour kPostSteel = Colour::Of(0x9aa0a3);
 
 // What differs from one tree or house to the next of a row: by its place, to a millimetre.
 std::uint64_t SeedAt(const Vector3d& foot_W, std::uint64_t what) {
@@ -96,7 +96,7 @@ void AddPlate(const Thing& thing, const Stand& stand, Drawing& drawing) {
     back.insert(back.begin(), stand.ToWorld(at - kPlate_m * Vector3d::UnitX()));
   }
   for (std::uint32_t i = 1; i + 1 < outline.size(); ++i) face.AddTriangle(first, first + i, first + i + 1);
-  AddFlat(drawing.solid, back, kSteel);
+  AddFlat(drawing.solid, back, kPostSteel);
 }
 
 void AddPosts(const Thing& thing, int level, Drawing& drawing) {
@@ -107,7 +107,7 @@ void AddPosts(const Thing& thing, int level, Drawing& drawing) {
        two ? std::vector<double>{-0.32 * thing.width_m, 0.32 * thing.width_m} : std::vector<double>{0.0}) {
     const Stand stand{thing.stand.ToWorld({0.0, y, 0.0}), thing.stand.x_W};
     drawing.RepeatSolid(KeyOf(Model::kSignPost, {0.0, 0.0, top_m}), stand,
-                        [&] { return Pole(-0.05, top_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kSteel); });
+                        [&] { return Pole(-0.05, top_m, kPost_m, kPost_m, level == 0 ? 6 : 3, kPostSteel); });
   }
 }
 

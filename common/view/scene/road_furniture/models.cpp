@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kBelow_m = 1.5;    // of walls on ground that slopes
-constexpr double kBefore_m = 0.03;  // windows and doors stand before their walls
+constexpr double kFoundation_m = 1.5;     // of walls on ground that slopes
+constexpr double kWindowOffset_m = 0.03;  // windows and doors stand before their walls
 
 Mesh Empty() {
   Mesh mesh;
@@ -28,7 +28,7 @@ void Put(Mesh& mesh, const Mesh& part, const Vector3d& at = Vector3d::Zero()) {
 
 // An upright pane on a wall that looks along y (side +1) or against it.
 void AddPane(Mesh& mesh, double side, double y, double x0, double x1, double z0, double z1, Colour colour) {
-  const double at = y + side * kBefore_m;
+  const double at = y + side * kWindowOffset_m;
   if (side > 0.0)
     AddFlat(mesh, std::array<Vector3d, 4>{Vector3d{x1, at, z0}, {x0, at, z0}, {x0, at, z1}, {x1, at, z1}}, colour);
   else
@@ -75,7 +75,7 @@ Mesh HouseModel(const ModelSize& size, std::uint64_t seed, int level) {
                roof = Colour::Of(kRoofs[base::RandomBits({seed, 2}) % kRoofs.size()]);
   Mesh mesh = Empty();
   const double eaves = 0.68 * size.height_m, half_x = 0.5 * size.length_m, half_y = 0.5 * size.width_m;
-  Put(mesh, Block({-half_x, -half_y, -kBelow_m}, {half_x, half_y, eaves}, walls));
+  Put(mesh, Block({-half_x, -half_y, -kFoundation_m}, {half_x, half_y, eaves}, walls));
   const double over = level == 0 ? 0.4 : 0.0;
   Put(mesh, Gable({-half_x - over, -half_y - over, eaves - 0.5 * over}, {half_x + over, half_y + over, size.height_m},
                   roof, walls));
@@ -92,7 +92,7 @@ Mesh FillingStationModel(const ModelSize& size, int level) {
   Mesh mesh = Empty();
   const double half_x = 0.5 * size.length_m, half_y = 0.5 * size.width_m, top = size.height_m, under = 0.8 * top;
   const double shop = -0.35 * half_y;  // the shop lies behind this, the pumps before it
-  Put(mesh, Block({-half_x, -half_y, -kBelow_m}, {half_x, shop, 0.62 * top}, white));
+  Put(mesh, Block({-half_x, -half_y, -kFoundation_m}, {half_x, shop, 0.62 * top}, white));
   const Vector3d low(-0.8 * half_x, shop + 0.5, under), high(0.8 * half_x, half_y, top);
   Put(mesh, Block(low, high, band));
   AddFlat(mesh,
@@ -102,7 +102,7 @@ Mesh FillingStationModel(const ModelSize& size, int level) {
   if (level > 1) return mesh;
   for (const double x : {-0.6 * half_x, 0.6 * half_x}) {
     for (const double y : {0.3 * half_y, 0.75 * half_y})
-      Put(mesh, Block({x - 0.15, y - 0.15, -kBelow_m}, {x + 0.15, y + 0.15, under}, steel));
+      Put(mesh, Block({x - 0.15, y - 0.15, -kFoundation_m}, {x + 0.15, y + 0.15, under}, steel));
   }
   if (level > 0) return mesh;
   AddPane(mesh, 1.0, shop, -0.7 * half_x, 0.7 * half_x, 0.4, 0.45 * top, glass);

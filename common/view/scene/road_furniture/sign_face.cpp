@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/road_furniture/sign_symbols.hpp"
 #include "common/world/network/sign_kinds.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 enum class Shape { kRound, kTriangle, kTriangleDown, kOctagon, kDiamond, kRectangle };
 
-Shape ShapeOf(std::string_view kind) {
+Shape SignShapeOf(std::string_view kind) {
   if (kind == "stop") return Shape::kOctagon;
   if (kind == "give_way") return Shape::kTriangleDown;
   if (kind == "priority_road" || kind == "end_of_priority_road") return Shape::kDiamond;
@@ -89,7 +89,7 @@ Raster DrawFace(std::string_view face) {
   const auto [kind, text] = Split(face);
   const bool wide = kind == "town" || kind == "end_of_town";
   Canvas canvas(wide ? 192 : 128, 128, Colour::Of(0x9a9d9f));
-  switch (ShapeOf(kind)) {
+  switch (SignShapeOf(kind)) {
     case Shape::kRound:
       DrawRound(canvas, kind, text);
       break;
@@ -110,16 +110,16 @@ std::vector<Eigen::Vector2d> PlateOutline(std::string_view face) {
   const auto ring = [](int corners, double from, double radius) {
     std::vector<Eigen::Vector2d> outline;
     for (int k = 0; k < corners; ++k) {
-      const double angle = 2.0 * geometry::kPi * (k + from) / corners;
+      const double angle = 2.0 * base::kPi * (k + from) / corners;
       outline.emplace_back(0.5 + radius * std::cos(angle), 0.5 + radius * std::sin(angle));
     }
     return outline;
   };
-  switch (ShapeOf(Split(face).first)) {
+  switch (SignShapeOf(Split(face).first)) {
     case Shape::kRound:
       return ring(20, 0.0, 0.5);
     case Shape::kOctagon:
-      return ring(8, 0.5, 0.5 / std::cos(geometry::kPi / 8.0));
+      return ring(8, 0.5, 0.5 / std::cos(base::kPi / 8.0));
     case Shape::kDiamond:
       return ring(4, 0.0, 0.5);
     case Shape::kTriangle:
@@ -134,7 +134,7 @@ std::vector<Eigen::Vector2d> PlateOutline(std::string_view face) {
 
 Eigen::Vector2d UsualPlate_m(std::string_view face) {
   const std::string kind = Split(face).first;
-  switch (ShapeOf(kind)) {
+  switch (SignShapeOf(kind)) {
     case Shape::kTriangle:
     case Shape::kTriangleDown:
       return {0.9, 0.78};

@@ -5,56 +5,55 @@
 #include <cmath>
 #include <vector>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/raster/lettering.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using P = Eigen::Vector2d;
-using Line = std::vector<P>;
 
 const Colour kWhite = Colour::Of(0xf4f4f1), kRed = Colour::Of(0xc2151d), kBlue = Colour::Of(0x17509b),
              kYellow = Colour::Of(0xf6b915), kBlack = Colour::Of(0x131313), kGrey = Colour::Of(0x8f9294);
 
 // The shape made smaller about a point by a factor.
-Line Smaller(const Line& line, const P& about, double factor) {
-  Line smaller;
+Polyline Smaller(const Polyline& line, const P& about, double factor) {
+  Polyline smaller;
   for (const P& p : line) smaller.push_back(about + factor * (p - about));
   return smaller;
 }
 
-Line Arc(const P& middle, double radius, double from_deg, double to_deg) {
-  Line line;
+Polyline Arc(const P& middle, double radius, double from_deg, double to_deg) {
+  Polyline line;
   for (int k = 0; k <= 16; ++k) {
-    const double angle = (from_deg + (to_deg - from_deg) * k / 16.0) * geometry::kPi / 180.0;
+    const double angle = (from_deg + (to_deg - from_deg) * k / 16.0) * base::kPi / 180.0;
     line.push_back(middle + radius * P(std::cos(angle), std::sin(angle)));
   }
   return line;
 }
 
 // A line that ends in a head.
-void Arrow(Canvas& canvas, const Line& line, double width, Colour colour) {
+void Arrow(Canvas& canvas, const Polyline& line, double width, Colour colour) {
   const P &end = line.back(), way = (end - line[line.size() - 2]).normalized(), aside(-way.y(), way.x());
   for (std::size_t i = 1; i < line.size(); ++i) canvas.Bar(line[i - 1], line[i], width, colour);
   for (std::size_t i = 1; i + 1 < line.size(); ++i) canvas.Disc(line[i], 0.5 * width, colour);
-  canvas.Fill(Line{end + 2.0 * width * way, end + 1.5 * width * aside - 0.2 * width * way,
-                   end - 1.5 * width * aside - 0.2 * width * way},
+  canvas.Fill(Polyline{end + 2.0 * width * way, end + 1.5 * width * aside - 0.2 * width * way,
+                       end - 1.5 * width * aside - 0.2 * width * way},
               colour);
 }
 
 // A car from behind.
 void Car(Canvas& canvas, const P& at, double size, Colour colour) {
   const auto box = [&](double x0, double y0, double x1, double y1, double slant) {
-    canvas.Fill(Line{at + size * P(x0, y0), at + size * P(x1, y0), at + size * P(x1 - slant, y1),
-                     at + size * P(x0 + slant, y1)},
+    canvas.Fill(Polyline{at + size * P(x0, y0), at + size * P(x1, y0), at + size * P(x1 - slant, y1),
+                         at + size * P(x0 + slant, y1)},
                 colour);
   };
   box(-1.0, -0.45, 1.0, 0.2, 0.05);
   box(-0.85, 0.2, 0.85, 0.85, 0.25);
-  canvas.Fill(
-      Line{at + size * P(-0.62, 0.27), at + size * P(0.62, 0.27), at + size * P(0.5, 0.68), at + size * P(-0.5, 0.68)},
-      kWhite);
+  canvas.Fill(Polyline{at + size * P(-0.62, 0.27), at + size * P(0.62, 0.27), at + size * P(0.5, 0.68),
+                       at + size * P(-0.5, 0.68)},
+              kWhite);
   box(-0.9, -0.85, -0.5, -0.4, 0.0);
   box(0.5, -0.85, 0.9, -0.4, 0.0);
 }
@@ -81,25 +80,26 @@ void Bend(Canvas& canvas, bool left, bool twice) {
 // The road falls from left to right, or rises.
 void Slope(Canvas& canvas, bool down, const std::string& text) {
   const double side = down ? 1.0 : -1.0;
-  canvas.Fill(Line{P(side * -0.38, -0.68), P(side * 0.5, -0.68), P(side * -0.38, -0.34)}, kBlack);
+  canvas.Fill(Polyline{P(side * -0.38, -0.68), P(side * 0.5, -0.68), P(side * -0.38, -0.34)}, kBlack);
   if (!text.empty()) Letter(canvas, text + "%", {side * 0.04, -0.14}, 0.26, 0.5, kBlack);
 }
 
 void Motorway(Canvas& canvas) {
   for (const double side : {-1.0, 1.0})
-    canvas.Fill(Line{P(side * 0.08, -0.7), P(side * 0.55, -0.7), P(side * 0.2, 0.55), P(side * 0.06, 0.55)}, kWhite);
+    canvas.Fill(Polyline{P(side * 0.08, -0.7), P(side * 0.55, -0.7), P(side * 0.2, 0.55), P(side * 0.06, 0.55)},
+                kWhite);
   canvas.Bar({-0.7, 0.16}, {0.7, 0.16}, 0.3, kBlue);
   canvas.Bar({-0.7, 0.16}, {0.7, 0.16}, 0.14, kWhite);
 }
 
 void Walker(Canvas& canvas) {
-  canvas.Fill(Line{P(-0.78, -0.72), P(0.78, -0.72), P(0.0, 0.76)}, kWhite);
+  canvas.Fill(Polyline{P(-0.78, -0.72), P(0.78, -0.72), P(0.0, 0.76)}, kWhite);
   canvas.Disc({0.05, 0.3}, 0.085, kBlack);
-  canvas.Stroke(Line{P(0.03, 0.14), P(-0.02, -0.14)}, 0.13, kBlack);
-  canvas.Stroke(Line{P(-0.02, -0.14), P(0.13, -0.32), P(0.16, -0.54)}, 0.08, kBlack);
-  canvas.Stroke(Line{P(-0.02, -0.14), P(-0.1, -0.36), P(-0.22, -0.52)}, 0.08, kBlack);
-  canvas.Stroke(Line{P(0.03, 0.12), P(0.18, -0.04)}, 0.06, kBlack);
-  canvas.Stroke(Line{P(0.03, 0.12), P(-0.15, -0.02)}, 0.06, kBlack);
+  canvas.Stroke(Polyline{P(0.03, 0.14), P(-0.02, -0.14)}, 0.13, kBlack);
+  canvas.Stroke(Polyline{P(-0.02, -0.14), P(0.13, -0.32), P(0.16, -0.54)}, 0.08, kBlack);
+  canvas.Stroke(Polyline{P(-0.02, -0.14), P(-0.1, -0.36), P(-0.22, -0.52)}, 0.08, kBlack);
+  canvas.Stroke(Polyline{P(0.03, 0.12), P(0.18, -0.04)}, 0.06, kBlack);
+  canvas.Stroke(Polyline{P(0.03, 0.12), P(-0.15, -0.02)}, 0.06, kBlack);
   for (const double x : {-0.42, -0.14, 0.14, 0.42}) canvas.Bar({x - 0.07, -0.64}, {x + 0.07, -0.64}, 0.08, kBlack);
 }
 
@@ -133,8 +133,8 @@ void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text)
 
 void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& text) {
   // The box is filled: the plate's own outline cuts it.
-  const Line outer = {P(-1.0, -1.0), P(1.0, -1.0), P(0.0, 1.0)};
-  canvas.Fill(Line{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kRed);
+  const Polyline outer = {P(-1.0, -1.0), P(1.0, -1.0), P(0.0, 1.0)};
+  canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kRed);
   canvas.Fill(Smaller(outer, {0.0, -0.33}, 0.68), kWhite);
   if (kind == "priority_to_the_right") {
     canvas.Bar({-0.34, -0.7}, {0.26, -0.02}, 0.13, kBlack);
@@ -148,18 +148,18 @@ void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& te
   } else if (kind == "uneven_road") {
     canvas.Bar({-0.5, -0.62}, {0.5, -0.62}, 0.1, kBlack);
     for (const double x : {-0.22, 0.22}) {
-      Line bump = Arc({x, -0.62}, 0.2, 0.0, 180.0);
+      Polyline bump = Arc({x, -0.62}, 0.2, 0.0, 180.0);
       canvas.Fill(bump, kBlack);
     }
   } else if (kind == "slippery_road") {
     Car(canvas, {0.0, -0.16}, 0.22, kBlack);
     for (const double x : {-0.16, 0.16})
-      canvas.Stroke(Line{P(x, -0.4), P(x - 0.1, -0.47), P(x + 0.1, -0.58), P(x, -0.66)}, 0.06, kBlack);
+      canvas.Stroke(Polyline{P(x, -0.4), P(x - 0.1, -0.47), P(x + 0.1, -0.58), P(x, -0.66)}, 0.06, kBlack);
   } else if (kind == "priority") {
     canvas.Bar({-0.3, -0.42}, {0.3, -0.42}, 0.1, kBlack);
     Arrow(canvas, {P(0.0, -0.76), P(0.0, -0.12)}, 0.16, kBlack);
   } else {
-    canvas.Fill(Line{P(-0.06, -0.45), P(0.06, -0.45), P(0.1, 0.14), P(-0.1, 0.14)}, kBlack);
+    canvas.Fill(Polyline{P(-0.06, -0.45), P(0.06, -0.45), P(0.1, 0.14), P(-0.1, 0.14)}, kBlack);
     canvas.Disc({0.0, -0.63}, 0.09, kBlack);
   }
 }
@@ -167,9 +167,9 @@ void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& te
 void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& text) {
   const double w = canvas.half_width();
   const auto ground = [&](Colour edge, Colour inside, double border) {
-    canvas.Fill(Line{P(-w, -1.0), P(w, -1.0), P(w, 1.0), P(-w, 1.0)}, edge);
-    canvas.Fill(Line{P(border - w, border - 1.0), P(w - border, border - 1.0), P(w - border, 1.0 - border),
-                     P(border - w, 1.0 - border)},
+    canvas.Fill(Polyline{P(-w, -1.0), P(w, -1.0), P(w, 1.0), P(-w, 1.0)}, edge);
+    canvas.Fill(Polyline{P(border - w, border - 1.0), P(w - border, border - 1.0), P(w - border, 1.0 - border),
+                         P(border - w, 1.0 - border)},
                 inside);
   };
   if (kind == "town" || kind == "end_of_town") {
@@ -182,8 +182,8 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     ground(kRed, kRed, 0.0);
     const double side = kind == "chevron_left" ? -1.0 : 1.0;
     for (const double x : {-0.75, 0.1}) {
-      canvas.Fill(Line{P(side * x, -1.0), P(side * (x + 0.4), -1.0), P(side * (x + 0.85), 0.0),
-                       P(side * (x + 0.4), 1.0), P(side * x, 1.0), P(side * (x + 0.45), 0.0)},
+      canvas.Fill(Polyline{P(side * x, -1.0), P(side * (x + 0.4), -1.0), P(side * (x + 0.85), 0.0),
+                           P(side * (x + 0.4), 1.0), P(side * x, 1.0), P(side * (x + 0.45), 0.0)},
                   kWhite);
     }
     return;
@@ -200,23 +200,23 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
 
 void DrawPriority(Canvas& canvas, const std::string& kind) {
   const P middle(0.0, 0.0);
-  canvas.Fill(Line{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kWhite);
+  canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kWhite);
   if (kind == "stop") {
-    Line ring;
+    Polyline ring;
     for (int k = 0; k < 8; ++k) {
-      const double angle = geometry::kPi * (k + 0.5) / 4.0;
-      ring.push_back(0.93 / std::cos(geometry::kPi / 8.0) * P(std::cos(angle), std::sin(angle)));
+      const double angle = base::kPi * (k + 0.5) / 4.0;
+      ring.push_back(0.93 / std::cos(base::kPi / 8.0) * P(std::cos(angle), std::sin(angle)));
     }
     canvas.Fill(ring, kRed);
     return Letter(canvas, "STOP", middle, 0.62, 1.5, kWhite);
   }
   if (kind == "give_way") {
-    canvas.Fill(Line{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kRed);
+    canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kRed);
     return canvas.Fill(Smaller({P(-1.0, 1.0), P(0.0, -1.0), P(1.0, 1.0)}, {0.0, 0.33}, 0.68), kWhite);
   }
-  canvas.Fill(Line{P(-0.95, 0.0), P(0.0, -0.95), P(0.95, 0.0), P(0.0, 0.95)}, kBlack);
-  canvas.Fill(Line{P(-0.91, 0.0), P(0.0, -0.91), P(0.91, 0.0), P(0.0, 0.91)}, kWhite);
-  canvas.Fill(Line{P(-0.62, 0.0), P(0.0, -0.62), P(0.62, 0.0), P(0.0, 0.62)}, kYellow);
+  canvas.Fill(Polyline{P(-0.95, 0.0), P(0.0, -0.95), P(0.95, 0.0), P(0.0, 0.95)}, kBlack);
+  canvas.Fill(Polyline{P(-0.91, 0.0), P(0.0, -0.91), P(0.91, 0.0), P(0.0, 0.91)}, kWhite);
+  canvas.Fill(Polyline{P(-0.62, 0.0), P(0.0, -0.62), P(0.62, 0.0), P(0.0, 0.62)}, kYellow);
   if (kind == "end_of_priority_road") {
     const P way(std::sqrt(0.5), std::sqrt(0.5)), aside(-way.y(), way.x());
     for (const double off : {-0.12, -0.04, 0.04, 0.12})

@@ -11,8 +11,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPiece_m = 4.0;  // of walls and rails, at most: they follow the ground
-
 Vector3d OnGround(const road::World& world, const Vector2d& p_W) {
   const road::SurfacePoint at = world.At(p_W.x(), p_W.y());
   return {p_W.x(), p_W.y(), at.inside ? at.z_m : 0.0};
@@ -48,7 +46,7 @@ void Things::AddStanding(const road::World& world, const network::Standing& stan
     for (std::size_t i = 1; i < run.points_W.size(); ++i) {
       const Vector2d way = run.points_W[i] - run.points_W[i - 1];
       const Vector2d left = Vector2d(-way.y(), way.x()).normalized();
-      const double pieces = std::max(1.0, std::ceil(way.norm() / kPiece_m - 1e-9));
+      const double pieces = std::max(1.0, std::ceil(way.norm() / kMaxRailPiece_m - 1e-9));
       for (double k = 1.0; k <= pieces; k += 1.0) {
         stand_at(run.points_W[i - 1] + k / pieces * way, k < pieces ? left : LeftAt(run.points_W, i));
         KeepRail(piece);

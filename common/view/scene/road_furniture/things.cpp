@@ -7,6 +7,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/view/scene/tessellation/levels_at.hpp"
+#include "common/view/scene/tessellation/tile_plan.hpp"
 #include "common/world/network/network.hpp"
 
 namespace rodeira::scene {
@@ -15,14 +16,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kPiece_m = 4.0;   // of rails, at most
 constexpr double kChord_m = 0.02;  // how far a rail's piece may leave its bend
-constexpr std::size_t kMostLevels = 4;
-
 constexpr double kBeforeBoard_m = 0.01;
 
 // SUELO's ground nearest to a height; that height itself where there is none.
-double GroundAt(const road::World& world, const Vector3d& p_W) {
+double GroundHeightAt(const road::World& world, const Vector3d& p_W) {
   thread_local std::vector<road::SurfacePoint> levels;
   LevelsAt(world, p_W.head<2>(), kMostLevels, levels);
   double z = p_W.z();
@@ -71,7 +69,7 @@ Thing Things::ThingAt(const network::Placed& placed, const Vector3d& foot_W) {
 
 void Things::AddThing(const road::World& world, const network::Placed& placed) {
   const network::Road& road = world.network()->roads()[placed.road];
-  Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundAt(world, placed.foot_W)});
+  Thing thing = ThingAt(placed, {placed.foot_W.x(), placed.foot_W.y(), GroundHeightAt(world, placed.foot_W)});
   if (placed.z_W_m) thing.above_m = *placed.z_W_m - thing.stand.foot_W.z();
   // x looks to the reader, whose left lies on the side of -y; the sign lies a little before its board.
   if (placed.signal != nullptr && !placed.signal->board.empty())
@@ -89,7 +87,8 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
   if (network::IsFlat(object)) return;
   const bool rail = object.subtype == "guard_rail" || object.subtype == "guardRail" || object.subtype == "railing" ||
                     object.type == "railing";
-  const int pieces = std::max(1, static_cast<int>(std::ceil(length / run.Step(road, kPiece_m, kChord_m) - 1e-9)));
+  const int pieces =
+      std::max(1, static_cast<int>(std::ceil(length / run.Step(road, kMaxRailPiece_m, kChord_m) - 1e-9)));
   RailPiece piece;
   piece.wall = !rail;
   for (int i = 0; i <= pieces; ++i) {
@@ -98,7 +97,7 @@ void Things::AddRun(const road::World& world, const network::PlacedRun& run) {
     piece.foot_W[0] = piece.foot_W[1], piece.left_W[0] = piece.left_W[1], piece.height_m[0] = piece.height_m[1],
     piece.width_m[0] = piece.width_m[1];
     const auto [on_road, left_W] = run.At(road, share);
-    piece.foot_W[1] = {on_road.x(), on_road.y(), GroundAt(world, on_road) + mix(run.z_start_m, run.z_end_m)};
+    piece.foot_W[1] = {on_road.x(), on_road.y(), GroundHeightAt(world, on_road) + mix(run.z_start_m, run.z_end_m)};
     piece.left_W[1] = left_W;
     const double height = mix(run.height_start_m, run.height_end_m), width = mix(run.width_start_m, run.width_end_m);
     piece.height_m[1] = height > kFlatThing_m ? height : rail ? 0.75 : 1.0;

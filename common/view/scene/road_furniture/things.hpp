@@ -21,6 +21,8 @@ namespace rodeira::scene {
 
 // What is lower lies: it is not drawn as a thing.
 inline constexpr double kFlatThing_m = 0.02;
+// Pieces of walls and rails are no longer, so that they follow the ground.
+inline constexpr double kMaxRailPiece_m = 4.0;
 
 enum class ThingKind {
   kTree,

@@ -16,7 +16,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFlatSign_m = 0.05;
 constexpr double kHousing_m = 0.9;   // of three lights
 constexpr double kOverhead_m = 3.5;  // signs this high over a lane hang
 constexpr double kAhead_m = 40.0;    // over which a chevron's bend is looked for
@@ -47,7 +46,7 @@ bool IsOneOf(std::string_view word, std::initializer_list<std::string_view> word
   return IsOneOf<std::string_view>(word, words);
 }
 
-Colour ColourOf(std::string_view type) {
+Colour ObjectColour(std::string_view type) {
   if (type == "building") return Colour::Of(0xb9b2a6);
   if (IsOneOf(type, {"pole", "rail-pole", "streetLamp", "gantry"})) return Colour::Of(0x8d9396);
   if (IsOneOf(type, {"barrier", "soundBarrier", "wall"})) return Colour::Of(0xa9a69f);
@@ -64,7 +63,7 @@ bool IsModelFile(const std::string& name) {
                                                 ".lwo", ".flt", ".dxf"});
 }
 
-ThingKind KindOf(const network::Object& object) {
+ThingKind ThingKindOf(const network::Object& object) {
   const std::string_view type = object.type, subtype = object.subtype;
   if (subtype == "bush" || type == "bush") return ThingKind::kBush;
   if (type == "tree" || subtype == "tree") return ThingKind::kTree;
@@ -165,8 +164,8 @@ void Things::AddSkeleton(const network::Road* road, const network::Placed& place
 
 void Things::AddObject(const network::Road* road, const network::Placed& placed, Thing thing) {
   const network::Object& object = *placed.object;
-  thing.kind = KindOf(object);
-  thing.colour = ColourOf(object.type);
+  thing.kind = ThingKindOf(object);
+  thing.colour = ObjectColour(object.type);
   if (IsModelFile(object.name) && (!is_there_ || is_there_(object.name))) {
     thing.kind = ThingKind::kModel;
     thing.file = object.name;

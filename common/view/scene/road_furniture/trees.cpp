@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/base/random.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/view/scene/ground_materials/colours.hpp"
@@ -15,8 +16,8 @@ namespace {
 
 constexpr double kPlot_m = 12.0;  // at most one tree a plot
 constexpr int kPlotsAField = 16;
-constexpr double kFarthest_m = 420.0;  // from a road
-constexpr double kClear_m = 3.5;       // between a trunk and the paved edge
+constexpr double kMaxRoadDistance_m = 420.0;  // from a road
+constexpr double kTrunkClearance_m = 3.5;     // between a trunk and the paved edge
 
 // The distance to the nearest road's axis, less that road's half width.
 double RoomBeside(const road::World& world, double x_m, double y_m) {
@@ -60,7 +61,7 @@ void PlantField(const road::World& world, std::uint64_t seed, std::int64_t field
       if (!ground.inside || ground.surface != ground::Surface::kGrass) continue;
       if (ground.slope_x * ground.slope_x + ground.slope_y * ground.slope_y > 0.6) continue;  // too steep
       Tree tree = Grow(seed, column, row);
-      if (near_road && RoomBeside(world, x, y) < kClear_m + tree.crown_m) continue;
+      if (near_road && RoomBeside(world, x, y) < kTrunkClearance_m + tree.crown_m) continue;
       tree.foot_W = {x, y, ground.z_m};
       trees.push_back(tree);
     }
@@ -79,7 +80,7 @@ void AddRings(const Profile& profile, int sides, const Colour* own, Repeated& tr
     const double share = static_cast<double>(k) / static_cast<double>(profile.size() - 1);
     std::vector<std::uint32_t> ring;
     for (int side = 0; side < sides; ++side) {
-      const double angle = 2.0 * geometry::kPi * (side + 0.5 * static_cast<double>(k % 2)) / sides;
+      const double angle = 2.0 * base::kPi * (side + 0.5 * static_cast<double>(k % 2)) / sides;
       const Eigen::Vector3d out(std::cos(angle), std::sin(angle), 0.0);
       const Eigen::Vector3d normal = (out + Eigen::Vector3d(0.0, 0.0, 1.6 * share - 0.5)).normalized();
       ring.push_back(mesh.Add(wide * out + Eigen::Vector3d(0.0, 0.0, up), normal, own != nullptr ? *own : Colour{}));
@@ -110,7 +111,7 @@ std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed) {
     for (std::int64_t row = field(extents.south_m); row <= field(extents.north_m); ++row) {
       const double room =
           RoomBeside(world, (static_cast<double>(column) + 0.5) * field_m, (static_cast<double>(row) + 0.5) * field_m);
-      if (room > kFarthest_m) continue;
+      if (room > kMaxRoadDistance_m) continue;
       PlantField(world, seed, column, row, room < across_m + 12.0, trees);
     }
   }

@@ -15,10 +15,10 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using network::kTubeInside_m, network::kTubeOutside_m, network::kTubeWall_m;
 
-constexpr double kFoot_m = 0.3;     // under the road, within
-constexpr double kFounded_m = 1.0;  // outside
-constexpr double kKerb_m = 0.8;     // over the road: dark up to there
-constexpr double kPanels_m = 3.0;   // and pale up to there
+constexpr double kFoot_m = 0.3;        // under the road, within
+constexpr double kFounded_m = 1.0;     // outside
+constexpr double kTunnelKerb_m = 0.8;  // over the road: dark up to there
+constexpr double kPanels_m = 3.0;      // and pale up to there
 constexpr double kHaunch_m = 0.6;
 constexpr double kUpstand_m = 0.4;  // of the walls over the ceiling: the hill's edge lies behind them
 constexpr double kParapet_m = 1.0;  // of a portal over the ceiling
@@ -48,7 +48,8 @@ class Tube {
       return;
     }
     if (level < 2) {
-      band(-kFoot_m, kKerb_m, kKerb), band(kKerb_m, kPanels_m, kPanels), band(kPanels_m, kTop - kHaunch_m, kConcrete);
+      band(-kFoot_m, kTunnelKerb_m, kKerb), band(kTunnelKerb_m, kPanels_m, kPanels),
+          band(kPanels_m, kTop - kHaunch_m, kConcrete);
     } else {
       band(-kFoot_m, kTop - kHaunch_m, kPanels);
     }

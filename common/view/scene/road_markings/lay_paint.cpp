@@ -5,21 +5,20 @@
 #include <iterator>
 
 #include "common/view/scene/road_markings/mark_strips.hpp"
+#include "common/view/scene/road_markings/stencils.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 constexpr double kBucket_m = 8.0;
 constexpr int kBuckets = static_cast<int>(kTile_m / kBucket_m);
-constexpr double kSameLevel_m = 1.0;
+constexpr double kPaintLevel_m = 1.0;
 constexpr double kLeast_m2 = 1e-9;
-
-using Polygon2 = std::vector<Eigen::Vector2d>;
 
 double Cross2(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 // What of a convex polygon lies to the left of the way from a to b.
-void Clip(Polygon2& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Polygon2& spare) {
+void ClipToLeft(Polygon2& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b, Polygon2& spare) {
   spare.clear();
   const Eigen::Vector2d way = b - a;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -105,13 +104,13 @@ Mesh LayPaint(std::span<const PaintPiece> pieces, const TileKey& tile, std::span
       polygon.clear();
       for (const Eigen::Vector3d& p : piece.p_W) polygon.push_back(p.head<2>());
       for (std::size_t k = 0; k < 3 && polygon.size() > 2; ++k)
-        Clip(polygon, corner[k].head<2>(), corner[(k + 1) % 3].head<2>(), spare);
+        ClipToLeft(polygon, corner[k].head<2>(), corner[(k + 1) % 3].head<2>(), spare);
       if (polygon.size() < 3 || Area2(polygon) < kLeast_m2) continue;
       const Eigen::Vector3d& n = ground[i].normal_W;
       const auto height = [&](const Eigen::Vector2d& p) {
         return corner[0].z() - n.head<2>().dot(p - corner[0].head<2>()) / n.z();
       };
-      if (std::fabs(height(polygon[0]) - z) > kSameLevel_m + 0.1 * (high - low).norm()) continue;
+      if (std::fabs(height(polygon[0]) - z) > kPaintLevel_m + 0.1 * (high - low).norm()) continue;
       std::vector<std::uint32_t> index;
       for (const Eigen::Vector2d& p : polygon) index.push_back(mesh.Add({p.x(), p.y(), height(p)}, n, piece.colour));
       for (std::size_t k = 1; k + 1 < index.size(); ++k) mesh.AddTriangle(index[0], index[k], index[k + 1]);

@@ -10,7 +10,7 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kLongest_m = 24.0, kShortest_m = 0.05;
+constexpr double kMaxStripLength_m = 24.0, kMinStripLength_m = 0.05;
 
 using Edges = std::array<Eigen::Vector3d, 2>;  // right and left
 
@@ -21,7 +21,7 @@ class Painter {
       : road_(road), line_(line), chord_m_(chord_m), colour_(PaintColour(line.colour)), paint_(paint) {}
 
   void Paint(double from, double to) {
-    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kLongest_m)));
+    const int count = std::max(1, static_cast<int>(std::ceil((to - from) / kMaxStripLength_m)));
     Edges before = At(from);
     for (int k = 1; k <= count; ++k) {
       const double low = from + (to - from) * (k - 1) / count, high = k == count ? to : from + (to - from) * k / count;
@@ -44,7 +44,7 @@ class Painter {
 
   void Refine(double from, double to, const Edges& before, const Edges& after, int depth) {
     bool fits = true;
-    if (to - from > kShortest_m && depth < 16) {
+    if (to - from > kMinStripLength_m && depth < 16) {
       for (const double part : {0.5, 0.25, 0.75}) {
         const Edges at = At(from + part * (to - from));
         for (std::size_t k = 0; k < 2 && fits; ++k) {

@@ -14,8 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kMostStrokes = 1e4;
-constexpr double kLongest_m = 1e4,
-                 kWidest_m = 10.0;  // what is more is no line of paint, and would lie in tiles without end
+constexpr double kMaxPaintWidth_m = 10.0;  // a wider one is no line of paint
 
 const network::Corner& CornerOf(const network::Object& object, const std::string& id) {
   const auto& corners = object.outlines.front().corners;
@@ -62,11 +61,11 @@ void PaintMarks(const network::Road& road, const network::Placed& placed, TilePa
   if (object.marks.empty()) return;
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
   for (const network::ObjectMark& mark : object.marks) {
-    if (!(mark.width_m <= kWidest_m)) continue;
+    if (!(mark.width_m <= kMaxPaintWidth_m)) continue;
     const std::vector<Vector2d> line = LineOf(road, object, placed, mark, own);
     double length = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
-    if (!(length <= kLongest_m)) continue;
+    if (!(length <= kMaxPaintLength_m)) continue;
     const double end = length - mark.stop_offset_m;
     const bool broken = mark.gap_m > 0.0 && mark.stroke_m > 0.0 && length / (mark.stroke_m + mark.gap_m) < kMostStrokes;
     const double stroke = broken ? mark.stroke_m : length, period = broken ? mark.stroke_m + mark.gap_m : length + 1.0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/mesh/solids.hpp"
 #include "common/view/scene/road_furniture/things.hpp"
 #include "common/view/scene/road_markings/object_marks.hpp"
@@ -18,10 +18,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kFlatSign_m = 0.05;
 constexpr double kCrossing_m = 4.0;
 constexpr double kParkingLine_m = 0.12;
-constexpr double kLongest_m = 1e4;  // an outline that is longer would lie in tiles without end
 
 void Lay(const std::vector<Polygon2>& shape, const Spot& spot, TilePaint& paint, Colour colour = PaintColour("white")) {
   for (const Polygon2& polygon : shape) {
@@ -122,12 +120,12 @@ void PaintSignal(const network::Road& road, const network::Placed& placed, TileP
   if (IsCrossing(signal)) return PaintCrossing(road, placed, paint);
   if (IsLineAcross(signal)) return PaintLineAcross(road, placed, paint);
   const ArrowWays ways = ArrowOf(signal);
-  PaintArrow(road, placed, ways, placed.heading_rad + geometry::kPi, 0.0, paint);
+  PaintArrow(road, placed, ways, placed.heading_rad + base::kPi, 0.0, paint);
 }
 
 // The corners of an outline of an object, or of the rectangle that it says where there is none, as seen from `along`.
-Polygon2 CornersOf(const network::Road& road, const network::Placed& placed, const network::Outline* outline,
-                   const Spot& along) {
+Polygon2 OutlineCorners(const network::Road& road, const network::Placed& placed, const network::Outline* outline,
+                        const Spot& along) {
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
   Polygon2 corners;
   const auto add = [&](const Vector2d& local) { corners.push_back(along.ToLocal(own.ToWorld(local).head<2>())); };
@@ -147,7 +145,7 @@ Polygon2 CornersOf(const network::Road& road, const network::Placed& placed, con
 // In the road's direction at its place.
 Polygon2 OutlineOf(const network::Road& road, const network::Placed& placed, const Spot& along) {
   const auto& outlines = placed.object->outlines;
-  return HullOf(CornersOf(road, placed, outlines.empty() ? nullptr : &outlines.front(), along));
+  return HullOf(OutlineCorners(road, placed, outlines.empty() ? nullptr : &outlines.front(), along));
 }
 
 double Around(const Polygon2& corners) {
@@ -168,8 +166,8 @@ void PaintParkingPlace(const network::Road& road, const network::Placed& placed,
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);
   const network::Outline* outline = object.outlines.empty() ? nullptr : &object.outlines.front();
   if (outline == nullptr && !(placed.length_m > 0.0 && placed.width_m > 0.0)) return;
-  const Polygon2 corners = CornersOf(road, placed, outline, own);
-  if (Around(corners) <= kLongest_m)
+  const Polygon2 corners = OutlineCorners(road, placed, outline, own);
+  if (Around(corners) <= kMaxPaintLength_m)
     LayFrame(corners, outline == nullptr || outline->closed, {}, kParkingLine_m, PaintColour(object.material.colour),
              own, paint);
 }
@@ -184,12 +182,12 @@ void PaintFlatOutlines(const network::Road& road, const network::Placed& placed,
                         (placed.height_m > kFlatThing_m ||
                          std::any_of(outline.corners.begin(), outline.corners.end(),
                                      [](const network::Corner& corner) { return corner.height_m > kFlatThing_m; }));
-    Polygon2 corners = CornersOf(road, placed, &outline, own);
-    if (stands || !(Around(corners) <= kLongest_m)) continue;
+    Polygon2 corners = OutlineCorners(road, placed, &outline, own);
+    if (stands || !(Around(corners) <= kMaxPaintLength_m)) continue;
     bool framed = false;
     for (const network::ObjectBorder& border : object.borders) {
       if (border.outline != i) continue;
-      const std::vector<std::size_t> along = scene::CornersOf(object, border);
+      const std::vector<std::size_t> along = CornersOf(object, border);
       LayFrame(corners, outline.closed, along, border.width_m, BorderColour(border.type), own, paint);
       framed = framed || along.empty();
       if (!framed) continue;
@@ -225,8 +223,7 @@ void PaintObject(const network::Road& road, const network::Placed& placed, TileP
     const ArrowWays ways = WaysOf(object.subtype.empty() ? object.name : object.subtype);
     const bool turned = object.hdg_rad == 0.0 && object.orientation == "-";
     if (ways.any())
-      PaintArrow(road, placed, ways, placed.heading_rad + (turned ? geometry::kPi : 0.0), placed.length_m, paint,
-                 colour);
+      PaintArrow(road, placed, ways, placed.heading_rad + (turned ? base::kPi : 0.0), placed.length_m, paint, colour);
   } else if (object.type == "parkingSpace" && object.marks.empty()) {
     PaintParkingPlace(road, placed, paint);
   }

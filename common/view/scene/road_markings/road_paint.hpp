@@ -6,6 +6,8 @@
 
 namespace rodeira::scene {
 
+inline constexpr double kFlatSign_m = 0.05;  // a signal that is no higher lies on the road
+
 // What of a road's signals and objects is paint, added to `paint`: `placed` is one of the network's furniture.
 // - Crossings: objects of the type crosswalk (but virtual ones), in their outline's hull or their length by width;
 // signals 293 and

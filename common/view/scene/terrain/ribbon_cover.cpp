@@ -14,7 +14,7 @@ double Side(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
 }
 
 // The part of the polygon where sign * Side >= 0.
-Polygon Clip(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sign) {
+Polygon ClipToSide(const Polygon& polygon, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double sign) {
   Polygon kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector2d& p = polygon[i];
@@ -42,9 +42,9 @@ std::vector<Polygon> Subtract(const Polygon& polygon, const std::array<Eigen::Ve
   for (std::size_t k = 0; k < 4; ++k) {
     const Eigen::Vector2d& a = hole[k];
     const Eigen::Vector2d& b = hole[(k + 1) % 4];
-    Polygon outside = Clip(rest, a, b, -1.0);
+    Polygon outside = ClipToSide(rest, a, b, -1.0);
     if (outside.size() >= 3 && Area(outside) > kLeastArea_m2) pieces.push_back(std::move(outside));
-    rest = Clip(rest, a, b, 1.0);
+    rest = ClipToSide(rest, a, b, 1.0);
     if (rest.size() < 3 || Area(rest) <= kLeastArea_m2) {
       // Nothing is left inside: had the hole not been here at all, the polygon would be whole.
       return pieces;

@@ -11,7 +11,7 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kInside_m = 0.005;  // normals are asked for this far within a strip: at its edge the slope jumps
+constexpr double kNormalInset_m = 0.005;  // normals are asked for this far within a strip: at its edge the slope jumps
 
 // A strip along the road between two t.
 struct Strip {
@@ -50,10 +50,10 @@ std::vector<Strip> StripsOf(const road::Section& section, Material ground) {
 }
 
 // Makes the triangles of one tile.
-class Weaver {
+class RibbonTessellator {
  public:
-  Weaver(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice,
-         const Eigen::Vector3d& origin_W)
+  RibbonTessellator(const road::World& world, const road::Road& road, const Ribbon& ribbon, const Lattice& lattice,
+                    const Eigen::Vector3d& origin_W)
       : world_(world), section_(road.section()), ribbon_(ribbon), lattice_(lattice), origin_W_(origin_W) {}
 
   // The strip between the lines of numbers from and to.
@@ -113,7 +113,7 @@ class Weaver {
       return vertex;
     }
     const double middle = 0.5 * (strip.from_t_m + strip.to_t_m);
-    const Eigen::Vector2d within = p_W + std::clamp(middle - t_m, -kInside_m, kInside_m) * line.left_W;
+    const Eigen::Vector2d within = p_W + std::clamp(middle - t_m, -kNormalInset_m, kNormalInset_m) * line.left_W;
     const road::SurfacePoint at = world_.At(p_W.x(), p_W.y());
     const road::SurfacePoint slope = world_.At(within.x(), within.y());
     vertex.inside = at.inside && slope.inside;
@@ -238,15 +238,15 @@ std::vector<RoadTile> BuildRoad(const road::World& world, const road::Road& road
     while (to < ribbon.last && ribbon.lines[to].s_m - ribbon.lines[from].s_m < tile_m) ++to;
     const double from_s = ribbon.lines[from].s_m, to_s = ribbon.lines[to].s_m;
     const Eigen::Vector3d origin = OriginNear(road.Position(0.5 * (from_s + to_s), 0.0));
-    Weaver weaver(world, road, ribbon, lattice, origin);
-    for (const Strip& strip : strips) weaver.Weave(strip, from, to);
+    RibbonTessellator tessellator(world, road, ribbon, lattice, origin);
+    for (const Strip& strip : strips) tessellator.Weave(strip, from, to);
     if (from == ribbon.first) {
-      for (const Strip& strip : wild) weaver.Weave(strip, 0, ribbon.first);
+      for (const Strip& strip : wild) tessellator.Weave(strip, 0, ribbon.first);
     }
     if (to == ribbon.last) {
-      for (const Strip& strip : wild) weaver.Weave(strip, ribbon.last, ribbon.lines.size() - 1);
+      for (const Strip& strip : wild) tessellator.Weave(strip, ribbon.last, ribbon.lines.size() - 1);
     }
-    RoadTile tile{weaver.Take(), {}};
+    RoadTile tile{tessellator.Take(), {}};
     tile.marks.material = Material::kMark;
     tile.marks.origin_W = origin;
     for (std::size_t m = 0; m < strokes.size(); ++m) {

@@ -9,8 +9,8 @@ namespace rodeira::scene {
 namespace {
 
 constexpr int kTileCells = 32;
-constexpr std::array<float, kTerrainLevels> kSeen_m = {450.0F, 1'300.0F, 1e9F};  // from the tile's edge
-constexpr std::array<int, kTerrainLevels> kStrides = {1, 2, 8};                  // cells a block, level by level
+constexpr std::array<float, kTerrainLevels> kLevelRange_m = {450.0F, 1'300.0F, 1e9F};  // from the tile's edge
+constexpr std::array<int, kTerrainLevels> kStrides = {1, 2, 8};                        // cells a block, level by level
 
 struct Span {  // of cells: [from, to)
   int from;
@@ -146,7 +146,7 @@ class TileWeaver {
 }  // namespace
 
 float TerrainSeen_m(const TerrainTile& tile, std::size_t level) {
-  return kSeen_m[level] + static_cast<float>(tile.radius_m);
+  return kLevelRange_m[level] + static_cast<float>(tile.radius_m);
 }
 
 std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons) {

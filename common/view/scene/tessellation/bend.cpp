@@ -7,7 +7,8 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kInside_m = 0.02;  // tangents are asked so far from the ends, which may lie on an edge themselves
+// Tangents are sampled this far from the ends, which may lie on an edge themselves.
+constexpr double kTangentInset_m = 0.02;
 constexpr double kSameSlope = 1e-6;
 
 }  // namespace
@@ -37,7 +38,7 @@ std::optional<double> BendBetween(const GroundAt& ground, const Eigen::Vector2d&
   }
   if (worst_m <= range.tolerance_m) return std::nullopt;
   const Eigen::Vector2d along = (b_W - a_W) / length_m;
-  const double inside = kInside_m / length_m;
+  const double inside = kTangentInset_m / length_m;
   const road::SurfacePoint first = at(inside), last = at(1.0 - inside);
   const double rise_a = along.dot(Eigen::Vector2d(first.slope_x, first.slope_y)),
                rise_b = along.dot(Eigen::Vector2d(last.slope_x, last.slope_y));

@@ -15,7 +15,7 @@ namespace {
 
 using tessellation::GridPoint;
 
-constexpr BendRange kEdge = {0.003, 0.02, 2.0};
+constexpr BendRange kEdgeBend = {0.003, 0.02, 2.0};
 
 }  // namespace
 
@@ -53,7 +53,7 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       const std::function<void(std::int32_t, std::int32_t, double, double)> divide = [&](std::int32_t a, std::int32_t b,
                                                                                          double at_a, double at_b) {
         const auto part =
-            BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdge);
+            BendBetween(ground, ToWorld(tile, point_at(a)), at_a, ToWorld(tile, point_at(b)), at_b, kEdgeBend);
         if (!part) return;
         const auto bend = static_cast<std::int32_t>(a + std::lround(*part * (b - a)));
         const double at_bend = ground(ToWorld(tile, point_at(bend))).z_m;

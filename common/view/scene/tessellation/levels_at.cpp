@@ -14,10 +14,10 @@ namespace {
 // SUELO below a height is asked with hints that lie deeper and deeper: the nearest road to a hint just below a bridge
 // is the bridge itself.
 constexpr double kDeeper_m[] = {2.6, 4.6, 8.0};
-constexpr double kWithin_m = 0.02;   // so far from a corner a face is asked
-constexpr double kFarthest_m = 0.5;  // or, where it must be, so far
-constexpr double kSteepest = 4.0;    // slopes beyond this are a step's, not the ground's
-constexpr double kOnDeck_m = 0.3;    // so much may be laid on a deck
+constexpr double kCornerDistance_m = 0.02;    // from a corner to the place where its face is sampled
+constexpr double kMaxCornerDistance_m = 0.5;  // the same at most, where the face needs it
+constexpr double kMaxGroundSlope = 4.0;       // slopes beyond this are a step's, not the ground's
+constexpr double kOnDeck_m = 0.3;             // so much may be laid on a deck
 constexpr double kSameLevel_m = 1e-6;
 
 // Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no
@@ -87,17 +87,17 @@ void LevelsWithin(const road::World& world, const Eigen::Vector2d& p_W, const Ei
                   std::size_t most, std::vector<road::SurfacePoint>& levels, std::size_t least) {
   const Eigen::Vector2d way = towards_W - p_W;
   const double length = way.norm();
-  double off_m = std::min(kWithin_m, 0.3 * length);
+  double off_m = std::min(kCornerDistance_m, 0.3 * length);
   Eigen::Vector2d off = length > 0.0 ? Eigen::Vector2d(off_m / length * way) : Eigen::Vector2d::Zero();
   LevelsAt(world, p_W + off, most, levels);
   while (off_m > 0.0 && !levels.empty() && levels.size() < std::min(least, most) &&
-         2.0 * off_m <= std::min(length, kFarthest_m)) {
+         2.0 * off_m <= std::min(length, kMaxCornerDistance_m)) {
     off_m *= 2.0, off *= 2.0;
     LevelsAt(world, p_W + off, most, levels);
   }
   for (road::SurfacePoint& level : levels) {
     const Eigen::Vector2d slope(level.slope_x, level.slope_y);
-    if (slope.norm() <= kSteepest) level.z_m -= slope.dot(off);
+    if (slope.norm() <= kMaxGroundSlope) level.z_m -= slope.dot(off);
   }
 }
 

@@ -12,8 +12,6 @@ namespace {
 using tessellation::GridPoint;
 using tessellation::GridSegment;
 
-bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
-
 // The lines between knots: where other than two segments meet, and on the tile's edge.
 class Follower {
  public:
@@ -37,7 +35,7 @@ class Follower {
  private:
   bool IsKnot(const GridPoint& p) {
     auto [found, fresh] = knots_.try_emplace(p, false);
-    if (fresh) found->second = OnEdge(p) || around_[p].size() != 2;
+    if (fresh) found->second = IsOnTileEdge(p) || around_[p].size() != 2;
     return found->second;
   }
 

@@ -13,7 +13,6 @@ namespace {
 using tessellation::GridPoint;
 using tessellation::Triangulation;
 
-constexpr std::uint32_t kNone = Triangulation::kNone;
 constexpr double kTerrainsRoom_m =
     0.002;  // where the terrain's own triangles are kept no post is left out but as near to another point
 
@@ -119,11 +118,11 @@ class Planner {
     std::sort(numbers.begin(), numbers.end());
     const auto number = [&](const GridPoint& p) {
       const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair(p, std::uint32_t{0}));
-      return found != numbers.end() && found->first == p ? found->second : kNone;
+      return found != numbers.end() && found->first == p ? found->second : Triangulation::kNone;
     };
     for (const auto& [from, to] : land_.posts.Sides(plan_.key)) {
       const std::uint32_t a = number(from), b = number(to);
-      if (a == kNone || b == kNone) continue;
+      if (a == Triangulation::kNone || b == Triangulation::kNone) continue;
       const GridPoint middle{from.x + (to.x - from.x) / 2, from.y + (to.y - from.y) / 2};
       if (plan_.faces[plan_.face_of[plan_.triangles.Find(middle)]].land) plan_.triangles.Fix(a, b);
     }

@@ -17,7 +17,6 @@ using tessellation::Triangulation;
 
 constexpr double kLongSide =
     8.0;  // times as long as the thinnest triangle is thick: such a side of a thin one is looked at
-constexpr std::uint32_t kNone = Triangulation::kNone;
 // Of points put in where the ground is not met: what bends along many triangles is met from one to the next, and each
 // goes on until nothing is off. At most 76 on real files, and where cuts and fills are followed 83 in the project's
 // worlds.
@@ -35,15 +34,12 @@ constexpr std::array<BendRange, kGroundLevels> kSlopes = {
 constexpr std::array<BendRange, kGroundLevels> kVerges = {
     {{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
-constexpr double kWithin_m = 1e-3;
+constexpr double kEdgeInset_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
 constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0},
                                             kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
-
-// Points on a tile's edge are its neighbour's too, and settled before.
-bool OnEdge(const GridPoint& p) { return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps; }
 
 BendRange BelowRange(std::size_t level) {
   return {kSlopes[level].tolerance_m, kSlopes[level].margin_m, kBelowStep_m, kSlopes[level].short_m};
@@ -95,7 +91,8 @@ class Rounds {
   // But those on the tile's edge, where a quarter of a side may lie by rounding: the neighbour does not have them.
   // False where nothing is put in.
   bool PutIn(std::vector<Fresh>& fresh) {
-    std::erase_if(fresh, [](const Fresh& one) { return OnEdge(one.p); });
+    std::erase_if(fresh,
+                  [](const Fresh& one) { return IsOnTileEdge(one.p); });  // the neighbour's too, and settled before
     for (const Fresh& one : fresh) plan_.triangles.Insert(one.p, one.near);
     if (!fresh.empty()) CarryFaces(plan_);
     return !fresh.empty();
@@ -169,8 +166,8 @@ class Rounds {
   Ground CornerGround(std::uint32_t point, std::uint32_t face, const Eigen::Vector2d& p_W,
                       const Eigen::Vector2d& towards_W, std::size_t level) {
     if (first_known_.size() < plan_.triangles.points().size())
-      first_known_.resize(plan_.triangles.points().size(), kNone);
-    for (std::uint32_t i = first_known_[point]; i != kNone; i = known_[i].next) {
+      first_known_.resize(plan_.triangles.points().size(), Triangulation::kNone);
+    for (std::uint32_t i = first_known_[point]; i != Triangulation::kNone; i = known_[i].next) {
       if (known_[i].face == face && known_[i].level == level) return known_[i].ground;
     }
     const Ground ground = GroundWithin(p_W, towards_W, level, plan_.faces[face].levels.size());
@@ -268,7 +265,8 @@ class Rounds {
     const auto points = plan_.triangles.points();
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
-      if (t.fixed[k] || t.across[k] == kNone || t.corner[k] > t.corner[n]) continue;  // lines have their points
+      if (t.fixed[k] || t.across[k] == Triangulation::kNone || t.corner[k] > t.corner[n])
+        continue;  // lines have their points
       const auto part = BendBetween([&](const Eigen::Vector2d& p_W) { return LevelAt(p_W, level); }, c.at[k], c.z[k],
                                     c.at[n], c.z[n], Below());
       if (!part) continue;
@@ -290,13 +288,13 @@ class Rounds {
   void FollowSides(const Triangulation::Triangle& t, std::uint32_t face, const Corners& c, std::vector<Fresh>& fresh) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t n = (k + 1) % 3;
-      if (t.across[k] == kNone) continue;
+      if (t.across[k] == Triangulation::kNone) continue;
       const bool kept = t.fixed[k] && plan_.face_of[t.across[k]] == face, ends = t.fixed[k] && !kept;
       if (!ends && t.corner[k] > t.corner[n]) continue;
       Eigen::Vector2d p_W = c.at[k], q_W = c.at[n];
       if (ends) {  // the terrain's end, seen from within; roads' edges have their points
         if (!plan_.faces[plan_.face_of[t.across[k]]].land) continue;
-        const Eigen::Vector2d within = kWithin_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
+        const Eigen::Vector2d within = kEdgeInset_m * (c.middle_W - 0.5 * (p_W + q_W)).normalized();
         p_W += within, q_W += within;
       }
       const Eigen::Vector2d way = c.at[n] - c.at[k];
@@ -314,7 +312,7 @@ class Rounds {
         return static_cast<std::int32_t>(std::lround(from + *part * (to - from)));
       };
       const GridPoint bend{between(p.x, q.x), between(p.y, q.y)};
-      if (OnEdge(bend)) continue;  // nor is its kept side cut
+      if (IsOnTileEdge(bend)) continue;  // nor is its kept side cut
       if (kept)
         on_kept_.push_back({bend, t.corner[k], t.corner[n], NumberOf(t)});
       else
@@ -324,14 +322,15 @@ class Rounds {
 
   // Between two points of one face the ground is the same whichever triangle asks, and a side outlives its triangles.
   bool KnownStraight(std::uint32_t a, std::uint32_t b) const {
-    for (std::uint32_t i = a < first_straight_.size() ? first_straight_[a] : kNone; i != kNone; i = straight_[i].next) {
+    for (std::uint32_t i = a < first_straight_.size() ? first_straight_[a] : Triangulation::kNone;
+         i != Triangulation::kNone; i = straight_[i].next) {
       if (straight_[i].to == b) return true;
     }
     return false;
   }
   void SetStraight(std::uint32_t a, std::uint32_t b) {
     if (first_straight_.size() < plan_.triangles.points().size())
-      first_straight_.resize(plan_.triangles.points().size(), kNone);
+      first_straight_.resize(plan_.triangles.points().size(), Triangulation::kNone);
     straight_.push_back({b, first_straight_[a]});
     first_straight_[a] = static_cast<std::uint32_t>(straight_.size() - 1);
   }
@@ -422,7 +421,7 @@ std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& k
         const Eigen::Vector2d a_W = ToWorld(key, line[i]), b_W = ToWorld(key, line[i + 1]);
         const auto part = BendBetween(ground, a_W, ground(a_W).z_m, b_W, ground(b_W).z_m, below);
         const GridPoint bend = part ? PartOf(line[i], line[i + 1], *part) : line[i];
-        if (!part || bend == line[i] || bend == line[i + 1] || OnEdge(bend))
+        if (!part || bend == line[i] || bend == line[i + 1] || IsOnTileEdge(bend))
           ++i;
         else
           line.insert(line.begin() + static_cast<std::ptrdiff_t>(i) + 1, bend);

@@ -17,8 +17,8 @@ namespace {
 
 using tessellation::Triangulation;
 
-constexpr double kApron_m = 0.9;  // of a bridge's side, and as deep its underside lies
-constexpr double kKerb_m = 0.35;  // lower steps are stone, higher ones earth
+constexpr double kApron_m = 0.9;     // of a bridge's side, and as deep its underside lies
+constexpr double kMaxKerb_m = 0.35;  // lower steps are stone, higher ones earth
 constexpr std::size_t kNobody = 99;
 // A picture's samples may lie outside the triangle whose light they take: thinner than a pixel, it would be lit as the
 // ground at the far end of a change that goes on and on. Where normals change by more than this a metre a triangle has
@@ -203,8 +203,8 @@ class Weaver {
       const double high = std::max(z(0) - foot[0], z(1) - foot[1]);
       const Skin& skin = plan_.faces[face].skins[level];
       Colour colour = SurfaceColour(ground::Surface::kSoil);
-      if (partner == kNobody || (high < kKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
-      if (partner != kNobody && high < kKerb_m && plan_.faces[other].skins[partner].colour == skin.colour)
+      if (partner == kNobody || (high < kMaxKerb_m && !skin.grown)) colour = SurfaceColour(ground::Surface::kConcrete);
+      if (partner != kNobody && high < kMaxKerb_m && plan_.faces[other].skins[partner].colour == skin.colour)
         colour = skin.colour;
       Wall(side, {heights_.Way(side[0], z(0), foot[0]), heights_.Way(side[1], z(1), foot[1])}, colour);
     }

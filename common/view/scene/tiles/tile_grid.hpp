@@ -48,6 +48,9 @@ inline Eigen::Vector2d ToWorld(const TileKey& tile, const tessellation::GridPoin
   return {static_cast<double>(tile.column * kTileSteps + p.x) * kStep_m,
           static_cast<double>(tile.row * kTileSteps + p.y) * kStep_m};
 }
+inline bool IsOnTileEdge(const tessellation::GridPoint& p) {
+  return p.x == 0 || p.y == 0 || p.x == kTileSteps || p.y == kTileSteps;
+}
 // The tile's number along an axis; of a place on an edge the one that begins there.
 inline std::int64_t TileOf(std::int64_t step) {
   return step >= 0 ? step / kTileSteps : -((-step + kTileSteps - 1) / kTileSteps);

@@ -20,8 +20,8 @@ using Eigen::Vector2d;
 
 constexpr double kJunctionBeyond_m = 20.0;  // so far a junction's edge may lie from the ways through it
 constexpr double kStretch_m = 48.0;         // of a road, about
-constexpr double kBeyond_m = 2.0;  // a stretch ends where the next one begins: what lies just behind counts too
-constexpr double kMargin_m = 5.0;  // around everything: ground is asked a little beside a place, too
+constexpr double kStretchMargin_m = 2.0;  // a stretch ends where the next one begins: what lies just behind counts too
+constexpr double kMargin_m = 5.0;         // around everything: ground is asked a little beside a place, too
 constexpr std::size_t kPoints = 64;
 
 // A square, and how far its farthest place lies from a point.
@@ -130,11 +130,12 @@ void TileSources::AddStretches(std::uint32_t road_index, PictureDigests& picture
   const auto end = [&] {
     if (!begun) return;
     part.reach_m = reach_m, part.beside = true;
-    part.digest = base::Combine(StretchDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m),
-                                DecksDigest(*world_, road_index));
+    part.digest =
+        base::Combine(StretchDigest(*world_, road_index, from_s_m - kStretchMargin_m, to_s_m + kStretchMargin_m),
+                      DecksDigest(*world_, road_index));
     parts_.push_back(part);
     part.reach_m = 0.0, part.beside = false;
-    part.digest = LookDigest(*world_, road_index, from_s_m - kBeyond_m, to_s_m + kBeyond_m, pictures);
+    part.digest = LookDigest(*world_, road_index, from_s_m - kStretchMargin_m, to_s_m + kStretchMargin_m, pictures);
     parts_.push_back(part);
     begun = false;
   };

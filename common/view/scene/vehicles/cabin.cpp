@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "common/core/base/constants.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/view/scene/mesh/loft.hpp"
 
@@ -11,12 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = geometry::kPi / 180.0;
 constexpr double kInstruments_m = 0.52;  // ahead of the eye
-constexpr double kInstrumentsLean_rad = 18.0 * kDegree;
+constexpr double kInstrumentsLean_rad = 18.0 * base::kRadiansPerDegree;
 constexpr double kTube_m = 0.013;  // radius of the rim's section
-constexpr double kMark_rad = 5.0 * kDegree;
-constexpr Colour kDash = Colour::Of(0x24262a), kHousing = Colour::Of(0x191b1e), kRim = Colour::Of(0x15161a),
+constexpr double kMark_rad = 5.0 * base::kRadiansPerDegree;
+constexpr Colour kDash = Colour::Of(0x24262a), kHousing = Colour::Of(0x191b1e), kWheelRim = Colour::Of(0x15161a),
                  kMark = Colour::Of(0xf0f0f0);
 
 CabinDial DialAt(const Dial& dial, double left_m, double down_m, double radius_m) {
@@ -45,10 +45,10 @@ Vector3d NeedleEnd_E(const CabinDial& dial, double value) {
 
 Facing GearPlace() { return {{kInstruments_m - 0.002, 0.0, -0.172}, kInstrumentsLean_rad}; }
 
-Facing WheelPlace() { return {{0.40, 0.0, -0.285}, 25.0 * kDegree}; }
+Facing WheelPlace() { return {{0.40, 0.0, -0.285}, 25.0 * base::kRadiansPerDegree}; }
 
 Vector3d WheelMark_E(double steering_wheel_rad) {
-  const double angle = 0.5 * geometry::kPi + steering_wheel_rad;
+  const double angle = 0.5 * base::kPi + steering_wheel_rad;
   return WheelPlace().ToE({kWheelRadius_m * std::cos(angle), kWheelRadius_m * std::sin(angle), kTube_m});
 }
 
@@ -57,14 +57,14 @@ Mesh BuildSteeringWheel() {
   mesh.material = Material::kMatt;
   constexpr int kAround = 144, kSection = 10;  // 2.5 degrees each: the mark ends between two
   const auto add = [&](int i, int k, Colour colour) {
-    const double angle = 2.0 * geometry::kPi * i / kAround, turn = 2.0 * geometry::kPi * k / kSection;
+    const double angle = 2.0 * base::kPi * i / kAround, turn = 2.0 * base::kPi * k / kSection;
     const Vector3d out(std::cos(angle), std::sin(angle), 0.0),
         normal = std::cos(turn) * out + std::sin(turn) * Vector3d::UnitZ();
     return mesh.Add(kWheelRadius_m * out + kTube_m * normal, normal, colour);
   };
   for (int i = 0; i < kAround; ++i) {
-    const double middle = 2.0 * geometry::kPi * (i + 0.5) / kAround;
-    const Colour colour = std::fabs(geometry::WrapAngle(middle - 0.5 * geometry::kPi)) < kMark_rad ? kMark : kRim;
+    const double middle = 2.0 * base::kPi * (i + 0.5) / kAround;
+    const Colour colour = std::fabs(geometry::WrapAngle(middle - 0.5 * base::kPi)) < kMark_rad ? kMark : kWheelRim;
     for (int k = 0; k < kSection; ++k) {
       const std::uint32_t a = add(i, k, colour), b = add(i + 1, k, colour), c = add(i + 1, k + 1, colour),
                           d = add(i, k + 1, colour);
@@ -72,8 +72,9 @@ Mesh BuildSteeringWheel() {
       mesh.AddTriangle(a, c, d);
     }
   }
-  mesh.Append(Box({-kWheelRadius_m, -0.022, -0.02}, {kWheelRadius_m, 0.018, -0.004}, Material::kMatt, kRim));  // spokes
-  mesh.Append(Box({-0.022, -kWheelRadius_m, -0.02}, {0.022, 0.0, -0.004}, Material::kMatt, kRim));
+  mesh.Append(
+      Box({-kWheelRadius_m, -0.022, -0.02}, {kWheelRadius_m, 0.018, -0.004}, Material::kMatt, kWheelRim));  // spokes
+  mesh.Append(Box({-0.022, -kWheelRadius_m, -0.02}, {0.022, 0.0, -0.004}, Material::kMatt, kWheelRim));
   mesh.Append(Box({-0.06, -0.05, -0.025}, {0.06, 0.045, 0.005}, Material::kMatt, kHousing));  // hub
   return mesh;
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr Colour kLining = Colour::Of(0xa8a49a), kPost = Colour::Of(0x3a3c40), kDoor = Colour::Of(0x2b2d32),
+constexpr Colour kLining = Colour::Of(0xa8a49a), kPillar = Colour::Of(0x3a3c40), kDoor = Colour::Of(0x2b2d32),
                  kLedge = Colour::Of(0x1b1c1f), kSeat = Colour::Of(0x34373d), kFloor = Colour::Of(0x141517),
                  kWiper = Colour::Of(0x101113);
 constexpr double kWall_m = 0.055;  // of a door, from the car's greatest width to where it faces people
@@ -66,15 +66,15 @@ Mesh BuildCabinBody(const CabinShape& shape) {
   both.Block(kBehind_m, 0.86, wall - 0.02, half - 0.02, -kSill_m - 0.03, -kSill_m, kLedge);
   both.Block(-0.25, 0.36, wall - 0.07, wall, -0.53, -0.48, kLedge);
   // Posts beside the windscreen, behind the front seats, beside the rear pane; the roof's rails between them.
-  both.Bar({0.84, wall - 0.03, -0.30}, {kHeader_m - 0.02, rail, roof + 0.02}, 0.052, 0.06, kPost);
-  both.Bar({-0.30, waist, -kSill_m - 0.02}, {-0.34, rail, roof + 0.02}, 0.05, 0.10, kPost);
-  both.Bar({kBehind_m + 0.05, waist, -kSill_m - 0.02}, {kBehind_m + 0.15, rail, roof + 0.02}, 0.06, 0.18, kPost);
+  both.Bar({0.84, wall - 0.03, -0.30}, {kHeader_m - 0.02, rail, roof + 0.02}, 0.052, 0.06, kPillar);
+  both.Bar({-0.30, waist, -kSill_m - 0.02}, {-0.34, rail, roof + 0.02}, 0.05, 0.10, kPillar);
+  both.Bar({kBehind_m + 0.05, waist, -kSill_m - 0.02}, {kBehind_m + 0.15, rail, roof + 0.02}, 0.06, 0.18, kPillar);
   both.Block(kBehind_m + 0.1, kHeader_m, rail - 0.02, rail + 0.04, roof - 0.015, roof + 0.04, kLining);
   // The lining, with its edge above the windscreen and the visors folded up against it.
   mesh.Append(
       Box({kBehind_m + 0.1, shape.Y(-rail), roof}, {kHeader_m, shape.Y(rail), roof + 0.03}, Material::kMatt, kLining));
   mesh.Append(Box({kHeader_m - 0.03, shape.Y(-rail), roof - 0.008}, {kHeader_m + 0.004, shape.Y(rail), roof + 0.035},
-                  Material::kMatt, kPost));
+                  Material::kMatt, kPillar));
   both.Block(kHeader_m - 0.19, kHeader_m - 0.035, 0.10, rail - 0.10, roof - 0.014, roof + 0.01, kLining);
   // Seats; the front ones begin behind the eye.
   const double seat = std::fabs(shape.eye_left_m);

@@ -10,16 +10,15 @@ namespace rodeira::scene {
 namespace {
 
 using Eigen::Vector3d;
-using Ring = std::vector<Vector3d>;
 
 constexpr double kCrease_rad = 0.6;
 constexpr Colour kGlassColour = Colour::Of(0x20272c);
 constexpr Colour kTrimColour = Colour::Of(0x191a1c);
 
 // Shares of the car's measures: along from the rear to the front, heights of the whole, widths of half the width.
-class Body {
+class CarBody {
  public:
-  explicit Body(const CarShape& shape) : shape_(shape), half_m_(0.5 * shape.width_m) {}
+  explicit CarBody(const CarShape& shape) : shape_(shape), half_m_(0.5 * shape.width_m) {}
 
   double X(double along) const { return shape_.front_m - shape_.length_m * (1.0 - along); }
   double Y(double aside) const { return half_m_ * aside; }
@@ -70,7 +69,7 @@ class Body {
   double half_m_;
 };
 
-void AddPaint(const Body& body, Colour paint, CarMeshes& car) {
+void AddPaintedBody(const CarBody& body, Colour paint, CarMeshes& car) {
   static constexpr double kSections[][4] = {
       // along, low, top, wide
       {0.000, 0.36, 0.60, 0.82}, {0.010, 0.30, 0.66, 0.90}, {0.04, 0.23, 0.71, 0.96},  {0.13, 0.17, 0.715, 1.0},
@@ -92,14 +91,14 @@ void AddPaint(const Body& body, Colour paint, CarMeshes& car) {
   }
 }
 
-void AddGlass(const Body& body, CarMeshes& car) {
+void AddGlass(const CarBody& body, CarMeshes& car) {
   const std::vector<Ring> cabin = {body.Oblong(0.035, 0.75, 0.90, 0.07, 0.62),
                                    body.Oblong(0.075, 0.665, 0.845, 0.08, 0.76),
                                    body.Oblong(0.135, 0.54, 0.725, 0.09, 0.955)};
   car.body.push_back(Loft(cabin, Material::kGlass, kGlassColour, 0.45));
 }
 
-void AddTrim(const Body& body, const CarShape& shape, CarMeshes& car) {
+void AddTrim(const CarBody& body, const CarShape& shape, CarMeshes& car) {
   car.body.push_back(body.BoxAt(0.985, 1.002, -0.5, 0.5, 0.33, 0.385, Material::kMatt, kTrimColour));    // grille
   car.body.push_back(body.BoxAt(-0.004, 0.02, -0.72, 0.72, 0.30, 0.375, Material::kMatt, kTrimColour));  // rear bumper
   car.body.push_back(
@@ -161,8 +160,8 @@ CarShape CarShape::Of(const AgentPose& agent) {
 
 CarMeshes BuildCar(const CarShape& shape, Colour paint) {
   CarMeshes car;
-  const Body body(shape);
-  AddPaint(body, paint, car);
+  const CarBody body(shape);
+  AddPaintedBody(body, paint, car);
   AddGlass(body, car);
   AddTrim(body, shape, car);
   AddWheel(shape, car);

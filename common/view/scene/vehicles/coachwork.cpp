@@ -6,18 +6,17 @@
 #include <cmath>
 #include <utility>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/mesh/loft.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using Eigen::Vector3d;
-using Ring = std::vector<Vector3d>;
 
 constexpr Colour kPane = Colour::Of(0x20272c);
 constexpr Colour kTrim = Colour::Of(0x191a1c);
-constexpr Colour kSteel = Colour::Of(0x6d7173);
+constexpr Colour kChassisSteel = Colour::Of(0x6d7173);
 constexpr double kProud_m = 0.012;  // how far panes stand out of the sheet
 
 // Places by shares: along from the rear bumper (0) to the front one (1), aside of half the width, up of the height.
@@ -109,7 +108,7 @@ void AddWheel(const CarShape& shape, CarMeshes& car) {
   car.wheel.push_back(Disc(radius, half, 0.03, 24, Material::kMatt, Colour::Of(0x1d1d1f)));
   car.wheel.push_back(Disc(0.64 * radius, half + 0.006, 0.02, 20, Material::kMatt, Colour::Of(0xa9abae)));
   for (int spoke = 0; spoke < 5; ++spoke) {  // gaps between spokes show that it turns
-    const double angle = 2.0 * geometry::kPi * spoke / 5.0;
+    const double angle = 2.0 * base::kPi * spoke / 5.0;
     Mesh gap = Disc(0.13 * radius, half + 0.009, 0.004, 8, Material::kMatt, Colour::Of(0x2a2b2d));
     for (Eigen::Vector3f& p : gap.positions)
       p += (0.42 * radius * Vector3d(std::sin(angle), 0.0, std::cos(angle))).cast<float>();
@@ -157,9 +156,9 @@ CarMeshes BuildLorry(const CarShape& shape, Colour paint) {
   frame.AddSidePanes(cab + frame.Share(0.75), 1.0 - frame.Share(0.34), 0.55, 0.76, 0.975, car);
   car.body.push_back(frame.BoxAt(0.0, cab - gap, -1.0, 1.0, 0.31, 1.0, Material::kMatt,
                                  Mix(paint, Colour::Of(0xe8e8e4), 0.75)));  // the box with the load
-  car.body.push_back(frame.BoxAt(0.01, cab, -0.42, 0.42, 0.17, 0.31, Material::kMatt, kSteel));
-  car.body.push_back(
-      frame.BoxAt(0.003, 0.02, -0.92, 0.92, 0.13, 0.17, Material::kMatt, kSteel));  // what keeps cars from going below
+  car.body.push_back(frame.BoxAt(0.01, cab, -0.42, 0.42, 0.17, 0.31, Material::kMatt, kChassisSteel));
+  car.body.push_back(frame.BoxAt(0.003, 0.02, -0.92, 0.92, 0.13, 0.17, Material::kMatt,
+                                 kChassisSteel));  // what keeps cars from going below
   car.body.push_back(frame.BoxAt(0.99, 1.003, -0.70, 0.70, 0.24, 0.40, Material::kMatt, kTrim));
   for (const double side : {-1.0, 1.0})
     car.frame.push_back(frame.BoxAt(0.985, 0.998, side * 0.99, side * 1.14, 0.52, 0.72, Material::kMatt, kTrim));

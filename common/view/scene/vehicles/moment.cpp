@@ -10,7 +10,7 @@
 namespace rodeira::scene {
 namespace {
 
-double Between(double a, double b, double alpha) { return a + alpha * (b - a); }
+double InterpolateValue(double a, double b, double alpha) { return a + alpha * (b - a); }
 
 // Angles are known up to full turns: the number of turns is the one that the speeds tell.
 double BetweenSpins(double a_rad, double b_rad, double expected_rad, double alpha) {
@@ -21,9 +21,9 @@ double BetweenSpins(double a_rad, double b_rad, double expected_rad, double alph
 WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, double interval_s) {
   WheelPose wheel;
   wheel.hub_B = a.hub_B + alpha * (b.hub_B - a.hub_B);
-  wheel.steer_rad = Between(a.steer_rad, b.steer_rad, alpha);
+  wheel.steer_rad = InterpolateValue(a.steer_rad, b.steer_rad, alpha);
   wheel.spin_rad = BetweenSpins(a.spin_rad, b.spin_rad, 0.5 * (a.spin_radps + b.spin_radps) * interval_s, alpha);
-  wheel.spin_radps = Between(a.spin_radps, b.spin_radps, alpha);
+  wheel.spin_radps = InterpolateValue(a.spin_radps, b.spin_radps, alpha);
   return wheel;
 }
 
@@ -39,10 +39,10 @@ CarPose BetweenCars(const CarPose& a, const CarPose& b, double alpha, double int
   car.blow = std::max(a.blow, b.blow);
   car.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   car.q_WB = a.q_WB.slerp(alpha, b.q_WB);
-  car.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
-  car.engine_rpm = Between(a.engine_rpm, b.engine_rpm, alpha);
-  car.fuel_used_l = Between(a.fuel_used_l, b.fuel_used_l, alpha);
-  car.steering_wheel_rad = Between(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
+  car.speed_mps = InterpolateValue(a.speed_mps, b.speed_mps, alpha);
+  car.engine_rpm = InterpolateValue(a.engine_rpm, b.engine_rpm, alpha);
+  car.fuel_used_l = InterpolateValue(a.fuel_used_l, b.fuel_used_l, alpha);
+  car.steering_wheel_rad = InterpolateValue(a.steering_wheel_rad, b.steering_wheel_rad, alpha);
   for (std::size_t i = 0; i < car.wheels.size(); ++i)
     car.wheels[i] = BetweenWheels(a.wheels[i], b.wheels[i], alpha, interval_s);
   return car;
@@ -52,8 +52,8 @@ AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha, do
   AgentPose agent = alpha < 0.5 ? a : b;
   agent.p_WB_W = a.p_WB_W + alpha * (b.p_WB_W - a.p_WB_W);
   agent.q_WB = a.q_WB.slerp(alpha, b.q_WB);
-  agent.speed_mps = Between(a.speed_mps, b.speed_mps, alpha);
-  agent.steer_rad = Between(a.steer_rad, b.steer_rad, alpha);
+  agent.speed_mps = InterpolateValue(a.speed_mps, b.speed_mps, alpha);
+  agent.steer_rad = InterpolateValue(a.steer_rad, b.steer_rad, alpha);
   agent.wheel_spin_rad = BetweenSpins(a.wheel_spin_rad, b.wheel_spin_rad,
                                       0.5 * (a.speed_mps + b.speed_mps) / a.wheel_radius_m * interval_s, alpha);
   return agent;

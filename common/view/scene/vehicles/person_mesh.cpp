@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/core/geometry/angle.hpp"
+#include "common/core/base/constants.hpp"
 #include "common/view/scene/mesh/loft.hpp"
 
 namespace rodeira::scene {
 namespace {
 
 using Eigen::Vector3d;
-using Ring = std::vector<Vector3d>;
 
 constexpr Colour kSkin = Colour::Of(0xc99b7a);
 constexpr Colour kHair = Colour::Of(0x3a2c20);
@@ -24,7 +23,7 @@ Mesh Turned(const std::vector<std::array<double, 3>>& rings_m, Colour colour) {
   for (const auto& [z, deep, wide] : rings_m) {
     Ring ring;
     for (int k = 0; k < 8; ++k) {
-      const double angle = 2.0 * geometry::kPi * k / 8.0;
+      const double angle = 2.0 * base::kPi * k / 8.0;
       ring.emplace_back(deep * std::cos(angle), wide * std::sin(angle), z);
     }
     rings.push_back(std::move(ring));
@@ -68,7 +67,7 @@ PersonMeshes BuildPerson(double height_m, Colour clothes) {
 
 double LegSwing_rad(double wheel_spin_rad, double wheel_radius_m, double leg_m) {
   // Feet that do not slide part by a step, half a turn of the wheel, when the swing is greatest.
-  const double step_m = geometry::kPi * wheel_radius_m;
+  const double step_m = base::kPi * wheel_radius_m;
   const double most = std::min(kMostSwing_rad, std::asin(std::clamp(0.5 * step_m / leg_m, 0.0, 1.0)));
   return most * std::sin(wheel_spin_rad);
 }

@@ -91,7 +91,7 @@ class RecordingFuzz : public ::testing::Test {
     EXPECT_EQ(error.Text().find('\n'), std::string::npos) << error.Text();
     EXPECT_EQ(error.Text().find("rodeira-replay-"), std::string::npos) << error.Text();
   }
-  static base::Result<Verdict> VerifyFile(const std::string& file, Step from) {
+  static base::Result<VerifyResult> VerifyFile(const std::string& file, Step from) {
     const auto run = replay::RecordedRun::Open(file);
     if (!run) return run.error();
     Recomputation wish;

@@ -36,8 +36,8 @@ class ReplayTest : public ::testing::Test {
     return Record("drive.mcap", LaunchFile("first_drive.yaml"), {"--for", std::to_string(seconds)});
   }
 
-  static base::Result<Verdict> VerifyFile(const std::string& file, lockstep::Step from = 0,
-                                          const launch::Overrides& extra = {}) {
+  static base::Result<VerifyResult> VerifyFile(const std::string& file, lockstep::Step from = 0,
+                                               const launch::Overrides& extra = {}) {
     const auto run = replay::RecordedRun::Open(file, extra);
     if (!run) return run.error();
     return Verify(run.value(), from);
