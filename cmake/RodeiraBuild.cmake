@@ -3,8 +3,10 @@
 
 find_program(RODEIRA_CCACHE ccache)
 if(RODEIRA_CCACHE)
-  # Paths below the sources are told relative to the build folder, so that what one clone has compiled serves another.
-  set(RODEIRA_LAUNCHER /usr/bin/env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1 ${RODEIRA_CCACHE})
+  # Paths below the sources count relative to the build folder, so that objects of one clone serve another. The
+  # sloppiness is what ccache needs for precompiled headers.
+  set(RODEIRA_LAUNCHER /usr/bin/env CCACHE_BASEDIR=${CMAKE_SOURCE_DIR} CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros ${RODEIRA_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
   set(CMAKE_CXX_COMPILER_LAUNCHER ${RODEIRA_LAUNCHER})
 endif()
@@ -12,6 +14,10 @@ find_program(RODEIRA_MOLD mold)
 if(RODEIRA_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
+
+# The same bytes in every folder: no path of the machine in an object file. The same flags in libraries and programs, so
+# that one precompiled header serves both.
+add_compile_options(-ffile-prefix-map=${CMAKE_SOURCE_DIR}/= -ffile-prefix-map=${CMAKE_BINARY_DIR}/=build/ -fPIC)
 
 # The same bits on every machine (law L7): no contraction, no value-changing optimisation, no -march.
 add_compile_options(-ffp-contract=off -fno-fast-math)
@@ -39,6 +45,7 @@ if(RODEIRA_SANITIZE)
 endif()
 
 include(RodeiraLayers)
+include(RodeiraSpeed)
 
 # rodeira_library(base SOURCES a.cpp … PUBLIC fmt::fmt … PRIVATE …): the library of the current folder.
 function(rodeira_library name)
@@ -46,6 +53,7 @@ function(rodeira_library name)
   rodeira_record_links(rodeira::${name} ${ARG_PUBLIC} ${ARG_PRIVATE})
   add_library(rodeira_${name} STATIC ${ARG_SOURCES})
   add_library(rodeira::${name} ALIAS rodeira_${name})
+  rodeira_compile_fast(rodeira_${name})
   target_include_directories(rodeira_${name} PUBLIC ${CMAKE_SOURCE_DIR})
   target_compile_options(rodeira_${name} PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(rodeira_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
@@ -65,6 +73,7 @@ endfunction()
 function(rodeira_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
+  rodeira_precompile(${name}_test rodeira_pch_test)
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree GTest::gmock GTest::gtest_main)

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# What makes a first build short: the headers that nearly every source reads are compiled once, and a module's sources are
+# compiled in batches. docs/performance.md has the times; tests/rebuilt builds without both and compares digests.
+
+option(RODEIRA_UNITY "Compile the sources of a module in batches" ON)
+option(RODEIRA_PCH "Precompile the headers that nearly every source reads (GCC only)" ON)
+
+# Sources a batch. A batch of a changed source is compiled again as a whole: small enough for that, large enough to save.
+set(RODEIRA_BATCH 8)
+
+# Creates an object library whose precompiled header other targets share.
+function(rodeira_add_pch name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINK" ${ARGN})
+  file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/pch/${name}.cpp CONTENT "")
+  add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/pch/${name}.cpp)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS})
+  target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+if(RODEIRA_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT RODEIRA_FUZZ)
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  set(headers <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <set>
+      <span> <string> <string_view> <tuple> <unordered_map> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry>
+      <fmt/format.h>)
+  rodeira_add_pch(rodeira_pch HEADERS ${headers} LINK Eigen3::Eigen fmt::fmt)
+  if(RODEIRA_TESTS)
+    rodeira_add_pch(rodeira_pch_test HEADERS ${headers} <fstream> <sstream> <gtest/gtest.h> <gmock/gmock.h>
+                    LINK Eigen3::Eigen fmt::fmt GTest::gmock GTest::gtest)
+  endif()
+endif()
+
+# The target reads the precompiled header `pch`, where there is one.
+function(rodeira_precompile target pch)
+  if(TARGET ${pch})
+    target_precompile_headers(${target} REUSE_FROM ${pch})
+  endif()
+endfunction()
+
+function(rodeira_compile_fast target)
+  rodeira_precompile(${target} rodeira_pch)
+  if(RODEIRA_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${RODEIRA_BATCH})
+  endif()
+endfunction()
+
+# Sources whose loops the compiler vectorises: -O3, and square roots that set no errno. Every result keeps its bits.
+function(rodeira_vectorise)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno"
+    SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
+# Sources that are compiled alone, because they define macros, or headers of other libraries define some for them.
+function(rodeira_compile_alone)
+  set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
