@@ -17,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "launch/rodeira/doctor/capture.hpp"
 
@@ -84,27 +85,25 @@ std::string WriteProblem(const std::filesystem::path& folder) {
   return problem;
 }
 
-std::vector<DebianPackage> ParsePackages(std::string_view text) {
-  std::vector<DebianPackage> packages;
+std::vector<std::string> ParsePackages(std::string_view text) {
+  std::vector<std::string> packages;
   std::istringstream lines{std::string(text)};
   for (std::string line; std::getline(lines, line);) {
-    const auto mark = line.find('#');
-    const std::string name = line.substr(0, line.find_first_of(" \t#"));
-    if (!name.empty())
-      packages.push_back({name, mark != std::string::npos && line.find("to run", mark) != std::string::npos});
+    std::string name = line.substr(0, line.find_first_of(" \t#"));
+    if (!name.empty()) packages.push_back(std::move(name));
   }
   return packages;
 }
 
-Finding CheckPackages(const std::vector<DebianPackage>& packages, const std::string& dpkg_query) {
+Finding CheckPackages(const std::vector<std::string>& packages, const std::string& dpkg_query) {
   const std::string check = "packages";
   if (::access(dpkg_query.c_str(), X_OK) != 0) {
     return Warning(
-        check, fmt::format("there is no {}: this is no Debian, and what tools/packages.txt names cannot be looked up",
+        check, fmt::format("there is no {}: this is not Debian, and the packages that a run needs cannot be checked",
                            dpkg_query));
   }
   std::vector<std::string> command{dpkg_query, "-W", "-f", "is ${Package} ${Status}\n"};
-  for (const DebianPackage& package : packages) command.push_back(package.name);
+  command.insert(command.end(), packages.begin(), packages.end());
   const Captured asked = CaptureProgram(command, 20s);
   if (asked.status != 0 && asked.status != 1)
     return Warning(check, fmt::format("{} says nothing: {}", dpkg_query, asked.FirstLine()));
@@ -115,19 +114,15 @@ Finding CheckPackages(const std::vector<DebianPackage>& packages, const std::str
     if (line.starts_with("is ") && line.ends_with(kInstalled))
       installed.insert(line.substr(3, line.size() - 3 - kInstalled.size()));
   }
-  std::vector<std::string> to_run;
-  std::vector<std::string> to_build;
-  for (const DebianPackage& package : packages) {
-    if (!installed.contains(package.name)) (package.to_run ? to_run : to_build).push_back(package.name);
+  std::vector<std::string> missing;
+  for (const std::string& package : packages) {
+    if (!installed.contains(package)) missing.push_back(package);
   }
-  if (!to_run.empty())
+  if (!missing.empty()) {
     return Fault(check, fmt::format("{} not installed: sudo apt-get install {}",
-                                    to_run.size() == 1 ? "a package is" : "packages are", fmt::join(to_run, " ")));
-  if (!to_build.empty()) {
-    return Warning(check, fmt::format("enough to run; not installed, to build and test: {} (tools/install does it)",
-                                      fmt::join(to_build, " ")));
+                                    missing.size() == 1 ? "a package is" : "packages are", fmt::join(missing, " ")));
   }
-  return Ok(check, fmt::format("all {} of tools/packages.txt are installed", packages.size()));
+  return Ok(check, fmt::format("all {} packages that a run needs are installed", packages.size()));
 }
 
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder) {

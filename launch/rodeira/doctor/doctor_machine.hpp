@@ -17,16 +17,11 @@ namespace rodeira::cli {
 // The system's reason why no file can be made in a folder; empty where one can (it is tried).
 std::string WriteProblem(const std::filesystem::path& folder);
 
-struct DebianPackage {
-  std::string name;
-  bool to_run = false;  // otherwise only to build and test
-};
-// Reads the form of tools/packages.txt: a name a line, "# to run" behind those that a run needs.
-std::vector<DebianPackage> ParsePackages(std::string_view text);
+// Names of Debian packages from the form of tools/packages/run.txt: a name a line, `#` begins a comment.
+std::vector<std::string> ParsePackages(std::string_view text);
 
-// Fault where one that a run needs is not installed, warning where only building lacks one or there is no dpkg.
-Finding CheckPackages(const std::vector<DebianPackage>& packages,
-                      const std::string& dpkg_query = "/usr/bin/dpkg-query");
+// Fault if one of `packages` is not installed, warning if there is no dpkg.
+Finding CheckPackages(const std::vector<std::string>& packages, const std::string& dpkg_query = "/usr/bin/dpkg-query");
 
 // Each of `programs` lies in `folder`, may be executed, and starts (answers --help).
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder);
