@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # Steps of a script that takes minutes: their headings, times and exit status. Sourced by launch/demo and tests/run.
 #

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
 # For the tests of scripts: stand-ins, and what a command has printed. Sourced with the folder of the scripts as $1.
 # shellcheck disable=SC2034  # used by the scripts that source this

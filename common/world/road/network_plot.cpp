@@ -45,7 +45,7 @@ struct PlotFrame {
   }
 };
 
-// SectionStations of a lane section, close enough for its bends.
+// Stations of a lane section, close enough for its bends.
 std::vector<double> SectionStations(const network::Road& road, const network::LaneSection& section, double scale) {
   std::vector<double> stations{section.s_m};
   while (stations.back() < section.end_s_m) {
