@@ -36,7 +36,7 @@ struct AgentPose {
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
 
 // How a car stands whose axles are on a straight line.
-Eigen::Quaterniond TurnedOn(const lanes::Curve::Straight& straight);
+Eigen::Quaterniond AttitudeOn(const lanes::Curve::Straight& straight);
 // Rise over plan distance of its length.
 double GradeOf(const Eigen::Quaterniond& q_WB);
 

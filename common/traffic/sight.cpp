@@ -64,7 +64,7 @@ void TrafficModel::LookBelow(std::uint32_t id) {
            0.0,
            map_->plans[track].plan.Around(d)};
   if (!on.curve.straight() || on.curve.straight()->bank_1pm != 0.0) return;
-  below.turned = TurnedOn(*on.curve.straight());
+  below.turned = AttitudeOn(*on.curve.straight());
   below.grade = GradeOf(*below.turned);
 }
 
