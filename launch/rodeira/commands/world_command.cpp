@@ -20,12 +20,12 @@
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/measured_files.hpp"
 #include "common/world/road/network_world.hpp"
+#include "common/world/road/visual_files.hpp"
 #include "common/world/road/world_export.hpp"
 #include "common/world/road/world_plot.hpp"
 #include "common/world/road/world_profile.hpp"
 #include "common/world/road/world_report.hpp"
 #include "nodes/view/visual_database/database.hpp"
-#include "nodes/view/visual_database/visual_files.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -60,15 +60,15 @@ int CheckBuilt(const WorldOptions& options) {
   auto problems = road::LogicalProblems(folder);
   const std::string hash = road::LogicalContentHash(folder);
   if (!hash.empty()) {  // otherwise it is no built folder, which is said
-    const auto seen = nodes::VisualProblems(folder, hash);
+    const auto seen = road::VisualProblems(folder, hash);
     problems.insert(problems.end(), seen.begin(), seen.end());
   }
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
   std::error_code none;
-  const bool is_seen = std::filesystem::exists(folder / nodes::kManifest, none);
+  const bool is_seen = std::filesystem::exists(folder / road::kVisualManifest, none);
   fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest,
-             is_seen ? fmt::format(" and '{}'", nodes::kManifest) : "");
+             is_seen ? fmt::format(" and '{}'", road::kVisualManifest) : "");
   return 0;
 }
 
