@@ -7,32 +7,21 @@
 #include "common/core/base/result.hpp"
 #include "common/vehicle/input_devices/pad_driver.hpp"
 
-struct _SDL_GameController;
+namespace rodeira::input_devices {
 
-namespace rodeira::nodes {
-
-// The first game pad that is plugged in, by SDL's mapping of game controllers: no setup. Nothing here waits.
+// The first game pad that is plugged in; it needs no setup. No function waits. One thread.
 class GamePad {
  public:
-  // Wrong input where SDL cannot look at devices at all. There need not be a pad: one that comes later is taken.
+  // By the program's device access (device_access.hpp). Wrong input where the program has none, or where it cannot look
+  // at devices at all. There need not be a pad: one that is plugged in later is taken.
   static base::Result<std::unique_ptr<GamePad>> Start();
-  ~GamePad();
-  GamePad(const GamePad&) = delete;
-  GamePad& operator=(const GamePad&) = delete;
+  virtual ~GamePad() = default;
 
-  // Reads what it says; sees it come and go.
-  void Update();
-  const input_devices::PadReading& reading() const { return reading_; }
-  // As it calls itself, once it was there.
-  const std::string& name() const { return name_; }
-
- private:
-  GamePad() = default;
-  void Find();
-
-  _SDL_GameController* pad_ = nullptr;
-  std::string name_;
-  input_devices::PadReading reading_;
+  // Reads the pad; finds out whether it was plugged in or out.
+  virtual void Update() = 0;
+  virtual const PadReading& reading() const = 0;
+  // As the pad calls itself, once it was there.
+  virtual const std::string& name() const = 0;
 };
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::input_devices

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "common/vehicle/input_devices/force_device.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 
-struct _SDL_Joystick;
-
-namespace rodeira::nodes {
+namespace rodeira::input_devices {
 
 // A device that is plugged in.
 struct JoystickInfo {
@@ -18,45 +18,35 @@ struct JoystickInfo {
   std::string guid;
   int axes = 0;
   int buttons = 0;
-  bool is_wheel = false;  // SDL knows it as a steering wheel; many are not known to it
+  bool is_wheel = false;  // known as a steering wheel; many are not known
 };
 
 // "'G29' 030000…, 'Pedals' 0300…", or "no device is connected".
 std::string ListJoysticks(const std::vector<JoystickInfo>& connected);
 
-// SDL's joysticks, raw: the game-controller layer leaves wheels out. Nothing here waits.
+// Joysticks and steering wheels of this PC, raw. No function waits. One thread.
 class Joysticks {
  public:
-  // Wrong input where SDL cannot look at devices at all.
+  // By the program's device access (device_access.hpp). Wrong input where the program has none, or where it cannot look
+  // at devices at all.
   static base::Result<std::unique_ptr<Joysticks>> Start();
-  ~Joysticks();
-  Joysticks(const Joysticks&) = delete;
-  Joysticks& operator=(const Joysticks&) = delete;
+  virtual ~Joysticks() = default;
 
-  // Reads what all devices say; sees who comes and goes.
-  void Update();
-  std::vector<JoystickInfo> Connected() const;
+  // Reads all devices, and finds those that were plugged in or out.
+  virtual void Update() = 0;
+  virtual std::vector<JoystickInfo> Connected() const = 0;
 
-  // Devices to be read, by GUID; their readings come in this order. Two with the same GUID are taken as they come.
-  void Use(const std::vector<std::string>& guids);
-  // The one of this place in the list; empty where it is not there.
-  const input_devices::DeviceReading& reading(std::size_t place) const { return used_[place].reading; }
-  const std::string& name(std::size_t place) const { return used_[place].name; }
-  // SDL's own; null where it is not there. Another one, or none, after each Update.
-  _SDL_Joystick* joystick(std::size_t place) const { return used_[place].joystick; }
-
- private:
-  struct Used {
-    std::string guid;
-    std::string name;  // as the device calls itself, once it was there
-    _SDL_Joystick* joystick = nullptr;
-    input_devices::DeviceReading reading;
-  };
-  Joysticks() = default;
-  void OpenMissing();
-  static void Read(Used& used);
-
-  std::vector<Used> used_;
+  // Devices to read, by GUID; their readings come in this order. Two of one GUID are taken as they come.
+  virtual void Use(const std::vector<std::string>& guids) = 0;
+  // The reading of a place in that list; empty where the device is not there.
+  virtual const DeviceReading& reading(std::size_t place) const = 0;
+  // As the device calls itself, once it was there.
+  virtual const std::string& name(std::size_t place) const = 0;
+  // A number that differs each time the device is plugged in; 0 where it is not there. It changes in Update.
+  virtual std::uint64_t connection(std::size_t place) const = 0;
+  // The motor of a device that is there; null where it has none. `inverted`: for devices whose driver turns the
+  // direction round. It must not outlive these joysticks.
+  virtual std::unique_ptr<ForceDevice> OpenMotor(std::size_t place, bool inverted) = 0;
 };
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::input_devices

@@ -23,7 +23,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
   auto begun = WheelWizard::Begin();
   if (!begun) return base::PrintError("rodeira", begun.error());
   WheelWizard& wizard = *begun.value();
-  for (const nodes::JoystickInfo& info : wizard.devices())
+  for (const input_devices::JoystickInfo& info : wizard.devices())
     say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
   std::string said_prompt, said_remark;
   while (!wizard.done()) {

@@ -26,7 +26,7 @@ namespace {
 using CheckFunction = std::function<Finding()>;
 
 Finding LookForJoysticks() {
-  auto joysticks = nodes::Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks)
     return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
   joysticks.value()->Update();
