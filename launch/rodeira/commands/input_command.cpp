@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "common/core/base/print_error.hpp"
+#include "common/vehicle/input_devices/device_access.hpp"
 #include "launch/rodeira/commands/wheel_wizard.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 
 namespace rodeira::cli {
@@ -46,6 +48,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
 }
 
 int SetUpInput(const InputOptions& options) {
+  if (!input_devices::HasDeviceAccess()) return ContinueInGraphics("input setup");
   CatchInterrupts();
   const auto say = [](const std::string& line) {
     fmt::print("{}\n", line);

@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "common/core/base/print_error.hpp"
+#include "common/vehicle/input_devices/device_access.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
@@ -71,6 +73,7 @@ std::string JoystickMoves(const std::string& device, input_devices::DeviceReadin
 }
 
 int ListJoysticks(const JoysticksOptions& options) {
+  if (!input_devices::HasDeviceAccess()) return ContinueInGraphics("joysticks");
   auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) return base::PrintError("rodeira", joysticks.error());
   joysticks.value()->Update();

@@ -25,7 +25,7 @@
 #include "common/world/road/world_plot.hpp"
 #include "common/world/road/world_profile.hpp"
 #include "common/world/road/world_report.hpp"
-#include "nodes/view/visual_database/database.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -138,6 +138,12 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
 
 // What a world looks like, tile by tile.
 int BuildDatabase(const WorldOptions& options, const road::World& world) {
+  const Graphics* graphics = RegisteredGraphics();
+  if (graphics == nullptr) {
+    fmt::print(stderr, "rodeira: warning: {}: no tiles are written: built without the view (RODEIRA_VIEW=OFF)\n",
+               options.world_file);
+    return 0;
+  }
   nodes::DatabaseOptions database;
   database.folder = options.out;
   database.threads = options.threads;
@@ -148,7 +154,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
                  done == of ? "\n" : "");
     };
   }
-  const auto report = nodes::WriteDatabase(world, database);
+  const auto report = graphics->write_tiles(world, database);
   if (!report) return base::PrintError("rodeira", report.error());
   fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(),
              report.value().tiles, report.value().built, report.value().tiles - report.value().built);

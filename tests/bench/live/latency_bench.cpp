@@ -20,6 +20,7 @@
 #include "common/runtime/lockstep/in_process.hpp"
 #include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/sdl_devices/sdl_devices.hpp"
+#include "launch/rodeira/graphics/all_graphics.hpp"
 #include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/bench/live/watched_display.hpp"
 #include "tests/tree.hpp"
@@ -81,6 +82,7 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size,
 int main(int argc, char** argv) {
   base::FixMathematics(argv);
   sdl_devices::UseSdlDevices();
+  cli::UseAllGraphics();
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
   const Size size = argc > 5 ? Size{std::atoi(argv[4]), std::atoi(argv[5])} : Size();
   if (size.width_px < 64 || size.height_px < 64) Fail("width and height are wanted in pixels, at least 64");
