@@ -97,6 +97,7 @@ std::vector<std::string> ParsePackages(std::string_view text) {
 
 Finding CheckPackages(const std::vector<std::string>& packages, const std::string& dpkg_query) {
   const std::string check = "packages";
+  if (packages.empty()) return Ok(check, "a run needs no packages beside those of its libraries");
   if (::access(dpkg_query.c_str(), X_OK) != 0) {
     return Warning(
         check, fmt::format("there is no {}: this is not Debian, and the packages that a run needs cannot be checked",

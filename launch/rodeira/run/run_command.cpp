@@ -2,8 +2,11 @@
 #include "launch/rodeira/run/run_command.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <random>
 #include <utility>
 
@@ -13,6 +16,7 @@
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/process_run.hpp"
+#include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "launch/rodeira/run/run_meta.hpp"
 
@@ -22,6 +26,18 @@ namespace {
 std::string FreshRunName() {
   std::random_device device;
   return fmt::format("{:08x}{:08x}", device(), device());
+}
+
+// A node whose program is missing would end the run after its start: it is refused before.
+base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& placement) {
+  for (const launch::LaunchNode& node : launch.nodes()) {
+    const std::string program = ProgramFolder() + "/" + std::string(node.kind->program);
+    if (!placement.Has(node) || ::access(program.c_str(), X_OK) == 0) continue;
+    return base::WrongInput(fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
+                                        std::strerror(errno), node.name),
+                            fmt::format("node '{}'", node.name));
+  }
+  return {};
 }
 
 }  // namespace
@@ -61,6 +77,8 @@ int Run(const RunOptions& options) {
     if (NeedsGraphics(launch.value()) && CanContinueInGraphics()) return ContinueInGraphics("run --in-process");
     return RunInProcess(resolved, launch.value());
   }
+  if (auto status = CheckNodePrograms(launch.value(), placement); !status)
+    return base::PrintError("rodeira", status.error());
   // A button of a wheel or a game pad pauses the run.
   if (std::ranges::any_of(launch.value().nodes(), ReadsDevice) && CanContinueInGraphics())
     return ContinueInGraphics("run");

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `rodeira` does without rodeira-graphics.
+#include "launch/rodeira/graphics/graphics.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+
+namespace rodeira::cli {
+namespace {
+
+using system_test::Bin;
+using system_test::LaunchFile;
+using system_test::RunCommand;
+using ::testing::HasSubstr;
+
+// A copy of `rodeira` that lies alone in a folder.
+class LoneFrontDoor : public testing::Test {
+ protected:
+  void SetUp() override { std::filesystem::copy_file(Bin("rodeira"), program_); }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path program_ = folder_.path() / "rodeira";
+};
+
+TEST_F(LoneFrontDoor, CommandsThatDrawNameTheMissingProgram) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"edit"}, {"view"}, {"joysticks"}, {"input", "setup"}}) {
+    std::vector<std::string> words{program_.string()};
+    words.insert(words.end(), command.begin(), command.end());
+    const auto ended = RunCommand(words);
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("the program " + folder_.path().string() +
+                                     "/rodeira-graphics is needed: No such file or directory"));
+  }
+}
+
+TEST_F(LoneFrontDoor, TheDoctorLooksForNoJoysticks) {
+  const auto ended = RunCommand({program_.string(), "doctor", "--domain", "228"});
+  EXPECT_THAT(ended.out, HasSubstr("ok       joysticks          not looked for")) << ended.out;
+}
+
+TEST(ContinueInGraphics, InAnotherProgramIsRefused) {
+  EXPECT_FALSE(CanContinueInGraphics());
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(ContinueInGraphics("edit"), 2);
+  EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("rodeira: edit: the program "));
+}
+
+TEST(NeedsGraphics, WhereAViewOrADeviceIs) {
+  const auto needs = [](const std::string& nodes) {
+    return NeedsGraphics(launch::Launch::Parse("rodeira: launch/1\nname: x\nnodes:\n" + nodes, "/tmp/x.yaml").value());
+  };
+  EXPECT_FALSE(needs("  hands: {kind: input, config: {source: script}}\n"));
+  EXPECT_TRUE(needs("  hands: {kind: input, config: {source: joystick}}\n"));
+  EXPECT_TRUE(needs("  hands: {kind: input, config: {source: gamepad}}\n"));
+  EXPECT_TRUE(needs("  hands: {kind: input}\n  ego: {kind: vehicle}\n  picture: {kind: view}\n"));
+}
+
+}  // namespace
+}  // namespace rodeira::cli
