@@ -14,6 +14,7 @@ find_program(RODEIRA_MOLD mold)
 if(RODEIRA_MOLD)
   add_link_options(-fuse-ld=mold)
 endif()
+add_link_options(-Wl,--as-needed)  # a program names only the shared libraries that it uses, whatever the compiler
 
 # The same bytes in every folder: no path of the machine in an object file. The same flags in libraries and programs, so
 # that one precompiled header serves both.

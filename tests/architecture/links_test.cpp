@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shared libraries that the light programs need. cmake/RodeiraLayers.cmake checks static libraries.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/system/command.hpp"
+
+namespace rodeira {
+namespace {
+
+using system_test::Bin;
+using system_test::RunCommand;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string NeededBy(const std::string& program) {
+  const auto ended = RunCommand({"readelf", "--wide", "--dynamic", Bin(program)});
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("[libc.so")) << program;
+  return ended.out;
+}
+
+TEST(Links, FrontDoorClockAndRecorderDrawNothing) {
+  for (const char* program : {"rodeira", "rodeira-clock", "rodeira-recorder"}) {
+    const std::string needed = NeededBy(program);
+    for (const char* library : {"[libosg", "[libOpenThreads", "[libSDL2", "[libGL", "[libEGL", "[libOpenGL", "[libpng",
+                                "[libX11", "[libopenxr"})
+      EXPECT_THAT(needed, Not(HasSubstr(library))) << program;
+  }
+}
+
+TEST(Links, ClockAndRecorderReadNoMaps) {
+  for (const char* program : {"rodeira-clock", "rodeira-recorder"}) {
+    const std::string needed = NeededBy(program);
+    for (const char* library : {"[libgdal", "[libproj", "[libgeos"})
+      EXPECT_THAT(needed, Not(HasSubstr(library))) << program;
+  }
+}
+
+}  // namespace
+}  // namespace rodeira
