@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "common/core/base/display.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "launch/rodeira/commands/edit_command.hpp"
 #include "launch/rodeira/commands/export_command.hpp"
@@ -20,11 +21,11 @@
 #include "launch/rodeira/commands/view_command.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
 #include "launch/rodeira/doctor/doctor.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/option_errors.hpp"
 #include "launch/rodeira/replay/replay_command.hpp"
 #include "launch/rodeira/run/ctl_command.hpp"
 #include "launch/rodeira/run/run_command.hpp"
-#include "launch/rodeira/start_window/start_window.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -257,6 +258,7 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_flag("--quiet", options.quiet, "only what is not well");
   doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
   doctor->add_option("--answer", options.answer)->group("");  // the second process of the loop-back
+  doctor->add_flag("--devices", options.devices)->group("");  // by rodeira-graphics, for the doctor of `rodeira`
   doctor->callback([&options] { options.asked = true; });
 }
 
@@ -378,10 +380,21 @@ void AddRecording(CLI::App& app, RecordingOptions& options) {
   repair->add_option("--out", options.repair_out, "the new file")->required();
 }
 
+// Without a command.
+int ChooseCommand() {
+  const Graphics* graphics = RegisteredGraphics();
+  if (graphics == nullptr && base::NamesDisplay()) return ContinueInGraphics("rodeira without a command");
+  if (graphics != nullptr && graphics->has_display()) return graphics->start_window();
+  std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or "
+               "name a command (`rodeira --help` lists them)\n";
+  return 2;
+}
+
 }  // namespace
 
 int Main(int argc, char** argv) {
   base::FixMathematics(argv);
+  KeepArguments(argc, argv);
   CLI::App app{"Rodeira, a distributed driving simulator."};
   app.name("rodeira");
   app.set_version_flag("--version", kVersion);
@@ -420,12 +433,7 @@ int Main(int argc, char** argv) {
   CLI::App* replay = AddReplay(app, replay_options, changes);
   ViewOptions view_options;
   const CLI::App* view = AddView(app, view_options);
-  if (argc == 1 && CanStartByWindow()) return StartByWindow();
-  if (argc == 1) {
-    std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or "
-                 "name a command (`rodeira --help` lists them)\n";
-    return 2;
-  }
+  if (argc == 1) return ChooseCommand();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
@@ -436,6 +444,7 @@ int Main(int argc, char** argv) {
     return 2;
   }
   if (view->parsed()) return View(view_options);
+  if (world.command == "build" && CanContinueInGraphics()) return ContinueInGraphics("world build");
   if (!world.command.empty()) return World(world);
   if (!map.command.empty()) return MapCommand(map);
   if (traffic.asked) return TrafficRun(traffic);

@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/vehicle/input_devices/device_access.hpp"
+#include "common/vehicle/input_devices/game_pad.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/input_devices/plain_wheel.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
-#include "nodes/input/game_pad.hpp"
 #include "nodes/input/joystick_source.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "nodes/input/keyboard_source.hpp"
 #include "nodes/input/pad_source.hpp"
 
@@ -22,15 +23,15 @@ namespace {
 // What the search has come by.
 struct Search {
   std::string node;
-  std::vector<JoystickInfo> connected;
-  std::optional<JoystickInfo> broken;  // the first device whose file cannot be used
+  std::vector<input_devices::JoystickInfo> connected;
+  std::optional<input_devices::JoystickInfo> broken;  // the first device whose file cannot be used
 
   void Say(const std::string& sentence) const { fmt::print(stderr, "rodeira: node '{}': {}\n", node, sentence); }
 };
 
 // Null: none of them was set up, or not well.
 std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
-  for (const JoystickInfo& info : search.connected) {
+  for (const input_devices::JoystickInfo& info : search.connected) {
     const std::filesystem::path file = input_devices::WheelFileOf(info.guid);
     std::error_code problem;
     if (!std::filesystem::exists(file, problem)) continue;
@@ -44,7 +45,7 @@ std::unique_ptr<Source> OwnWheel(Search& search, const config::Map& config) {
 }
 
 // Null: it cannot be guessed at. `why` it has to be.
-std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, const char* why) {
+std::unique_ptr<Source> Guess(const Search& search, const input_devices::JoystickInfo& info, const char* why) {
   const auto wheel = input_devices::PlainWheel({"wheel", info.guid, ""}, static_cast<std::size_t>(info.axes),
                                                static_cast<std::size_t>(info.buttons));
   if (!wheel) return nullptr;
@@ -56,7 +57,7 @@ std::unique_ptr<Source> Guess(const Search& search, const JoystickInfo& info, co
 
 // A wheel that was plugged in and never set up is meant to drive all the same.
 std::unique_ptr<Source> NewWheel(const Search& search) {
-  for (const JoystickInfo& info : search.connected) {
+  for (const input_devices::JoystickInfo& info : search.connected) {
     std::error_code problem;
     if (!info.is_wheel || std::filesystem::exists(input_devices::WheelFileOf(info.guid), problem)) continue;
     if (auto source =
@@ -67,7 +68,7 @@ std::unique_ptr<Source> NewWheel(const Search& search) {
 }
 
 std::unique_ptr<Source> AnyPad(const Search& search) {
-  auto pad = GamePad::Start();
+  auto pad = input_devices::GamePad::Start();
   if (!pad || !pad.value()->reading().connected) return nullptr;
   search.Say(fmt::format("no wheel that was set up is there; the game pad '{}' drives", pad.value()->name()));
   return MakePadSource(search.node, std::move(pad).value());
@@ -80,8 +81,8 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
   config.LeaveToOthers("devices");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   Search search{context.spec().name, {}, std::nullopt};
-  {
-    auto joysticks = Joysticks::Start();
+  if (input_devices::HasDeviceAccess() || !has_keys) {
+    auto joysticks = input_devices::Joysticks::Start();
     if (!joysticks) return joysticks.error();
     joysticks.value()->Update();
     search.connected = joysticks.value()->Connected();
@@ -97,12 +98,12 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
   if (has_keys) {
     search.Say(fmt::format(
         "no wheel that was set up (`rodeira input setup`) and no game pad is there ({}); the windows' keys drive",
-        ListJoysticks(search.connected)));
+        input_devices::ListJoysticks(search.connected)));
     return MakeKeyboardSource(config, context);
   }
   return base::WrongInput(
       fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}",
-                  input_devices::WheelFolder().string(), ListJoysticks(search.connected)),
+                  input_devices::WheelFolder().string(), input_devices::ListJoysticks(search.connected)),
       config.Place());
 }
 

@@ -11,25 +11,28 @@
 
 #include "common/core/base/suggest.hpp"
 #include "common/vehicle/input_devices/force_device.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "nodes/input/car_seen.hpp"
 #include "nodes/input/found_source.hpp"
-#include "nodes/input/joysticks.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 class JoystickSource final : public Source {
  public:
-  JoystickSource(std::string node, const input_devices::WheelSettings& settings, std::unique_ptr<Joysticks> joysticks,
-                 MotorOpener motor)
+  JoystickSource(std::string node, const input_devices::WheelSettings& settings,
+                 std::unique_ptr<input_devices::Joysticks> joysticks, MotorOpener motor)
       : node_(std::move(node)),
         settings_(settings),
         driver_(settings),
         joysticks_(std::move(joysticks)),
         there_(settings.devices.size(), true),
         motor_(std::move(motor)),
-        force_(settings.force, nullptr) {}
+        force_(settings.force, nullptr) {
+    if (motor_ == nullptr)
+      motor_ = [this](std::size_t place, bool inverted) { return joysticks_->OpenMotor(place, inverted); };
+  }
 
   dynamics::Controls First() override { return driver_.controls(); }
 
@@ -60,9 +63,10 @@ class JoystickSource final : public Source {
   // What the road gives back, to the hands: no part of the run. A wheel that is back has its motor anew.
   void Feel(const CarSeen& car) {
     if (!settings_.has_force) return;
-    _SDL_Joystick* wheel = joysticks_->joystick(settings_.AxisOf(input_devices::WheelAxis::kSteering)->device);
-    if (wheel != felt_) force_.Change(motor_(wheel, settings_.force_inverted));
-    felt_ = wheel;
+    const std::size_t wheel = settings_.AxisOf(input_devices::WheelAxis::kSteering)->device;
+    const std::uint64_t connection = joysticks_->connection(wheel);
+    if (connection != felt_) force_.Change(connection == 0 ? nullptr : motor_(wheel, settings_.force_inverted));
+    felt_ = connection;
     if (!driver_.rim_rad()) return;
     const double now_s = std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     force_.Tell({*driver_.rim_rad(), settings_.force_lock_rad, car.steering_torque_Nm, car.front_load_difference_N},
@@ -81,10 +85,10 @@ class JoystickSource final : public Source {
   std::string node_;
   input_devices::WheelSettings settings_;
   input_devices::WheelDriver driver_;
-  std::unique_ptr<Joysticks> joysticks_;
+  std::unique_ptr<input_devices::Joysticks> joysticks_;
   std::vector<bool> there_;
   MotorOpener motor_;
-  _SDL_Joystick* felt_ = nullptr;  // the wheel whose motor that is
+  std::uint64_t felt_ = 0;  // the connection of the wheel whose motor that is
   std::vector<input_devices::DeviceReading> readings_;
   input_devices::ForceDriver force_;  // before its joystick in dying
 };
@@ -115,12 +119,12 @@ void ReplaceGuids(const config::Map& config, input_devices::WheelSettings& setti
 }
 
 // Everything that the file names is there, now.
-base::Status CheckDevices(const input_devices::WheelSettings& settings, const Joysticks& joysticks) {
+base::Status CheckDevices(const input_devices::WheelSettings& settings, const input_devices::Joysticks& joysticks) {
   for (std::size_t place = 0; place < settings.devices.size(); ++place) {
     const input_devices::DeviceUse& device = settings.devices[place];
     if (joysticks.reading(place).connected) continue;
     return base::WrongInput(fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid,
-                                        ListJoysticks(joysticks.Connected())),
+                                        input_devices::ListJoysticks(joysticks.Connected())),
                             device.place);
   }
   const auto check = [&](std::size_t place, std::size_t number, std::size_t count, const char* kind,
@@ -153,7 +157,7 @@ base::Status CheckDevices(const input_devices::WheelSettings& settings, const Jo
 
 base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node,
                                                 MotorOpener motor) {
-  auto joysticks = Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) return joysticks.error();
   std::vector<std::string> guids;
   for (const input_devices::DeviceUse& device : settings.devices) guids.push_back(device.guid);

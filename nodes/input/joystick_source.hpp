@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/runtime/launch/node_context.hpp"
+#include "common/vehicle/input_devices/force_device.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
-#include "nodes/input/haptic_force.hpp"
 #include "nodes/input/source.hpp"
 
 namespace rodeira::nodes {
@@ -22,9 +22,10 @@ base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& conf
 // these stays in its collection.
 base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path& file, const config::Map& config,
                                                     const std::string& node);
-// `motor`: opens the force feedback of a joystick; null where it has none.
-using MotorOpener = std::function<std::unique_ptr<input_devices::ForceDevice>(_SDL_Joystick* joystick, bool inverted)>;
+// Opens the force feedback of the device of a place in the settings, which is there; null where it has none.
+using MotorOpener = std::function<std::unique_ptr<input_devices::ForceDevice>(std::size_t place, bool inverted)>;
+// `motor`: empty: the device's own.
 base::Result<std::unique_ptr<Source>> OpenWheel(const input_devices::WheelSettings& settings, const std::string& node,
-                                                MotorOpener motor = OpenHapticForce);
+                                                MotorOpener motor = {});
 
 }  // namespace rodeira::nodes

@@ -6,15 +6,16 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "nodes/input/car_seen.hpp"
-#include "nodes/input/joysticks.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 class PadSource final : public Source {
  public:
-  PadSource(std::string node, std::unique_ptr<GamePad> pad) : node_(std::move(node)), pad_(std::move(pad)) {}
+  PadSource(std::string node, std::unique_ptr<input_devices::GamePad> pad)
+      : node_(std::move(node)), pad_(std::move(pad)) {}
 
   dynamics::Controls First() override { return driver_.controls(); }
 
@@ -46,26 +47,27 @@ class PadSource final : public Source {
 
   std::string node_;
   input_devices::PadDriver driver_;
-  std::unique_ptr<GamePad> pad_;
+  std::unique_ptr<input_devices::GamePad> pad_;
   bool there_ = true;
 };
 
 }  // namespace
 
-std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<GamePad> pad) {
+std::unique_ptr<Source> MakePadSource(const std::string& node, std::unique_ptr<input_devices::GamePad> pad) {
   return std::make_unique<PadSource>(node, std::move(pad));
 }
 
 base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, launch::NodeContext& context) {
   if (auto status = context.launch().file().Finish(); !status) return status.error();
-  auto pad = GamePad::Start();
+  auto pad = input_devices::GamePad::Start();
   if (!pad) return pad.error();
   if (pad.value()->reading().connected) return MakePadSource(context.spec().name, std::move(pad).value());
-  auto joysticks = Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) return joysticks.error();
   joysticks.value()->Update();
-  return base::WrongInput(fmt::format("no game pad is there; {}", ListJoysticks(joysticks.value()->Connected())),
-                          config.Place());
+  return base::WrongInput(
+      fmt::format("no game pad is there; {}", input_devices::ListJoysticks(joysticks.value()->Connected())),
+      config.Place());
 }
 
 }  // namespace rodeira::nodes

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "common/core/base/display.hpp"
 #include "common/view/window/display.hpp"
 #include "common/view/window/input.hpp"
 
@@ -41,7 +42,8 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
   std::unique_ptr<Window> window(new Window());
   window->kind_ = settings.kind;
   const bool wanted = settings.kind == Kind::kWindow;
-  if (wanted && !NamesDisplay()) return base::WrongInput("a window is wanted, but there is no display; set DISPLAY");
+  if (wanted && !base::NamesDisplay())
+    return base::WrongInput("a window is wanted, but there is no display; set DISPLAY");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the program's
   SDL_SetMainReady();
   if (SDL_VideoInit(wanted ? nullptr : "offscreen") != 0) {
@@ -52,7 +54,7 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
   }
   window->video_ = true;
   if (wanted && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + NamedDisplay() +
+    return base::WrongInput("a window is wanted, but no display answers (" + base::NamedDisplay() +
                             "); another DISPLAY was expected");
   }
   if (auto status = window->Make(settings); !status) return status.error();

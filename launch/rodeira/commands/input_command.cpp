@@ -8,7 +8,9 @@
 #include <thread>
 
 #include "common/core/base/print_error.hpp"
+#include "common/vehicle/input_devices/device_access.hpp"
 #include "launch/rodeira/commands/wheel_wizard.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 
 namespace rodeira::cli {
@@ -23,7 +25,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
   auto begun = WheelWizard::Begin();
   if (!begun) return base::PrintError("rodeira", begun.error());
   WheelWizard& wizard = *begun.value();
-  for (const nodes::JoystickInfo& info : wizard.devices())
+  for (const input_devices::JoystickInfo& info : wizard.devices())
     say(fmt::format("{}: {} axes, {} buttons", info.name, info.axes, info.buttons));
   std::string said_prompt, said_remark;
   while (!wizard.done()) {
@@ -46,6 +48,7 @@ int SetUpInput(const InputOptions& options, const std::function<void(const std::
 }
 
 int SetUpInput(const InputOptions& options) {
+  if (!input_devices::HasDeviceAccess()) return ContinueInGraphics("input setup");
   CatchInterrupts();
   const auto say = [](const std::string& line) {
     fmt::print("{}\n", line);

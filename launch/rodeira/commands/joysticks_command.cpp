@@ -10,6 +10,8 @@
 #include <thread>
 
 #include "common/core/base/print_error.hpp"
+#include "common/vehicle/input_devices/device_access.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
@@ -18,11 +20,11 @@ namespace {
 
 constexpr double kMoved = 655.0;  // a hundredth of an axis' whole way
 
-void PrintMoves(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickInfo>& connected,
+void PrintMoves(input_devices::Joysticks& joysticks, const std::vector<input_devices::JoystickInfo>& connected,
                 std::optional<double> duration_s) {
   CatchInterrupts();
   std::vector<std::string> guids;
-  for (const nodes::JoystickInfo& info : connected) guids.push_back(info.guid);
+  for (const input_devices::JoystickInfo& info : connected) guids.push_back(info.guid);
   joysticks.Use(guids);
   std::vector<input_devices::DeviceReading> before;
   for (std::size_t place = 0; place < guids.size(); ++place) before.push_back(joysticks.reading(place));
@@ -39,10 +41,10 @@ void PrintMoves(nodes::Joysticks& joysticks, const std::vector<nodes::JoystickIn
 
 }  // namespace
 
-std::string JoystickTable(const std::vector<nodes::JoystickInfo>& connected) {
+std::string JoystickTable(const std::vector<input_devices::JoystickInfo>& connected) {
   if (connected.empty()) return "no device is connected (or none that you may read: `rodeira doctor`)\n";
   std::string text = fmt::format("{:<32}  {:>4}  {:>7}  {}\n", "GUID", "axes", "buttons", "name");
-  for (const nodes::JoystickInfo& info : connected)
+  for (const input_devices::JoystickInfo& info : connected)
     text += fmt::format("{:<32}  {:>4}  {:>7}  {}\n", info.guid, info.axes, info.buttons, info.name);
   return text;
 }
@@ -71,7 +73,8 @@ std::string JoystickMoves(const std::string& device, input_devices::DeviceReadin
 }
 
 int ListJoysticks(const JoysticksOptions& options) {
-  auto joysticks = nodes::Joysticks::Start();
+  if (!input_devices::HasDeviceAccess()) return ContinueInGraphics("joysticks");
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) return base::PrintError("rodeira", joysticks.error());
   joysticks.value()->Update();
   const auto connected = joysticks.value()->Connected();
@@ -82,7 +85,8 @@ int ListJoysticks(const JoysticksOptions& options) {
   return 0;
 }
 
-Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected, const std::filesystem::path& input_folder) {
+Finding CheckJoysticks(const std::vector<input_devices::JoystickInfo>& connected,
+                       const std::filesystem::path& input_folder) {
   const std::string check = "joysticks";
   int closed = 0;
   std::error_code problem;
@@ -101,7 +105,7 @@ Finding CheckJoysticks(const std::vector<nodes::JoystickInfo>& connected, const 
   }
   if (connected.empty()) return Ok(check, "none is connected (only `source: joystick` needs one)");
   std::string names;
-  for (const nodes::JoystickInfo& info : connected)
+  for (const input_devices::JoystickInfo& info : connected)
     names += fmt::format("{}{} '{}' ({} axes, {} buttons)", names.empty() ? "" : ", ", info.guid, info.name, info.axes,
                          info.buttons);
   return Ok(check, names);

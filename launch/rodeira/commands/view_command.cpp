@@ -8,7 +8,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
-#include "launch/rodeira/start_window/start_window.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 
 namespace rodeira::cli {
 
@@ -49,7 +49,10 @@ base::Result<RunOptions> RunOf(const ViewOptions& options) {
 }
 
 int View(const ViewOptions& options) {
-  if (options.launch_file.empty() && options.screen.empty() && !options.headset) return StartByWindow();
+  if (options.launch_file.empty() && options.screen.empty() && !options.headset) {
+    const Graphics* graphics = RegisteredGraphics();
+    return graphics != nullptr ? graphics->start_window() : ContinueInGraphics("view");
+  }
   if (options.launch_file.empty()) {
     fmt::print(stderr, "rodeira: view: a launch file was expected before --screen and --headset\n");
     return 2;

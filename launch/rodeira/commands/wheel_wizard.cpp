@@ -12,9 +12,9 @@
 namespace rodeira::cli {
 namespace {
 
-std::vector<input_devices::DeviceUse> UsesOf(const std::vector<nodes::JoystickInfo>& connected) {
+std::vector<input_devices::DeviceUse> UsesOf(const std::vector<input_devices::JoystickInfo>& connected) {
   std::vector<input_devices::DeviceUse> uses;
-  for (const nodes::JoystickInfo& info : connected)
+  for (const input_devices::JoystickInfo& info : connected)
     uses.push_back({fmt::format("device{}", uses.size() + 1), info.guid, ""});
   return uses;
 }
@@ -22,7 +22,7 @@ std::vector<input_devices::DeviceUse> UsesOf(const std::vector<nodes::JoystickIn
 }  // namespace
 
 base::Result<std::unique_ptr<WheelWizard>> WheelWizard::Begin() {
-  auto joysticks = nodes::Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) return joysticks.error();
   joysticks.value()->Update();
   auto connected = joysticks.value()->Connected();
@@ -31,13 +31,14 @@ base::Result<std::unique_ptr<WheelWizard>> WheelWizard::Begin() {
   return std::unique_ptr<WheelWizard>(new WheelWizard(std::move(joysticks).value(), std::move(connected)));
 }
 
-WheelWizard::WheelWizard(std::unique_ptr<nodes::Joysticks> joysticks, std::vector<nodes::JoystickInfo> connected)
+WheelWizard::WheelWizard(std::unique_ptr<input_devices::Joysticks> joysticks,
+                         std::vector<input_devices::JoystickInfo> connected)
     : joysticks_(std::move(joysticks)),
       connected_(std::move(connected)),
       setup_(UsesOf(connected_), input_devices::WheelSettings().lock_rad),
       readings_(connected_.size()) {
   std::vector<std::string> guids;
-  for (const nodes::JoystickInfo& info : connected_) guids.push_back(info.guid);
+  for (const input_devices::JoystickInfo& info : connected_) guids.push_back(info.guid);
   joysticks_->Use(guids);
 }
 
@@ -67,7 +68,7 @@ base::Result<std::filesystem::path> WheelWizard::Write(const std::optional<std::
   settings.lock_rad = lock_deg * base::kPi / 180.0;
   const std::string& guid = settings.devices[settings.AxisOf(input_devices::WheelAxis::kSteering)->device].guid;
   const auto wheel = std::find_if(connected_.begin(), connected_.end(),
-                                  [&](const nodes::JoystickInfo& info) { return info.guid == guid; });
+                                  [&](const input_devices::JoystickInfo& info) { return info.guid == guid; });
   const std::filesystem::path file = out.value_or(input_devices::WheelFileOf(guid));
   std::error_code problem;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), problem);

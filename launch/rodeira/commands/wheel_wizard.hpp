@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
-#include "nodes/input/joysticks.hpp"
 
 namespace rodeira::cli {
 
@@ -33,7 +33,7 @@ class WheelWizard {
   std::string prompt() const { return setup_.Prompt(); }
   const std::string& remark() const { return setup_.remark(); }
   // What is plugged in, and what it says: of the same order.
-  const std::vector<nodes::JoystickInfo>& devices() const { return connected_; }
+  const std::vector<input_devices::JoystickInfo>& devices() const { return connected_; }
   const std::vector<input_devices::DeviceReading>& readings() const { return readings_; }
 
   // Once done: the file that was written, `out` or the user's by the steering wheel's GUID. `lock_deg`: of the car's
@@ -41,10 +41,10 @@ class WheelWizard {
   base::Result<std::filesystem::path> Write(const std::optional<std::filesystem::path>& out, double lock_deg) const;
 
  private:
-  WheelWizard(std::unique_ptr<nodes::Joysticks> joysticks, std::vector<nodes::JoystickInfo> connected);
+  WheelWizard(std::unique_ptr<input_devices::Joysticks> joysticks, std::vector<input_devices::JoystickInfo> connected);
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;
-  std::vector<nodes::JoystickInfo> connected_;
+  std::unique_ptr<input_devices::Joysticks> joysticks_;
+  std::vector<input_devices::JoystickInfo> connected_;
   input_devices::WheelSetup setup_;
   std::vector<input_devices::DeviceReading> readings_;
   int number_ = 1;

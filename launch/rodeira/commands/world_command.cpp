@@ -20,12 +20,12 @@
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/measured_files.hpp"
 #include "common/world/road/network_world.hpp"
+#include "common/world/road/visual_files.hpp"
 #include "common/world/road/world_export.hpp"
 #include "common/world/road/world_plot.hpp"
 #include "common/world/road/world_profile.hpp"
 #include "common/world/road/world_report.hpp"
-#include "nodes/view/visual_database/database.hpp"
-#include "nodes/view/visual_database/visual_files.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -60,15 +60,15 @@ int CheckBuilt(const WorldOptions& options) {
   auto problems = road::LogicalProblems(folder);
   const std::string hash = road::LogicalContentHash(folder);
   if (!hash.empty()) {  // otherwise it is no built folder, which is said
-    const auto seen = nodes::VisualProblems(folder, hash);
+    const auto seen = road::VisualProblems(folder, hash);
     problems.insert(problems.end(), seen.begin(), seen.end());
   }
   for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
   if (!problems.empty()) return problems.front().exit_status();
   std::error_code none;
-  const bool is_seen = std::filesystem::exists(folder / nodes::kManifest, none);
+  const bool is_seen = std::filesystem::exists(folder / road::kVisualManifest, none);
   fmt::print("{}: every file of '{}'{} is as it was written\n", options.world_file, road::kLogicalManifest,
-             is_seen ? fmt::format(" and '{}'", nodes::kManifest) : "");
+             is_seen ? fmt::format(" and '{}'", road::kVisualManifest) : "");
   return 0;
 }
 
@@ -138,6 +138,12 @@ int WriteWorldFile(const WorldOptions& options, const road::World& world, std::v
 
 // What a world looks like, tile by tile.
 int BuildDatabase(const WorldOptions& options, const road::World& world) {
+  const Graphics* graphics = RegisteredGraphics();
+  if (graphics == nullptr) {
+    fmt::print(stderr, "rodeira: warning: {}: no tiles are written: built without the view (RODEIRA_VIEW=OFF)\n",
+               options.world_file);
+    return 0;
+  }
   nodes::DatabaseOptions database;
   database.folder = options.out;
   database.threads = options.threads;
@@ -148,7 +154,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
                  done == of ? "\n" : "");
     };
   }
-  const auto report = nodes::WriteDatabase(world, database);
+  const auto report = graphics->write_tiles(world, database);
   if (!report) return base::PrintError("rodeira", report.error());
   fmt::print("{}: {} tiles, {} built, {} as they were\n", (database.folder / "world.osgb").string(),
              report.value().tiles, report.value().built, report.value().tiles - report.value().built);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <functional>
 #include <thread>
@@ -11,11 +12,14 @@
 
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/user_folders.hpp"
+#include "common/vehicle/input_devices/device_access.hpp"
 #include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/doctor/built_with.hpp"
+#include "launch/rodeira/doctor/capture.hpp"
 #include "launch/rodeira/doctor/doctor_gl.hpp"
 #include "launch/rodeira/doctor/doctor_machine.hpp"
 #include "launch/rodeira/doctor/doctor_network.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
@@ -23,14 +27,34 @@
 namespace rodeira::cli {
 namespace {
 
+using namespace std::chrono_literals;
 using CheckFunction = std::function<Finding()>;
 
 Finding LookForJoysticks() {
-  auto joysticks = nodes::Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks)
     return Warning("joysticks", joysticks.error().Text() + "; a run without `source: joystick` needs none");
   joysticks.value()->Update();
   return CheckJoysticks(joysticks.value()->Connected());
+}
+
+const char* WordOf(Verdict verdict) {
+  return verdict == Verdict::kOk ? "ok" : verdict == Verdict::kWarning ? "warning" : "fault";
+}
+
+// By rodeira-graphics, where this program reads no devices.
+Finding AskForJoysticks() {
+  const std::string check = "joysticks";
+  if (input_devices::HasDeviceAccess()) return LookForJoysticks();
+  if (!CanContinueInGraphics()) return Ok(check, "not looked for: built without SDL2 (RODEIRA_VIEW=OFF)");
+  const Captured said = CaptureProgram({ProgramFolder() + "/rodeira-graphics", "doctor", "--devices"}, 20s);
+  const std::string line = said.FirstLine();
+  for (const Verdict verdict : {Verdict::kOk, Verdict::kWarning}) {
+    const std::string begin = std::string(WordOf(verdict)) + "\t";
+    if (said.well() && line.starts_with(begin)) return {check, verdict, line.substr(begin.size())};
+  }
+  return Warning(check, fmt::format("not looked for: rodeira-graphics {}",
+                                    said.too_late ? "does not answer within 20 s" : "does not start: " + line));
 }
 
 // Drawing comes before DDS: it forks, which wants a process without threads.
@@ -46,7 +70,7 @@ std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transpor
       [] { return CheckMathematics(base::MathematicsFixed(), base::MathematicsDigest()); },
       [] { return CheckGl(); },
       [] { return CheckDisplay(DisplayPlace::OfThisProcess()); },
-      [] { return LookForJoysticks(); },
+      [] { return AskForJoysticks(); },
       [] { return CheckSharedMemory(); },
       [domain = options.domain] { return CheckPorts(domain); },
       [loop_back] { return CheckLoopBack(loop_back); },
@@ -73,10 +97,7 @@ std::string Summary(std::span<const Finding> findings) {
 }  // namespace
 
 std::string FindingLine(const Finding& finding) {
-  const char* word = finding.verdict == Verdict::kOk        ? "ok"
-                     : finding.verdict == Verdict::kWarning ? "warning"
-                                                            : "fault";
-  return fmt::format("{:<7}  {:<17}  {}\n", word, finding.check, finding.sentence);
+  return fmt::format("{:<7}  {:<17}  {}\n", WordOf(finding.verdict), finding.check, finding.sentence);
 }
 
 int StatusOf(std::span<const Finding> findings) {
@@ -89,6 +110,11 @@ int StatusOf(std::span<const Finding> findings) {
 int Doctor(const DoctorOptions& options) {
   const auto transport = options.transport == "udp" ? launch::Transport::kUdp : launch::Transport::kSharedMemory;
   if (!options.answer.empty()) return AnswerLoopBack(options.answer, options.domain, transport);
+  if (options.devices) {
+    const Finding finding = LookForJoysticks();
+    fmt::print("{}\t{}\n", WordOf(finding.verdict), finding.sentence);
+    return 0;
+  }
   CatchInterrupts();
   if (options.clean) {
     const int removed = RemoveLeftOvers({});

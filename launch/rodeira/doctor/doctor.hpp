@@ -17,7 +17,8 @@ struct DoctorOptions {
   std::uint32_t domain = 0;
   bool quiet = false;
   bool clean = false;
-  std::string answer;  // be the second process of the DDS loop-back, in this run
+  bool devices = false;  // print only what the joysticks are: VERDICT, a tab, the sentence
+  std::string answer;    // be the second process of the DDS loop-back, in this run
 };
 
 // One line of the table, with its line break.

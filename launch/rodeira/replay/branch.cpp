@@ -10,6 +10,7 @@
 
 #include "common/runtime/replay/recorded_node.hpp"
 #include "common/runtime/replay/splice.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/replay/continued_node.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 #include "launch/rodeira/replay/verify.hpp"
@@ -271,10 +272,16 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   return outcome;
 }
 
-base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish) {
+base::Result<LiveDrivers> DrivenLive(const BranchWish& wish) {
   auto changed = replay::RecordedRun::Open(wish.parent, wish.changes);
   if (!changed) return changed.error();
-  return NamesOf(changed.value().launch(), Persons(changed.value().launch(), wish.changes));
+  const launch::Launch& launch = changed.value().launch();
+  const std::vector<bool> persons = Persons(launch, wish.changes);
+  LiveDrivers drivers{NamesOf(launch, persons), false};
+  for (NodeIndex n = 0; n < persons.size(); ++n) {
+    if (persons[n] && ReadsDevice(launch.node(n))) drivers.by_device = true;
+  }
+  return drivers;
 }
 
 }  // namespace rodeira::cli

@@ -46,7 +46,11 @@ struct BranchOutcome {
 // recorded samples. Wrong input: a step outside the run or between two activations of a node, changes that change the
 // roster, a view where there is none.
 base::Result<BranchOutcome> Branch(const BranchWish& wish);
-// The names of the nodes that a person would drive, without computing anything.
-base::Result<std::vector<std::string>> DrivenLive(const BranchWish& wish);
+struct LiveDrivers {
+  std::vector<std::string> names;
+  bool by_device = false;  // one of them by a wheel or a game pad
+};
+// The nodes that a person would drive, without computing anything.
+base::Result<LiveDrivers> DrivenLive(const BranchWish& wish);
 
 }  // namespace rodeira::cli

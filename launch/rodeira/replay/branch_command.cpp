@@ -11,6 +11,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
@@ -44,7 +45,8 @@ std::string WithFilesFromHere(const std::string& value) {
   return text;
 }
 
-base::Result<BranchWish> WishOf(const ReplayOptions& options) {
+// `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
+base::Result<BranchWish> WishOf(const ReplayOptions& options, bool& needs_graphics) {
   if (!options.from_s)
     return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
   if (options.record.empty())
@@ -69,9 +71,11 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options) {
   wish.with_view = options.view;
   const auto persons = DrivenLive(wish);
   if (!persons) return persons.error();
-  const auto pace = launch::ParsePace(options.pace.value_or(options.view || !persons.value().empty() ? "real" : "max"));
+  const auto pace =
+      launch::ParsePace(options.pace.value_or(options.view || !persons.value().names.empty() ? "real" : "max"));
   if (!pace) return pace.error();
   wish.pace = pace.value();
+  needs_graphics = options.view || persons.value().by_device;
   return wish;
 }
 
@@ -92,8 +96,10 @@ void Tell(const ReplayOptions& options, const BranchOutcome& outcome) {
 }  // namespace
 
 int MakeBranch(const ReplayOptions& options) {
-  auto wish = WishOf(options);
+  bool needs_graphics = false;
+  auto wish = WishOf(options, needs_graphics);
   if (!wish) return base::PrintError("rodeira", wish.error());
+  if (needs_graphics && CanContinueInGraphics()) return ContinueInGraphics("replay --branch");
   std::unique_ptr<Operator> desk;
   if (wish.value().pace > 0.0) {  // somebody has the time to say something
     desk = std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);

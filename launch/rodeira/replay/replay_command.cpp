@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "common/core/base/print_error.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch_command.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
@@ -46,7 +47,9 @@ int ShowRecording(const ReplayOptions& options) {
   watch.file = options.file;
   watch.from_s = options.from_s.value_or(0.0);
   watch.for_s = options.for_s;
-  return options.view ? WatchRecording(watch) : WriteRecordedFrames(watch);
+  const Graphics* graphics = RegisteredGraphics();
+  if (graphics == nullptr) return ContinueInGraphics(options.view ? "replay --view" : "replay --frames");
+  return options.view ? graphics->watch(watch) : graphics->write_frames(watch);
 }
 
 }  // namespace

@@ -74,6 +74,9 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       continue;
     }
     const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
+    if (factory == nullptr && roster.node(n).kind == "view")
+      return base::WrongInput("this program has no view: it was built with RODEIRA_VIEW=OFF",
+                              fmt::format("node '{}'", roster.node(n).name));
     if (factory == nullptr)
       return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
                               fmt::format("node '{}'", roster.node(n).name));

@@ -9,8 +9,8 @@
 #include <cstdlib>
 
 #include "common/runtime/launch/command_text.hpp"
+#include "common/runtime/launch/run_control_client.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
-#include "nodes/view/run_connection/run_desk.hpp"
 
 namespace rodeira::cli {
 
@@ -46,7 +46,7 @@ Operator::Operator(const std::string& run, bool quiet) : quiet_(quiet) {
   auto server = folder ? ControlServer::Open(socket) : base::Result<std::unique_ptr<ControlServer>>(folder.error());
   if (server) {
     server_ = std::move(server).value();
-    ::setenv(nodes::RunDesk::kVariable, socket.c_str(), 1);  // windows of the run pause it too
+    ::setenv(launch::RunControlClient::kVariable, socket.c_str(), 1);  // windows of the run pause it too
   } else if (!quiet) {
     fmt::print(stderr, "rodeira: no `rodeira ctl` for this run: {}\n", server.error().Text());
   }

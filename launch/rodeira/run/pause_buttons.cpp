@@ -18,12 +18,12 @@ bool NamesWheel(const launch::LaunchNode& node) {
 
 // As the input finds its own.
 std::optional<input_devices::WheelSettings> WheelOf(const launch::Launch& launch, const launch::LaunchNode& node,
-                                                    nodes::Joysticks& joysticks) {
+                                                    input_devices::Joysticks& joysticks) {
   std::filesystem::path file;
   if (NamesWheel(node)) {
     file = (launch.path().parent_path() / *node.config->Peek({"config", "wheel"})).lexically_normal();
   } else {
-    for (const nodes::JoystickInfo& info : joysticks.Connected()) {
+    for (const input_devices::JoystickInfo& info : joysticks.Connected()) {
       if (const auto own = input_devices::WheelFileOf(info.guid); file.empty() && std::filesystem::exists(own))
         file = own;
     }
@@ -43,7 +43,7 @@ std::unique_ptr<PauseButtons> PauseButtons::Open(const launch::Launch& launch) {
     if (source == "gamepad" && !made->TakePad()) return nullptr;
     if (source != "joystick") continue;
     if (made->joysticks_ == nullptr) {
-      auto started = nodes::Joysticks::Start();
+      auto started = input_devices::Joysticks::Start();
       if (!started) return nullptr;
       made->joysticks_ = std::move(started).value();
       made->joysticks_->Update();
@@ -63,7 +63,7 @@ std::unique_ptr<PauseButtons> PauseButtons::Open(const launch::Launch& launch) {
 
 bool PauseButtons::TakePad() {
   if (pad_ != nullptr) return true;
-  auto started = nodes::GamePad::Start();
+  auto started = input_devices::GamePad::Start();
   if (!started) return false;
   pad_ = std::move(started).value();
   return true;

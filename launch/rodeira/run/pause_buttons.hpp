@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/runtime/launch/launch.hpp"
-#include "nodes/input/game_pad.hpp"
-#include "nodes/input/joysticks.hpp"
+#include "common/vehicle/input_devices/game_pad.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 
 namespace rodeira::cli {
 
@@ -29,8 +29,8 @@ class PauseButtons {
   };
   bool TakePad();
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // null: no wheel is looked at
-  std::unique_ptr<nodes::GamePad> pad_;          // null: none may drive
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // null: no wheel is looked at
+  std::unique_ptr<input_devices::GamePad> pad_;          // null: none may drive
   bool pad_down_ = true;
   std::vector<Button> buttons_;
 };

@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/process_run.hpp"
@@ -55,7 +57,13 @@ int Run(const RunOptions& options) {
     return base::PrintError("rodeira", status.error());
   if (resolved.pace.empty()) resolved.pace = launch.value().pace().empty() ? "max" : launch.value().pace();
   if (resolved.run.empty()) resolved.run = FreshRunName();
-  if (options.in_process) return RunInProcess(resolved, launch.value());
+  if (options.in_process) {
+    if (NeedsGraphics(launch.value()) && CanContinueInGraphics()) return ContinueInGraphics("run --in-process");
+    return RunInProcess(resolved, launch.value());
+  }
+  // A button of a wheel or a game pad pauses the run.
+  if (std::ranges::any_of(launch.value().nodes(), ReadsDevice) && CanContinueInGraphics())
+    return ContinueInGraphics("run");
   return RunProcesses(resolved, placement, launch.value(), std::move(overrides));
 }
 

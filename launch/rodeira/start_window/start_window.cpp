@@ -17,7 +17,6 @@
 #include "common/core/base/user_folders.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/wall_clock.hpp"
-#include "nodes/view/frame/surface.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -214,8 +213,6 @@ void StartWindow::DrawRun() {
   if (!run_->ended()) ImGui::SetScrollHereY(1.0F);
   ImGui::EndChild();
 }
-
-bool CanStartByWindow() { return nodes::HasDisplay(); }
 
 int StartByWindow() {
   std::error_code problem;

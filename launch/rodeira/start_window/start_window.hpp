@@ -75,7 +75,5 @@ class StartWindow {
 
 // `rodeira` or `rodeira view` on a display: until the window is closed. The program's exit status.
 int StartByWindow();
-// Whether there is a display for it.
-bool CanStartByWindow();
 
 }  // namespace rodeira::cli

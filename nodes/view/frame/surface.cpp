@@ -4,6 +4,7 @@
 #include <SDL.h>
 #include <SDL_opengl.h>
 
+#include "common/core/base/display.hpp"
 #include "common/view/window/display.hpp"
 
 namespace rodeira::nodes {
@@ -43,7 +44,7 @@ bool IsSoftware(const std::string& renderer) {
 }  // namespace
 
 bool HasDisplay() {
-  if (!window::NamesDisplay()) return false;
+  if (!base::NamesDisplay()) return false;
   if (!StartVideo(nullptr)) return false;
   const bool display = window::IsDisplay(SDL_GetCurrentVideoDriver());
   SDL_VideoQuit();
@@ -55,7 +56,7 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
                                                      std::optional<Quality> quality) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
-  if (kind == SurfaceKind::kWindow && !window::NamesDisplay()) return base::WrongInput(kNoDisplay);
+  if (kind == SurfaceKind::kWindow && !base::NamesDisplay()) return base::WrongInput(kNoDisplay);
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
     return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
                                                                      : "OpenGL without a display does not start (") +
@@ -65,7 +66,7 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
   }
   surface->video_ = true;
   if (kind == SurfaceKind::kWindow && !window::IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + window::NamedDisplay() +
+    return base::WrongInput("a window is wanted, but no display answers (" + base::NamedDisplay() +
                             "); another DISPLAY was expected, or 'window: never'");
   }
   if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status)

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "nodes/view/run_connection/run_desk.hpp"
+#include "common/runtime/launch/run_control_client.hpp"
 
 namespace rodeira::nodes {
 
@@ -15,7 +15,7 @@ class Standing {
   static constexpr double kStill_s = 0.5;  // without a new moment: time stands
   static constexpr double kAgain_s = 0.5;  // so often it asks why
 
-  Standing() : desk_(RunDesk::Open()) {}
+  Standing() : desk_(launch::RunControlClient::Open()) {}
 
   // Pause, or go on; one step. False where the clock is not on this PC.
   bool Toggle() { return Ask("toggle"); }
@@ -26,7 +26,7 @@ class Standing {
  private:
   bool Ask(const char* command);
 
-  std::unique_ptr<RunDesk> desk_;  // null: the clock is elsewhere
+  std::unique_ptr<launch::RunControlClient> desk_;  // null: the clock is elsewhere
   std::int64_t seen_ns_ = -1;
   double moved_s_ = 0.0;  // when the simulated time was last seen to go on
   double asked_s_ = -1e9;

@@ -22,6 +22,7 @@
 #include "common/core/base/files.hpp"
 #include "common/view/scene/ground_materials/lay_picture.hpp"
 #include "common/view/scene/visual_world/seen_digest.hpp"
+#include "common/world/road/visual_files.hpp"
 #include "nodes/view/materials/face_texture.hpp"
 #include "nodes/view/materials/model_file.hpp"
 #include "nodes/view/materials/picture_texture.hpp"
@@ -118,7 +119,7 @@ base::Result<std::string> Serialise(const osg::Node& node) {
 
 Manifest ReadManifest(const fs::path& folder) {
   Manifest manifest;
-  std::ifstream file(folder / kManifest);
+  std::ifstream file(folder / road::kVisualManifest);
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);
     std::string name;
@@ -246,7 +247,8 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
       base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
   for (const auto& [name, known] : after)
     manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
-  if (auto written = base::WriteWhole(options.folder / kManifest, manifest); !written) return written.error();
+  if (auto written = base::WriteWhole(options.folder / road::kVisualManifest, manifest); !written)
+    return written.error();
   for (const auto& [name, known] : before) {
     if (name != "world.osgb" && !after.contains(name)) report.removed += fs::remove(options.folder / name, problem);
   }

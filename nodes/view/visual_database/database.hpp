@@ -23,8 +23,6 @@ struct DatabaseReport {
   std::size_t removed = 0;  // files of tiles that are no more
 };
 
-// The file that says what a database was written from, and what it consists of.
-inline constexpr const char* kManifest = "visual.txt";
 // The names of geometries begin so; what follows is their scene::Material's number.
 inline constexpr const char* kGeometryName = "rodeira ";
 // What is repeated is there twice: merged, which every program draws, and as one model with its places

@@ -5,8 +5,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/view/scene/visual_world/seen_digest.hpp"
-#include "nodes/view/visual_database/database.hpp"
-#include "nodes/view/visual_database/visual_files.hpp"
+#include "common/world/road/visual_files.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -14,9 +13,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // The first file that is not as it was written; empty: all are.
-std::string FirstChanged(const fs::path& folder, const VisualContents& contents) {
+std::string FirstChanged(const fs::path& folder, const road::VisualContents& contents) {
   bool root = false;
-  for (const VisualContents::Listed& listed : contents.files) {
+  for (const road::VisualContents::Listed& listed : contents.files) {
     const auto bytes = base::ReadText(folder / listed.name, 1u << 30);
     if (!bytes || base::Hash(bytes.value()) != listed.hash) return listed.name;
     root = root || listed.name == "world.osgb";
@@ -32,10 +31,10 @@ FoundBuilt FindBuilt(const fs::path& world_file, const road::World& world) {
   std::string seen;
   for (const fs::path& folder : {world_file.parent_path(), world_file.parent_path() / world_file.stem()}) {
     std::error_code problem;
-    const fs::path manifest = folder / kManifest;
+    const fs::path manifest = folder / road::kVisualManifest;
     if (!fs::is_regular_file(manifest, problem)) continue;
     if (seen.empty()) seen = base::Hex(scene::SeenDigest(world));
-    const VisualContents contents = ReadVisualContents(manifest);
+    const road::VisualContents contents = road::ReadVisualContents(manifest);
     std::string why;
     if (contents.seen != seen)
       why = "it was built from another world, or by another version of the program";

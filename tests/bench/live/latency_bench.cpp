@@ -18,8 +18,10 @@
 #include "common/core/base/random.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
+#include "common/vehicle/sdl_devices/sdl_devices.hpp"
+#include "launch/rodeira/graphics/all_graphics.hpp"
 #include "launch/rodeira/run/local_nodes.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "tests/bench/live/watched_display.hpp"
 #include "tests/tree.hpp"
 
@@ -79,13 +81,15 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size,
 
 int main(int argc, char** argv) {
   base::FixMathematics(argv);
+  sdl_devices::UseSdlDevices();
+  cli::UseAllGraphics();
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;
   const Size size = argc > 5 ? Size{std::atoi(argv[4]), std::atoi(argv[5])} : Size();
   if (size.width_px < 64 || size.height_px < 64) Fail("width and height are wanted in pixels, at least 64");
   const std::string world = argc > 6 ? argv[6] : "configs/worlds/plane.yaml";  // a path from the project's folder
   const bench::WatchedDisplay display(97, size.width_px, size.height_px);
   ::setenv("DISPLAY", display.name().c_str(), 1);
-  auto joysticks = nodes::Joysticks::Start();
+  auto joysticks = input_devices::Joysticks::Start();
   if (!joysticks) Fail(joysticks.error().Text());
   const int index = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 4, 9, 0);
   char guid[33] = {};

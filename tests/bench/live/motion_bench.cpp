@@ -22,6 +22,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "launch/rodeira/graphics/all_graphics.hpp"
 #include "launch/rodeira/run/local_nodes.hpp"
 #include "tests/bench/live/shown.hpp"
 #include "tests/bench/live/watched_display.hpp"
@@ -107,6 +108,7 @@ void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t,
 
 int main(int argc, char** argv) {
   base::FixMathematics(argv);
+  cli::UseAllGraphics();
   const double seconds = argc > 1 ? std::atof(argv[1]) : 20.0;
   const std::string period_ms = argc > 2 ? argv[2] : "20", width = argc > 4 ? argv[3] : "320",
                     height = argc > 4 ? argv[4] : "180";

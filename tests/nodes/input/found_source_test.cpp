@@ -9,10 +9,10 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/input_devices/key_names.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 #include "launch/rodeira/run/pause_buttons.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "nodes/view/window/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_pad.hpp"
@@ -30,7 +30,7 @@ constexpr const char* kKeys = "../configs/drivers/keyboard.yaml";
 class FoundSource : public testing::Test {
  protected:
   void SetUp() override {
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
     if (!joysticks_->Connected().empty()) GTEST_SKIP() << "a device is plugged in, which would drive";
@@ -66,7 +66,7 @@ class FoundSource : public testing::Test {
     return told;
   }
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
   std::optional<base::TemporaryFolder> folder_;
 };
 

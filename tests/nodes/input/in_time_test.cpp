@@ -13,9 +13,9 @@
 #include <optional>
 #include <vector>
 
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "nodes/input/input_node.hpp"
 #include "nodes/input/joystick_source.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/tree.hpp"
@@ -90,7 +90,7 @@ class Mortal final : public lockstep::Node {
 class InTime : public testing::Test {
  protected:
   void SetUp() override {
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
   }
@@ -110,11 +110,10 @@ class InTime : public testing::Test {
     const auto driver = launch.roster().Find("driver"), ego = launch.roster().Find("ego");
     auto nodes = cli::LocalNodes::Make(launch, [&](lockstep::NodeIndex node) -> std::unique_ptr<lockstep::Node> {
       if (node != driver) return nullptr;
-      auto source = nodes::OpenWheel(use, "driver",
-                                     [&](_SDL_Joystick* joystick, bool) -> std::unique_ptr<input_devices::ForceDevice> {
-                                       if (joystick == nullptr) return nullptr;
-                                       return std::make_unique<LoggedMotor>(log_);
-                                     });
+      auto source =
+          nodes::OpenWheel(use, "driver", [&](std::size_t, bool) -> std::unique_ptr<input_devices::ForceDevice> {
+            return std::make_unique<LoggedMotor>(log_);
+          });
       EXPECT_TRUE(source.ok()) << source.error().Text();
       return nodes::InputNodeOf(std::move(source).value(), launch.roster().base_step_ns());
     });
@@ -135,7 +134,7 @@ class InTime : public testing::Test {
     outcome_ = lockstep::RunThreaded(launch.roster(), all, settings);
   }
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
   MotorLog log_;
   std::map<Step, msg::Controls> controls_;
   std::map<Step, double> seen_s_;  // by the wall's clock

@@ -8,9 +8,9 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "common/vehicle/input_devices/wheel_setup.hpp"
 #include "launch/rodeira/commands/input_command.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/tree.hpp"
@@ -21,7 +21,7 @@ namespace {
 class InputSetup : public testing::Test {
  protected:
   void SetUp() override {
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
     auto made = base::TemporaryFolder::Make("input");
@@ -31,7 +31,7 @@ class InputSetup : public testing::Test {
   }
   void TearDown() override { ::unsetenv("XDG_CONFIG_HOME"); }
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
   std::optional<base::TemporaryFolder> folder_;
 };
 

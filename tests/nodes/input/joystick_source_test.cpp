@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "common/core/base/files.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "launch/rodeira/run/pause_buttons.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "nodes/view/window/wheel_buttons.hpp"
 #include "tests/nodes/input/live_drive.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
@@ -19,7 +19,7 @@ namespace {
 class JoystickSource : public testing::Test {
  protected:
   void SetUp() override {
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
     std::filesystem::create_directories(folder_);
@@ -47,7 +47,7 @@ class JoystickSource : public testing::Test {
     return nodes.error().Text();
   }
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
   const std::filesystem::path folder_ =
       std::filesystem::temp_directory_path() / ("rodeira-joystick-" + std::to_string(::getpid()));
 };

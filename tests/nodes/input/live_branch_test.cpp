@@ -9,12 +9,12 @@
 #include <optional>
 
 #include "common/runtime/replay/recorded_run.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "launch/rodeira/replay/branch.hpp"
 #include "launch/rodeira/replay/verify.hpp"
-#include "nodes/input/joysticks.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 #include "tests/system/command.hpp"
@@ -30,7 +30,7 @@ using ::testing::ElementsAre;
 class LiveBranch : public ::testing::Test {
  protected:
   void SetUp() override {
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
     const auto ended = system_test::RunCommand({Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"),
@@ -62,7 +62,7 @@ class LiveBranch : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
 };
 
 TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {

@@ -30,13 +30,13 @@ class StandingRun : public testing::Test {
     moment_.time_ns = 1'500'000'000;
     moment_.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   }
-  void TearDown() override { ::unsetenv(RunDesk::kVariable); }
+  void TearDown() override { ::unsetenv(launch::RunControlClient::kVariable); }
 
   void Serve() {
     auto server = cli::ControlServer::Open(folder_->path() / "run.ctl");
     ASSERT_TRUE(server.ok()) << server.error().Text();
     server_ = std::move(server).value();
-    ::setenv(RunDesk::kVariable, (folder_->path() / "run.ctl").c_str(), 1);
+    ::setenv(launch::RunControlClient::kVariable, (folder_->path() / "run.ctl").c_str(), 1);
   }
   void OpenScreen() {
     ViewSettings settings;

@@ -17,7 +17,7 @@ using system_test::Bin;
 using system_test::RunCommand;
 using ::testing::HasSubstr;
 
-const nodes::JoystickInfo kWheel{"A wheel", "030000006d0400004fc2000011010000", 4, 25};
+const input_devices::JoystickInfo kWheel{"A wheel", "030000006d0400004fc2000011010000", 4, 25};
 
 TEST(JoysticksCommand, ListsWhatIsThere) {
   EXPECT_THAT(JoystickTable({kWheel}), HasSubstr("030000006d0400004fc2000011010000     4       25  A wheel\n"));

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "common/core/base/files.hpp"
-#include "nodes/input/joysticks.hpp"
+#include "common/vehicle/input_devices/joysticks.hpp"
 #include "tests/launch/rodeira/start_window/start_hands.hpp"
 #include "tests/nodes/input/virtual_wheel.hpp"
 
@@ -16,7 +16,7 @@ class StartWheel : public StartHands {
   void SetUp() override {
     StartHands::SetUp();
     if (IsSkipped()) return;
-    auto started = nodes::Joysticks::Start();
+    auto started = input_devices::Joysticks::Start();
     ASSERT_TRUE(started.ok()) << started.error().Text();
     joysticks_ = std::move(started).value();
   }
@@ -33,7 +33,7 @@ class StartWheel : public StartHands {
   }
   int Asked() const { return start_->wheel().wizard() == nullptr ? 0 : start_->wheel().wizard()->number(); }
 
-  std::unique_ptr<nodes::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
+  std::unique_ptr<input_devices::Joysticks> joysticks_;  // keeps SDL's joysticks up through the test
 };
 
 TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/view/run_connection/run_desk.hpp"
+#include "common/runtime/launch/run_control_client.hpp"
 
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -9,9 +9,9 @@
 #include <cstdlib>
 #include <cstring>
 
-namespace rodeira::nodes {
+namespace rodeira::launch {
 
-std::unique_ptr<RunDesk> RunDesk::Open() {
+std::unique_ptr<RunControlClient> RunControlClient::Open() {
   const char* named = std::getenv(kVariable);
   const std::string path = named == nullptr ? "" : named;
   sockaddr_un address{};
@@ -20,18 +20,19 @@ std::unique_ptr<RunDesk> RunDesk::Open() {
   std::memcpy(address.sun_path, path.c_str(), path.size());
   const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (file < 0) return nullptr;
-  std::unique_ptr<RunDesk> desk(new RunDesk(file));
-  return ::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 ? std::move(desk) : nullptr;
+  std::unique_ptr<RunControlClient> client(new RunControlClient(file));
+  return ::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 ? std::move(client)
+                                                                                            : nullptr;
 }
 
-RunDesk::~RunDesk() { ::close(file_); }
+RunControlClient::~RunControlClient() { ::close(file_); }
 
-void RunDesk::Ask(const std::string& command) {
+void RunControlClient::Ask(const std::string& command) {
   const std::string line = command + "\n";
   (void)::send(file_, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-std::optional<std::string> RunDesk::Answer() {
+std::optional<std::string> RunControlClient::Answer() {
   std::array<char, 1024> buffer;
   const ssize_t size = ::recv(file_, buffer.data(), buffer.size(), MSG_DONTWAIT);
   if (size > 0) pending_.append(buffer.data(), static_cast<std::size_t>(size));
@@ -42,4 +43,4 @@ std::optional<std::string> RunDesk::Answer() {
   return line;
 }
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::launch

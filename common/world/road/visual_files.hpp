@@ -8,8 +8,11 @@
 #include "common/core/base/hash.hpp"
 #include "common/core/base/result.hpp"
 
-// What `visual.txt` (kManifest) says: the files of what is seen of a world, and what they were written from.
-namespace rodeira::nodes {
+// What `visual.txt` (kVisualManifest) says: the files of what is seen of a world, and what they were written from.
+namespace rodeira::road {
+
+// The file that says what a visual database was written from, and what it consists of.
+inline constexpr const char* kVisualManifest = "visual.txt";
 
 struct VisualContents {
   struct Listed {
@@ -29,4 +32,4 @@ VisualContents ReadVisualContents(const std::filesystem::path& manifest);
 // a problem too.
 std::vector<base::Error> VisualProblems(const std::filesystem::path& folder, const std::string& content_hash);
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::road

@@ -5,19 +5,19 @@
 #include <optional>
 #include <string>
 
-namespace rodeira::nodes {
+namespace rodeira::launch {
 
 // The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It
 // has no thread.
-class RunDesk {
+class RunControlClient {
  public:
   // `rodeira run` names the socket to its processes by this variable of their environment.
   static constexpr const char* kVariable = "RODEIRA_CONTROL";
   // Null where the variable is not set or nobody listens: the clock is on another PC.
-  static std::unique_ptr<RunDesk> Open();
-  ~RunDesk();
-  RunDesk(const RunDesk&) = delete;
-  RunDesk& operator=(const RunDesk&) = delete;
+  static std::unique_ptr<RunControlClient> Open();
+  ~RunControlClient();
+  RunControlClient(const RunControlClient&) = delete;
+  RunControlClient& operator=(const RunControlClient&) = delete;
 
   // A command as `rodeira ctl` has it. Never waits; what cannot be sent is not asked.
   void Ask(const std::string& command);
@@ -25,9 +25,9 @@ class RunDesk {
   std::optional<std::string> Answer();
 
  private:
-  explicit RunDesk(int file) : file_(file) {}
+  explicit RunControlClient(int file) : file_(file) {}
   int file_;
   std::string pending_;
 };
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::launch

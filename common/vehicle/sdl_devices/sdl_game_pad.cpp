@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/input/game_pad.hpp"
+#include "common/vehicle/sdl_devices/sdl_game_pad.hpp"
 
 #include <SDL.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
-namespace rodeira::nodes {
+namespace rodeira::sdl_devices {
 namespace {
 
 using input_devices::PadButton;
@@ -33,28 +34,32 @@ double Share(SDL_GameController* pad, SDL_GameControllerAxis axis) {
   return std::max(SDL_GameControllerGetAxis(pad, axis) / 32767.0, -1.0);
 }
 
-}  // namespace
+class SdlGamePad final : public input_devices::GamePad {
+ public:
+  SdlGamePad() = default;
+  ~SdlGamePad() override;
+  SdlGamePad(const SdlGamePad&) = delete;
+  SdlGamePad& operator=(const SdlGamePad&) = delete;
 
-base::Result<std::unique_ptr<GamePad>> GamePad::Start() {
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");                // signals are the run's
-  SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // it drives whatever window has the keyboard
-  SDL_SetMainReady();
-  if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
-    return base::WrongInput(fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
-  SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
-  SDL_GameControllerEventState(SDL_IGNORE);
-  std::unique_ptr<GamePad> made(new GamePad());
-  made->Update();
-  return made;
-}
+  void Update() override;
+  const input_devices::PadReading& reading() const override { return reading_; }
+  const std::string& name() const override { return name_; }
 
-GamePad::~GamePad() {
+ private:
+  void Find();
+
+  SDL_GameController* pad_ = nullptr;
+  std::string name_;
+  input_devices::PadReading reading_;
+};
+
+SdlGamePad::~SdlGamePad() {
   if (pad_ != nullptr) SDL_GameControllerClose(pad_);
   SDL_QuitSubSystem(SDL_INIT_GAMECONTROLLER);
 }
 
 // Steering wheels that the database knows are no pads.
-void GamePad::Find() {
+void SdlGamePad::Find() {
   SDL_LockJoysticks();
   for (int index = 0; index < SDL_NumJoysticks() && pad_ == nullptr; ++index) {
     if (SDL_IsGameController(index) == SDL_FALSE || SDL_JoystickGetDeviceType(index) == SDL_JOYSTICK_TYPE_WHEEL)
@@ -67,7 +72,7 @@ void GamePad::Find() {
   name_ = name == nullptr || *name == '\0' ? "nameless" : name;
 }
 
-void GamePad::Update() {
+void SdlGamePad::Update() {
   SDL_GameControllerUpdate();
   if (pad_ != nullptr && SDL_GameControllerGetAttached(pad_) == SDL_FALSE) {
     SDL_GameControllerClose(pad_);
@@ -84,4 +89,19 @@ void GamePad::Update() {
     reading_.down[static_cast<std::size_t>(what)] = SDL_GameControllerGetButton(pad_, button) != 0;
 }
 
-}  // namespace rodeira::nodes
+}  // namespace
+
+base::Result<std::unique_ptr<input_devices::GamePad>> StartGamePad() {
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");                // signals are the run's
+  SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // it drives whatever window has the keyboard
+  SDL_SetMainReady();
+  if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
+    return base::WrongInput(fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
+  SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
+  SDL_GameControllerEventState(SDL_IGNORE);
+  auto made = std::make_unique<SdlGamePad>();
+  made->Update();
+  return std::unique_ptr<input_devices::GamePad>(std::move(made));
+}
+
+}  // namespace rodeira::sdl_devices

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/input/joysticks.hpp"
+#include "common/vehicle/sdl_devices/sdl_joysticks.hpp"
 
 #include <SDL.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
-namespace rodeira::nodes {
+#include "common/vehicle/sdl_devices/haptic_force.hpp"
+
+namespace rodeira::sdl_devices {
 namespace {
+
+using input_devices::JoystickInfo;
 
 std::string GuidText(SDL_JoystickGUID guid) {
   char text[33] = {};
@@ -26,34 +33,47 @@ class Locked {
   Locked& operator=(const Locked&) = delete;
 };
 
-}  // namespace
+class SdlJoysticks final : public input_devices::Joysticks {
+ public:
+  SdlJoysticks() = default;
+  ~SdlJoysticks() override;
+  SdlJoysticks(const SdlJoysticks&) = delete;
+  SdlJoysticks& operator=(const SdlJoysticks&) = delete;
 
-std::string ListJoysticks(const std::vector<JoystickInfo>& connected) {
-  if (connected.empty()) return "no device is connected";
-  std::string text = "connected: ";
-  for (std::size_t i = 0; i < connected.size(); ++i)
-    text += fmt::format("{}{} ('{}')", i == 0 ? "" : ", ", connected[i].guid, connected[i].name);
-  return text;
-}
+  void Update() override;
+  std::vector<JoystickInfo> Connected() const override;
+  void Use(const std::vector<std::string>& guids) override;
+  const input_devices::DeviceReading& reading(std::size_t place) const override { return used_[place].reading; }
+  const std::string& name(std::size_t place) const override { return used_[place].name; }
+  std::uint64_t connection(std::size_t place) const override {
+    SDL_Joystick* joystick = used_[place].joystick;
+    return joystick == nullptr ? 0 : static_cast<std::uint64_t>(SDL_JoystickInstanceID(joystick)) + 1;
+  }
+  std::unique_ptr<input_devices::ForceDevice> OpenMotor(std::size_t place, bool inverted) override {
+    return OpenHapticForce(used_[place].joystick, inverted);
+  }
 
-base::Result<std::unique_ptr<Joysticks>> Joysticks::Start() {
-  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");                // signals are the run's
-  SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // a wheel steers whatever window has the keyboard
-  SDL_SetMainReady();
-  if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0)
-    return base::WrongInput(fmt::format("SDL cannot look at joysticks: {}", SDL_GetError()));
-  SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
-  return std::unique_ptr<Joysticks>(new Joysticks);
-}
+ private:
+  struct Used {
+    std::string guid;
+    std::string name;
+    SDL_Joystick* joystick = nullptr;  // null: not there
+    input_devices::DeviceReading reading;
+  };
+  void OpenMissing();
+  static void Read(Used& used);
 
-Joysticks::~Joysticks() {
+  std::vector<Used> used_;
+};
+
+SdlJoysticks::~SdlJoysticks() {
   for (Used& used : used_) {
     if (used.joystick != nullptr) SDL_JoystickClose(used.joystick);
   }
   SDL_QuitSubSystem(SDL_INIT_JOYSTICK);
 }
 
-std::vector<JoystickInfo> Joysticks::Connected() const {
+std::vector<JoystickInfo> SdlJoysticks::Connected() const {
   const Locked locked;
   std::vector<JoystickInfo> all;
   for (int index = 0; index < SDL_NumJoysticks(); ++index) {
@@ -70,12 +90,12 @@ std::vector<JoystickInfo> Joysticks::Connected() const {
   return all;
 }
 
-void Joysticks::Use(const std::vector<std::string>& guids) {
+void SdlJoysticks::Use(const std::vector<std::string>& guids) {
   for (const std::string& guid : guids) used_.push_back({guid, "", nullptr, {}});
   Update();
 }
 
-void Joysticks::Update() {
+void SdlJoysticks::Update() {
   SDL_JoystickUpdate();
   for (Used& used : used_) {
     if (used.joystick != nullptr && SDL_JoystickGetAttached(used.joystick) == SDL_FALSE) {
@@ -87,7 +107,7 @@ void Joysticks::Update() {
   for (Used& used : used_) Read(used);
 }
 
-void Joysticks::OpenMissing() {
+void SdlJoysticks::OpenMissing() {
   if (std::none_of(used_.begin(), used_.end(), [](const Used& used) { return used.joystick == nullptr; })) return;
   const Locked locked;
   for (int index = 0; index < SDL_NumJoysticks(); ++index) {
@@ -105,7 +125,7 @@ void Joysticks::OpenMissing() {
   }
 }
 
-void Joysticks::Read(Used& used) {
+void SdlJoysticks::Read(Used& used) {
   used.reading.connected = used.joystick != nullptr;
   if (used.joystick == nullptr) return;
   used.reading.axes.resize(static_cast<std::size_t>(std::max(0, SDL_JoystickNumAxes(used.joystick))));
@@ -117,4 +137,16 @@ void Joysticks::Read(Used& used) {
   }
 }
 
-}  // namespace rodeira::nodes
+}  // namespace
+
+base::Result<std::unique_ptr<input_devices::Joysticks>> StartJoysticks() {
+  SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");                // signals are the run's
+  SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // a wheel steers whatever window has the keyboard
+  SDL_SetMainReady();
+  if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0)
+    return base::WrongInput(fmt::format("SDL cannot look at joysticks: {}", SDL_GetError()));
+  SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
+  return std::unique_ptr<input_devices::Joysticks>(std::make_unique<SdlJoysticks>());
+}
+
+}  // namespace rodeira::sdl_devices

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/input/haptic_force.hpp"
+#include "common/vehicle/sdl_devices/haptic_force.hpp"
 
 #include <SDL.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace rodeira::nodes {
+namespace rodeira::sdl_devices {
 namespace {
 
 constexpr double kMost = 32767.0;
@@ -62,4 +62,4 @@ std::unique_ptr<input_devices::ForceDevice> OpenHapticForce(_SDL_Joystick* joyst
   return nullptr;
 }
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::sdl_devices

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/view/visual_database/visual_files.hpp"
+#include "common/world/road/visual_files.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,8 @@
 #include <sstream>
 
 #include "common/core/base/files.hpp"
-#include "nodes/view/visual_database/database.hpp"
 
-namespace rodeira::nodes {
+namespace rodeira::road {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,12 +48,12 @@ VisualContents ReadVisualContents(const fs::path& manifest) {
 
 std::vector<base::Error> VisualProblems(const fs::path& folder, const std::string& content_hash) {
   std::error_code problem;
-  const fs::path manifest = folder / kManifest;
+  const fs::path manifest = folder / kVisualManifest;
   if (!fs::is_regular_file(manifest, problem)) {
     if (!fs::exists(folder / kRoot, problem)) return {};
     return {
         base::WrongInput(fmt::format("there is '{}' but no '{}', which names every file of what is seen with its hash",
-                                     kRoot, kManifest),
+                                     kRoot, kVisualManifest),
                          folder.string())};
   }
   std::vector<base::Error> problems;
@@ -84,4 +83,4 @@ std::vector<base::Error> VisualProblems(const fs::path& folder, const std::strin
   return problems;
 }
 
-}  // namespace rodeira::nodes
+}  // namespace rodeira::road
