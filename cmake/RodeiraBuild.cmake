@@ -78,7 +78,8 @@ function(rodeira_test name)
   rodeira_precompile(${name}_test rodeira_pch_test)
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
-  target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree GTest::gmock GTest::gtest_main)
+  target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
+    GTest::gtest_main)
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
     PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()

@@ -45,7 +45,7 @@ std::set<std::string> Asked() {
                                                     {"enter", "entering."},
                                                     {"change", "lane_changes."}};
   const std::string text = base::ReadText(SourceDir() + "/common/traffic/traffic_settings.cpp").value();
-  const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\("([a-z_0-9]+)")re");
+  const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\(\s*"([a-z_0-9]+)")re");
   std::set<std::string> keys;
   for (std::sregex_iterator i(text.begin(), text.end(), asked), end; i != end; ++i) {
     const auto prefix = prefixes.find((*i)[1]);

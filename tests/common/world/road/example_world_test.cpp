@@ -60,15 +60,15 @@ const std::map<std::string, std::vector<std::string>> kPlaces = {
 // is left out.
 std::map<std::string, std::set<std::string>> AskedKeys() {
   const std::regex asked(
-      R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\((?:[a-z_]+, )?"([a-z_0-9]+)")re");
-  const std::regex tables(R"re(Read(?:Table|Knots)\([^"]*"([a-z_]+)", "([a-z_]+)"(?:, "([a-z_]+)")?)re");
+      R"re((?:Number|Integer|Flag|Text|Choice|Path|OptionalPath|Child|OptionalChild|Items|OptionalItems|MaterialOf|Has)\(\s*(?:[a-z_]+,\s*)?"([a-z_0-9]+)")re");
+  const std::regex tables(R"re(Read(?:Table|Knots)\([^"]*"([a-z_]+)",\s*"([a-z_]+)"(?:,\s*"([a-z_]+)")?)re");
   std::vector<std::string> files = {"road/world_reader.cpp", "road/picture_reader.cpp", "lights/light_plan.cpp"};
   for (const auto& entry : fs::directory_iterator(kRoot / "common/world/design")) {
     if (entry.path().extension() == ".cpp") files.push_back("design/" + entry.path().filename().string());
   }
   std::map<std::string, std::set<std::string>> keys;
   for (const std::string& file : files) {
-    const std::string text = base::ReadText(kRoot / "common" / file).value();
+    const std::string text = base::ReadText(kRoot / "common/world" / file).value();
     std::set<std::string> of;
     for (std::sregex_iterator i(text.begin(), text.end(), asked), end; i != end; ++i) of.insert((*i)[1]);
     for (std::sregex_iterator i(text.begin(), text.end(), tables), end; i != end; ++i) {
@@ -158,7 +158,7 @@ TEST(ExampleWorld, TheOthersAreWorldsToo) {
 TEST(ExampleWorld, HasEveryTypeOfObjectAndKindOfLine) {
   const std::string example = base::ReadText(kRoot / "configs/worlds/example/world.yaml").value();
   const std::string reader = base::ReadText(kRoot / "common/world/design/object_reader.cpp").value();
-  const std::regex row(R"re(\{"([a-z_]+)", "[a-z]+", [0-9.]+, )re");
+  const std::regex row(R"re(\{"([a-z_]+)",\s*"[a-z]+",\s*[0-9.]+,\s)re");
   int types = 0;
   for (std::sregex_iterator i(reader.begin(), reader.end(), row), end; i != end; ++i, ++types)
     EXPECT_NE(example.find("type: " + (*i)[1].str() + ","), std::string::npos) << (*i)[1];
