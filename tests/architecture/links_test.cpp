@@ -17,7 +17,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string NeededBy(const std::string& program) {
-  const auto ended = RunCommand({"readelf", "--wide", "--dynamic", Bin(program)});
+  const auto ended = RunCommand({"/usr/bin/env", "readelf", "--wide", "--dynamic", Bin(program)});
   EXPECT_EQ(ended.status, 0) << ended.out;
   EXPECT_THAT(ended.out, HasSubstr("[libc.so")) << program;
   return ended.out;
