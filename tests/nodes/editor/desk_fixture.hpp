@@ -10,12 +10,12 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
 #include "nodes/editor/desk.hpp"
-#include "tests/common/view/window/hands.hpp"
+#include "tests/common/view/window/pushed_input.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 
 namespace rodeira::nodes {
 
-namespace hands = window::hands;
+namespace pushed_input = window::pushed_input;
 
 // A desk without a display, and a person's hands on it.
 class ADesk : public testing::Test {
@@ -58,20 +58,20 @@ class ADesk : public testing::Test {
     return {static_cast<int>(std::lround(px.x() + kLeft_px)), static_cast<int>(std::lround(px.y() + kTop_px))};
   }
   void Drag(const Eigen::Vector2i& from, const Eigen::Vector2i& to, Uint8 button = SDL_BUTTON_LEFT) {
-    input_devices::MoveTo(from.x(), from.y());
+    pushed_input::MoveTo(from.x(), from.y());
     Show();
-    input_devices::Button(from.x(), from.y(), true, button);
+    pushed_input::Button(from.x(), from.y(), true, button);
     for (int i = 1; i <= 2; ++i) {
       const Eigen::Vector2i at = from + (to - from) * i / 2;
       Show();
-      input_devices::MoveTo(at.x(), at.y());
+      pushed_input::MoveTo(at.x(), at.y());
     }
     Show();
-    input_devices::Button(to.x(), to.y(), false, button);
+    pushed_input::Button(to.x(), to.y(), false, button);
     Show();
   }
   void Press(SDL_Scancode key, Uint16 modifiers = KMOD_NONE) {
-    input_devices::Press(key, modifiers);
+    pushed_input::Press(key, modifiers);
     Show();
   }
   // By the wheel over the panels, until an item is seen there.
@@ -79,8 +79,8 @@ class ADesk : public testing::Test {
     constexpr double kLowest_px = 740.0;
     const auto seen = [&] { return work().places.contains(place) && work().places[place].y() < kLowest_px; };
     for (int i = 0; i < 40 && !seen(); ++i) {
-      input_devices::MoveTo(294, 500);
-      input_devices::Wheel(-1);
+      pushed_input::MoveTo(294, 500);
+      pushed_input::Wheel(-1);
       Show();
     }
   }
@@ -88,14 +88,14 @@ class ADesk : public testing::Test {
     Reveal(place);
     ASSERT_TRUE(work().places.contains(place)) << place;
     const Eigen::Vector2d at = work().places[place];
-    input_devices::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
+    pushed_input::Click(static_cast<int>(at.x()), static_cast<int>(at.y()));
     Show();
   }
   // Over what stands in the field that has the keys.
   void Write(const std::string& text) {
-    input_devices::Press(SDL_SCANCODE_A, KMOD_CTRL);
+    pushed_input::Press(SDL_SCANCODE_A, KMOD_CTRL);
     Show();
-    input_devices::Type(text);
+    pushed_input::Type(text);
     Show();
   }
   // One of a list that opens.
@@ -112,7 +112,7 @@ class ADesk : public testing::Test {
   // On the ground.
   void ClickOn(double x_m, double y_m) {
     const Eigen::Vector2i at = On(x_m, y_m);
-    input_devices::Click(at.x(), at.y());
+    pushed_input::Click(at.x(), at.y());
     Show();
   }
   void OpenTheGoodMap() {

@@ -123,17 +123,17 @@ TEST_F(ADesk, UndoByKeys) {
 TEST_F(ADesk, PanAndZoomHoldThePlane) {
   const Eigen::Vector2d middle = work().view.middle_W;
   const double finest = work().view.metres_per_px;
-  input_devices::MoveTo(700, 300);
-  input_devices::Wheel(3);
+  pushed_input::MoveTo(700, 300);
+  pushed_input::Wheel(3);
   Show();
   EXPECT_LT(work().view.metres_per_px, finest);
   const Eigen::Vector2d held = work().view.ToWorld({600.0 - kLeft_px, 400.0 - kTop_px});
   Drag({600, 400}, {700, 350});
   EXPECT_LT((work().view.ToWorld({700.0 - kLeft_px, 350.0 - kTop_px}) - held).norm(), 1e-6);
   const double before = work().view.middle_W.x();
-  input_devices::Key(SDL_SCANCODE_D, true);
+  pushed_input::Key(SDL_SCANCODE_D, true);
   for (int i = 0; i < 30; ++i) desk_->Frame(0);
-  input_devices::Key(SDL_SCANCODE_D, false);
+  pushed_input::Key(SDL_SCANCODE_D, false);
   Show();
   EXPECT_GT(work().view.middle_W.x(), before);
   EXPECT_NE(work().view.middle_W, middle);
@@ -174,13 +174,13 @@ TEST_F(ADesk, ATemplateIsPlacedTurnedAndDrivenOn) {
 
 TEST_F(ADesk, ARectangleChoosesAndDeleteTakesAlong) {
   Press(SDL_SCANCODE_1);
-  input_devices::Click(On(0.0, 0.0).x(), On(0.0, 0.0).y());
+  pushed_input::Click(On(0.0, 0.0).x(), On(0.0, 0.0).y());
   Show();
   ASSERT_EQ(Said(), "crossing made");
   Press(SDL_SCANCODE_F);
-  input_devices::Key(SDL_SCANCODE_LSHIFT, true, KMOD_LSHIFT);
+  pushed_input::Key(SDL_SCANCODE_LSHIFT, true, KMOD_LSHIFT);
   Drag(On(-76.0, -76.0), On(76.0, 76.0));
-  input_devices::Key(SDL_SCANCODE_LSHIFT, false);
+  pushed_input::Key(SDL_SCANCODE_LSHIFT, false);
   Show();
   EXPECT_EQ(work().session.selection.lanes.size(), document().map.lanes.size());
   Press(SDL_SCANCODE_DELETE);
@@ -201,9 +201,9 @@ TEST_F(ADesk, JoinedHandlesMoveTogetherAndInOneStepBack) {
   EXPECT_EQ(point(5, 0), point(1, 3));
   Press(SDL_SCANCODE_Z, KMOD_CTRL);
   EXPECT_EQ(editor::BytesOf(document()), before);
-  input_devices::Key(SDL_SCANCODE_LALT, true, KMOD_LALT);
+  pushed_input::Key(SDL_SCANCODE_LALT, true, KMOD_LALT);
   Drag(On(30.0, 1.5), On(31.0, 4.0));
-  input_devices::Key(SDL_SCANCODE_LALT, false);
+  pushed_input::Key(SDL_SCANCODE_LALT, false);
   Show();
   int moved = 0;
   for (const auto& [curve, index] : {std::pair(1, 3u), std::pair(3, 3u), std::pair(5, 0u)})

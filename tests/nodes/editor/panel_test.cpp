@@ -24,7 +24,7 @@ TEST_F(ADesk, ListsShowChooseAndDelete) {
   EXPECT_EQ(work().session.selection.connections, (std::set<std::pair<std::int32_t, std::int32_t>>{{1, 2}}));
   EXPECT_TRUE(work().session.selection.lanes.empty());
   // The chosen connection's STOP, above in its own panel.
-  for (int i = 0; i < 40; ++i) input_devices::MoveTo(294, 500), input_devices::Wheel(1);
+  for (int i = 0; i < 40; ++i) pushed_input::MoveTo(294, 500), pushed_input::Wheel(1);
   Show();
   Click("STOP");
   EXPECT_TRUE(document().map.connections[0].value.stop);
@@ -49,8 +49,8 @@ TEST_F(ADesk, OfAListOnlyWhatIsSeenIsDrawn) {
   EXPECT_FALSE(work().places.contains("lane 20"));
   const Eigen::Vector2d inside = work().places["lane 1"];
   for (int i = 0; i < 40 && !work().places.contains("lane 20"); ++i) {
-    input_devices::MoveTo(static_cast<int>(inside.x()), static_cast<int>(inside.y()));
-    input_devices::Wheel(-1);
+    pushed_input::MoveTo(static_cast<int>(inside.x()), static_cast<int>(inside.y()));
+    pushed_input::Wheel(-1);
     Show();
   }
   Click("lane 20");
@@ -100,11 +100,11 @@ TEST_F(ADesk, SignsAndFlowsOfALane) {
   EXPECT_EQ(document().companion.flows[0].vehph, 420.0);
   Click("flow");
   Write("360");
-  input_devices::MoveTo(900, 700);
-  input_devices::Button(900, 700, true);
+  pushed_input::MoveTo(900, 700);
+  pushed_input::Button(900, 700, true);
   Show();
   EXPECT_EQ(document().companion.flows[0].vehph, 360.0);
-  input_devices::Button(900, 700, false);
+  pushed_input::Button(900, 700, false);
   Show();
   EXPECT_TRUE(work().session.selection.empty());
   EXPECT_FALSE(work().places.contains("flow"));

@@ -11,7 +11,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
-#include "tests/common/view/window/hands.hpp"
+#include "tests/common/view/window/pushed_input.hpp"
 
 namespace rodeira::window {
 namespace {
@@ -57,12 +57,12 @@ TEST_F(AWindow, ClicksAndLettersArriveHoweverFastTheyCome) {
   char text[32] = "";
   const auto draw = [&] { Panel(clicks, text, sizeof(text)); };
   Show(draw);
-  input_devices::Click(40, 25);
-  input_devices::Click(40, 25);
-  input_devices::Click(300, 190);  // beside it
-  input_devices::Click(40, 70);
-  input_devices::Type("N222");
-  input_devices::Press(SDL_SCANCODE_BACKSPACE);
+  pushed_input::Click(40, 25);
+  pushed_input::Click(40, 25);
+  pushed_input::Click(300, 190);  // beside it
+  pushed_input::Click(40, 70);
+  pushed_input::Type("N222");
+  pushed_input::Press(SDL_SCANCODE_BACKSPACE);
   Show(draw);
   Show(draw);
   EXPECT_EQ(clicks, 2);

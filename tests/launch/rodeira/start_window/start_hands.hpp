@@ -11,7 +11,7 @@
 
 #include "common/core/base/temporary_folder.hpp"
 #include "launch/rodeira/start_window/start_window.hpp"
-#include "tests/common/view/window/hands.hpp"
+#include "tests/common/view/window/pushed_input.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::cli {
@@ -57,10 +57,10 @@ class StartHands : public testing::Test {
     const ImGuiID wanted = const_cast<ImGuiWindow*>(panel)->GetID(label);
     for (int y = 12; y < kHeight; y += 10) {
       for (const int x : {25, 60, 160, 300, 480, 660}) {
-        window::hands::MoveTo(x, y);
+        window::pushed_input::MoveTo(x, y);
         Frame();
         if (ImGui::GetCurrentContext()->HoveredId != wanted) continue;
-        window::hands::Click(x, y);
+        window::pushed_input::Click(x, y);
         Frame();
         return true;
       }
@@ -69,9 +69,9 @@ class StartHands : public testing::Test {
   }
   // In a field that was clicked: this in place of what stood there.
   void TypeInstead(const std::string& text) {
-    window::hands::Press(SDL_SCANCODE_A, KMOD_CTRL);
+    window::pushed_input::Press(SDL_SCANCODE_A, KMOD_CTRL);
     Frame();
-    window::hands::Type(text);
+    window::pushed_input::Type(text);
     Frame();
     Frame();
   }

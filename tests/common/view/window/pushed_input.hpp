@@ -6,7 +6,7 @@
 #include <string>
 
 // A person's hands on a window without a display: what SDL would tell of mouse and keyboard.
-namespace rodeira::window::hands {
+namespace rodeira::window::pushed_input {
 
 inline void MoveTo(int x, int y) {
   SDL_Event event{};
@@ -67,4 +67,4 @@ inline void Type(const std::string& text) {
   }
 }
 
-}  // namespace rodeira::window::hands
+}  // namespace rodeira::window::pushed_input
