@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,26 @@ TEST(Links, ClockAndRecorderReadNoMaps) {
     const std::string needed = NeededBy(program);
     for (const char* library : {"[libgdal", "[libproj", "[libgeos"})
       EXPECT_THAT(needed, Not(HasSubstr(library))) << program;
+  }
+}
+
+// Thread-local storage is taken from every thread's stack: SDL's audio thread has 64 kB in all.
+TEST(Links, ThreadLocalStorageIsSmall) {
+  for (const char* program : {"rodeira", "rodeira-vehicle", "rodeira-view", "rodeira-graphics"}) {
+    if (!std::filesystem::exists(Bin(program))) continue;  // built without the view
+    const auto ended = RunCommand({"readelf", "--wide", "--segments", Bin(program)});
+    ASSERT_EQ(ended.status, 0) << ended.out;
+    std::istringstream lines(ended.out);
+    bool found = false;
+    for (std::string word; lines >> word;) {
+      if (word != "TLS") continue;
+      std::string offset, address, physical, in_file, in_memory;
+      lines >> offset >> address >> physical >> in_file >> in_memory;
+      EXPECT_LE(std::stoul(in_memory, nullptr, 16), 8192u) << program;
+      found = true;
+      break;
+    }
+    EXPECT_TRUE(found) << program;
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 
 namespace rodeira::fmi {
 namespace {
@@ -35,21 +36,34 @@ bool Install() {
 }
 
 // The handler's stack: the thread's own may be what has run out. Where there is one already (a sanitizer's) it stays.
-bool GiveStack() {
-  thread_local std::array<std::byte, kStackBytes> t_stack;
-  stack_t now{};
-  if (::sigaltstack(nullptr, &now) != 0 || (now.ss_flags & SS_DISABLE) == 0) return false;
-  const stack_t own{.ss_sp = t_stack.data(), .ss_flags = 0, .ss_size = t_stack.size()};
-  return ::sigaltstack(&own, nullptr) == 0;
-}
+// It lies on the heap: as thread-local storage it would be taken from the stack of every thread of the program.
+class SignalStack {
+ public:
+  SignalStack() {
+    stack_t now{};
+    if (::sigaltstack(nullptr, &now) != 0 || (now.ss_flags & SS_DISABLE) == 0) return;
+    bytes_ = std::make_unique<std::array<std::byte, kStackBytes>>();
+    const stack_t own{.ss_sp = bytes_->data(), .ss_flags = 0, .ss_size = bytes_->size()};
+    if (::sigaltstack(&own, nullptr) != 0) bytes_.reset();
+  }
+  ~SignalStack() {
+    const stack_t none{.ss_sp = nullptr, .ss_flags = SS_DISABLE, .ss_size = 0};
+    if (bytes_ != nullptr) (void)::sigaltstack(&none, nullptr);
+  }
+  SignalStack(const SignalStack&) = delete;
+  SignalStack& operator=(const SignalStack&) = delete;
+
+ private:
+  std::unique_ptr<std::array<std::byte, kStackBytes>> bytes_;
+};
 
 }  // namespace
 
 int CallGuarded(void (*code)(void* context), void* context) {
   static const bool installed = Install();
-  thread_local const bool has_stack = GiveStack();
+  thread_local const SignalStack stack;
   (void)installed;
-  (void)has_stack;
+  (void)stack;
   sigjmp_buf here;
   sigjmp_buf* const outer = t_way_out;
   const int signal = sigsetjmp(here, 0);
