@@ -66,5 +66,13 @@ INSTANTIATE_TEST_SUITE_P(Maps, PinnedTrajectories,
                                                          "f923dae30a000e68"},
                                            PinnedTraffic{"configs/worlds/n222.yaml", "40", "30", "0d4db264c1b7eb5e"}));
 
+// 0.2 s of scripted.yaml, recorded by the program of commit 2c2fa2f4.
+TEST(PinnedRecording, OfAnEarlierProgramIsComputedAgain) {
+  const auto ended = system_test::RunCommand({system_test::Bin("rodeira"), "replay", "--verify",
+                                              SourceDir() + "/tests/data/recordings/scripted_2c2fa2f4.mcap"});
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("identical: 200 steps"), std::string::npos) << ended.out;
+}
+
 }  // namespace
 }  // namespace rodeira
