@@ -46,7 +46,7 @@ TEST(Links, ClockAndRecorderReadNoMaps) {
 TEST(Links, ThreadLocalStorageIsSmall) {
   for (const char* program : {"rodeira", "rodeira-vehicle", "rodeira-view", "rodeira-graphics"}) {
     if (!std::filesystem::exists(Bin(program))) continue;  // built without the view
-    const auto ended = RunCommand({"readelf", "--wide", "--segments", Bin(program)});
+    const auto ended = RunCommand({"/usr/bin/env", "readelf", "--wide", "--segments", Bin(program)});
     ASSERT_EQ(ended.status, 0) << ended.out;
     std::istringstream lines(ended.out);
     bool found = false;
