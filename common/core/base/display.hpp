@@ -5,7 +5,7 @@
 
 namespace rodeira::base {
 
-// Whether the environment names a display. Without a name there is nobody to ask, and libraries that try complain
+// Whether the environment names a display. Without a name there is no display to ask, and libraries that try complain
 // aloud.
 bool NamesDisplay();
 // How it names it: "DISPLAY=:1"; empty where it does not.
