@@ -45,6 +45,7 @@ if(RODEIRA_SANITIZE)
   list(APPEND RODEIRA_WARNINGS -Wno-stringop-overflow -Wno-maybe-uninitialized)
 endif()
 
+include(RodeiraInstall)
 include(RodeiraLayers)
 include(RodeiraSpeed)
 
@@ -55,9 +56,11 @@ function(rodeira_library name)
   add_library(rodeira_${name} STATIC ${ARG_SOURCES})
   add_library(rodeira::${name} ALIAS rodeira_${name})
   rodeira_compile_fast(rodeira_${name})
-  target_include_directories(rodeira_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_include_directories(rodeira_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+                             $<INSTALL_INTERFACE:include/rodeira>)
   target_compile_options(rodeira_${name} PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(rodeira_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  rodeira_install_library(${name})
 endfunction()
 
 # rodeira_program(rodeira-clock SOURCES main.cpp LINK …)
@@ -68,6 +71,7 @@ function(rodeira_program name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  rodeira_install_program(${name})
 endfunction()
 
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.

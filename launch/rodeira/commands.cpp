@@ -6,6 +6,7 @@
 
 #include "common/core/base/display.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/version.hpp"
 #include "launch/rodeira/commands/edit_command.hpp"
 #include "launch/rodeira/commands/export_command.hpp"
 #include "launch/rodeira/commands/info_command.hpp"
@@ -26,11 +27,10 @@
 #include "launch/rodeira/replay/replay_command.hpp"
 #include "launch/rodeira/run/ctl_command.hpp"
 #include "launch/rodeira/run/run_command.hpp"
+#include "launch/rodeira/shell/shell_command.hpp"
 
 namespace rodeira::cli {
 namespace {
-
-constexpr const char* kVersion = "rodeira 0.1.0";
 
 const CLI::Validator Positive = Above0("a positive number of seconds");
 
@@ -57,7 +57,8 @@ bool TakePairs(const char* option, const std::vector<std::string>& texts,
 
 void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) {
   CLI::App* run = app.add_subcommand("run", "drive: start every process of a launch file");
-  run->add_option("LAUNCH.yaml", options.launch_file, "launch file")->required();
+  CLI::Option* file = run->add_option("LAUNCH.yaml", options.launch_file, "launch file, or its name (demo)");
+  run->add_flag("--list", options.list, "print the launch files that can be named")->excludes(file);
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
   run->add_option("--pace", options.pace, "max, real or a factor of real time; otherwise the launch file's, or max");
   CLI::Option* record = run->add_option("--record", options.record,
@@ -95,7 +96,9 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
                   "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb; not "
                   "of version 1)")}) {
     CLI::App* command = world->add_subcommand(name, text);
-    command->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr)")->required();
+    command
+        ->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr), or a world's name (n222)")
+        ->required();
     if (std::string(name) == "query") {
       command->add_option("X", options.x_m, "metres east")->required()->check(Finite());
       command->add_option("Y", options.y_m, "metres north")->required()->check(Finite());
@@ -128,6 +131,9 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     }
     command->callback([&options, name] { options.command = name; });
   }
+  world->add_subcommand("list", "print the worlds that can be named, and where they are")->callback([&options] {
+    options.command = "list";
+  });
 }
 
 void AddMap(CLI::App& app, MapOptions& options) {
@@ -153,7 +159,8 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   CLI::App* traffic = app.add_subcommand("traffic", "the traffic model alone, for studies");
   traffic->require_subcommand(1);
   CLI::App* run = traffic->add_subcommand("run", "drive cars on a map's roads and say what came out");
-  run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors)")->required();
+  run->add_option("MAP", options.map, "world file, OpenDRIVE file (.xodr) or traffic map (.motors), or a world's name")
+      ->required();
   run->add_option("--vehicles", options.vehicles, "how many there are; where there are flows, at most at a time")
       ->check(Between(0, 100000));
   run->add_option("--for", options.duration_s, "simulated seconds")->check(Positive);
@@ -279,7 +286,7 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   CLI::App* vehicle = app.add_subcommand("vehicle", "vehicle files, alone");
   vehicle->require_subcommand(1);
   CLI::App* test = vehicle->add_subcommand("test", "drive the usual manoeuvres and print their figures");
-  test->add_option("VEHICLE.yaml", options.file, "vehicle file")->required();
+  test->add_option("VEHICLE.yaml", options.file, "vehicle file, or its name (default)")->required();
   test->add_option("--manoeuvre", options.manoeuvres,
                    "acceleration, braking, split_friction, constant_radius, step_steer, sine, lane_change, park, bump; "
                    "otherwise all");
@@ -288,7 +295,10 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   test->add_option("--svg", options.svg, "draw it into this file")->check(NewFile());
   test->add_option("--out", options.out, "folder: NAME.csv and NAME.svg of each manoeuvre");
   test->add_flag("--quiet", options.quiet, "no progress, no table");
-  test->callback([&options] { options.asked = true; });
+  test->callback([&options] { options.command = "test"; });
+  vehicle->add_subcommand("list", "print the vehicles that can be named, and where they are")->callback([&options] {
+    options.command = "list";
+  });
 }
 
 void AddInput(CLI::App& app, InputOptions& options) {
@@ -316,7 +326,7 @@ CLI::App* AddView(CLI::App& app, ViewOptions& options) {
   CLI::App* view = app.add_subcommand(
       "view",
       "the start window: choose what to drive, or what to watch; with a launch file: its run, by one of its views");
-  view->add_option("LAUNCH.yaml", options.launch_file, "launch file");
+  view->add_option("LAUNCH.yaml", options.launch_file, "launch file, or its name");
   view->add_option("--screen", options.screen,
                    "of the laboratory: only the view that looks through it, as its PC's part of the run where the "
                    "launch file names one");
@@ -380,6 +390,13 @@ void AddRecording(CLI::App& app, RecordingOptions& options) {
   repair->add_option("--out", options.repair_out, "the new file")->required();
 }
 
+void AddShell(CLI::App& app, ShellOptions& options) {
+  CLI::App* completion = app.add_subcommand("completion", "print the completion script of a shell");
+  completion->add_option("SHELL", options.shell, "bash or zsh")->required()->check(OneOf({"bash", "zsh"}));
+  completion->callback([&options] { options.command = "completion"; });
+  app.add_subcommand("manual", "print the manual page (roff)")->callback([&options] { options.command = "manual"; });
+}
+
 // Without a command.
 int ChooseCommand() {
   const Graphics* graphics = RegisteredGraphics();
@@ -397,7 +414,7 @@ int Main(int argc, char** argv) {
   KeepArguments(argc, argv);
   CLI::App app{"Rodeira, a distributed driving simulator."};
   app.name("rodeira");
-  app.set_version_flag("--version", kVersion);
+  app.set_version_flag("--version", fmt::format("rodeira {}", base::Version()));
   app.require_subcommand(1);
   RunOptions run;
   std::vector<std::string> sets;
@@ -433,6 +450,8 @@ int Main(int argc, char** argv) {
   CLI::App* replay = AddReplay(app, replay_options, changes);
   ViewOptions view_options;
   const CLI::App* view = AddView(app, view_options);
+  ShellOptions shell;
+  AddShell(app, shell);
   if (argc == 1) return ChooseCommand();
   try {
     app.parse(argc, argv);
@@ -443,6 +462,7 @@ int Main(int argc, char** argv) {
               << "\n'rodeira --help' and 'rodeira COMMAND --help' say more\n";
     return 2;
   }
+  if (!shell.command.empty()) return Shell(shell, app);
   if (view->parsed()) return View(view_options);
   if (world.command == "build" && CanContinueInGraphics()) return ContinueInGraphics("world build");
   if (!world.command.empty()) return World(world);
@@ -450,7 +470,7 @@ int Main(int argc, char** argv) {
   if (traffic.asked) return TrafficRun(traffic);
   if (!polyline.command.empty()) return Polylines(polyline);
   if (!surface.command.empty()) return Surface(surface);
-  if (vehicle.asked) return TestVehicle(vehicle);
+  if (!vehicle.command.empty()) return Vehicle(vehicle);
   if (mechanism.asked) return RunMechanismFile(mechanism);
   if (doctor.asked) return Doctor(doctor);
   if (joysticks.asked) return ListJoysticks(joysticks);

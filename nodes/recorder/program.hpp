@@ -5,8 +5,8 @@
 
 namespace rodeira::nodes {
 
-// Which program wrote a recording: the release, and the commit it was built from ("+changes": with others beside it).
-std::string_view ProgramVersion();
+// Commit that the program was built from, 12 hexadecimal digits; "+changes" follows if the tree had other changes;
+// "unknown" without git.
 std::string_view ProgramCommit();
 
 }  // namespace rodeira::nodes

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/version.hpp"
 #include "common/data/record/mcap_writer.hpp"
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
@@ -128,7 +129,7 @@ class RecorderNode final : public lockstep::Node {
         {"mathematics_hash", base::Hex(base::MathematicsDigest())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
-        {"version", std::string(ProgramVersion())},
+        {"version", std::string(base::Version())},
         {"commit", std::string(ProgramCommit())},
     };
     if (world_hash_) about["world_hash"] = base::Hex(*world_hash_);

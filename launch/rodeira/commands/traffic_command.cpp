@@ -19,6 +19,7 @@
 #include "common/world/road/map_world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
+#include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
@@ -102,7 +103,11 @@ void PrintFlows(const FlowsSeen& seen) {
 
 }  // namespace
 
-int TrafficRun(const TrafficOptions& options) {
+int TrafficRun(const TrafficOptions& given) {
+  auto map = ResolveInputFile(InputKind::kWorld, given.map);
+  if (!map) return base::PrintError("rodeira", map.error());
+  TrafficOptions options = given;
+  options.map = std::move(map).value();
   const auto world = road::World::Load(options.map);
   if (!world) return base::PrintError("rodeira", world.error());
   const auto network = traffic::NetworkOf(world.value());

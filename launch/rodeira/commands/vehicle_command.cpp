@@ -6,10 +6,12 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
+#include "launch/rodeira/input_files.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -55,8 +57,6 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
   return {};
 }
 
-}  // namespace
-
 int TestVehicle(const VehicleOptions& options) {
   const auto chosen = Chosen(options);
   if (!chosen) return base::PrintError("rodeira", chosen.error());
@@ -81,6 +81,20 @@ int TestVehicle(const VehicleOptions& options) {
   }
   if (!options.quiet && !options.out.empty()) fmt::print("wrote {}\n", options.out);
   return status;
+}
+
+}  // namespace
+
+int Vehicle(const VehicleOptions& options) {
+  if (options.command == "list") {
+    fmt::print("{}", ListInputFiles(InputKind::kVehicle));
+    return 0;
+  }
+  auto file = ResolveInputFile(InputKind::kVehicle, options.file);
+  if (!file) return base::PrintError("rodeira", file.error());
+  VehicleOptions resolved = options;
+  resolved.file = std::move(file).value();
+  return TestVehicle(resolved);
 }
 
 }  // namespace rodeira::cli

@@ -7,8 +7,8 @@
 namespace rodeira::cli {
 
 struct VehicleOptions {
-  bool asked = false;
-  std::string file;
+  std::string command;                  // "test" or "list"; empty: another command was given
+  std::string file;                     // a path, or the name of a vehicle (InputKind::kVehicle)
   std::vector<std::string> manoeuvres;  // none: all
   double step_s = 0.001;
   std::string csv;  // of one manoeuvre
@@ -17,8 +17,8 @@ struct VehicleOptions {
   bool quiet = false;
 };
 
-// `rodeira vehicle test`: a vehicle file on the proving ground, without a network. Returns the exit status: 1 where a
-// manoeuvre could not be driven, 2 for wrong input.
-int TestVehicle(const VehicleOptions& options);
+// `rodeira vehicle test`: the vehicle file on the proving ground, without a network. `rodeira vehicle list`: the known
+// vehicle files. Returns the exit status: 1 if a manoeuvre failed, 2 for wrong input.
+int Vehicle(const VehicleOptions& options);
 
 }  // namespace rodeira::cli

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
+#include "launch/rodeira/input_files.hpp"
 
 namespace rodeira::cli {
 
@@ -57,7 +59,11 @@ int View(const ViewOptions& options) {
     fmt::print(stderr, "rodeira: view: a launch file was expected before --screen and --headset\n");
     return 2;
   }
-  const auto run = RunOf(options);
+  auto file = ResolveInputFile(InputKind::kLaunch, options.launch_file);
+  if (!file) return base::PrintError("rodeira", file.error());
+  ViewOptions resolved = options;
+  resolved.launch_file = std::move(file).value();
+  const auto run = RunOf(resolved);
   if (run) return Run(run.value());
   return base::PrintError("rodeira", run.error());
 }

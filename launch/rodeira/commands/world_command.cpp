@@ -26,6 +26,7 @@
 #include "common/world/road/world_profile.hpp"
 #include "common/world/road/world_report.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
+#include "launch/rodeira/input_files.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -192,9 +193,7 @@ int Build(const WorldOptions& options) {
   return Written(out / road::kLogicalManifest, road::WriteLogical(out, world.content_hash(), files));
 }
 
-}  // namespace
-
-int World(const WorldOptions& options) {
+int WorldOf(const WorldOptions& options) {
   if (options.command == "check") return CheckWorldFile(options);
   if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export"))
     return base::PrintError("rodeira", NoWorldFile(options));
@@ -246,6 +245,20 @@ int World(const WorldOptions& options) {
     fmt::print("wrote {}\n", file);
   }
   return 0;
+}
+
+}  // namespace
+
+int World(const WorldOptions& options) {
+  if (options.command == "list") {
+    fmt::print("{}", ListInputFiles(InputKind::kWorld));
+    return 0;
+  }
+  auto file = ResolveInputFile(InputKind::kWorld, options.world_file);
+  if (!file) return base::PrintError("rodeira", file.error());
+  WorldOptions resolved = options;
+  resolved.world_file = std::move(file).value();
+  return WorldOf(resolved);
 }
 
 }  // namespace rodeira::cli

@@ -6,10 +6,10 @@
 
 namespace rodeira::cli {
 
-// `rodeira world check | info | map | query | build | export WORLD …`
+// `rodeira world check | info | map | query | build | export WORLD …`, `rodeira world list`
 struct WorldOptions {
-  std::string command;  // empty: another command was given
-  std::string world_file;
+  std::string command;     // empty: another command was given
+  std::string world_file;  // a path, or the name of a world (InputKind::kWorld)
   double x_m = 0.0;
   double y_m = 0.0;
   std::optional<double> z_hint_m;

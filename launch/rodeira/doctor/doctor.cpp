@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "common/core/base/installation.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "common/vehicle/input_devices/device_access.hpp"
@@ -21,7 +24,6 @@
 #include "launch/rodeira/doctor/doctor_network.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
-#include "launch/rodeira/run/processes.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
 namespace rodeira::cli {
@@ -47,7 +49,7 @@ Finding AskForJoysticks() {
   const std::string check = "joysticks";
   if (input_devices::HasDeviceAccess()) return LookForJoysticks();
   if (!CanContinueInGraphics()) return Ok(check, "not looked for: built without SDL2 (RODEIRA_VIEW=OFF)");
-  const Captured said = CaptureProgram({ProgramFolder() + "/rodeira-graphics", "doctor", "--devices"}, 20s);
+  const Captured said = CaptureProgram({base::FindProgram("rodeira-graphics").string(), "doctor", "--devices"}, 20s);
   const std::string line = said.FirstLine();
   for (const Verdict verdict : {Verdict::kOk, Verdict::kWarning}) {
     const std::string begin = std::string(WordOf(verdict)) + "\t";
@@ -57,20 +59,44 @@ Finding AskForJoysticks() {
                                     said.too_late ? "does not answer within 20 s" : "does not start: " + line));
 }
 
-// Drawing comes before DDS: it forks, which wants a process without threads.
+// A PC with the package rodeira-headless alone.
+bool DrawsNothing() {
+  std::error_code problem;
+  return base::IsInstalled() && !std::filesystem::exists(base::FindProgram("rodeira-graphics"), problem);
+}
+
+std::vector<CheckFunction> ChecksOfPictures() {
+  if (DrawsNothing())
+    return {[] { return Ok("pictures", "this PC draws none: the package rodeira is not installed"); }};
+  return {
+      [] { return CheckPackages(ParsePackages(PackageList())); },
+      [] { return CheckGl(); },
+      [] { return CheckDisplay(DisplayPlace::OfThisProcess()); },
+      [] { return AskForJoysticks(); },
+  };
+}
+
+std::vector<std::string> ExpectedPrograms() {
+  std::vector<std::string> programs = NodePrograms();
+  if (DrawsNothing())
+    std::erase_if(programs,
+                  [](const std::string& name) { return name == "rodeira-view" || name == "rodeira-graphics"; });
+  return programs;
+}
+
+// Pictures come before DDS: CheckGl forks, which requires a process without threads.
 std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transport transport) {
   LoopBackSettings loop_back;
   loop_back.transport = transport;
   loop_back.domain = options.domain;
-  loop_back.program = ProgramFolder() + "/rodeira";
+  loop_back.program = base::FindProgram("rodeira").string();
   loop_back.cancelled = Interrupted;
-  return {
-      [] { return CheckPackages(ParsePackages(PackageList())); },
-      [] { return CheckPrograms(NodePrograms(), ProgramFolder()); },
+  std::vector<CheckFunction> checks{
+      [] { return CheckPrograms(ExpectedPrograms(), base::ProgramFolder()); },
       [] { return CheckMathematics(base::MathematicsFixed(), base::MathematicsDigest()); },
-      [] { return CheckGl(); },
-      [] { return CheckDisplay(DisplayPlace::OfThisProcess()); },
-      [] { return AskForJoysticks(); },
+  };
+  for (CheckFunction& check : ChecksOfPictures()) checks.push_back(std::move(check));
+  const std::vector<CheckFunction> others{
       [] { return CheckSharedMemory(); },
       [domain = options.domain] { return CheckPorts(domain); },
       [loop_back] { return CheckLoopBack(loop_back); },
@@ -79,6 +105,8 @@ std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transpor
       [] { return CheckMemory(); },
       [] { return CheckDisk(base::UserDataFolder()); },
   };
+  checks.insert(checks.end(), others.begin(), others.end());
+  return checks;
 }
 
 std::string Summary(std::span<const Finding> findings) {

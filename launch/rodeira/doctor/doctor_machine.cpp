@@ -19,6 +19,7 @@
 #include <sstream>
 #include <utility>
 
+#include "common/core/base/installation.hpp"
 #include "launch/rodeira/doctor/capture.hpp"
 
 namespace rodeira::cli {
@@ -129,13 +130,15 @@ Finding CheckPackages(const std::vector<std::string>& packages, const std::strin
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder) {
   std::vector<std::string> problems;
   for (const std::string& program : programs) {
-    if (const std::string problem = ProblemOf(folder / program); !problem.empty())
+    if (const std::string problem = ProblemOf(base::FindProgram(program, folder)); !problem.empty())
       problems.push_back(program + " " + problem);
   }
   if (problems.empty())
     return Ok("programs", fmt::format("{} in {} start", fmt::join(programs, ", "), folder.string()));
-  return Fault("programs", fmt::format("in {}: {}; build again (ninja -C build) or copy the whole folder",
-                                       folder.string(), fmt::join(problems, ", ")));
+  const char* remedy = base::IsInstalled(folder) ? "install the packages again (sudo apt-get install --reinstall "
+                                                   "rodeira-headless rodeira)"
+                                                 : "build again (ninja -C build) or copy the whole folder";
+  return Fault("programs", fmt::format("in {}: {}; {}", folder.string(), fmt::join(problems, ", "), remedy));
 }
 
 Finding CheckMathematics(bool fixed, base::Digest digest) {

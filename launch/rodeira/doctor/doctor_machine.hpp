@@ -23,7 +23,7 @@ std::vector<std::string> ParsePackages(std::string_view text);
 // Fault if one of `packages` is not installed, warning if there is no dpkg.
 Finding CheckPackages(const std::vector<std::string>& packages, const std::string& dpkg_query = "/usr/bin/dpkg-query");
 
-// Each of `programs` lies in `folder`, may be executed, and starts (answers --help).
+// Each of `programs` lies in `folder` or its installation (base::FindProgram), is executable, and answers --help.
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder);
 
 // Law L7. `fixed`: the choice of code was made before the start; `digest`: base::MathematicsDigest() under it.

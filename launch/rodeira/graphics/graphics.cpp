@@ -12,8 +12,8 @@
 #include <optional>
 #include <utility>
 
+#include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
-#include "launch/rodeira/run/processes.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -21,7 +21,7 @@ namespace {
 std::optional<Graphics> g_graphics;
 char** g_arguments = nullptr;
 
-std::string GraphicsProgram() { return ProgramFolder() + "/rodeira-graphics"; }
+std::string GraphicsProgram() { return base::FindProgram("rodeira-graphics").string(); }
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "common/core/base/version.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "nodes/recorder/program.hpp"
 
@@ -77,11 +78,11 @@ std::string ComputedFromTheStart(const std::vector<std::string>& nodes) {
 }
 
 std::string RecordedByAnother(const std::string& version, const std::string& commit) {
-  if (version == nodes::ProgramVersion() && commit == nodes::ProgramCommit()) return {};
+  if (version == base::Version() && commit == nodes::ProgramCommit()) return {};
   return fmt::format(
       "recorded by another program (version {}, commit {}; this one is version {}, commit {}): other sources may give "
       "other bits\n",
-      version, commit, nodes::ProgramVersion(), nodes::ProgramCommit());
+      version, commit, base::Version(), nodes::ProgramCommit());
 }
 
 }  // namespace rodeira::cli

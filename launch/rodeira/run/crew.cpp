@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/core/base/installation.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
@@ -37,9 +38,13 @@ Crew::Crew(const RunOptions& options, const Placement& placement, const launch::
       domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(options.run) % 200))) {}
 
 std::vector<std::string> Crew::Command(const std::string& program) const {
-  std::vector<std::string> command{
-      ProgramFolder() + "/" + program, "--launch", launch_.path().string(), "--run", options_.run, "--domain",
-      std::to_string(domain_)};
+  std::vector<std::string> command{base::FindProgram(program).string(),
+                                   "--launch",
+                                   launch_.path().string(),
+                                   "--run",
+                                   options_.run,
+                                   "--domain",
+                                   std::to_string(domain_)};
   for (const auto& [key, value] : overrides_) {
     command.push_back("--set");
     command.push_back(key + "=" + value);

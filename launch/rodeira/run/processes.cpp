@@ -10,7 +10,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <utility>
 
 namespace rodeira::cli {
@@ -116,12 +115,6 @@ void Child::Send(const std::string& line) const {
   const std::string text = line + "\n";
   if (in_ >= 0) [[maybe_unused]]
     const ssize_t sent = ::write(in_, text.data(), text.size());
-}
-
-std::string ProgramFolder() {
-  std::error_code problem;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", problem);
-  return problem ? "." : self.parent_path().string();
 }
 
 }  // namespace rodeira::cli

@@ -56,7 +56,4 @@ class Child {
   std::optional<int> exit_status_;
 };
 
-// The folder of the running program, where its fellow programs lie too.
-std::string ProgramFolder();
-
 }  // namespace rodeira::cli

@@ -14,16 +14,6 @@
 namespace rodeira::cli {
 namespace {
 
-// NAME-DATE-TIME-PROCESS.mcap: runs that start in the same second have names of their own.
-std::string DatedRecording(const std::string& launch_name) {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  ::localtime_r(&now, &local);
-  std::string name = launch_name;
-  std::ranges::replace(name, '/', '_');
-  return (base::UserDataFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.mcap", name, local, ::getpid())).string();
-}
-
 // The name, or name2, name3 …: what no node of the launch file is called.
 std::string FreeName(const launch::Launch& launch, const std::string& name) {
   std::string free = name;
@@ -34,6 +24,15 @@ std::string FreeName(const launch::Launch& launch, const std::string& name) {
 }
 
 }  // namespace
+
+std::string DatedRecording(const std::string& launch_name) {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  ::localtime_r(&now, &local);
+  std::string name = launch_name;
+  std::ranges::replace(name, '/', '_');
+  return (base::UserDataFolder() / fmt::format("{}-{:%Y%m%d-%H%M%S}-{}.mcap", name, local, ::getpid())).string();
+}
 
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options,
                               launch::Overrides& overrides) {

@@ -15,4 +15,7 @@ namespace rodeira::cli {
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options,
                               launch::Overrides& overrides);
 
+// A new name among the user's recordings: NAME-DATE-TIME-PROCESS.mcap, distinct for runs that start in one second.
+std::string DatedRecording(const std::string& launch_name);
+
 }  // namespace rodeira::cli

@@ -10,13 +10,15 @@
 #include <random>
 #include <utility>
 
+#include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
+#include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/process_run.hpp"
-#include "launch/rodeira/run/processes.hpp"
+#include "launch/rodeira/run/resolve_frames.hpp"
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "launch/rodeira/run/run_meta.hpp"
 
@@ -31,7 +33,7 @@ std::string FreshRunName() {
 // A node whose program is missing would end the run after its start: it is refused before.
 base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& placement) {
   for (const launch::LaunchNode& node : launch.nodes()) {
-    const std::string program = ProgramFolder() + "/" + std::string(node.kind->program);
+    const std::string program = base::FindProgram(node.kind->program).string();
     if (!placement.Has(node) || ::access(program.c_str(), X_OK) == 0) continue;
     return base::WrongInput(fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
                                         std::strerror(errno), node.name),
@@ -42,7 +44,20 @@ base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& pl
 
 }  // namespace
 
-int Run(const RunOptions& options) {
+int Run(const RunOptions& given) {
+  RunOptions options = given;
+  if (options.list) {
+    fmt::print("{}", ListInputFiles(InputKind::kLaunch));
+    return 0;
+  }
+  if (options.launch_file.empty()) {
+    return base::PrintError("rodeira", base::WrongInput("a launch file or its name was expected; `rodeira run --list` "
+                                                        "prints the known ones",
+                                                        "run"));
+  }
+  auto file = ResolveInputFile(InputKind::kLaunch, options.launch_file);
+  if (!file) return base::PrintError("rodeira", file.error());
+  options.launch_file = std::move(file).value();
   if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)
     return base::PrintError("rodeira", pace.error());
   launch::Overrides overrides = options.overrides;
@@ -61,6 +76,7 @@ int Run(const RunOptions& options) {
     placement = std::move(found).value();
     if (auto status = ResolveRecording(launch.value(), placement, resolved, overrides); !status)
       return base::PrintError("rodeira", status.error());
+    ResolveFrames(launch.value(), placement, resolved.record, overrides);
     launch = launch::Launch::Load(options.launch_file, overrides);
   }
   if (launch.ok() && !resolved.meta.empty()) {

@@ -13,7 +13,8 @@ namespace rodeira::cli {
 
 // `rodeira run LAUNCH.yaml …`
 struct RunOptions {
-  std::string launch_file;
+  std::string launch_file;  // a path, or the name of a launch file (InputKind::kLaunch)
+  bool list = false;        // only print the known launch files
   std::optional<double> duration_s;
   std::string pace;    // empty: as the launch file says, otherwise as fast as it can
   std::string record;  // empty: as the launch file says, otherwise a dated file in the folder of recordings

@@ -6,14 +6,12 @@
 #include <system_error>
 #include <utility>
 
-#include "common/core/base/files.hpp"
+#include "launch/rodeira/input_files.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::size_t kMostOfAText = 4u << 20;  // a larger file is no person's own text
 
 std::vector<fs::path> FilesIn(const fs::path& folder, const std::set<std::string>& endings) {
   std::vector<fs::path> files;
@@ -43,46 +41,10 @@ std::vector<fs::path> NewestIn(const fs::path& folder) {
   return files;
 }
 
-// The text of its line that begins with `key`; empty where there is none.
-std::string LineOf(const fs::path& file, const std::string& key) {
-  const auto text = base::ReadText(file, kMostOfAText);
-  if (!text) return "";
-  const std::string all = "\n" + text.value(), begin = "\n" + key;
-  const std::size_t at = all.find(begin);
-  return at == std::string::npos ? "" : all.substr(at + begin.size(), all.find('\n', at + 1) - at - begin.size());
-}
-
-// `rodeira: world/2` of a world, for one.
-bool IsOfKind(const fs::path& file, const std::string& kind) {
-  if (file.extension() != ".yaml") return true;  // its ending says what it is
-  return LineOf(file, "rodeira:").find(" " + kind + "/") != std::string::npos;
-}
-
-// Files of one folder that are whole ones of their kind.
-std::vector<fs::path> WholeIn(const fs::path& folder, const std::string& kind, const std::set<std::string>& endings) {
-  std::vector<fs::path> files = FilesIn(folder, endings);
-  std::erase_if(files, [&](const fs::path& file) { return !IsOfKind(file, kind); });
-  std::string included;
-  for (const fs::path& file : files) included += LineOf(file, "include:");
-  std::erase_if(files,
-                [&](const fs::path& file) { return included.find(file.filename().string()) != std::string::npos; });
-  return files;
-}
-
-std::vector<fs::path> FilesFor(const fs::path& root, const fs::path& own, const std::string& kind,
-                               const std::set<std::string>& endings) {
-  std::vector<fs::path> files = FilesIn(own, endings);
-  const auto add = [&files](const std::vector<fs::path>& more) { files.insert(files.end(), more.begin(), more.end()); };
-  std::vector<fs::path> folders;
-  std::error_code problem;
-  for (fs::directory_iterator entry(own, problem), end; !problem && entry != end; entry.increment(problem)) {
-    std::error_code unread;
-    if (entry->is_directory(unread)) folders.push_back(entry->path());
-  }
-  std::sort(folders.begin(), folders.end());
-  for (const fs::path& folder : folders) add(WholeIn(folder, kind, endings));
-  add(WholeIn(root, kind, endings));
-  return files;
+std::vector<fs::path> PathsOf(InputKind kind, const std::vector<InputFolder>& folders) {
+  std::vector<fs::path> paths;
+  for (const InputFile& file : FindInputFiles(kind, folders)) paths.push_back(file.path);
+  return paths;
 }
 
 }  // namespace
@@ -96,8 +58,9 @@ StartFiles FindStartFiles(const fs::path& root, const fs::path& data, const fs::
   files.FindRecordings();
   files.wheels = FilesIn(config / "wheels", {".yaml"});
   if (root.empty()) return files;
-  files.worlds = FilesFor(root, root / "configs/worlds", "world", {".yaml", ".xodr"});
-  files.vehicles = FilesFor(root, root / "configs/vehicles", "vehicle", {".yaml"});
+  const std::vector<InputFolder> folders{{root, "Rodeira"}, {data, "yours"}};
+  files.worlds = PathsOf(InputKind::kWorld, folders);
+  files.vehicles = PathsOf(InputKind::kVehicle, folders);
   return files;
 }
 

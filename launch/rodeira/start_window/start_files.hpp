@@ -21,9 +21,8 @@ struct StartFiles {
   void FindRecordings();
 };
 
-// Looks in `root` and in the user's folders. Worlds and vehicles are files of configs/worlds and configs/vehicles, of
-// the folders in these (a folder's file that another one of it includes is a part of a world, and left out), and files
-// of the user's own beside the folder launch. What cannot be read is not there.
+// Looks in `root` and in the user's folders. Worlds and vehicles are those of FindInputFiles. Unreadable directories
+// count as empty.
 StartFiles FindStartFiles(const std::filesystem::path& root, const std::filesystem::path& data,
                           const std::filesystem::path& config);
 // The folder with launch/ and configs/ at or above one of these, the nearest first; empty where there is none.

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/printable.hpp"
 #include "common/core/base/user_folders.hpp"
@@ -217,13 +218,14 @@ void StartWindow::DrawRun() {
 int StartByWindow() {
   std::error_code problem;
   const std::filesystem::path here = std::filesystem::current_path(problem);
-  std::filesystem::path root = FindStartRoot({here, ProgramFolder()});
+  std::filesystem::path root = FindStartRoot({here});
+  if (root.empty()) root = base::SharedDataFolder();
   if (root == here) root = ".";  // commands are shorter
   auto window = window::Window::Open({window::Kind::kWindow, 820, 640, "Rodeira"});
   if (!window) return base::PrintError("rodeira", window.error());
   CatchInterrupts();
   StartWindow start(FindStartFiles(root, base::UserDataFolder(), base::UserConfigFolder()),
-                    ProgramFolder() + "/rodeira");
+                    base::FindProgram("rodeira").string());
   while (!Interrupted() && window.value()->BeginFrame(start.wheel().open() ? kWheelWait_ms : kWait_ms)) {
     start.Draw(window.value()->width_px(), window.value()->height_px());
     window.value()->EndFrame();
