@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A recording is a fact: computed again it is the same to the bit, and whatever is not is found and named.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -12,6 +13,7 @@
 #include <thread>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/version.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/mcap_writer.hpp"
 #include "idl/codec.hpp"
@@ -286,9 +288,10 @@ TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
   const auto by_another = [](const std::string& name, record::TextMap& entries) {
     if (name == "rodeira") entries["commit"] = "0123456";
   };
-  EXPECT_THAT(
-      verify(Copied(file, by_another, otherwise)),
-      HasSubstr("recorded by another program (version 0.1.0, commit 0123456; this one is version 0.1.0, commit "));
+  EXPECT_THAT(verify(Copied(file, by_another, otherwise)),
+              HasSubstr(fmt::format(
+                  "recorded by another program (version {0}, commit 0123456; this one is version {0}, commit ",
+                  base::Version())));
 }
 
 TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
