@@ -22,8 +22,7 @@ const std::set<std::string, std::less<>> kNotRead = {
     "union", "map", "bitmask", "bitset", "interface", "valuetype", "wstring", "wchar",
     "fixed", "any", "Object",  "native", "exception", "switch",    "typeid",  "import"};
 // Annotations that change what lies in a payload.
-const std::set<std::string, std::less<>> kOtherEncoding = {"mutable", "optional", "value", "bit_bound",
-                                                           "extensibility"};
+const std::set<std::string, std::less<>> kOtherEncoding = {"mutable", "optional", "value", "bit_bound"};
 
 const std::map<std::string, Kind, std::less<>> kPlainNames = {
     {"boolean", Kind::kBool}, {"char", Kind::kChar},     {"octet", Kind::kOctet}, {"short", Kind::kInt16},
@@ -48,6 +47,7 @@ class IdlParser {
 
  private:
   bool Definition(int depth) {
+    extensibility_ = Extensibility::kUnmarked;
     if (!Annotations()) return false;
     if (IsSign(";")) return Skip();  // behind a definition
     if (Is("module")) return Module(depth);
@@ -73,6 +73,7 @@ class IdlParser {
   }
 
   bool Struct() {
+    const Extensibility extensibility = extensibility_;
     Skip();
     std::string name;
     if (!Name(name)) return false;
@@ -91,12 +92,13 @@ class IdlParser {
       if (!good) return false;
     }
     if (members.empty()) return Refuse(fmt::format("the structure '{}' has no members", name));
-    TypePtr type = MakeStruct(scope_ + name, std::move(members));
+    TypePtr type = MakeStruct(scope_ + name, std::move(members), extensibility);
     if (type->depth > kMaxDepth) return Refuse(fmt::format("'{}' is nested more than {} deep", name, kMaxDepth));
     return Skip() && Define(name, std::move(type));
   }
 
   bool Enum() {
+    const Extensibility extensibility = extensibility_;
     Skip();
     std::string name;
     if (!Name(name) || !Sign("{")) return false;
@@ -106,7 +108,7 @@ class IdlParser {
       if (!Annotations() || !Name(enumerator)) return false;
       enumerators.push_back(std::move(enumerator));
     } while (IsSign(",") && Skip());
-    return Sign("}") && Define(name, MakeEnum(scope_ + name, std::move(enumerators)));
+    return Sign("}") && Define(name, MakeEnum(scope_ + name, std::move(enumerators), extensibility));
   }
 
   bool Typedef() {
@@ -276,11 +278,18 @@ class IdlParser {
     return fresh || Refuse(fmt::format("'{}' is defined twice", scope_ + name));
   }
 
-  // @name, @name(…): passed over where they leave the encoding as it is.
+  // @name, @name(…): ignored if they leave the encoding as it is; extensibility is kept for the definition that
+  // follows.
   bool Annotations() {
     while (IsSign("@")) {
       Skip();
-      const std::string& name = Now().text;
+      const std::string name = Now().text;
+      if (name == "extensibility") {
+        if (!ExtensibilityOfArgument()) return false;
+        continue;
+      }
+      if (name == "final") extensibility_ = Extensibility::kFinal;
+      if (name == "appendable") extensibility_ = Extensibility::kAppendable;
       if (kOtherEncoding.contains(name))
         return Refuse(fmt::format("'@{}' is not read: it makes another encoding", name));
       if (ScopedName().empty()) return false;
@@ -293,6 +302,18 @@ class IdlParser {
       } while (open > 0);
     }
     return true;
+  }
+
+  // @extensibility(FINAL)
+  bool ExtensibilityOfArgument() {
+    Skip();
+    std::string kind;
+    if (!Sign("(") || !Name(kind)) return false;
+    if (kind == "MUTABLE") return Refuse("'@extensibility(MUTABLE)' is not read: it makes another encoding");
+    if (kind != "FINAL" && kind != "APPENDABLE")
+      return Refuse(fmt::format("'{}' was found, FINAL or APPENDABLE was expected", kind));
+    extensibility_ = kind == "FINAL" ? Extensibility::kFinal : Extensibility::kAppendable;
+    return Sign(")");
   }
 
   const Token& Now() const { return tokens_[at_]; }
@@ -320,7 +341,8 @@ class IdlParser {
 
   std::vector<Token> tokens_;  // the last one is the end
   std::size_t at_ = 0;
-  std::string scope_;  // "a::b::"
+  std::string scope_;                                       // "a::b::"
+  Extensibility extensibility_ = Extensibility::kUnmarked;  // of the definition that follows
   std::map<std::string, std::uint64_t> constants_;
   IdlTypes result_;
   std::optional<base::Error> error_;

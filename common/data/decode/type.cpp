@@ -78,8 +78,9 @@ TypePtr MakeArray(TypePtr element, std::uint64_t length) {
   return Finish(std::move(type));
 }
 
-TypePtr MakeEnum(std::string name, std::vector<std::string> enumerators) {
+TypePtr MakeEnum(std::string name, std::vector<std::string> enumerators, Extensibility extensibility) {
   Type type;
+  type.extensibility = extensibility;
   type.kind = Kind::kEnum;
   type.name = std::move(name);
   type.enumerators = std::move(enumerators);
@@ -87,9 +88,10 @@ TypePtr MakeEnum(std::string name, std::vector<std::string> enumerators) {
   return Finish(std::move(type));
 }
 
-TypePtr MakeStruct(std::string name, std::vector<Member> members) {
+TypePtr MakeStruct(std::string name, std::vector<Member> members, Extensibility extensibility) {
   RODEIRA_ASSERT(!members.empty());
   Type type;
+  type.extensibility = extensibility;
   type.kind = Kind::kStruct;
   type.name = std::move(name);
   type.least_bytes = 0;

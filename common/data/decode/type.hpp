@@ -30,6 +30,13 @@ enum class Kind {
   kStruct,
 };
 
+// Whether later versions of a type may add members (XTypes). In CDR version 1 the bytes of both are the same.
+enum class Extensibility {
+  kUnmarked,  // means kFinal
+  kFinal,
+  kAppendable,
+};
+
 struct Type;
 using TypePtr = std::shared_ptr<const Type>;
 
@@ -41,7 +48,8 @@ struct Member {
 // A type of an IDL text. It never holds itself, so that a value's nesting is bounded by `depth`.
 struct Type {
   Kind kind = Kind::kBool;
-  std::string name;                      // "module::Type" of a struct or an enumeration
+  std::string name;                                        // "module::Type" of a struct or an enumeration
+  Extensibility extensibility = Extensibility::kUnmarked;  // of a struct or an enumeration
   std::uint64_t bound = 0;               // most elements of a sequence, most bytes of a string; 0: none
   std::uint64_t length = 0;              // elements of an array, at least 1
   TypePtr element;                       // of a sequence or an array
@@ -63,8 +71,10 @@ TypePtr MakePlain(Kind kind);
 TypePtr MakeString(std::uint64_t bound);
 TypePtr MakeSequence(TypePtr element, std::uint64_t bound);
 TypePtr MakeArray(TypePtr element, std::uint64_t length);
-TypePtr MakeEnum(std::string name, std::vector<std::string> enumerators);
-TypePtr MakeStruct(std::string name, std::vector<Member> members);
+TypePtr MakeEnum(std::string name, std::vector<std::string> enumerators,
+                 Extensibility extensibility = Extensibility::kUnmarked);
+TypePtr MakeStruct(std::string name, std::vector<Member> members,
+                   Extensibility extensibility = Extensibility::kUnmarked);
 
 // The member of a struct; null where there is none of that name.
 const Type* FindMember(const Type& type, std::string_view name);
