@@ -3,13 +3,13 @@
 
 // All message types of the IDL (namespace rodeira::msg), as fastddsgen makes them.
 #include "clock.h"
-#include "collision.h"
-#include "driving.h"
+#include "collisions.h"
+#include "controls.h"
 #include "ground.h"
-#include "live.h"
-#include "log.h"
-#include "parcel.h"
+#include "operator_input.h"
 #include "pulse.h"
+#include "run_log.h"
+#include "sample_batch.h"
 #include "scenario.h"
 #include "signals.h"
 #include "snapshot.h"

@@ -9,9 +9,9 @@ namespace rodeira::idl {
 
 const std::vector<TopicInfo>& Topics() {
   static const std::vector<TopicInfo> kTopics = {
-      {topics::kControls, "rodeira::msg::Controls", "driving", true},
+      {topics::kControls, "rodeira::msg::Controls", "controls", true},
       {topics::kVehicleState, "rodeira::msg::VehicleState", "vehicle", true},
-      {topics::kCollisions, "rodeira::msg::Collisions", "collision", true},
+      {topics::kCollisions, "rodeira::msg::Collisions", "collisions", true},
       {topics::kTrafficState, "rodeira::msg::TrafficState", "traffic", true},
       {topics::kTrafficDetails, "rodeira::msg::TrafficDetails", "traffic", true},
       {topics::kSignalsState, "rodeira::msg::SignalsState", "signals", true},
@@ -19,20 +19,20 @@ const std::vector<TopicInfo>& Topics() {
       {topics::kWeatherState, "rodeira::msg::WeatherState", "weather", true},
       {topics::kSnapshot, "rodeira::msg::Snapshot", "snapshot", true},
       {topics::kPulse, "rodeira::msg::Pulse", "pulse", true},
-      {topics::kParcels, "rodeira::msg::Parcel", "parcel", false},
+      {topics::kSampleBatches, "rodeira::msg::SampleBatch", "sample_batch", false},
       {topics::kGrant, "rodeira::msg::Grant", "clock", false},
-      {topics::kAsk, "rodeira::msg::Ask", "clock", false},
-      {topics::kAnswers, "rodeira::msg::Parcel", "parcel", false},
+      {topics::kNack, "rodeira::msg::Nack", "clock", false},
+      {topics::kRetransmissions, "rodeira::msg::SampleBatch", "sample_batch", false},
       {topics::kReport, "rodeira::msg::Report", "clock", false},
       {topics::kGroundRequest, "rodeira::msg::GroundRequest", "ground", false},
       {topics::kGroundReply, "rodeira::msg::GroundReply", "ground", false},
       {topics::kWorldInfo, "rodeira::msg::WorldInfo", "world", false},
-      {topics::kLiveKeys, "rodeira::msg::LiveKeys", "live", false},
-      {topics::kLiveRequests, "rodeira::msg::LiveRequests", "live", false},
-      {topics::kRunLog, "rodeira::msg::RunLog", "log", false},
+      {topics::kWindowKeys, "rodeira::msg::WindowKeys", "operator_input", false},
+      {topics::kOperatorRequests, "rodeira::msg::OperatorRequests", "operator_input", false},
+      {topics::kRunLog, "rodeira::msg::RunLog", "run_log", false},
       {topics::kTrigger, "rodeira::msg::Trigger", "trigger", false},
-      {topics::kWall, "rodeira::msg::WallTime", "log", false},
-      {topics::kRemarks, "rodeira::msg::Remark", "log", false},
+      {topics::kWallTime, "rodeira::msg::WallTime", "run_log", false},
+      {topics::kRemarks, "rodeira::msg::Remark", "run_log", false},
   };
   return kTopics;
 }
@@ -40,7 +40,7 @@ const std::vector<TopicInfo>& Topics() {
 const TopicInfo* FindTopic(std::string_view topic) {
   const auto& all = Topics();
   const auto found = std::find_if(all.begin(), all.end(), [&](const TopicInfo& info) {
-    return info.topic == topic || (info.topic == topics::kParcels && topic.starts_with(topics::kParcels));
+    return info.topic == topic || (info.topic == topics::kSampleBatches && topic.starts_with(topics::kSampleBatches));
   });
   return found == all.end() ? nullptr : &*found;
 }
@@ -50,12 +50,6 @@ const std::string& IdlTextOf(std::string_view subject) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const IdlText& text) { return text.subject == subject; });
   RODEIRA_ASSERT(found != all.end());
   return found->text;
-}
-
-base::Digest ProtocolHash() {
-  base::Digest digest = 1;  // grows where the meaning changes and no text does
-  for (const IdlText& text : IdlTexts()) digest = base::Combine(digest, base::Hash(text.text));
-  return digest;
 }
 
 }  // namespace rodeira::idl

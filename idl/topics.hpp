@@ -5,11 +5,9 @@
 #include <string_view>
 #include <vector>
 
-#include "common/core/base/hash.hpp"
-
 namespace rodeira::idl {
 
-// The topics of Rodeira. The first group are samples of the lockstep, recorded always.
+// The topics of Rodeira (docs/wire.md). The first group are samples of the lockstep, which are always recorded.
 namespace topics {
 inline constexpr std::string_view kControls = "rodeira/controls";
 inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";
@@ -21,20 +19,20 @@ inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
 inline constexpr std::string_view kWeatherState = "rodeira/weather_state";
 inline constexpr std::string_view kPulse = "rodeira/pulse";
 inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
-inline constexpr std::string_view kParcels = "rodeira/parcels/";  // and the name of the node that they are for
+inline constexpr std::string_view kSampleBatches = "rodeira/sample_batches/";  // and the name of the consumer
 inline constexpr std::string_view kGrant = "rodeira/grant";
-inline constexpr std::string_view kAsk = "rodeira/ask";
-inline constexpr std::string_view kAnswers = "rodeira/answers";
+inline constexpr std::string_view kNack = "rodeira/nack";
+inline constexpr std::string_view kRetransmissions = "rodeira/retransmissions";
 inline constexpr std::string_view kReport = "rodeira/report";
 inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
 inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
 inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
-inline constexpr std::string_view kLiveKeys = "rodeira/live_keys";
-inline constexpr std::string_view kLiveRequests = "rodeira/live_requests";
+inline constexpr std::string_view kWindowKeys = "rodeira/window_keys";
+inline constexpr std::string_view kOperatorRequests = "rodeira/operator_requests";
 inline constexpr std::string_view kRunLog = "rodeira/run_log";
 inline constexpr std::string_view kTrigger = "rodeira/trigger";
-// Only in recordings: what came by the run's log.
-inline constexpr std::string_view kWall = "rodeira/wall";
+// Only in recordings: the contents of the run log.
+inline constexpr std::string_view kWallTime = "rodeira/wall_time";
 inline constexpr std::string_view kRemarks = "rodeira/remarks";
 }  // namespace topics
 
@@ -56,7 +54,5 @@ struct IdlText {
 const std::vector<IdlText>& IdlTexts();
 // The text of a subject; an unknown one is our mistake.
 const std::string& IdlTextOf(std::string_view subject);
-// Of all texts: two programs with equal hashes read each other's messages.
-base::Digest ProtocolHash();
 
 }  // namespace rodeira::idl

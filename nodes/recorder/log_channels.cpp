@@ -31,7 +31,7 @@ LogChannels::LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64
 
 base::Status LogChannels::Begin(record::McapWriter& writer) {
   if (log_ == nullptr) return {};
-  const auto wall = AddChannel(writer, idl::topics::kWall);
+  const auto wall = AddChannel(writer, idl::topics::kWallTime);
   if (!wall) return wall.error();
   wall_ = wall.value();
   const auto remarks = AddChannel(writer, idl::topics::kRemarks);
@@ -43,7 +43,7 @@ base::Status LogChannels::Begin(record::McapWriter& writer) {
 void LogChannels::Remember(const record::Channel& channel, const record::Message& message) {
   if (log_ == nullptr) return;
   if (channel.topic == idl::topics::kRemarks) last_remark_ = std::max(last_remark_, message.sequence);
-  if (channel.topic != idl::topics::kWall) return;
+  if (channel.topic != idl::topics::kWallTime) return;
   const auto wall = idl::Decode<msg::WallTime>(message.data);
   if (!wall) return;
   last_wall_ = std::max<lockstep::Step>(last_wall_, wall.value().through_step());

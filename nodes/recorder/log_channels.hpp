@@ -9,9 +9,10 @@
 
 namespace rodeira::nodes {
 
-// The clock's log in a recording: one message of rodeira/wall a grant, one of rodeira/remarks a remark. Their log time
-// is the simulated time of their step, so that they stand beside the samples; the wall's times are in the messages, and
-// the sequence number of a wall's message is that of its batch. A run without a log gets no such channels.
+// The clock's log in a recording: one message of rodeira/wall_time a grant, one of rodeira/remarks a remark. Their log
+// time is the simulated time of their step, so that they stand beside the samples; the wall's times are in the
+// messages, and the sequence number of a wall's message is that of its batch. A run without a log gets no such
+// channels.
 class LogChannels {
  public:
   LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);

@@ -14,6 +14,7 @@
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/version.hpp"
 #include "common/data/record/mcap_writer.hpp"
+#include "idl/topic_types.hpp"
 #include "idl/topics.hpp"
 #include "nodes/recorder/embed.hpp"
 #include "nodes/recorder/log_channels.hpp"

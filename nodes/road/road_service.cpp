@@ -44,9 +44,9 @@ class RoadService final : public launch::Service {
     for (std::size_t i = 0; i < asked.size(); ++i) queries_[i] = {asked[i].x_m(), asked[i].y_m(), asked[i].z_hint_m()};
     ground_->Query(queries_, points_);
     msg::GroundReply reply;
-    reply.asker(request.value().asker());
+    reply.requester(request.value().requester());
     reply.incarnation(request.value().incarnation());
-    reply.number(request.value().number());
+    reply.request_number(request.value().request_number());
     reply.points().resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       auto& answer = reply.points()[i];
@@ -56,7 +56,7 @@ class RoadService final : public launch::Service {
       answer.normal_z(points_[i].normal_W.z());
       answer.friction(points_[i].friction);
       answer.surface(static_cast<std::uint32_t>(points_[i].surface));
-      answer.inside(points_[i].inside ? 1 : 0);
+      answer.inside_world(points_[i].inside ? 1 : 0);
     }
     return idl::Encode(reply);
   }

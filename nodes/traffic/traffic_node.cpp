@@ -164,16 +164,16 @@ class TrafficNode final : public lockstep::Node {
  private:
   // The opposite of what the car took from its agents.
   base::Status TakeHits(const lockstep::Sample& sample) {
-    constexpr std::uint32_t kAgent = 1;  // collision.idl
+    constexpr std::uint32_t kAgent = 1;  // collisions.idl
     const auto touched = idl::Decode<msg::Collisions>(*sample.payload);
     if (!touched) return touched.error();
-    for (const msg::Collision& hit : touched.value().collisions()) {
-      if (hit.partner() != kAgent || hit.partner_source() != stream_) continue;
+    for (const msg::Contact& hit : touched.value().contacts()) {
+      if (hit.partner_kind() != kAgent || hit.partner_source() != stream_) continue;
       if (hit.partner_id() >= model_.vehicles()) {
         model_.HitPedestrian(hit.partner_id());
         continue;
       }
-      model_.Strike(hit.partner_id(), {-hit.impulse_x_ns(), -hit.impulse_y_ns()},
+      model_.Strike(hit.partner_id(), {-hit.impulse_x_newton_s(), -hit.impulse_y_newton_s()},
                     {hit.position_x_m(), hit.position_y_m()});
     }
     return {};

@@ -14,7 +14,7 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr std::uint32_t kInWorld = 0,
-                        kAgent = 1;  // collision.idl; another node's car is an agent by its stream, with the id 0
+                        kAgent = 1;  // collisions.idl; another node's car is an agent by its stream, with the id 0
 
 // The same of another node's car, which turns as well.
 dynamics::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
@@ -104,22 +104,22 @@ void Collisions::SeeWorld(const dynamics::VehicleState& car) {
   }
 }
 
-msg::Collision Collisions::EventOf(const dynamics::Impact& impact, double dt_s) const {
+msg::Contact Collisions::EventOf(const dynamics::Impact& impact, double dt_s) const {
   const Partner& partner = partners_[impact.id];
   const auto single = [](double value) { return static_cast<float>(value); };
-  msg::Collision out;
+  msg::Contact out;
   out.position_x_m(impact.point_W.x());
   out.position_y_m(impact.point_W.y());
   out.position_z_m(impact.point_W.z());
-  out.impulse_x_ns(dt_s * impact.force_W.x());
-  out.impulse_y_ns(dt_s * impact.force_W.y());
-  out.impulse_z_ns(dt_s * impact.force_W.z());
+  out.impulse_x_newton_s(dt_s * impact.force_W.x());
+  out.impulse_y_newton_s(dt_s * impact.force_W.y());
+  out.impulse_z_newton_s(dt_s * impact.force_W.z());
   out.normal_x(single(impact.normal_W.x()));
   out.normal_y(single(impact.normal_W.y()));
   out.normal_z(single(impact.normal_W.z()));
-  out.depth_m(single(impact.depth_m));
-  out.closing_mps(single(impact.closing_mps));
-  out.partner(partner.kind);
+  out.penetration_m(single(impact.depth_m));
+  out.closing_speed_mps(single(impact.closing_mps));
+  out.partner_kind(partner.kind);
   out.partner_source(partner.source);
   out.partner_id(partner.id);
   if (partner.kind == kInWorld) out.partner_name(world_.NameOf(partner.id));
@@ -140,9 +140,9 @@ base::Result<Collisions::Touched> Collisions::Find(const dynamics::VehicleState&
   touched.push = dynamics::WrenchOf(impacts);
   std::vector<std::uint64_t> keys;
   for (const dynamics::Impact& impact : impacts) {
-    msg::Collision event = EventOf(impact, step.dt_s);
+    msg::Contact event = EventOf(impact, step.dt_s);
     event.index(static_cast<std::uint32_t>(keys.size()));
-    touched.event.collisions().push_back(std::move(event));
+    touched.event.contacts().push_back(std::move(event));
     keys.push_back(partners_[impact.id].key());
   }
   touched_ = std::move(keys);

@@ -35,7 +35,7 @@ class Collisions {
 
  private:
   struct Partner {
-    std::uint32_t kind = 0;  // as in collision.idl
+    std::uint32_t kind = 0;  // as in collisions.idl
     std::uint32_t source = 0;
     std::uint32_t id = 0;
 
@@ -54,7 +54,7 @@ class Collisions {
                           const lockstep::StepInfo& step);
   base::Status SeeCars(const dynamics::VehicleState& car, const lockstep::Inbox& inbox, const lockstep::StepInfo& step);
   void SeeWorld(const dynamics::VehicleState& car);
-  msg::Collision EventOf(const dynamics::Impact& impact, double dt_s) const;
+  msg::Contact EventOf(const dynamics::Impact& impact, double dt_s) const;
 
   ObstacleMap world_;
   dynamics::CollisionSpace space_;

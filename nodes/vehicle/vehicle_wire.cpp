@@ -86,7 +86,7 @@ dynamics::VehicleState FromWire(const msg::VehicleState& in) {
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.engine_speed_radps = in.engine_speed_radps();
   out.gear = in.gear();
-  out.fuel_kg = in.fuel_kg();
+  out.fuel_kg = in.fuel_used_kg();
   return out;
 }
 
@@ -123,7 +123,7 @@ msg::VehicleState ToWire(const dynamics::VehicleState& state, const dynamics::Ve
   out.steering_wheel_rad(state.steering_wheel_rad);
   out.steering_torque_nm(Measured(state.steering_torque_Nm));
   out.fuel_rate_kgps(Measured(state.fuel_rate_kgps));
-  out.fuel_kg(state.fuel_kg);
+  out.fuel_used_kg(state.fuel_kg);
   out.odometer_m(state.odometer_m);
   out.drag_n(Measured(state.drag_N));
   out.length_m(Single(dimensions.front_m + dimensions.rear_m));

@@ -75,17 +75,15 @@ TEST(Codec, CutOrForeignBytesAreRefused) {
 }
 
 TEST(Topics, EveryTopicHasATypeInItsText) {
+  ASSERT_GE(Topics().size(), 20u);
   for (const TopicInfo& info : Topics()) {
     const std::string& text = IdlTextOf(info.subject);
     const std::string name = "struct " + std::string(info.type.substr(info.type.rfind(':') + 1)) + " ";
     EXPECT_NE(text.find(name), std::string::npos) << info.topic;
     EXPECT_EQ(text.find('#'), std::string::npos) << info.subject;
-    EXPECT_EQ(info.lockstep, text.find(name + "{\n    Header header;") != std::string::npos ||
-                                 text.find("Header header;", text.find(name)) != std::string::npos)
-        << info.topic;
+    EXPECT_EQ(info.lockstep, text.find(name + "{\n      SampleHeader header;") != std::string::npos) << info.topic;
   }
   EXPECT_EQ(FindTopic("rodeira/control"), nullptr);
-  EXPECT_NE(ProtocolHash(), 0u);
 }
 
 }  // namespace

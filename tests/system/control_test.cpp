@@ -46,7 +46,7 @@ class Control : public ::testing::Test {
 
 // Every step of a run of `last` steps was granted once, in order, at a time that does not go back.
 void ExpectAWallTimeForEveryStep(const std::string& recording, std::int64_t last) {
-  const auto walls = MessagesOf<msg::WallTime>(recording, idl::topics::kWall);
+  const auto walls = MessagesOf<msg::WallTime>(recording, idl::topics::kWallTime);
   ASSERT_FALSE(walls.empty());
   std::int64_t through = -1, monotonic_ns = 0;
   for (const msg::WallTime& wall : walls) {

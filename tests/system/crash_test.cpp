@@ -28,7 +28,7 @@ class Crash : public ::testing::Test {
   }
   // Of one recording: the first partner, the impulse along x of its touch, and the car's fastest and last speed.
   struct Story {
-    std::optional<msg::Collision> first;
+    std::optional<msg::Contact> first;
     double impulse_x_Ns = 0.0;
     int begins = 0;
     double speed_before_mps = 0.0;
@@ -37,12 +37,12 @@ class Crash : public ::testing::Test {
     Story story;
     std::int64_t hit = -1;
     for (const auto& sample : MessagesOf<msg::Collisions>(recording, idl::topics::kCollisions)) {
-      for (const msg::Collision& collision : sample.collisions()) {
+      for (const msg::Contact& collision : sample.contacts()) {
         if (!story.first) {
           story.first = collision;
           hit = sample.header().step();
         }
-        story.impulse_x_Ns += collision.impulse_x_ns();
+        story.impulse_x_Ns += collision.impulse_x_newton_s();
         story.begins += static_cast<int>(collision.begins());
       }
     }
@@ -61,7 +61,7 @@ TEST_F(Crash, IntoAHouseIsRecordedAndComputedAgain) {
   ASSERT_EQ(run.status, 0) << run.out;
   const Story story = StoryOf(recording);
   ASSERT_TRUE(story.first.has_value());
-  EXPECT_EQ(story.first->partner(), 0u);
+  EXPECT_EQ(story.first->partner_kind(), 0u);
   EXPECT_EQ(story.first->partner_name(), "main-object0");
   EXPECT_EQ(story.first->begins(), 1u);
   EXPECT_LT(story.first->normal_x(), -0.99f);
@@ -100,7 +100,7 @@ TEST_F(Crash, IntoAParkedCarOfTraffic) {
   ASSERT_EQ(run.status, 0) << run.out;
   const Story story = StoryOf(recording);
   ASSERT_TRUE(story.first.has_value());
-  EXPECT_EQ(story.first->partner(), 1u);
+  EXPECT_EQ(story.first->partner_kind(), 1u);
   EXPECT_LT(story.first->partner_id(), 24u);
   EXPECT_LT(story.impulse_x_Ns, -1000.0);
   EXPECT_GE(story.begins, 1);
@@ -122,16 +122,17 @@ TEST_F(Crash, IntoTheCarOfAnotherNode) {
   double all_Ns = 0.0;
   int touching = 0;
   for (std::size_t i = 0; i < of_ego.size(); ++i) {
-    ASSERT_EQ(of_ego[i].collisions().size(), of_other[i].collisions().size()) << "step " << i;
-    if (of_ego[i].collisions().empty()) continue;
+    ASSERT_EQ(of_ego[i].contacts().size(), of_other[i].contacts().size()) << "step " << i;
+    if (of_ego[i].contacts().empty()) continue;
     ++touching;
-    const msg::Collision& mine = of_ego[i].collisions().front();
-    const msg::Collision& theirs = of_other[i].collisions().front();
-    EXPECT_EQ(mine.partner(), 1u);
+    const msg::Contact& mine = of_ego[i].contacts().front();
+    const msg::Contact& theirs = of_other[i].contacts().front();
+    EXPECT_EQ(mine.partner_kind(), 1u);
     EXPECT_EQ(mine.partner_source(), states.front().header().source());
     EXPECT_EQ(mine.begins(), theirs.begins());
-    EXPECT_NEAR(mine.impulse_x_ns(), -theirs.impulse_x_ns(), 1e-3 * std::fabs(mine.impulse_x_ns()) + 1e-3);
-    all_Ns += theirs.impulse_x_ns();
+    EXPECT_NEAR(mine.impulse_x_newton_s(), -theirs.impulse_x_newton_s(),
+                1e-3 * std::fabs(mine.impulse_x_newton_s()) + 1e-3);
+    all_Ns += theirs.impulse_x_newton_s();
   }
   EXPECT_GT(touching, 5);
   EXPECT_GT(all_Ns, 2000.0);

@@ -97,7 +97,32 @@ void ExpectRefused(const std::string& environment, const std::vector<std::string
   EXPECT_NE(ended.out.find("the clock's is "), std::string::npos) << ended.out;
 }
 
-TEST(Fault, AnotherProtocolIsRefused) { ExpectRefused("RODEIRA_PRETEND_PROTOCOL=9", {}, "protocol hash"); }
+TEST(Fault, AnotherTypeOfAUsedTopicIsRefused) {
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "refused"});
+  Started node({"RODEIRA_PRETEND_TYPE=rodeira/pulse|unsigned long long value|double value", Bin("rodeira-empty"),
+                "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"});
+  const Ended ended = clock.Wait(20s);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_NE(ended.out.find("node 'a' (process "), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("was refused: its type of topic rodeira/pulse differs from the clock's: "
+                           "rodeira::msg::Pulse, member 2: found 'double value', expected 'unsigned long long value'"),
+            std::string::npos)
+      << ended.out;
+}
+
+TEST(Fault, ANodeWhoseUnusedTopicDiffersTakesPart) {
+  std::vector<std::unique_ptr<Started>> nodes;
+  for (const char* node : {"a", "b", "c", "d"}) {
+    nodes.push_back(std::make_unique<Started>(std::vector<std::string>{
+        "RODEIRA_PRETEND_TYPE=rodeira/controls|double throttle|float throttle", Bin("rodeira-empty"), "--launch",
+        LaunchFile("empty.yaml"), "--run", "unused", "--node", node}));
+  }
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "unused", "--for", "0.5"});
+  const Ended ended = clock.Wait(20s);
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  for (const auto& node : nodes) EXPECT_EQ(node->Wait(5s).status, 0);
+}
+
 TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
 TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
 

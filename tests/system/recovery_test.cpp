@@ -156,7 +156,7 @@ TEST_F(Recovery, AKilledNodeIsBackInStepWithinTwoSecondsOfBeingNamed) {
   ASSERT_EQ(ended.status, 0) << ended.out;
   EXPECT_NE(ended.out.find("again   node 'ego' was killed by signal 9"), std::string::npos) << ended.out;
   std::int64_t before_ns = 0, longest_ns = 0;
-  for (const auto& wall : MessagesOf<msg::WallTime>(File("time.mcap"), idl::topics::kWall)) {
+  for (const auto& wall : MessagesOf<msg::WallTime>(File("time.mcap"), idl::topics::kWallTime)) {
     longest_ns = std::max<std::int64_t>(longest_ns, wall.monotonic_ns() - before_ns);
     before_ns = wall.monotonic_ns();
   }
@@ -181,7 +181,7 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   ::kill(clock, SIGKILL);
   ExpectUndisturbed(run.Wait(60s), File("clock.mcap"));
   std::vector<int> said(20'001, 0);
-  for (const auto& wall : MessagesOf<msg::WallTime>(File("clock.mcap"), idl::topics::kWall)) {
+  for (const auto& wall : MessagesOf<msg::WallTime>(File("clock.mcap"), idl::topics::kWallTime)) {
     ASSERT_LT(wall.through_step(), std::ssize(said));
     for (auto step = wall.after_step() + 1; step <= wall.through_step(); ++step) ++said[static_cast<std::size_t>(step)];
   }

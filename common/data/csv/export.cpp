@@ -91,8 +91,9 @@ std::string FileName(std::string_view topic, std::set<std::string>& taken) {
 
 class Exporter {
  public:
-  Exporter(const record::McapReader& reader, const fs::path& folder, const ExportProgress& progress)
-      : reader_(reader), progress_(progress), workplace_(folder) {}
+  Exporter(const record::McapReader& reader, const fs::path& folder, const decode::Aliases& aliases,
+           const ExportProgress& progress)
+      : reader_(reader), aliases_(aliases), progress_(progress), workplace_(folder) {}
 
   base::Result<ExportReport> Run() {
     if (auto status = workplace_.Begin(); !status) return status.error();
@@ -128,14 +129,15 @@ class Exporter {
       LeaveOut(channel.topic, "snapshots are the states of nodes, no measurements");
       return {};
     }
-    auto type = decode::ReadType(schema->second.text, schema->second.name);
-    if (!type) return base::WrongInput(type.error().Text(), channel.topic);
-    auto layout = LayoutOf(*type.value());
+    const auto recorded = decode::ReadType(schema->second.text, schema->second.name);
+    if (!recorded) return base::WrongInput(recorded.error().Text(), channel.topic);
+    const decode::TypePtr type = aliases_.Renamed(recorded.value());
+    auto layout = LayoutOf(*type);
     if (!layout) return base::WrongInput(layout.error().Text(), channel.topic);
     auto table = std::make_shared<Table>();
-    table->topic = channel.topic;
-    table->file = FileName(channel.topic, names_);
-    table->type = type.value();
+    table->topic = aliases_.Topic(channel.topic);
+    table->file = FileName(table->topic, names_);
+    table->type = type;
     auto file = CsvFile::Create(workplace_.path() / table->file);
     if (!file) return file.error();
     table->writer = std::make_unique<TableWriter>(*table->type, std::move(layout).value(), std::move(file).value());
@@ -187,6 +189,7 @@ class Exporter {
   }
 
   const record::McapReader& reader_;
+  const decode::Aliases& aliases_;
   const ExportProgress& progress_;
   Workplace workplace_;
   ExportReport report_;
@@ -199,10 +202,10 @@ class Exporter {
 }  // namespace
 
 base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder,
-                                     const ExportProgress& progress) {
+                                     const decode::Aliases& aliases, const ExportProgress& progress) {
   fs::path plain = folder.lexically_normal();  // "tables/" names the folder "tables"
   if (!plain.has_filename()) plain = plain.parent_path();
-  return Exporter(reader, plain, progress).Run();
+  return Exporter(reader, plain, aliases, progress).Run();
 }
 
 }  // namespace rodeira::csv

@@ -73,9 +73,9 @@ class Builder {
   Layout& layout_;
 };
 
-// The header of every sample of the lockstep (idl/header.idl), member for member.
+// The header of every sample of the lockstep (idl/sample_header.idl), member for member.
 bool IsHeader(const Type& type) {
-  if (type.kind != Kind::kStruct || type.name != "rodeira::msg::Header" || type.members.size() != 5) return false;
+  if (type.kind != Kind::kStruct || type.name != "rodeira::msg::SampleHeader" || type.members.size() != 5) return false;
   const std::pair<const char*, Kind> expected[] = {{"step", Kind::kInt64},
                                                    {"time_ns", Kind::kInt64},
                                                    {"source", Kind::kUint32},

@@ -13,7 +13,7 @@ inline constexpr std::string_view kPlaceRequest =
     "place";  // argument: the vehicle, and the height near which the ground is meant; value: degrees
 inline constexpr std::string_view kWeatherRequest = "weather";  // argument: its name; value: seconds
 
-// What a window asks for (idl/live.idl).
+// A request of an operator (idl/operator_input.idl).
 struct Request {
   std::string name, argument;
   double x_m = 0.0, y_m = 0.0;

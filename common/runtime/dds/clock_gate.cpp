@@ -10,10 +10,15 @@
 
 namespace rodeira::dds {
 
+ClockGate::ClockGate(LedRun& run, std::uint64_t clock_id)
+    : run_(run), clock_id_(clock_id), who_(run.roster.nodes().size()) {
+  for (lockstep::NodeIndex n = 0; n < run.roster.nodes().size(); ++n) expected_.push_back(OwnHello(run.launch, n));
+}
+
 void ClockGate::Take(const base::Bytes& payload) {
   auto named = DecodeReport(payload);
   if (!named) {
-    refusal_ = "a report that cannot be read was found (a node of another version?): " + named.error().Text();
+    refusal_ = named.error().Text();
     return;
   }
   Take(named.value());
@@ -44,8 +49,9 @@ void ClockGate::Take(NamedReport& named) {
 }
 
 base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport& named) {
-  if (own_.world == 0) own_.world = named.hello.world;
-  if (auto status = CheckHello(own_, named.hello); !status) {
+  if (world_ == 0) world_ = named.hello.world;
+  expected_[node].world = world_;
+  if (auto status = CheckHello(expected_[node], named.hello); !status) {
     return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node,
                                         named.hello.pid, named.hello.host, status.error().Text()));
   }

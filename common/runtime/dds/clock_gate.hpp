@@ -14,8 +14,7 @@ namespace rodeira::dds {
 // may not drive together.
 class ClockGate {
  public:
-  ClockGate(LedRun& run, const Hello& own, std::uint64_t clock_id)
-      : run_(run), own_(own), clock_id_(clock_id), who_(run.roster.nodes().size()) {}
+  ClockGate(LedRun& run, std::uint64_t clock_id);
 
   // A report as it came. What it says goes to clock, watchdog and losses.
   void Take(const base::Bytes& payload);
@@ -37,7 +36,8 @@ class ClockGate {
   base::Status CheckOnce(lockstep::NodeIndex node, const NamedReport& named);
 
   LedRun& run_;
-  Hello own_;
+  std::vector<Hello> expected_;  // by node: what this program would say as that node
+  base::Digest world_ = 0;       // of the first node that has one
   std::uint64_t clock_id_;
   std::vector<Who> who_;  // by node
   std::string refusal_;

@@ -94,19 +94,19 @@ base::Status NodeBus::Connect(Participant& participant) {
   if (auto status = ConnectParcels(participant); !status) return status;
   // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their
   // process also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
-  auto answers = participant.MakeWriter(topics::kAnswers, Delivery::kSaidAgain);
+  auto answers = participant.MakeWriter(topics::kRetransmissions, Delivery::kSaidAgain);
   if (!answers) return answers.error();
   answers_writer_ = std::move(answers).value();
   if (auto status =
-          add_reader(topics::kAnswers, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); });
+          add_reader(topics::kRetransmissions, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); });
       !status)
     return status;
   if (!writers_.empty() || settings_.keeps_all) {
-    if (auto status = add_reader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+    if (auto status = add_reader(topics::kNack, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
         !status)
       return status;
   }
-  auto questions = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
+  auto questions = participant.MakeWriter(topics::kNack, Delivery::kSaidAgain);
   if (!questions) return questions.error();
   questions_ = std::move(questions).value();
   auto reports = participant.MakeWriter(topics::kReport, Delivery::kSaidAgain);
@@ -117,7 +117,9 @@ base::Status NodeBus::Connect(Participant& participant) {
 
 // Whom this node sends parcels, and those for it.
 base::Status NodeBus::ConnectParcels(Participant& participant) {
-  const auto topic_of = [&](lockstep::NodeIndex n) { return std::string(topics::kParcels) + roster_.node(n).name; };
+  const auto topic_of = [&](lockstep::NodeIndex n) {
+    return std::string(topics::kSampleBatches) + roster_.node(n).name;
+  };
   for (const lockstep::NodeIndex n : parcels_.Consumers()) {
     auto writer = participant.MakeWriter(topic_of(n), Delivery::kSaidAgain);
     if (!writer) return writer.error();
@@ -233,6 +235,8 @@ void NodeBus::Tell(const lockstep::Report& report) {
     named.clock_id = clock_id_;
     named.hello = settings_.hello;
     named.report = last_;
+    // Until the clock has let it begin: it has read them by then.
+    if (last_.phase > lockstep::Phase::kReady && grant.through >= 0) named.hello.topics = nullptr;
   }
   named.node = roster_.node(settings_.node).name;
   (void)reports_->Write(EncodeReport(named));  // a lost report is said again by the heartbeat

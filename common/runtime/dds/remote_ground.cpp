@@ -31,7 +31,7 @@ base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& part
 void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   RODEIRA_ASSERT(queries.size() == points.size());
   msg::GroundRequest request;
-  request.asker(asker_);
+  request.requester(asker_);
   request.incarnation(incarnation_);
   request.points().resize(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -41,7 +41,7 @@ void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span
   }
   if (runner_ != nullptr) runner_->BeginServerCall();
   std::unique_lock lock(mutex_);
-  request.number(++number_);
+  request.request_number(++number_);
   answered_ = false;
   points_ = points;
   const base::Bytes payload = idl::Encode(request);
@@ -73,14 +73,14 @@ void RemoteGround::OnReply(base::Bytes&& payload) {
   if (!reply) return;
   const std::lock_guard lock(mutex_);
   const auto& answers = reply.value().points();
-  if (answered_ || reply.value().number() != number_ || answers.size() != points_.size()) return;
+  if (answered_ || reply.value().request_number() != number_ || answers.size() != points_.size()) return;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const auto& answer = answers[i];
     points_[i] = {answer.z_m(),
                   {answer.normal_x(), answer.normal_y(), answer.normal_z()},
                   answer.friction(),
                   static_cast<ground::Surface>(answer.surface()),
-                  answer.inside() != 0};
+                  answer.inside_world() != 0};
   }
   answered_ = true;
   woken_.notify_all();

@@ -16,14 +16,14 @@ class RemoteKeysSender final : public launch::LiveKeysSender {
  public:
   explicit RemoteKeysSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void Say(std::vector<LiveKey> keys) override {
-    msg::LiveKeys out;
-    out.window(window_);
+    msg::WindowKeys out;
+    out.window_id(window_);
     out.number(++number_);
     out.keys().resize(keys.size());
     for (std::size_t i = 0; i < keys.size(); ++i) {
       out.keys()[i].key(keys[i].key);
-      out.keys()[i].held(keys[i].held ? 1 : 0);
-      out.keys()[i].presses(keys[i].presses);
+      out.keys()[i].pressed(keys[i].held ? 1 : 0);
+      out.keys()[i].press_count(keys[i].presses);
     }
     (void)writer_->Write(idl::Encode(out));  // it is said again soon
   }
@@ -37,7 +37,7 @@ class RemoteKeysSender final : public launch::LiveKeysSender {
 class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader = participant.MakeReader(idl::topics::kLiveKeys, Delivery::kSaidAgain,
+    auto reader = participant.MakeReader(idl::topics::kWindowKeys, Delivery::kSaidAgain,
                                          [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
@@ -47,11 +47,12 @@ class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
 
  private:
   void Hear(const base::Bytes& bytes) {
-    const auto in = idl::Decode<msg::LiveKeys>(bytes);
+    const auto in = idl::Decode<msg::WindowKeys>(bytes);
     if (!in) return;
-    launch::LiveKeysSaid said{in.value().window(), in.value().number(), {}};
+    launch::LiveKeysSaid said{in.value().window_id(), in.value().number(), {}};
     said.keys.reserve(in.value().keys().size());
-    for (const msg::LiveKey& key : in.value().keys()) said.keys.push_back({key.key(), key.held() != 0, key.presses()});
+    for (const msg::KeyState& key : in.value().keys())
+      said.keys.push_back({key.key(), key.pressed() != 0, key.press_count()});
     memory_.Hear(said, launch::WallSeconds());
   }
 
@@ -62,7 +63,7 @@ class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
 }  // namespace
 
 base::Result<std::unique_ptr<launch::LiveKeysSender>> OpenKeysSender(Participant& participant) {
-  auto writer = participant.MakeWriter(idl::topics::kLiveKeys, Delivery::kSaidAgain);
+  auto writer = participant.MakeWriter(idl::topics::kWindowKeys, Delivery::kSaidAgain);
   if (!writer) return writer.error();
   return std::unique_ptr<launch::LiveKeysSender>(std::make_unique<RemoteKeysSender>(std::move(writer).value()));
 }

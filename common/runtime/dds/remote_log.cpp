@@ -37,7 +37,7 @@ class Speaker final : public LogSpeaker {
     if (!writer) return writer.error();
     writer_ = std::move(writer).value();
     auto reader =
-        participant.MakeReader(topics::kAsk, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+        participant.MakeReader(topics::kNack, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -75,7 +75,7 @@ class Receiver final : public launch::RunLogReceiver {
  public:
   explicit Receiver(base::Digest roster_hash) : roster_hash_(roster_hash) {}
   base::Status Open(Participant& participant) {
-    auto writer = participant.MakeWriter(topics::kAsk, Delivery::kSaidAgain);
+    auto writer = participant.MakeWriter(topics::kNack, Delivery::kSaidAgain);
     if (!writer) return writer.error();
     questions_ = std::move(writer).value();
     auto reader =
@@ -125,7 +125,7 @@ base::Bytes EncodeLog(std::uint64_t clock_id, std::int64_t base_step_ns, const l
   out.clock_id(clock_id);
   out.number(batch.number);
   out.last(batch.last ? 1 : 0);
-  for (const lockstep::WallTime& wall : batch.walls) out.walls().push_back(launch::ToWire(wall));
+  for (const lockstep::WallTime& wall : batch.walls) out.wall_times().push_back(launch::ToWire(wall));
   for (const lockstep::Remark& remark : batch.remarks) out.remarks().push_back(launch::ToWire(remark, base_step_ns));
   return idl::Encode(out);
 }
@@ -135,7 +135,7 @@ base::Result<HeardLog> DecodeLog(const base::Bytes& payload) {
   if (!decoded) return decoded.error();
   const msg::RunLog& in = decoded.value();
   HeardLog heard{in.clock_id(), {in.number(), {}, {}, in.last() != 0}};
-  for (const msg::WallTime& wall : in.walls()) {
+  for (const msg::WallTime& wall : in.wall_times()) {
     heard.batch.walls.push_back({wall.after_step(), wall.through_step(), wall.utc_ns(), wall.monotonic_ns(),
                                  wall.late_ns(), wall.pace(), wall.paused() != 0});
   }

@@ -15,8 +15,8 @@ class RemoteRequestsSender final : public launch::LiveRequestsSender {
  public:
   explicit RemoteRequestsSender(std::unique_ptr<Writer> writer) : writer_(std::move(writer)) {}
   void Say(std::vector<launch::LiveRequest> requests) override {
-    msg::LiveRequests out;
-    out.window(window_);
+    msg::OperatorRequests out;
+    out.client_id(window_);
     out.requests().resize(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i) {
       out.requests()[i].number(requests[i].number);
@@ -37,7 +37,7 @@ class RemoteRequestsSender final : public launch::LiveRequestsSender {
 class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader = participant.MakeReader(idl::topics::kLiveRequests, Delivery::kSaidAgain,
+    auto reader = participant.MakeReader(idl::topics::kOperatorRequests, Delivery::kSaidAgain,
                                          [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
@@ -47,10 +47,10 @@ class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
 
  private:
   void Hear(const base::Bytes& bytes) {
-    const auto in = idl::Decode<msg::LiveRequests>(bytes);
+    const auto in = idl::Decode<msg::OperatorRequests>(bytes);
     if (!in) return;
-    launch::LiveRequestsSaid said{in.value().window(), {}};
-    for (const msg::LiveRequest& request : in.value().requests()) {
+    launch::LiveRequestsSaid said{in.value().client_id(), {}};
+    for (const msg::OperatorRequest& request : in.value().requests()) {
       said.requests.push_back(
           {request.number(), request.name(), request.argument(), request.x_m(), request.y_m(), request.value()});
     }
@@ -64,7 +64,7 @@ class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
 }  // namespace
 
 base::Result<std::unique_ptr<launch::LiveRequestsSender>> OpenRequestsSender(Participant& participant) {
-  auto writer = participant.MakeWriter(idl::topics::kLiveRequests, Delivery::kSaidAgain);
+  auto writer = participant.MakeWriter(idl::topics::kOperatorRequests, Delivery::kSaidAgain);
   if (!writer) return writer.error();
   return std::unique_ptr<launch::LiveRequestsSender>(std::make_unique<RemoteRequestsSender>(std::move(writer).value()));
 }

@@ -28,7 +28,6 @@
 #include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/triggers.hpp"
 #include "common/runtime/dds/wire.hpp"
-#include "common/runtime/launch/agreement.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -51,7 +50,7 @@ class ClockProcess {
       : options_(options),
         clock_id_(DrawnIfNone(options.clock_id)),
         run_(launch, options),
-        gate_(run_, OwnHello(launch::Agreement(launch)), clock_id_),
+        gate_(run_, clock_id_),
         losses_(run_, [this](lockstep::NodeIndex node) { OnNextLife(node); }),
         desk_(run_, losses_) {}
 

@@ -18,7 +18,6 @@
 #include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/dds/wire.hpp"
-#include "common/runtime/launch/agreement.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -179,7 +178,7 @@ class Follower {
     NamedReport report;
     report.node = roster_.node(lost.node).name;
     report.clock_id = now.clock_id;
-    report.hello = OwnHello(launch::Agreement(launch_));
+    report.hello = OwnHello(launch_, lost.node);
     if (now.reports[lost.node]) report.report = *now.reports[lost.node];
     report.report.incarnation = LifeOf(now, lost.node);
     report.report.phase = phase;

@@ -15,7 +15,6 @@
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/remote_requests.hpp"
 #include "common/runtime/dds/run.hpp"
-#include "common/runtime/launch/agreement.hpp"
 #include "common/runtime/lockstep/pump.hpp"
 #include "common/runtime/lockstep/recovery.hpp"
 #include "common/runtime/lockstep/runner.hpp"
@@ -195,7 +194,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(launch::Agreement(launch.value()));
+  settings.hello = OwnHello(launch.value(), index);
   settings.most_parcel_bytes =
       domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
   settings.most_answer_bytes =

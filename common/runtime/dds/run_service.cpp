@@ -9,7 +9,6 @@
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/run.hpp"
-#include "common/runtime/launch/agreement.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::dds {
@@ -50,7 +49,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   NodeBus::Settings settings;
   settings.node = index;
   settings.incarnation = options.incarnation;
-  settings.hello = OwnHello(launch::Agreement(launch.value()));
+  settings.hello = OwnHello(launch.value(), index);
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return base::PrintError(program, bus.error());
 

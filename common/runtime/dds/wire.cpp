@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <span>
 
+#include "common/core/base/assert.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/runtime/launch/agreement.hpp"
+#include "common/runtime/launch/used_topics.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -27,25 +31,80 @@ base::Status Compare(std::string_view what, base::Digest own, base::Digest other
       fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
 }
 
+// "TOPIC|OLD|NEW": this process pretends that the text of the topic's type has NEW where it has OLD.
+void Pretend(std::string_view what, std::vector<idl::TopicText>& topics) {
+  const std::size_t first = what.find('|');
+  const std::size_t second = what.find('|', first + 1);
+  RODEIRA_ASSERT(second != std::string_view::npos);
+  const std::string_view before = what.substr(first + 1, second - first - 1);
+  for (idl::TopicText& text : topics) {
+    const std::size_t at = text.idl.find(before);
+    if (text.topic == what.substr(0, first) && at != std::string::npos)
+      text.idl.replace(at, before.size(), what.substr(second + 1));
+  }
+}
+
+const idl::TopicText* FindText(const std::vector<idl::TopicText>& topics, std::string_view topic) {
+  const auto found = std::ranges::find(topics, topic, &idl::TopicText::topic);
+  return found == topics.end() ? nullptr : &*found;
+}
+
+// Why two protocol hashes differ.
+std::string ProtocolDifference(const Hello& own, const Hello& other) {
+  constexpr std::string_view kAdvice = "both PCs need the same version of Rodeira";
+  if (other.topics != nullptr && own.topics != nullptr) {
+    for (const idl::TopicText& text : *other.topics) {
+      if (FindText(*own.topics, text.topic) == nullptr)
+        return fmt::format("it uses topic {}, which the clock does not expect of it; {}", text.topic, kAdvice);
+      if (const auto difference = idl::TypeDifference(text.topic, {text.idl, text.type}))
+        return fmt::format("its type of topic {} differs from the clock's: {}; {}", text.topic, *difference, kAdvice);
+    }
+    for (const idl::TopicText& text : *own.topics) {
+      if (FindText(*other.topics, text.topic) == nullptr)
+        return fmt::format("it does not use topic {}, which the clock expects of it; {}", text.topic, kAdvice);
+    }
+  }
+  return fmt::format("its protocol hash is {}, the clock's is {}; {}", base::Hex(other.protocol),
+                     base::Hex(own.protocol), kAdvice);
+}
+
+base::Digest ReportHash() {
+  static const base::Digest kHash = idl::TypeHash(idl::topics::kReport);
+  return kHash;
+}
+base::Digest GrantHash() {
+  static const base::Digest kHash = idl::TypeHash(idl::topics::kGrant);
+  return kHash;
+}
+base::Error Unreadable(const base::Error& error) {
+  return base::WrongInput("a report cannot be read; is a node of another version?: " + error.Text());
+}
+// The first member of grants and reports: the hash of their type.
+base::Digest FirstMember(const base::Bytes& payload) {
+  base::ByteReader in(payload);
+  (void)in.GetRaw(4);
+  return in.Get<base::Digest>();
+}
+
 }  // namespace
 
-Hello OwnHello(base::Digest roster_hash) {
+Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
+  std::vector<idl::TopicText> topics = idl::TextsOf(launch::UsedTopics(launch, node));
+  if (const char* pretend = std::getenv("RODEIRA_PRETEND_TYPE")) Pretend(pretend, topics);
   Hello hello;
-  hello.protocol = idl::ProtocolHash();
-  hello.roster = roster_hash;
+  hello.report = base::Hash(FindText(topics, idl::topics::kReport)->idl);
+  hello.protocol = idl::ProtocolHash(topics);
+  hello.roster = launch::Agreement(launch);
   hello.mathematics = base::MathematicsDigest();
   hello.host = HostName();
   hello.pid = static_cast<std::uint32_t>(::getpid());
-  // For the tests of the refusal: a build of another version and a machine of other mathematics.
-  if (const char* pretend = std::getenv("RODEIRA_PRETEND_PROTOCOL")) hello.protocol = base::Hash(pretend);
+  hello.topics = std::make_shared<const std::vector<idl::TopicText>>(std::move(topics));
   if (const char* pretend = std::getenv("RODEIRA_PRETEND_MATHEMATICS")) hello.mathematics = base::Hash(pretend);
   return hello;
 }
 
 base::Status CheckHello(const Hello& own, const Hello& other) {
-  if (auto status = Compare("protocol hash", own.protocol, other.protocol, "both PCs need the same version of Rodeira");
-      !status)
-    return status;
+  if (own.protocol != other.protocol) return base::WrongInput(ProtocolDifference(own, other));
   if (auto status =
           Compare("roster hash", own.roster, other.roster, "both need the same launch file and the same --set");
       !status)
@@ -60,14 +119,23 @@ base::Status CheckHello(const Hello& own, const Hello& other) {
 
 base::Bytes EncodeReport(const NamedReport& in) {
   msg::Report out;
-  out.clock_id(in.clock_id);
-  out.node(in.node);
+  out.identity().report_hash(in.hello.report);
+  out.identity().node(in.node);
+  out.identity().host(in.hello.host);
+  out.identity().pid(in.hello.pid);
   out.hello().protocol_hash(in.hello.protocol);
   out.hello().roster_hash(in.hello.roster);
   out.hello().world_hash(in.hello.world);
-  out.hello().mathematics_hash(in.hello.mathematics);
-  out.hello().host(in.hello.host);
-  out.hello().pid(in.hello.pid);
+  out.hello().math_library_hash(in.hello.mathematics);
+  if (in.hello.topics != nullptr) {
+    for (const idl::TopicText& text : *in.hello.topics) {
+      msg::TopicType& topic = out.hello().topics().emplace_back();
+      topic.topic(text.topic);
+      topic.type(text.type);
+      topic.idl(text.idl);
+    }
+  }
+  out.clock_id(in.clock_id);
   const lockstep::Report& report = in.report;
   out.incarnation(report.incarnation);
   out.phase(static_cast<std::uint32_t>(report.phase));
@@ -82,7 +150,7 @@ base::Bytes EncodeReport(const NamedReport& in) {
   out.server_calls(report.server_calls);
   out.median_interval_ns(report.median_interval_ns);
   out.p99_interval_ns(report.p99_interval_ns);
-  out.safe_step(report.safe);
+  out.recorded_step(report.safe);
   out.granted_step(report.granted);
   out.granted_final(report.granted_final);
   out.cannot_save(report.cannot_save);
@@ -91,18 +159,39 @@ base::Bytes EncodeReport(const NamedReport& in) {
 }
 
 base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
+  if (payload.size() >= 12 && FirstMember(payload) != ReportHash()) {
+    const auto identity = idl::Decode<msg::NodeIdentity>(payload);
+    if (!identity) return Unreadable(identity.error());
+    const msg::NodeIdentity& who = identity.value();
+    return base::WrongInput(fmt::format(
+        "node '{}' (process {} on host {}) was refused: its type of topic {} differs from the clock's: its hash is {}, "
+        "the clock's is {}; both PCs need the same version of Rodeira",
+        who.node(), who.pid(), who.host(), idl::topics::kReport, base::Hex(who.report_hash()),
+        base::Hex(ReportHash())));
+  }
   auto decoded = idl::Decode<msg::Report>(payload);
-  if (!decoded) return decoded.error();
+  if (!decoded) return Unreadable(decoded.error());
   msg::Report& in = decoded.value();
   if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) ||
       in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
     return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }
   NamedReport out;
-  out.node = in.node();
+  out.node = in.identity().node();
   out.clock_id = in.clock_id();
-  out.hello = {in.hello().protocol_hash(),    in.hello().roster_hash(), in.hello().world_hash(),
-               in.hello().mathematics_hash(), in.hello().host(),        in.hello().pid()};
+  out.hello.report = in.identity().report_hash();
+  out.hello.protocol = in.hello().protocol_hash();
+  out.hello.roster = in.hello().roster_hash();
+  out.hello.world = in.hello().world_hash();
+  out.hello.mathematics = in.hello().math_library_hash();
+  out.hello.host = in.identity().host();
+  out.hello.pid = in.identity().pid();
+  if (!in.hello().topics().empty()) {
+    std::vector<idl::TopicText> topics;
+    for (const msg::TopicType& topic : in.hello().topics())
+      topics.push_back({topic.topic(), topic.type(), topic.idl()});
+    out.hello.topics = std::make_shared<const std::vector<idl::TopicText>>(std::move(topics));
+  }
   out.report.incarnation = in.incarnation();
   out.report.phase = static_cast<lockstep::Phase>(in.phase());
   out.report.progress = in.progress_step();
@@ -116,7 +205,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   out.report.server_calls = in.server_calls();
   out.report.median_interval_ns = in.median_interval_ns();
   out.report.p99_interval_ns = in.p99_interval_ns();
-  out.report.safe = in.safe_step();
+  out.report.safe = in.recorded_step();
   out.report.granted = in.granted_step();
   out.report.granted_final = in.granted_final();
   out.report.cannot_save = in.cannot_save();
@@ -126,21 +215,24 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
 
 base::Bytes EncodeGrant(const NumberedGrant& in) {
   msg::Grant out;
+  out.grant_hash(GrantHash());
   out.clock_id(in.clock_id);
   out.serial(in.serial);
   out.roster_hash(in.grant.roster);
   out.through_step(in.grant.through);
   out.final_step(in.grant.final);
   out.abort(in.grant.abort);
-  out.over(in.grant.over);
-  out.safe_step(in.grant.safe);
+  out.finished(in.grant.over);
+  out.recorded_step(in.grant.safe);
   out.resume_step(in.grant.resume);
-  out.lives(in.grant.lives);
+  out.incarnations(in.grant.lives);
   out.reason(in.grant.reason);
   return idl::Encode(out);
 }
 
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
+  if (payload.size() >= 12 && FirstMember(payload) != GrantHash())
+    return base::WrongInput("a grant of another version was found");
   auto decoded = idl::Decode<msg::Grant>(payload);
   if (!decoded) return decoded.error();
   msg::Grant& in = decoded.value();
@@ -151,34 +243,34 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   out.grant.through = in.through_step();
   out.grant.final = in.final_step();
   out.grant.abort = in.abort();
-  out.grant.over = in.over();
-  out.grant.safe = in.safe_step();
+  out.grant.over = in.finished();
+  out.grant.safe = in.recorded_step();
   out.grant.resume = in.resume_step();
-  out.grant.lives = in.lives();
+  out.grant.lives = in.incarnations();
   out.grant.reason = in.reason();
   return out;
 }
 
 base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question) {
-  msg::Ask out;
+  msg::Nack out;
   out.roster_hash(roster_hash);
   out.from_step(question.gap.from);
   out.source(question.gap.source);
-  out.asker(question.asker);
+  out.requester(question.asker);
   return idl::Encode(out);
 }
 
 std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload) {
-  const auto in = idl::Decode<msg::Ask>(payload);
+  const auto in = idl::Decode<msg::Nack>(payload);
   if (!in || in.value().roster_hash() != roster_hash) return std::nullopt;
-  return lockstep::Question{in.value().asker(), {in.value().source(), in.value().from_step()}};
+  return lockstep::Question{in.value().requester(), {in.value().source(), in.value().from_step()}};
 }
 
 base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples) {
   std::size_t size = 0;
   for (const lockstep::Sample& sample : samples) size += sizeof(std::uint32_t) + sample.payload->size();
-  msg::Parcel out;
-  out.to(to);
+  msg::SampleBatch out;
+  out.consumer(to);
   auto& bytes = out.samples();
   bytes.resize(size);
   std::uint8_t* at = bytes.data();
@@ -192,10 +284,10 @@ base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sampl
 }
 
 base::Result<Opened> DecodeParcel(const base::Bytes& payload) {
-  const auto in = idl::Decode<msg::Parcel>(payload);
+  const auto in = idl::Decode<msg::SampleBatch>(payload);
   if (!in) return in.error();
   const auto all = std::as_bytes(std::span(in.value().samples()));
-  Opened opened{in.value().to(), {}};
+  Opened opened{in.value().consumer(), {}};
   for (std::size_t at = 0; at < all.size();) {
     std::uint32_t length = 0;
     if (all.size() - at < sizeof(length))

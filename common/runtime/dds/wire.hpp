@@ -1,41 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/core/base/bytes.hpp"
 #include "common/core/base/result.hpp"
+#include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/questions.hpp"
 #include "common/runtime/lockstep/report.hpp"
 #include "common/runtime/lockstep/roster.hpp"
+#include "idl/topic_types.hpp"
 
 namespace rodeira::dds {
 
-// What two processes must share to drive together (the hello of law L7 and of the protocol).
+// What two processes must share to take part in one run (law L7).
 struct Hello {
-  base::Digest protocol = 0;  // of all IDL texts
+  base::Digest report = 0;    // of the type of rodeira/report
+  base::Digest protocol = 0;  // of the types of all topics that the node uses
   base::Digest roster = 0;
   base::Digest world = 0;  // 0: knows none
   base::Digest mathematics = 0;
   std::string host;
   std::uint32_t pid = 0;
+  std::shared_ptr<const std::vector<idl::TopicText>> topics;  // behind `protocol`; null: the report does not say
 };
 
-// This process, of this build, in a run with this roster.
-Hello OwnHello(base::Digest roster_hash);
-// Wrong input that names what differs, with both values; worlds are compared where both know one.
+// This process, of this build, as this node of the launch. RODEIRA_PRETEND_TYPE and RODEIRA_PRETEND_MATHEMATICS change
+// it, for tests of the refusal.
+Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node);
+// Wrong input that names what differs, with both values. Worlds are compared if both have one.
 base::Status CheckHello(const Hello& own, const Hello& other);
 
 struct NamedReport {
   std::string node;
   std::uint64_t clock_id = 0;
-  Hello hello;
+  Hello hello;              // its topics are sent along if they are there
   lockstep::Report report;  // report.node is not set: the name decides
 };
 
 base::Bytes EncodeReport(const NamedReport& report);
+// Wrong input if it cannot be read, and if the sender's type of the report is another one; this names the node.
 base::Result<NamedReport> DecodeReport(const base::Bytes& payload);
 
 struct NumberedGrant {

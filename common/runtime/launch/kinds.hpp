@@ -24,7 +24,8 @@ struct NodeKind {
   double default_period_s = 0.0;
   std::vector<std::string_view> outputs;
   std::vector<KindPort> inputs;
-  std::string_view program;  // the executable beside `rodeira`
+  std::string_view program;                   // the executable beside `rodeira`
+  std::vector<std::string_view> side_topics;  // outside the lockstep: servers, windows, the run log
 };
 
 // A node of this kind is not there: `--set nodes.view.kind=none` leaves it out.

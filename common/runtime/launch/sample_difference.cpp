@@ -7,9 +7,8 @@
 #include <optional>
 
 #include "common/core/base/state_fields.hpp"
-#include "common/data/decode/idl_reader.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
-#include "idl/topics.hpp"
+#include "idl/topic_types.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -54,10 +53,7 @@ const decode::Type* SampleDifference::TypeOf(lockstep::SourceIndex source) {
   const std::string& topic = roster_.source(source).topic;
   const auto known = types_.find(topic);
   if (known != types_.end()) return known->second.get();
-  const idl::TopicInfo* info = idl::FindTopic(topic);
-  const auto type = info == nullptr ? base::Result<decode::TypePtr>(base::WrongInput(""))
-                                    : decode::ReadType(idl::IdlTextOf(info->subject), std::string(info->type));
-  return (types_[topic] = type.ok() ? type.value() : nullptr).get();
+  return (types_[topic] = idl::TypeOf(topic)).get();
 }
 
 std::string ContradictionText(const lockstep::Roster& roster, const Sample& before, const Sample& now) {

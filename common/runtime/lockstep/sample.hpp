@@ -13,8 +13,8 @@
 
 namespace rodeira::lockstep {
 
-// The first member of every topic's type (idl/header.idl), as it lies in a serialised payload: little-endian CDR, four
-// encapsulation bytes, then these fields without padding.
+// The first member of every topic's type (idl/sample_header.idl), as it lies in a serialised payload: little-endian
+// CDR, four encapsulation bytes, then these fields without padding.
 struct SampleHeader {
   Step step = 0;                  // valid at
   std::int64_t time_ns = 0;       // step * base step

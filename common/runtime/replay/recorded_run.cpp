@@ -14,7 +14,8 @@
 #include "common/data/record/text_number.hpp"
 #include "common/runtime/launch/files_of.hpp"
 #include "common/runtime/replay/splice.hpp"
-#include "idl/topics.hpp"
+#include "idl/aliases.hpp"
+#include "idl/topic_types.hpp"
 
 namespace rodeira::replay {
 namespace {
@@ -116,13 +117,6 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   if (!metadata) return metadata.error();
   if (!metadata.value()) return base::WrongInput("this is no recording of Rodeira: its metadata 'rodeira' is missing");
   const record::TextMap& about = metadata.value()->entries;
-  const std::string protocol = Entry(about, "protocol_hash");
-  if (protocol != base::Hex(idl::ProtocolHash())) {
-    return base::WrongInput(
-        fmt::format("the recording's protocol hash is {}, this program's is {}: it was written by another version "
-                    "({}); read it with that one",
-                    protocol, base::Hex(idl::ProtocolHash()), Entry(about, "version")));
-  }
   mathematics_ = Entry(about, "mathematics_hash");
   version_ = Entry(about, "version");
   world_hash_ = Entry(about, "world_hash");
@@ -175,7 +169,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     const auto number = record::WholeNumber(channel.metadata, "source_number");
     if (!number) continue;
     if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() ||
-        roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != channel.topic) {
+        roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != idl::Aliases().Topic(channel.topic)) {
       return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know",
                                           channel.topic, *number));
     }
@@ -204,26 +198,44 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   return {};
 }
 
-// The hash of the protocol is a word about these texts; the texts themselves are what other programs read the file by.
-base::Status RecordedRun::CheckSchema(const record::Channel& channel) const {
-  const idl::TopicInfo* info = idl::FindTopic(channel.topic);
-  const auto schema = reader_.schemas().find(channel.schema);
-  if (info == nullptr || schema == reader_.schemas().end())
-    return base::WrongInput(fmt::format("the channel of topic {} has no IDL that this program knows", channel.topic));
-  if (schema->second.name == info->type && schema->second.text == idl::IdlTextOf(info->subject)) return {};
+base::Status RecordedRun::CheckTypes(const std::set<std::string_view>& topics) const {
+  std::string differences;
+  std::set<std::pair<std::string, record::SchemaId>> compared;
+  for (const auto& [id, channel] : reader_.channels()) {
+    const std::string topic(idl::Aliases().Topic(channel.topic));
+    if (!topics.contains(topic) || !compared.insert({topic, channel.schema}).second) continue;
+    const auto schema = reader_.schemas().find(channel.schema);
+    const auto difference = schema == reader_.schemas().end()
+                                ? std::optional<std::string>("it has no type in the recording")
+                                : idl::RecordedTypeDifference(topic, {schema->second.text, schema->second.name});
+    if (difference) differences += fmt::format("{}topic {}: {}", differences.empty() ? "" : "; ", topic, *difference);
+  }
+  if (differences.empty()) return {};
   return base::WrongInput(
-      fmt::format("the recording's IDL of topic {} ({}) is not this program's ({}), though its protocol hash is; it "
-                  "was changed after it was written",
-                  channel.topic, schema->second.name, info->type));
+      fmt::format("the recording's types are not this program's: {}; it was recorded by version {}, "
+                  "commit {}: use that version",
+                  differences, version_, commit_),
+      path_.string());
+}
+
+base::Status RecordedRun::CheckTypes() const {
+  std::set<std::string_view> topics;
+  for (const auto& [channel, source] : sources_) topics.insert(roster().source(source).topic);
+  return CheckTypes(topics);
+}
+
+std::vector<record::ChannelId> RecordedRun::ChannelsOf(std::string_view topic) const {
+  std::vector<record::ChannelId> channels;
+  for (const auto& [id, channel] : reader_.channels()) {
+    if (idl::Aliases().Topic(channel.topic) == topic) channels.push_back(id);
+  }
+  return channels;
 }
 
 // What the recorder listened to has a channel each: where one is missing, all samples of its source went with it.
 base::Status RecordedRun::CheckChannels() const {
   std::set<lockstep::SourceIndex> known;
-  for (const auto& [channel, source] : sources_) {
-    known.insert(source);
-    if (auto status = CheckSchema(reader_.channels().at(channel)); !status) return status;
-  }
+  for (const auto& [channel, source] : sources_) known.insert(source);
   for (lockstep::NodeIndex n = 0; n < roster().nodes().size(); ++n) {
     if (launch_->node(n).kind->name != "recorder") continue;
     for (const lockstep::Port& port : roster().node(n).inputs) {

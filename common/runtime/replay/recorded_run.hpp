@@ -5,8 +5,10 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/base/result.hpp"
@@ -41,7 +43,7 @@ class SampleStream {
 class RecordedRun {
  public:
   // `extra` replaces values of the recorded launch file, behind the run's own --set. Wrong input where this is no
-  // recording of Rodeira, is not whole, or was written by another version of the protocol.
+  // recording of Rodeira or is not whole. Its types are not compared with this program's: see CheckTypes.
   static base::Result<RecordedRun> Open(const std::filesystem::path& path, const launch::Overrides& extra = {});
 
   const std::filesystem::path& path() const { return path_; }
@@ -57,6 +59,14 @@ class RecordedRun {
   base::Error Named(const base::Error& error) const;
   // Wrong input where a byte of the file is not as it was written. Reads all of it.
   base::Status CheckBytes() const;
+  // Wrong input if the recorded type of one of these topics (today's names) is not this program's, also by the aliases
+  // of names; it says which topic, what differs and which program recorded. A topic that is not recorded is passed
+  // over.
+  base::Status CheckTypes(const std::set<std::string_view>& topics) const;
+  // The same of every topic of the run's samples: what computing the run again needs.
+  base::Status CheckTypes() const;
+  // By today's name of the topic.
+  std::vector<record::ChannelId> ChannelsOf(std::string_view topic) const;
   // Wrong input where this process would compute other bits than the one that recorded (law L7).
   base::Status CheckMathematics() const;
   // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
@@ -84,7 +94,6 @@ class RecordedRun {
  private:
   explicit RecordedRun(record::McapReader reader, base::TemporaryFolder folder)
       : reader_(std::move(reader)), folder_(std::move(folder)) {}
-  base::Status CheckSchema(const record::Channel& channel) const;
   base::Status CheckChannels() const;
   base::Status CheckSamples(const lockstep::Snapshot& snapshot) const;
   base::Status Read(const launch::Overrides& extra);

@@ -13,6 +13,7 @@
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/mcap_writer.hpp"
 #include "common/data/record/text_number.hpp"
+#include "idl/aliases.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::replay {
@@ -76,7 +77,8 @@ class Splicer {
     for (const auto& [id, channel] : reader.channels()) {
       if (channel.metadata.contains("source_number")) continue;
       for (const auto& [own, same] : branch_.channels()) {
-        if (same.topic == channel.topic && !same.metadata.contains("source_number")) of_parent[id] = of_branch_.at(own);
+        if (same.topic == idl::Aliases().Topic(channel.topic) && !same.metadata.contains("source_number"))
+          of_parent[id] = of_branch_.at(own);
       }
     }
     if (of_parent.empty()) return {};
@@ -91,7 +93,7 @@ class Splicer {
       if (!message) return message.error();
       if (!message.value()) return {};
       const record::Message& in = *message.value();
-      const bool is_wall = reader.channels().at(in.channel).topic == idl::topics::kWall;
+      const bool is_wall = idl::Aliases().Topic(reader.channels().at(in.channel).topic) == idl::topics::kWallTime;
       if (in.log_time_ns > at_ns && !is_wall) continue;
       if (covered && is_wall) return {};
       covered = covered || (is_wall && in.log_time_ns >= at_ns);

@@ -9,6 +9,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/data/csv/export.hpp"
+#include "idl/aliases.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
@@ -44,7 +45,8 @@ int Export(const ExportOptions& options) {
   const auto report = [&]() -> base::Result<csv::ExportReport> {
     if (!reader) return reader.error();
     ExportProgress progress(options.quiet);
-    return csv::ExportCsv(reader.value(), options.csv, [&progress](double share) { return progress.Show(share); });
+    return csv::ExportCsv(reader.value(), options.csv, idl::Aliases(),
+                          [&progress](double share) { return progress.Show(share); });
   }();
   if (!report) return base::PrintError("rodeira", report.error());
   if (!options.quiet) {

@@ -60,6 +60,11 @@ int Info(const std::string& file) {
   for (const RecordedSource& source : audit.sources) {
     if (source.without_state) fmt::print("{}", WithoutStateLine(source.source));
   }
+  std::set<std::string> different;
+  for (const RecordedSource& source : audit.sources) {
+    if (source.type_difference.empty() || !different.insert(source.topic).second) continue;
+    fmt::print("type      topic {} differs from this program's: {}\n", source.topic, source.type_difference);
+  }
   fmt::print("content   {}  (of all samples: recordings with the same one are identical)\n", base::Hex(audit.content));
   for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
   if (audit.steps_without_wall_time.value_or(0) > 0) {

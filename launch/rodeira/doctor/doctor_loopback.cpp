@@ -88,7 +88,7 @@ struct End {
 
 base::Bytes Question(std::uint64_t number) {
   msg::GroundRequest request;
-  request.number(number);
+  request.request_number(number);
   request.points().resize(kPoints);
   return idl::Encode(request);
 }
@@ -105,7 +105,7 @@ base::Status RequestAnswer(End& end, std::uint64_t number, bool again, const Loo
     while (const auto payload = end.queue.Pop(20ms)) {
       const auto reply = idl::Decode<msg::GroundReply>(*payload);
       if (!reply) return base::Failed("an answer came that cannot be read: " + reply.error().Text());
-      if (reply.value().number() == number && reply.value().points().size() == kPoints) return {};
+      if (reply.value().request_number() == number && reply.value().points().size() == kPoints) return {};
     }
   }
   if (settings.cancelled()) return base::Failed("stopped by a signal");
@@ -193,7 +193,7 @@ int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transpo
       const auto request = idl::Decode<msg::GroundRequest>(*payload);
       if (!request) continue;
       msg::GroundReply reply;
-      reply.number(request.value().number());
+      reply.request_number(request.value().request_number());
       reply.points().resize(request.value().points().size());
       if (!end.writer->Write(idl::Encode(reply))) return 1;
       continue;

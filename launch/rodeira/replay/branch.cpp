@@ -188,6 +188,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   if (!parent) return parent.error();
   outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
+  if (auto status = parent.value().CheckTypes(); !status) return status.error();
   if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
   auto folder = base::TemporaryFolder::Make("branch");
   if (!folder) return folder.error();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <set>
 
 #include "common/core/base/suggest.hpp"
 #include "common/driving/scenario/event.hpp"
@@ -94,8 +95,9 @@ std::string Shortened(std::string text) {
 template <class Message>
 base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, const std::function<bool()>& stop,
                        const std::function<void(const Message&, std::int64_t time_ns)>& take) {
-  const auto channels = run.reader().ChannelsOf(topic);
+  const auto channels = run.ChannelsOf(topic);
   if (channels.empty()) return {};
+  if (auto status = run.CheckTypes({topic}); !status) return status;
   record::Query query;
   query.channels.emplace(channels.begin(), channels.end());
   auto cursor = run.reader().Messages(query);
@@ -159,6 +161,9 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
   if (seen.sources.empty())
     return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see",
                             run.path().string());
+  std::set<std::string_view> topics;
+  for (const lockstep::SourceIndex source : seen.sources) topics.insert(roster.source(source).topic);
+  if (auto status = run.CheckTypes(topics); !status) return status.error();
   if (auto status = TakeWishes(roster, options, seen); !status) return status.error();
   return seen;
 }

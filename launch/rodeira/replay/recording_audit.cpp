@@ -8,8 +8,10 @@
 #include "common/data/record/text_number.hpp"
 #include "common/runtime/lockstep/sample.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
+#include "idl/aliases.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
+#include "idl/topic_types.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::cli {
@@ -80,7 +82,13 @@ RecordingAudit Audit(const record::McapReader& reader) {
     const auto name = channel.metadata.find("source");
     if (name != channel.metadata.end()) source.source = name->second;
     const auto schema = reader.schemas().find(channel.schema);
-    if (schema != reader.schemas().end()) source.type = schema->second.name;
+    if (schema != reader.schemas().end()) {
+      source.type = schema->second.name;
+      if (idl::FindTopic(idl::Aliases().Topic(channel.topic)) != nullptr) {
+        source.type_difference =
+            idl::RecordedTypeDifference(channel.topic, {schema->second.text, schema->second.name}).value_or("");
+      }
+    }
     const auto period = record::WholeNumber(channel.metadata, "period_steps");
     if (!period || *period <= 0) continue;
     periods[id] = static_cast<std::uint64_t>(*period);
@@ -103,11 +111,12 @@ RecordingAudit Audit(const record::McapReader& reader) {
     RecordedSource& source = sources[message.value()->channel];
     ++source.samples;
     source.bytes += message.value()->data.size();
-    if (source.topic == idl::topics::kWall) {
+    const bool readable = source.type_difference.empty();
+    if (readable && idl::Aliases().Topic(source.topic) == idl::topics::kWallTime) {
       if (!walls) walls.emplace();
       walls->Add(*message.value());
     }
-    if (source.topic == lockstep::kSnapshotTopic && source.samples == 1) {
+    if (readable && source.topic == lockstep::kSnapshotTopic && source.samples == 1) {
       const auto snapshot = lockstep::Snapshot::FromSample(message.value()->data);
       source.without_state = snapshot && !snapshot.value().has_state;
     }

@@ -23,6 +23,7 @@ struct RecordedSource {
   std::optional<double> rate_hz;             // of simulated time; where the period and the base step are known
   std::optional<record::SourceAudit> audit;  // of samples of the lockstep
   bool ends_early = false;                   // its last sample lies more than a period before the run's end
+  std::string type_difference;               // from this program's type of the topic; empty: none, or an unknown topic
   bool without_state = false;                // snapshots that say that the node cannot save its state
   // "lossless", or what is missing; empty where nothing can be said.
   std::string Verdict() const;

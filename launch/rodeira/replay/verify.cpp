@@ -26,6 +26,7 @@ base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
   const auto& roster = run.roster();
   if (auto status = run.CheckBytes(); !status) return status.error();
+  if (auto status = run.CheckTypes(); !status) return status.error();
   if (auto status = run.CheckMathematics(); !status) return status.error();
   const auto without_state = run.WithoutState();
   if (!without_state) return without_state.error();

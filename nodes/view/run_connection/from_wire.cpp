@@ -109,7 +109,7 @@ scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, 
   car.lights = LightsOf(message.lights());
   car.gear = message.gear();
   car.engine_rpm = message.engine_speed_radps() * 30.0 / base::kPi;
-  car.fuel_used_l = message.fuel_kg() / kPetrol_kgpl;
+  car.fuel_used_l = message.fuel_used_kg() / kPetrol_kgpl;
   car.fuel_lph = 3600.0 * Double(message.fuel_rate_kgps()) / kPetrol_kgpl;
   car.odometer_m = message.odometer_m();
   car.steering_wheel_rad = message.steering_wheel_rad();

@@ -52,7 +52,7 @@ double MovedAfter(const std::filesystem::path& file, Wall::time_point begin) {
   }
   if (!moved) Fail("the car has not moved");
   record::Query walls;
-  walls.channels = std::set<record::ChannelId>{reader.value().ChannelsOf(idl::topics::kWall).at(0)};
+  walls.channels = std::set<record::ChannelId>{reader.value().ChannelsOf(idl::topics::kWallTime).at(0)};
   auto grants = reader.value().Messages(walls);
   for (auto message = grants.Next(); message.ok() && message.value(); message = grants.Next()) {
     const auto grant = idl::Decode<msg::WallTime>(message.value()->data).value();

@@ -46,12 +46,12 @@ TEST(StruckCar, TakesTheImpulseOfTheCollisionAndStays) {
         seen[sample.valid()][agent.id()] = {{agent.position_x_m(), agent.position_y_m()}, agent.speed_mps()};
     } else if (topic == topics::kCollisions) {
       const auto touched = idl::Decode<msg::Collisions>(*sample.payload).value();
-      for (const auto& collision : touched.collisions()) {
-        if (collision.partner() != 1u) continue;
+      for (const auto& collision : touched.contacts()) {
+        if (collision.partner_kind() != 1u) continue;
         if (!hit) hit = collision.partner_id();
         if (collision.partner_id() != *hit) continue;
         impulses.try_emplace(sample.valid(), Eigen::Vector2d::Zero()).first->second -=
-            Eigen::Vector2d(collision.impulse_x_ns(), collision.impulse_y_ns());
+            Eigen::Vector2d(collision.impulse_x_newton_s(), collision.impulse_y_newton_s());
       }
     }
   };

@@ -218,7 +218,7 @@ TEST_F(ExportTest, NothingIsLeftOfAnExportThatFails) {
   EXPECT_THAT(report.error().Text(),
               HasSubstr("rodeira/controls of 'driver' at 0.02 s: byte 4: the message ends after 46 bytes"));
   EXPECT_EQ(Left(), 0u);
-  const auto stopped = ExportCsv(reader, Out(), [](double) { return false; });
+  const auto stopped = ExportCsv(reader, Out(), {}, [](double) { return false; });
   ASSERT_FALSE(stopped.ok());
   EXPECT_EQ(stopped.error().exit_status(), 1);
   EXPECT_EQ(Left(), 0u);

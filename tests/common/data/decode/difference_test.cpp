@@ -33,8 +33,8 @@ TEST(FirstDifference, NamesMemberAndBothValuesInFullPrecision) {
   EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "odometer_m: 0.1 | 0.10000000000000002");
   EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, a), "");
   b = a;
-  b.fuel_kg(-0.0);
-  EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "fuel_kg: 0 | -0");
+  b.fuel_used_kg(-0.0);
+  EXPECT_EQ(Between("vehicle", "rodeira::msg::VehicleState", a, b), "fuel_used_kg: 0 | -0");
 }
 
 TEST(FirstDifference, OfLengthsTextsAndOctets) {
@@ -60,8 +60,8 @@ TEST(FirstDifference, OfTwoKindsOfNoNumberSaysTheBits) {
   msg::Controls b;
   a.brake(std::numeric_limits<double>::quiet_NaN());
   b.brake(-std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(Between("driving", "rodeira::msg::Controls", a, a), "");
-  EXPECT_EQ(Between("driving", "rodeira::msg::Controls", a, b),
+  EXPECT_EQ(Between("controls", "rodeira::msg::Controls", a, a), "");
+  EXPECT_EQ(Between("controls", "rodeira::msg::Controls", a, b),
             "brake: nan (0x7ff8000000000000) | nan (0xfff8000000000000)");
 }
 

@@ -15,35 +15,47 @@
 namespace rodeira::decode {
 
 template <class V>
-void Fields(V& v, msg::Header& m) {
+void Fields(V& v, msg::SampleHeader& m) {
   v("step", m.step()), v("time_ns", m.time_ns()), v("source", m.source()), v("incarnation", m.incarnation());
   v("state_digest", m.state_digest());
 }
 template <class V>
 void Fields(V& v, msg::Grant& m) {
+  v("grant_hash", m.grant_hash());
   v("clock_id", m.clock_id()), v("roster_hash", m.roster_hash()), v("through_step", m.through_step()),
       v("serial", m.serial());
-  v("final_step", m.final_step()), v("abort", m.abort()), v("over", m.over()), v("safe_step", m.safe_step());
-  v("resume_step", m.resume_step()), v("lives", m.lives()), v("reason", m.reason()), v("end", m.end());
+  v("final_step", m.final_step()), v("abort", m.abort()), v("finished", m.finished()),
+      v("recorded_step", m.recorded_step());
+  v("resume_step", m.resume_step()), v("incarnations", m.incarnations()), v("reason", m.reason()), v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::Ask& m) {
-  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()), v("asker", m.asker());
+void Fields(V& v, msg::Nack& m) {
+  v("roster_hash", m.roster_hash()), v("from_step", m.from_step()), v("source", m.source()),
+      v("requester", m.requester());
 }
 template <class V>
-void Fields(V& v, msg::Hello& m) {
+void Fields(V& v, msg::NodeHello& m) {
   v("protocol_hash", m.protocol_hash()), v("roster_hash", m.roster_hash()), v("world_hash", m.world_hash());
-  v("mathematics_hash", m.mathematics_hash()), v("host", m.host()), v("pid", m.pid());
+  v("math_library_hash", m.math_library_hash()), v("topics", m.topics());
+}
+template <class V>
+void Fields(V& v, msg::NodeIdentity& m) {
+  v("report_hash", m.report_hash()), v("node", m.node()), v("host", m.host()), v("pid", m.pid());
+}
+template <class V>
+void Fields(V& v, msg::TopicType& m) {
+  v("topic", m.topic()), v("type", m.type()), v("idl", m.idl());
 }
 template <class V>
 void Fields(V& v, msg::Report& m) {
-  v("clock_id", m.clock_id()), v("node", m.node()), v("hello", m.hello()), v("incarnation", m.incarnation()),
+  v("identity", m.identity()), v("hello", m.hello()), v("clock_id", m.clock_id()), v("incarnation", m.incarnation()),
       v("phase", m.phase());
   v("progress_step", m.progress_step()), v("waiting", m.waiting()), v("waiting_source", m.waiting_source());
   v("since_ms", m.since_ms()), v("digest", m.digest()), v("steps", m.steps()), v("busy_ns", m.busy_ns()),
       v("worst_ns", m.worst_ns());
   v("server_calls", m.server_calls()), v("median_interval_ns", m.median_interval_ns()),
-      v("p99_interval_ns", m.p99_interval_ns()), v("safe_step", m.safe_step()), v("granted_step", m.granted_step());
+      v("p99_interval_ns", m.p99_interval_ns()), v("recorded_step", m.recorded_step()),
+      v("granted_step", m.granted_step());
   v("granted_final", m.granted_final()), v("cannot_save", m.cannot_save()), v("message", m.message()),
       v("end", m.end());
 }
@@ -62,36 +74,36 @@ void Fields(V& v, msg::GroundPointQuery& m) {
 template <class V>
 void Fields(V& v, msg::GroundPointAnswer& m) {
   v("z_m", m.z_m()), v("normal_x", m.normal_x()), v("normal_y", m.normal_y()), v("normal_z", m.normal_z());
-  v("friction", m.friction()), v("surface", m.surface()), v("inside", m.inside());
+  v("friction", m.friction()), v("surface", m.surface()), v("inside_world", m.inside_world());
 }
 template <class V>
 void Fields(V& v, msg::GroundRequest& m) {
-  v("asker", m.asker()), v("incarnation", m.incarnation()), v("step", m.step()), v("number", m.number()),
-      v("points", m.points());
+  v("requester", m.requester()), v("incarnation", m.incarnation()), v("step", m.step()),
+      v("request_number", m.request_number()), v("points", m.points());
   v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::GroundReply& m) {
-  v("asker", m.asker()), v("incarnation", m.incarnation()), v("number", m.number()), v("points", m.points()),
-      v("end", m.end());
+  v("requester", m.requester()), v("incarnation", m.incarnation()), v("request_number", m.request_number()),
+      v("points", m.points()), v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::LiveKey& m) {
-  v("key", m.key()), v("held", m.held()), v("presses", m.presses());
+void Fields(V& v, msg::KeyState& m) {
+  v("key", m.key()), v("pressed", m.pressed()), v("press_count", m.press_count());
 }
 template <class V>
-void Fields(V& v, msg::LiveRequest& m) {
+void Fields(V& v, msg::OperatorRequest& m) {
   v("number", m.number()), v("x_m", m.x_m()), v("y_m", m.y_m()), v("value", m.value()), v("name", m.name()),
       v("argument", m.argument());
   v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::LiveRequests& m) {
-  v("window", m.window()), v("requests", m.requests()), v("end", m.end());
+void Fields(V& v, msg::OperatorRequests& m) {
+  v("client_id", m.client_id()), v("requests", m.requests()), v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::LiveKeys& m) {
-  v("window", m.window()), v("number", m.number()), v("keys", m.keys()), v("end", m.end());
+void Fields(V& v, msg::WindowKeys& m) {
+  v("window_id", m.window_id()), v("number", m.number()), v("keys", m.keys()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::WallTime& m) {
@@ -107,7 +119,7 @@ void Fields(V& v, msg::Remark& m) {
 }
 template <class V>
 void Fields(V& v, msg::RunLog& m) {
-  v("clock_id", m.clock_id()), v("number", m.number()), v("walls", m.walls()), v("remarks", m.remarks()),
+  v("clock_id", m.clock_id()), v("number", m.number()), v("wall_times", m.wall_times()), v("remarks", m.remarks()),
       v("last", m.last()), v("end", m.end());
 }
 template <class V>
@@ -128,8 +140,8 @@ void Fields(V& v, msg::ScenarioEvents& m) {
   v("header", m.header()), v("events", m.events()), v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::Parcel& m) {
-  v("to", m.to()), v("samples", m.samples()), v("end", m.end());
+void Fields(V& v, msg::SampleBatch& m) {
+  v("consumer", m.consumer()), v("samples", m.samples()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Snapshot& m) {
@@ -164,18 +176,19 @@ void Fields(V& v, msg::TrafficState& m) {
   v("header", m.header()), v("agents", m.agents()), v("end", m.end());
 }
 template <class V>
-void Fields(V& v, msg::Collision& m) {
+void Fields(V& v, msg::Contact& m) {
   v("position_x_m", m.position_x_m()), v("position_y_m", m.position_y_m()), v("position_z_m", m.position_z_m());
-  v("impulse_x_ns", m.impulse_x_ns()), v("impulse_y_ns", m.impulse_y_ns()), v("impulse_z_ns", m.impulse_z_ns());
+  v("impulse_x_newton_s", m.impulse_x_newton_s()), v("impulse_y_newton_s", m.impulse_y_newton_s()),
+      v("impulse_z_newton_s", m.impulse_z_newton_s());
   v("normal_x", m.normal_x()), v("normal_y", m.normal_y()), v("normal_z", m.normal_z());
-  v("depth_m", m.depth_m()), v("closing_mps", m.closing_mps()), v("partner", m.partner()),
-      v("partner_source", m.partner_source());
+  v("penetration_m", m.penetration_m()), v("closing_speed_mps", m.closing_speed_mps()),
+      v("partner_kind", m.partner_kind()), v("partner_source", m.partner_source());
   v("partner_id", m.partner_id()), v("partner_name", m.partner_name()), v("begins", m.begins()), v("index", m.index()),
       v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::Collisions& m) {
-  v("header", m.header()), v("collisions", m.collisions()), v("end", m.end());
+  v("header", m.header()), v("contacts", m.contacts()), v("end", m.end());
 }
 template <class V>
 void Fields(V& v, msg::SignalGroup& m) {
@@ -219,7 +232,7 @@ void Fields(V& v, msg::VehicleState& m) {
   v("header", m.header()), v("position_w_m", m.position_w_m()), v("attitude_wb", m.attitude_wb());
   v("velocity_w_mps", m.velocity_w_mps()), v("angular_velocity_b_radps", m.angular_velocity_b_radps());
   v("steering_wheel_rad", m.steering_wheel_rad()), v("engine_speed_radps", m.engine_speed_radps()),
-      v("fuel_kg", m.fuel_kg());
+      v("fuel_used_kg", m.fuel_used_kg());
   v("odometer_m", m.odometer_m()), v("wheels", m.wheels()), v("acceleration_w_mps2", m.acceleration_w_mps2());
   v("angular_acceleration_b_radps2", m.angular_acceleration_b_radps2()), v("engine_torque_nm", m.engine_torque_nm());
   v("clutch", m.clutch()), v("clutch_torque_nm", m.clutch_torque_nm()), v("throttle", m.throttle()),
@@ -357,16 +370,16 @@ void ForEveryTopicType(const Use& use) {
   use(TypeTag<msg::WeatherState>(), "rodeira::msg::WeatherState");
   use(TypeTag<msg::ScenarioEvents>(), "rodeira::msg::ScenarioEvents");
   use(TypeTag<msg::Snapshot>(), "rodeira::msg::Snapshot");
-  use(TypeTag<msg::Parcel>(), "rodeira::msg::Parcel");
+  use(TypeTag<msg::SampleBatch>(), "rodeira::msg::SampleBatch");
   use(TypeTag<msg::Pulse>(), "rodeira::msg::Pulse");
   use(TypeTag<msg::Grant>(), "rodeira::msg::Grant");
-  use(TypeTag<msg::Ask>(), "rodeira::msg::Ask");
+  use(TypeTag<msg::Nack>(), "rodeira::msg::Nack");
   use(TypeTag<msg::Report>(), "rodeira::msg::Report");
   use(TypeTag<msg::GroundRequest>(), "rodeira::msg::GroundRequest");
   use(TypeTag<msg::GroundReply>(), "rodeira::msg::GroundReply");
   use(TypeTag<msg::WorldInfo>(), "rodeira::msg::WorldInfo");
-  use(TypeTag<msg::LiveKeys>(), "rodeira::msg::LiveKeys");
-  use(TypeTag<msg::LiveRequests>(), "rodeira::msg::LiveRequests");
+  use(TypeTag<msg::WindowKeys>(), "rodeira::msg::WindowKeys");
+  use(TypeTag<msg::OperatorRequests>(), "rodeira::msg::OperatorRequests");
   use(TypeTag<msg::RunLog>(), "rodeira::msg::RunLog");
   use(TypeTag<msg::WallTime>(), "rodeira::msg::WallTime");
   use(TypeTag<msg::Remark>(), "rodeira::msg::Remark");

@@ -12,6 +12,7 @@
 #include "common/data/record/mcap_writer.hpp"
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/sample.hpp"
+#include "idl/topic_types.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::replay {
@@ -39,6 +40,14 @@ T Must(base::Result<T> result) {
   return std::move(result).value();
 }
 
+// A channel of one of Rodeira's topics, with its IDL.
+inline record::ChannelId AddTopic(record::McapWriter& writer, std::string_view topic,
+                                  const record::TextMap& metadata = {}) {
+  const idl::TopicInfo* info = idl::FindTopic(topic);
+  const record::SchemaId schema = Must(writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject)));
+  return Must(writer.AddChannel(topic, schema, "cdr", metadata));
+}
+
 inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
   const auto launch = Must(launch::Launch::Parse(wish.launch_text, "launch.yaml"));
   const lockstep::Roster& roster = launch.roster();
@@ -52,10 +61,7 @@ inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
   Must(writer.AddAttachment("launch.yaml", "application/yaml", std::as_bytes(std::span(wish.launch_text)), 0, 0));
   std::vector<record::ChannelId> channels;
   for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {
-    const idl::TopicInfo* info = idl::FindTopic(roster.source(s).topic);
-    const record::SchemaId schema = Must(writer.AddSchema(info->type, "omgidl", idl::IdlTextOf(info->subject)));
-    channels.push_back(
-        Must(writer.AddChannel(roster.source(s).topic, schema, "cdr", {{"source_number", std::to_string(s)}})));
+    channels.push_back(AddTopic(writer, roster.source(s).topic, {{"source_number", std::to_string(s)}}));
   }
   std::vector<std::pair<lockstep::Step, lockstep::SourceIndex>> order;
   for (lockstep::Step step = 0; step <= wish.last_step; ++step) {

@@ -95,8 +95,8 @@ TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   };
   wish.pace = 2;
   ASSERT_TRUE(Branch(wish).ok());
-  const auto of_parent = system_test::MessagesOf<msg::WallTime>(file, idl::topics::kWall);
-  const auto of_branch = system_test::MessagesOf<msg::WallTime>(wish.recording, idl::topics::kWall);
+  const auto of_parent = system_test::MessagesOf<msg::WallTime>(file, idl::topics::kWallTime);
+  const auto of_branch = system_test::MessagesOf<msg::WallTime>(wish.recording, idl::topics::kWallTime);
   std::size_t same = 0;
   while (same < of_parent.size() && of_parent[same].after_step() < 1500) ++same;
   ASSERT_GT(same, 0u);

@@ -6,6 +6,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <functional>
@@ -294,18 +295,83 @@ TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
                   base::Version())));
 }
 
-TEST_F(ReplayTest, AnotherProtocolAndAMissingSnapshotAreNamed) {
-  const std::string file = Drive(2.0);
-  const auto all = [](const std::string&, const record::Message&, base::Bytes&) { return true; };
-  const auto nothing = [](const std::string&, record::TextMap&) {};
-  const auto about_another = [](const std::string& name, record::TextMap& entries) {
-    if (name == "rodeira") entries["protocol_hash"] = "0123456789abcdef";
+// A recording of another program is computed again as long as its types are this program's.
+TEST_F(ReplayTest, OtherTypesAreNamedWithTheProgramThatRecorded) {
+  const std::string file = Drive(1.0);
+  const auto of_another = [](const std::string& name, record::TextMap& entries) {
+    if (name != "rodeira") return;
+    entries["protocol_hash"] = "0123456789abcdef";
+    entries["commit"] = "0123456";
   };
-  const auto refused = VerifyFile(Copied(file, about_another, all));
-  ASSERT_FALSE(refused.ok());
-  EXPECT_EQ(refused.error().exit_status(), 2);
-  EXPECT_THAT(refused.error().Text(),
-              HasSubstr("the recording's protocol hash is 0123456789abcdef, this program's is "));
+  const auto with_idl = [&](const std::vector<std::array<std::string, 3>>& changes) {
+    const std::string copy = (folder_.path() / "other.mcap").string();
+    CopyRecording(
+        file, copy, of_another, [](const std::string&, const record::Message&, base::Bytes&) { return true; },
+        [](const std::string&) { return true; }, {},
+        [&](const std::string& type, std::string& text) {
+          for (const auto& [of, before, after] : changes) {
+            if (type == of) text.replace(text.find(before), before.size(), after);
+          }
+        });
+    return copy;
+  };
+  const auto same =
+      VerifyFile(with_idl({{"rodeira::msg::Controls", "// positive to the left", "// left is positive"}}));
+  ASSERT_TRUE(same.ok()) << same.error().Text();
+  EXPECT_FALSE(same.value().difference) << same.value().difference->Text();
+
+  const std::string other = with_idl({{"rodeira::msg::Controls", "double throttle", "double accelerator"},
+                                      {"rodeira::msg::VehicleState", "double odometer_m", "float odometer_m"}});
+  const std::string sentence =
+      "the recording's types are not this program's: topic rodeira/controls: rodeira::msg::Controls, member 3: found "
+      "'double accelerator', expected 'double throttle'; topic rodeira/vehicle_state: rodeira::msg::VehicleState, "
+      "member 9: found 'float odometer_m', expected 'double odometer_m'; it was recorded by version 0.1.0, commit "
+      "0123456: use that version";
+  const auto verify = RunCommand({Bin("rodeira"), "replay", other, "--verify"});
+  EXPECT_EQ(verify.status, 2) << verify.out;
+  EXPECT_THAT(verify.out, HasSubstr(sentence));
+  const auto branch = Branch({other, 500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()});
+  ASSERT_FALSE(branch.ok());
+  EXPECT_THAT(branch.error().Text(), HasSubstr(sentence));
+
+  const auto info = RunCommand({Bin("rodeira"), "info", other});
+  EXPECT_EQ(info.status, 0) << info.out;
+  EXPECT_THAT(info.out,
+              HasSubstr("type      topic rodeira/controls differs from this program's: rodeira::msg::Controls"));
+  EXPECT_THAT(info.out, HasSubstr("lossless"));
+  const std::string tables = (folder_.path() / "tables").string();
+  const auto exported = RunCommand({Bin("rodeira"), "export", "--csv", tables,
+                                    with_idl({{"rodeira::msg::Controls", "double throttle", "double accelerator"}})});
+  EXPECT_EQ(exported.status, 0) << exported.out;
+  EXPECT_THAT(base::ReadText(tables + "/controls.csv").value(), HasSubstr("steering_wheel_rad,accelerator,brake"));
+}
+
+// Topics, types and members had other names.
+TEST_F(ReplayTest, ARecordingWithFormerNamesIsDescribedAndExportedWithTodays) {
+  const std::string file = SourceDir() + "/tests/data/recordings/scripted_2c2fa2f4.mcap";
+  const auto info = RunCommand({Bin("rodeira"), "info", file});
+  EXPECT_EQ(info.status, 0) << info.out;
+  EXPECT_THAT(info.out, HasSubstr("lossless: each source's samples are there once, from step 0 to step 200"));
+  EXPECT_THAT(info.out, HasSubstr("rodeira/wall "));
+  EXPECT_THAT(info.out, ::testing::Not(HasSubstr("differs from this program's")));
+  EXPECT_THAT(info.out, ::testing::Not(HasSubstr("wall times of")));
+  const std::string tables = (folder_.path() / "tables").string();
+  const auto exported = RunCommand({Bin("rodeira"), "export", "--csv", tables, file});
+  ASSERT_EQ(exported.status, 0) << exported.out;
+  const auto columns = [&](const std::string& table) {
+    const auto text = base::ReadText(tables + "/" + table);
+    EXPECT_TRUE(text.ok()) << table;
+    return text.ok() ? text.value().substr(0, text.value().find('\n')) : std::string();
+  };
+  EXPECT_THAT(columns("vehicle_state.csv"), HasSubstr(",fuel_used_kg,odometer_m,"));
+  EXPECT_THAT(columns("vehicle_state.csv"), ::testing::EndsWith(",state_digest"));
+  EXPECT_THAT(columns("collisions.csv"), HasSubstr("contacts.impulse_x_newton_s"));
+  EXPECT_THAT(columns("wall_time.csv"), HasSubstr("through_step"));
+}
+
+TEST_F(ReplayTest, AMissingSnapshotIsNamed) {
+  const std::string file = Drive(2.0);
+  const auto nothing = [](const std::string&, record::TextMap&) {};
   const std::string lacking =
       Copied(file, nothing, [](const std::string& topic, const record::Message& message, base::Bytes&) {
         return topic != idl::topics::kSnapshot || message.log_time_ns != 1'000'000'000;
@@ -335,7 +401,8 @@ TEST_F(ReplayTest, WhatTheFileSaysOfItselfMustBeTrue) {
       [](const std::string& type, std::string& text) {
         if (type == "rodeira::msg::Controls") text.replace(text.find("throttle"), 8, "thrattle");
       });
-  EXPECT_THAT(refusal(copy), HasSubstr("the recording's IDL of topic rodeira/controls"));
+  EXPECT_THAT(refusal(copy), HasSubstr("topic rodeira/controls: rodeira::msg::Controls, member 3: found 'double "
+                                       "thrattle', expected 'double throttle'"));
   for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{
            {"seed", "7"}, {"base_step_ns", "ten"}, {"world_hash", "0123456789abcdef"}}) {
     const auto changed = [&key = key, &value = value](const std::string& name, record::TextMap& entries) {

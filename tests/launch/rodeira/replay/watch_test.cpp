@@ -17,8 +17,10 @@
 #include "nodes/view/frame/surface.hpp"
 #include "nodes/view/run_connection/from_wire.hpp"
 #include "tests/common/runtime/replay/made_recording.hpp"
+#include "tests/launch/rodeira/replay/copied_recording.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/system/command.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -246,7 +248,7 @@ TEST_F(WatchTest, OfRemarksOnlyWhatSomebodyMarkedIsOnTheBar) {
     return idl::Encode(one);
   };
   const auto run = replay::RecordedRun::Open(Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = writer.AddChannel(idl::topics::kRemarks, 0, "cdr").value();
+    const auto channel = replay::AddTopic(writer, idl::topics::kRemarks);
     for (const auto& [time_ns, payload] :
          {std::pair(0, remark(0, "start", "")), std::pair(5'000, remark(5'000, "mark", "second\nlap")),
           std::pair(2'000, remark(2'000, "pause", "")), std::pair(3'000, remark(3'000, "fault", "")),
@@ -275,7 +277,7 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
     return one;
   };
   const auto run = replay::RecordedRun::Open(Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = writer.AddChannel(idl::topics::kScenarioEvents, 0, "cdr").value();
+    const auto channel = replay::AddTopic(writer, idl::topics::kScenarioEvents);
     for (int step = 0; step < 5; ++step) {
       msg::ScenarioEvents events;
       if (step == 1) events.events() = {event("weather", "rain", 8.0), event("mark", "here it begins", 0.0)};
@@ -300,9 +302,50 @@ TEST_F(WatchTest, TheScenariosEventsAreOnTheBar) {
   for (const nodes::ReplayMark& mark : marks.value()) EXPECT_EQ(mark.kind, nodes::MarkKind::kEvent);
 }
 
+// What a picture does not need may be of another version.
+TEST_F(WatchTest, OfAnotherVersionTheNeededTopicsMustMatch) {
+  const auto with_idl = [&](const std::string& type, const std::string& before, const std::string& after) {
+    CopyRecording(
+        Made(), Path("other.mcap"), [](const std::string&, record::TextMap&) {},
+        [](const std::string&, const record::Message&, base::Bytes&) { return true; },
+        [](const std::string&) { return true; }, {},
+        [&](const std::string& of, std::string& text) {
+          if (of == type) text.replace(text.find(before), before.size(), after);
+        });
+    return replay::RecordedRun::Open(Path("other.mcap"));
+  };
+  const auto controls = with_idl("rodeira::msg::Controls", "double throttle", "double accelerator");
+  ASSERT_TRUE(controls.ok()) << controls.error().Text();
+  const auto seen = LookAt(controls.value(), {});
+  ASSERT_TRUE(seen.ok()) << seen.error().Text();
+  EXPECT_TRUE(MomentsOf(controls.value()).Exactly(1'000).ok());
+
+  const auto car = with_idl("rodeira::msg::VehicleState", "double odometer_m", "float odometer_m");
+  ASSERT_TRUE(car.ok()) << car.error().Text();
+  const auto refused = LookAt(car.value(), {});
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused.error().exit_status(), 2);
+  EXPECT_THAT(refused.error().Text(),
+              HasSubstr("topic rodeira/vehicle_state: rodeira::msg::VehicleState, member 9: found 'float odometer_m', "
+                        "expected 'double odometer_m'"));
+}
+
+// Its topics, types and members had other names.
+TEST_F(WatchTest, ARecordingWithFormerNamesIsShown) {
+  const auto run = replay::RecordedRun::Open(SourceDir() + "/tests/data/recordings/scripted_2c2fa2f4.mcap");
+  ASSERT_TRUE(run.ok()) << run.error().Text();
+  auto moments = MomentsOf(run.value());
+  const auto moment = moments.Exactly(200);
+  ASSERT_TRUE(moment.ok()) << moment.error().Text();
+  ASSERT_EQ(moment.value().cars.size(), 1u);
+  EXPECT_GT(moment.value().cars[0].fuel_used_l, 0.0);
+  EXPECT_TRUE(MarksOf(run.value()).ok());
+  EXPECT_FALSE(run.value().ChannelsOf(idl::topics::kWallTime).empty());
+}
+
 TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
   const std::filesystem::path file = Made(kLaunch, [&](record::McapWriter& writer) {
-    const auto channel = writer.AddChannel(idl::topics::kRemarks, 0, "cdr").value();
+    const auto channel = replay::AddTopic(writer, idl::topics::kRemarks);
     msg::Remark remark;
     remark.time_ns(2'000);
     remark.kind("mark");
