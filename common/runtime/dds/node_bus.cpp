@@ -235,7 +235,7 @@ void NodeBus::Tell(const lockstep::Report& report) {
     named.clock_id = clock_id_;
     named.hello = settings_.hello;
     named.report = last_;
-    // Until the clock has let it begin: it has read them by then.
+    // The clock has read them by the time it grants a step.
     if (last_.phase > lockstep::Phase::kReady && grant.through >= 0) named.hello.topics = nullptr;
   }
   named.node = roster_.node(settings_.node).name;
