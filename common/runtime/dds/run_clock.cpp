@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/clock_desk.hpp"
@@ -264,6 +265,7 @@ class ClockProcess {
 
 int RunClock(int argc, char** argv) {
   base::FixMathematics(argv);
+  base::TraceCrashes();
   const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
@@ -172,6 +173,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
 
 int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory) {
   base::FixMathematics(argv);
+  base::TraceCrashes();
   const std::string program = fmt::format("rodeira-{}", kind);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;

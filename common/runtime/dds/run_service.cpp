@@ -4,6 +4,7 @@
 #include <atomic>
 #include <thread>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
@@ -28,6 +29,7 @@ class ServiceContext final : public launch::NodeContext {
 
 int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory) {
   base::FixMathematics(argv);
+  base::TraceCrashes();
   const std::string program = fmt::format("rodeira-{}", kind);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/core/base/installation.hpp"
+#include "common/core/base/user_folders.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 
 namespace rodeira::cli {
@@ -63,9 +64,27 @@ std::vector<std::string> Crew::ClockCommand(const std::string& pace) const {
   return command;
 }
 
+// Logs lie in logs/LAUNCH among the user's recordings.
+PartLog* Crew::MakeLog(const std::string& name) {
+  auto& log = logs_[name];
+  if (!log) {
+    const auto plain = [](std::string text) {
+      std::ranges::replace(text, '/', '_');
+      return text;
+    };
+    log = std::make_unique<PartLog>(plain(name), base::UserDataFolder() / "logs" / plain(launch_.name()));
+  }
+  return log.get();
+}
+
+const PartLog* Crew::LogOf(const std::string& name) const {
+  const auto found = logs_.find(name);
+  return found == logs_.end() ? nullptr : found->second.get();
+}
+
 base::Status Crew::StartClock() {
-  auto child =
-      Child::Start(placement_.has_clock() ? "clock" : "follower of the clock", ClockCommand(options_.pace), true);
+  const std::string name = placement_.has_clock() ? "clock" : "follower of the clock";
+  auto child = Child::Start(name, ClockCommand(options_.pace), true, MakeLog(name));
   if (!child) return child.error();
   children_.push_back(std::move(child).value());
   return {};
@@ -80,7 +99,7 @@ base::Status Crew::RestartClock(const ClocksPlace& place) {
   command.insert(command.end(), {"--incarnation", std::to_string(++clocks_life_), "--clock-id",
                                  std::to_string(place.id), "--begun-ns", std::to_string(place.begun_ns)});
   if (place.paused) command.emplace_back("--paused");
-  auto child = Child::Start("clock", command, true);
+  auto child = Child::Start("clock", command, true, MakeLog("clock"));
   if (!child) return child.error();
   clock() = std::move(child).value();
   return {};
@@ -92,7 +111,7 @@ base::Status Crew::StartNodes() {
     if (!placement_.Has(node)) continue;
     std::vector<std::string> command = Command(std::string(node.kind->program));
     command.insert(command.end(), {"--node", node.name});
-    auto started = Child::Start(node.name, command, false);
+    auto started = Child::Start(node.name, command, false, MakeLog(node.name));
     if (!started) return started.error();
     children_.push_back(std::move(started).value());
   }
@@ -106,7 +125,7 @@ base::Result<bool> Crew::RestartNode(const std::string& name, std::uint32_t life
   if (auto status = MakeSureItIsDead(*child); !status) return status.error();
   std::vector<std::string> command = Command(std::string(launch_.node(launch_.roster().Find(name)).kind->program));
   command.insert(command.end(), {"--node", name, "--incarnation", std::to_string(life)});
-  auto started = Child::Start(name, command, false);
+  auto started = Child::Start(name, command, false, MakeLog(name));
   if (!started) return started.error();
   *child = std::move(started).value();
   return true;

@@ -3,6 +3,8 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,8 +48,11 @@ class Crew {
   void Poll();
   Child& clock() { return children_.front(); }
   const std::vector<Child>& children() const { return children_; }  // the clock first
+  // What the part of this name has written, through all its restarts; null for an unknown one.
+  const PartLog* LogOf(const std::string& name) const;
 
  private:
+  PartLog* MakeLog(const std::string& name);
   std::vector<std::string> Command(const std::string& program) const;
   std::vector<std::string> ClockCommand(const std::string& pace) const;
 
@@ -58,6 +63,7 @@ class Crew {
   std::uint32_t domain_;
   std::uint32_t clocks_life_ = 0;
   bool has_nodes_ = false;
+  std::map<std::string, std::unique_ptr<PartLog>> logs_;  // by the child's name; outlive the children
   std::vector<Child> children_;
 };
 

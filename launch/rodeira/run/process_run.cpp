@@ -17,8 +17,10 @@
 #include <set>
 #include <utility>
 
+#include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
 #include "launch/rodeira/run/crew.hpp"
+#include "launch/rodeira/run/failure_report.hpp"
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
@@ -240,8 +242,24 @@ class ProcessRun {
     if (shown_) fmt::print(stderr, "\r\033[K");
     report_.faults = fault_.empty() ? std::vector<std::string>() : std::vector<std::string>{fault_};
     for (const std::string& remark : report_.remarks) fmt::print(stderr, "rodeira: {}\n", remark);
+    LeaveReport();
     if (!report_.ready || options_.quiet) return;
     fmt::print("{}", report_.Table(static_cast<double>(launch_.roster().base_step_ns()) * 1e-9, options_.record));
+  }
+
+  // Of a run that failed: one file with everything that is known.
+  void LeaveReport() const {
+    if (ExitStatus() != 1) return;
+    std::vector<FailedPart> parts;
+    for (const Child& child : crew_.children())
+      parts.push_back({child.name(), child.Fate(), crew_.LogOf(child.name())});
+    const auto file = FailureFile(options_.record, launch_.name());
+    const std::string fault = fault_.empty() ? "the run did not end in order" : fault_;
+    const auto written = base::WriteWhole(file, FailureText(fault, launch_, parts));
+    if (written.ok())
+      fmt::print(stderr, "rodeira: report of the failure: {}\n", file.string());
+    else
+      fmt::print(stderr, "rodeira: the report of the failure cannot be written: {}\n", written.error().Text());
   }
 
   int ExitStatus() const {

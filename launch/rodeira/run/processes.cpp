@@ -14,10 +14,13 @@
 
 namespace rodeira::cli {
 
-base::Result<Child> Child::Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes) {
+base::Result<Child> Child::Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes,
+                                 PartLog* log) {
   int to_child[2] = {-1, -1};
   int from_child[2] = {-1, -1};
-  if (with_pipes && (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)) {
+  int errors[2] = {-1, -1};
+  if ((with_pipes && (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)) ||
+      (log != nullptr && ::pipe2(errors, O_CLOEXEC) != 0)) {
     return base::Failed(fmt::format("no pipe can be made: {}", std::strerror(errno)), name);
   }
   std::vector<char*> arguments;
@@ -37,6 +40,7 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
       const int nothing = ::open("/dev/null", O_RDONLY);
       ::dup2(nothing, STDIN_FILENO);
     }
+    if (log != nullptr) ::dup2(errors[1], STDERR_FILENO);
     ::execv(arguments[0], arguments.data());
     ::_exit(127);
   }
@@ -49,6 +53,12 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
     child.in_ = to_child[1];
     child.out_ = from_child[0];
   }
+  if (log != nullptr) {
+    ::close(errors[1]);
+    ::fcntl(errors[0], F_SETFL, O_NONBLOCK);
+    child.error_ = errors[0];
+    child.log_ = log;
+  }
   return child;
 }
 
@@ -60,6 +70,8 @@ Child& Child::operator=(Child&& other) noexcept {
   pid_ = std::exchange(other.pid_, -1);
   in_ = std::exchange(other.in_, -1);
   out_ = std::exchange(other.out_, -1);
+  error_ = std::exchange(other.error_, -1);
+  log_ = std::exchange(other.log_, nullptr);
   ended_ = other.ended_;
   ended_at_ = other.ended_at_;
   stopped_ = other.stopped_;
@@ -78,9 +90,14 @@ void Child::CloseInput() {
 void Child::Close() {
   CloseInput();
   if (out_ >= 0) ::close(std::exchange(out_, -1));
+  if (error_ < 0) return;
+  log_->Read(error_);
+  log_->Finish();
+  ::close(std::exchange(error_, -1));
 }
 
 void Child::Poll() {
+  if (error_ >= 0) log_->Read(error_);
   if (ended_ || pid_ < 0) return;
   int status = 0;
   while (::waitpid(pid_, &status, WNOHANG | WUNTRACED | WCONTINUED) == pid_) {

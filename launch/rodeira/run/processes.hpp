@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "launch/rodeira/run/part_log.hpp"
 
 namespace rodeira::cli {
 
@@ -16,8 +17,10 @@ namespace rodeira::cli {
 // by SIGTERM when the parent dies, however it dies.
 class Child {
  public:
-  // Pipes for standard input and output only where asked for; standard error stays the parent's.
-  static base::Result<Child> Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes);
+  // With pipes for standard input and output only if `with_pipes`. Standard error goes into `log`, read by Poll, or is
+  // the parent's if `log` is null; the log outlives the child.
+  static base::Result<Child> Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes,
+                                   PartLog* log = nullptr);
 
   Child(Child&& other) noexcept;
   Child& operator=(Child&& other) noexcept;
@@ -25,7 +28,7 @@ class Child {
   Child& operator=(const Child&) = delete;
   ~Child();
 
-  // Looks, without waiting, whether it has ended or been stopped.
+  // Looks, without waiting, what it has written and whether it has ended or been stopped.
   void Poll();
   void Signal(int number) const;  // nothing where it has ended
 
@@ -48,6 +51,8 @@ class Child {
   pid_t pid_ = -1;
   int in_ = -1;
   int out_ = -1;
+  int error_ = -1;  // its standard error, with a log
+  PartLog* log_ = nullptr;
   bool ended_ = false;
   bool stopped_ = false;
   std::chrono::steady_clock::time_point ended_at_;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "launch/rodeira/run/part_log.hpp"
+
+#include <spdlog/logger.h>
+#include <spdlog/sinks/rotating_file_sink.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+namespace rodeira::cli {
+namespace {
+
+constexpr std::size_t kMaxFileBytes = 1u << 20;
+constexpr std::size_t kOlderFiles = 3;
+constexpr std::size_t kMaxLineBytes = 64u << 10;  // longer lines are cut in pieces
+
+spdlog::level::level_enum LevelOf(const std::string& line) {
+  if (line.find("crash:") != std::string::npos) return spdlog::level::critical;
+  if (line.find("warning:") != std::string::npos) return spdlog::level::warn;
+  return line.starts_with("rodeira") ? spdlog::level::err : spdlog::level::info;
+}
+
+// Written by base::TraceCrashes: for the report of the failure, too much for a terminal.
+bool IsOfCrash(const std::string& line) {
+  return line.starts_with("rodeira: crash: ") || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+}
+
+// Null if the file cannot be opened.
+std::shared_ptr<spdlog::logger> OpenFile(const std::filesystem::path& folder, const std::string& part) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder, problem);
+  try {
+    auto sink = std::make_shared<spdlog::sinks::rotating_file_sink_st>((folder / (part + ".log")).string(),
+                                                                       kMaxFileBytes, kOlderFiles);
+    auto logger = std::make_shared<spdlog::logger>(part, std::move(sink));
+    logger->set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %-8l %v");
+    logger->flush_on(spdlog::level::trace);
+    logger->set_error_handler([](const std::string&) {});  // a full disk does not end a run
+    return logger;
+  } catch (const spdlog::spdlog_ex&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+PartLog::PartLog(const std::string& part, std::filesystem::path folder) : part_(part), folder_(std::move(folder)) {}
+
+void PartLog::Read(int descriptor) {
+  std::array<char, 4096> buffer;
+  for (ssize_t size = 0; (size = ::read(descriptor, buffer.data(), buffer.size())) > 0;) {
+    rest_.append(buffer.data(), static_cast<std::size_t>(size));
+    std::size_t begin = 0;
+    for (std::size_t end = 0; (end = rest_.find('\n', begin)) != std::string::npos; begin = end + 1)
+      Take(rest_.substr(begin, end - begin));
+    rest_.erase(0, begin);
+    if (rest_.size() > kMaxLineBytes) Finish();
+  }
+  std::fflush(stderr);
+}
+
+void PartLog::Finish() {
+  if (!rest_.empty()) Take(std::exchange(rest_, {}));
+}
+
+void PartLog::Take(std::string line) {
+  if (!is_opened_) file_ = OpenFile(folder_, part_);
+  is_opened_ = true;
+  if (file_) file_->log(LevelOf(line), line);
+  if (!IsOfCrash(line)) std::fprintf(stderr, "%s\n", line.c_str());
+  last_lines_.push_back(std::move(line));
+  if (last_lines_.size() > kLastLines) last_lines_.pop_front();
+}
+
+}  // namespace rodeira::cli
