@@ -9,6 +9,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -47,7 +48,7 @@ TEST(Box, IsNotBlockedByAQueue) {
         Case{"closed town with lights", lanes::ClosedGrid::Make(3, true),
              static_cast<std::uint32_t>(45.0 * lanes::ClosedGrid::Lanes_km(3))}}) {
     double standing_s = 0.0, in_boxes_s = 0.0;
-    for (std::uint64_t seed = 6; seed <= 12; ++seed) {
+    for (std::uint64_t seed = 6; seed <= BriefOrLong(7u, 12u); ++seed) {
       TrafficSettings settings;
       settings.vehicles = c.vehicles;
       settings.seed = seed;

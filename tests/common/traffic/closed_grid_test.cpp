@@ -15,6 +15,7 @@
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/exit_room.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -27,19 +28,21 @@ std::uint64_t Count(const char* variable, std::uint64_t otherwise) {
 struct Town {
   std::uint32_t vehicles = 0;
   StudyResult result;
-  std::array<double, 3> driven_m{};            // in each ten minutes
+  std::array<double, 3> driven_m{};            // in each third
   std::vector<std::pair<double, double>> kmh;  // mean speed of all over each minute, at its end
   double longest_with_exit_s = 0.0;            // of standing first at a line with room at the exit (ExitRoom)
   std::string told;
 };
 
-// Half an hour with `count` crossings each way. Kilometres of lane are counted from the middle of a crossing to that of
-// the next.
-Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
+constexpr double kLong_s = 1800.0;  // half an hour, the long form
+
+// A town with `count` crossings each way. Kilometres of lane are counted from the middle of a crossing to that of the
+// next.
+Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
   StudySettings settings;
   settings.traffic.vehicles = static_cast<std::uint32_t>(vehicles_pkm * lanes::ClosedGrid::Lanes_km(count));
   settings.traffic.seed = seed;
-  settings.duration_s = 1800.0;
+  settings.duration_s = for_s;
   settings.step_s = 0.1;
   Town town;
   town.vehicles = settings.traffic.vehicles;
@@ -58,7 +61,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
           before_m = driven_m;
         }
         for (std::size_t third = 0; third < 3; ++third) {
-          if (moment.time_s <= 600.0 * static_cast<double>(third + 1)) until_m[third] = driven_m;
+          if (moment.time_s <= for_s / 3.0 * static_cast<double>(third + 1)) until_m[third] = driven_m;
         }
       }).value();
   town.driven_m = {until_m[0], until_m[1] - until_m[0], until_m[2] - until_m[1]};
@@ -84,8 +87,8 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed) {
 // up in a circle; nothing is asked of it here (docs/traffic.md). RODEIRA_CLOSED_GRID: crossings each way (3; tests/run
 // --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
 TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
-  const Town town =
-      Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1));
+  const Town town = Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1),
+                          BriefOrLong(600.0, kLong_s));
   RecordProperty("vehicles", static_cast<int>(town.vehicles));
   RecordProperty("driven_km", std::to_string(1e-3 * (town.driven_m[0] + town.driven_m[1] + town.driven_m[2])));
   RecordProperty("longest_stand_s", std::to_string(town.result.longest_stand_s));
@@ -93,10 +96,10 @@ TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
   RecordProperty("longest_with_room_s", std::to_string(town.result.longest_with_room_s));
 }
 
-// With 40 it goes on, too: more than half of the kilometres of the first ten minutes are driven in the last.
+// With 40 it goes on, too: more than half of the kilometres of the first third are driven in the last.
 TEST(ClosedGrid, LessFullItGoesOn) {
-  for (const std::uint64_t seed : {1, 2}) {
-    const Town town = Drive(3, 40.0, seed);
+  for (std::uint64_t seed = 1; seed <= BriefOrLong(1u, 2u); ++seed) {
+    const Town town = Drive(3, 40.0, seed, BriefOrLong(600.0, kLong_s));
     EXPECT_GT(town.driven_m[2], 0.5 * town.driven_m[0]) << "seed " << seed;
   }
 }
@@ -108,10 +111,11 @@ TEST(ClosedGrid, TheFullerTheSlower) {
   std::vector<PlotCurve> curves;
   double before = 1e9;
   for (const auto& [vehicles_pkm, colour] : towns) {
-    const Town town = Drive(3, vehicles_pkm, 1);
-    ASSERT_EQ(town.kmh.size(), 30u);
+    const auto minutes = BriefOrLong<std::size_t>(8, 30);
+    const Town town = Drive(3, vehicles_pkm, 1, 60.0 * static_cast<double>(minutes));
+    ASSERT_EQ(town.kmh.size(), minutes);
     double mean = 0.0;
-    for (const auto& [minute, kmh] : town.kmh) mean += kmh / 30.0;
+    for (const auto& [minute, kmh] : town.kmh) mean += kmh / static_cast<double>(minutes);
     EXPECT_LT(mean, before) << vehicles_pkm;
     before = mean;
     curves.push_back({fmt::format("{:g} vehicles a kilometre of lane", vehicles_pkm), colour, town.kmh, true});

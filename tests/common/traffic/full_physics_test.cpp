@@ -20,6 +20,7 @@
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -118,7 +119,7 @@ TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
     TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
     ASSERT_EQ(model.on_road(), 10u);
     model.CapSpeed(0, speed_mps);  // the leader of the nine others
-    for (int i = 0; i < (speed_mps > 10.0 ? 50000 : 15000); ++i)
+    for (int i = 0; i < (speed_mps > 10.0 ? BriefOrLong(30000, 50000) : 15000); ++i)
       model.Step(kStep_s, {});  // near the limit who is behind comes up slowly
     int compared = 0;
     for (std::uint32_t id = 1; id < 10; ++id) {
@@ -270,11 +271,11 @@ TEST(FullPhysics, ClimbsWithTheThrottleOfTheClosedForm) {
 // stops are let go of by the planned jerk, though cars do not do exactly what they are asked.
 TEST(FullPhysics, DrivesTheProjectsMaps) {
   for (const std::string& map : lanes::MapNames()) {
-    for (const std::uint64_t seed : {1, 2}) {
+    for (std::uint64_t seed = 1; seed <= BriefOrLong(1u, 2u); ++seed) {
       StudySettings settings;
       settings.traffic = Full(24);
       settings.traffic.seed = seed;
-      settings.duration_s = Duration(40.0);
+      settings.duration_s = Duration(BriefOrLong(25.0, 40.0));
       const StudyResult r = RunStudy(settings, lanes::MapNetwork(map)).value();
       std::string what = fmt::format("{} seed {}", map, seed);
       RecordProperty(what, fmt::format("{:.2f} m/s² with a foot on the brake, {:.2f} asked by it, {:.1f} km",
@@ -303,7 +304,7 @@ TEST(FullPhysics, LongBodiesDriveTheProjectsMaps) {
     settings.traffic = Full(24);
     settings.traffic.seed = map == "town" ? 2 : 1;
     settings.traffic.mix.shares = {0.6, 0.1, 0.2, 0.1};
-    settings.duration_s = Duration(50.0);
+    settings.duration_s = Duration(BriefOrLong(30.0, 50.0));
     double off_m = 0.0;
     int off = 0;
     network::Hint hint;

@@ -13,6 +13,7 @@
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -182,7 +183,7 @@ TEST(LaneModes, WhoBeginsWithinACrossingIsInNobodysWay) {
   const auto flow = [](const std::string& lane, int per_h) {
     return "{lane: \"" + lane + ":-1\", vehicles_per_h: " + std::to_string(per_h) + "}";
   };
-  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+  for (std::uint64_t seed = 1; seed <= BriefOrLong(1u, 3u); ++seed) {
     for (const auto& [middle, others] : {std::pair<std::string, std::string>("13", flow("3", 400)),
                                          {"11", flow("3", 400) + ", " + flow("5", 500) + ", " + flow("7", 400)}}) {
       const TrafficSettings settings = Settings("flows: [" + flow(middle, 600) + ", " + others + "]\n", seed);

@@ -17,6 +17,7 @@
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -239,7 +240,7 @@ TEST(Motion, PositionAndVelocityAgreeAsVectors) {
         double speed_mps = 0.0;
       };
       std::vector<Before> before(model.vehicles());
-      for (int i = 0; i < (physics == Physics::kFull ? 3000 : 9000); ++i) {
+      for (int i = 0; i < (physics == Physics::kFull ? BriefOrLong(1200, 3000) : 9000); ++i) {
         model.Step(kStep_s, {});
         for (const AgentPose& pose : model.poses()) {
           Before& last = before[pose.id];

@@ -14,6 +14,7 @@
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "tests/long_form.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -124,11 +125,11 @@ TEST(NetworkTraffic, NobodyChangesLanesBeforeWhoComesFromARoadBehind) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
   const auto network = opendrive::LoadNetwork(file).value();
-  for (const std::uint64_t seed : {1, 4}) {
+  for (const std::uint64_t seed : BriefOrLong<std::vector<std::uint64_t>>({4}, {1, 4})) {
     StudySettings settings;
     settings.traffic.vehicles = 250;
     settings.traffic.seed = seed;
-    settings.duration_s = 60.0;
+    settings.duration_s = BriefOrLong(30.0, 60.0);
     const StudyResult r = RunStudy(settings, network).value();
     EXPECT_LE(r.hardest_mps2, 3.0) << Told(r);
     EXPECT_EQ(r.collisions, 0) << Told(r);
@@ -190,11 +191,11 @@ TEST(NetworkTraffic, AFullTownGoesOn) {
   StudySettings settings;
   settings.traffic.vehicles = 150;
   settings.traffic.seed = 4;
-  settings.duration_s = 1200.0;
+  settings.duration_s = BriefOrLong(500.0, 1200.0);
   settings.step_s = 0.02;
   std::int64_t at_half = 0;
   const StudyResult r = RunStudy(settings, lanes::MapNetwork("town"), [&](const StudyMoment& moment) {
-                          if (moment.time_s > 600.0) return;
+                          if (moment.time_s > 0.5 * settings.duration_s) return;
                           at_half = 0;
                           for (std::uint32_t id = 0; id < moment.model.vehicles(); ++id)
                             at_half += moment.model.agent(id).trip;
@@ -282,7 +283,7 @@ TEST(NetworkTraffic, WhatIsRememberedChangesNoBit) {
     const auto network = lanes::MapNetwork(name);
     TrafficModel remembers = TrafficModel::Make(settings, network, {}).value(),
                  forgets = TrafficModel::Make(settings, network, {}).value();
-    for (int i = 0; i < 1500; ++i) {
+    for (int i = 0; i < BriefOrLong(500, 1500); ++i) {
       remembers.Step(0.05, {});
       forgets.Step(0.05, {});
       base::StateWriter writer;

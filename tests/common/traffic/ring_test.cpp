@@ -16,6 +16,7 @@
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -94,8 +95,8 @@ TEST(Ring, StopAndGoArisesWhereTheIdmIsUnstable) {
       const TrafficSettings settings = Identical(cars, acceleration);
       TrafficModel model = TrafficModel::Make(settings, network, {}).value();
       const double growth = GrowthRate(settings.idm, EquilibriumOf(model, settings.idm), cars);
-      if (std::fabs(growth) < 0.004) continue;  // too near to be told in half an hour
-      for (int i = 0; i < 90000; ++i) model.Step(0.02, {});
+      if (std::fabs(growth) < 0.004) continue;  // too near to be told in that time
+      for (int i = 0; i < BriefOrLong(25000, 90000); ++i) model.Step(0.02, {});
       const double deviation = SpreadOf(model).deviation_mps;
       growth < 0.0 ? ++stable : ++unstable;
       if (growth < 0.0)
@@ -156,8 +157,9 @@ double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
 
 // Clear of the boundary that was measured (docs/traffic.md) on both sides.
 TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
-  EXPECT_GT(SpreadThroughThePowertrain(0.5, 400.0), 0.25);
-  EXPECT_LT(SpreadThroughThePowertrain(3.0, 400.0), 0.05);
+  const double for_s = BriefOrLong(150.0, 400.0);
+  EXPECT_GT(SpreadThroughThePowertrain(0.5, for_s), 0.25);
+  EXPECT_LT(SpreadThroughThePowertrain(3.0, for_s), 0.05);
 }
 
 // RODEIRA_RING: prints that table, beside what the linear theory says of accelerations that are applied exactly. Some

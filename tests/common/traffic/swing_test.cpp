@@ -17,6 +17,7 @@
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -107,7 +108,7 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
           TrafficModel::Make(settings, map == std::string("bend") ? BendOf29() : lanes::MapNetwork(map), {}).value();
       const lanes::Swings swings = SwingsOf(model.graph(), settings);
       const lanes::LargestCar largest = LargestOf(settings);
-      for (int step = 0; step < 4000; ++step) {
+      for (int step = 0; step < BriefOrLong(2000, 4000); ++step) {
         model.Step(0.01, {});
         if (step % 10 != 0) continue;
         for (const AgentPose& pose : model.poses()) {
