@@ -76,9 +76,9 @@ inline std::string BendWithThings(double sign_s_m = 90.0) {
       text.find("</road>"),
       fmt::format(
           "<objects><object id=\"t\" type=\"tree\" s=\"0\" t=\"-9\" zOffset=\"0\" radius=\"2\" height=\"7\"><repeat "
-          "s=\"0\" length=\"390\" distance=\"13\" tStart=\"-9\" tEnd=\"-12\"/></object>"
+          "s=\"0\" length=\"156\" distance=\"13\" tStart=\"-9\" tEnd=\"-12\"/></object>"
           "<object id=\"r\" type=\"barrier\" subtype=\"guardRail\" s=\"0\" t=\"6\" height=\"0.75\" "
-          "width=\"0.3\"><repeat s=\"0\" length=\"400\" distance=\"0\" tStart=\"6\" tEnd=\"6\"/></object></objects>"
+          "width=\"0.3\"><repeat s=\"0\" length=\"160\" distance=\"0\" tStart=\"6\" tEnd=\"6\"/></object></objects>"
           "<signals><signal id=\"a\" s=\"{}\" t=\"-6\" zOffset=\"2\" orientation=\"+\" dynamic=\"no\" type=\"274\" "
           "subtype=\"-1\" country=\"DE\" value=\"60\" unit=\"km/h\"/>"
           "<signal id=\"b\" s=\"80\" t=\"6\" zOffset=\"2\" orientation=\"-\" dynamic=\"no\" type=\"206\" "

@@ -23,7 +23,9 @@ class DriverStill : public ::testing::Test {
     auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test", false, 0, quality_);
     ASSERT_TRUE(surface.ok()) << surface.error().Text();
     surface_ = std::move(surface).value();
-    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+    auto painter = PainterOf(*surface_, *world_, {});  // made where the eye comes near: less than the whole world
+    ASSERT_TRUE(painter.ok()) << painter.error().Text();
+    painter_ = std::move(painter).value();
     picture_.show_instruments = false;
     picture_.mirrors.fill(false);
     picture_.camera = scene::CameraKind::kDriver;
@@ -31,7 +33,7 @@ class DriverStill : public ::testing::Test {
   }
   scene::CarPose& Car() { return picture_.moment.cars[0]; }
   Image Drawn() {
-    painter_->Draw(picture_);
+    painter_->DrawWhole(picture_);
     return painter_->Read();
   }
 

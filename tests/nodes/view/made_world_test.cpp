@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/view/scene/visual_world/world_scene.hpp"
+#include "tests/long_form.hpp"
 #include "tests/nodes/view/database_fixture.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
@@ -33,7 +34,7 @@ class MadeWorld : public testing::Test {
   }
   std::vector<Picture> Tour() const {
     std::vector<Picture> tour;
-    for (const double s_m : {25.0, 300.0, 70.0}) {
+    for (const double s_m : BriefOrLong<std::vector<double>>({25.0, 140.0}, {25.0, 140.0, 70.0})) {
       for (const auto camera : {scene::CameraKind::kChase, scene::CameraKind::kDriver, scene::CameraKind::kTop})
         tour.push_back(On(s_m, camera));
     }
@@ -78,12 +79,19 @@ TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
     return painter.value()->Read();
   };
   const Image alone = film({});
-  EXPECT_EQ(film({On(300.0, scene::CameraKind::kTop), On(25.0, scene::CameraKind::kDriver)}).rgb, alone.rgb);
+  EXPECT_EQ(film({On(140.0, scene::CameraKind::kTop), On(25.0, scene::CameraKind::kDriver)}).rgb, alone.rgb);
   EXPECT_EQ(film(Tour()).rgb, alone.rgb);
 }
 
 // Who stands and looks at nothing but the sky still has ground about him when he turns round.
 TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
+  world_ = scene::OpenDriveWorld(
+      "<road id=\"1\" length=\"1500\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0.1\" "
+      "length=\"1500\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane "
+      "id=\"0\"/></center><right>"
+      "<lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" a=\"4\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
+      "</laneSection></lanes></road>\n");
+  ASSERT_NE(world_, nullptr);
   const auto surface = Open(Quality::kLow);
   const auto painter = PainterOf(*surface, *world_, {});
   ASSERT_TRUE(painter.ok());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/core/base/random.hpp"
+#include "tests/long_form.hpp"
 #include "tests/n222.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
@@ -89,7 +90,7 @@ TEST(Still, OnN222) {
   const scene::WorldScene standing = scene::BuildWorldScene(*world);
   Painter painter(*surface.value(), *world, standing);
   Tally edges, middles, asphalt, green, sky;
-  for (double s = 60.0; s < road.length_m() - 80.0; s += 115.0) {
+  for (double s = 60.0; s < road.length_m() - 80.0; s += BriefOrLong(400.0, 115.0)) {
     Picture picture;
     picture.show_instruments = false;
     picture.moment.cars.push_back(CarOn(road, s, -1.45));

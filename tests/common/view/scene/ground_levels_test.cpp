@@ -54,9 +54,9 @@ void ExpectLevels(const std::string& name, const road::World& world, const std::
   for (std::size_t level = 1; level < kAsked.size(); ++level) {
     for (const auto& [kind, what] :
          {std::pair(Kind::kRoad, "roads"), std::pair(Kind::kVerge, "verges"), std::pair(Kind::kSlope, "slopes")}) {
-      const Correlation found = Correlate(world, tiles, Points() / 5, 29, near, kAsked[level],
+      const Correlation found = Correlate(world, tiles, Points() / 10, 29, near, kAsked[level],
                                           [&, of = kind](const Eigen::Vector3d& p) { return KindAt(world, p) == of; });
-      EXPECT_EQ(found.asked, Points() / 5) << name << ", level " << level << ", " << what;
+      EXPECT_EQ(found.asked, Points() / 10) << name << ", level " << level << ", " << what;
       EXPECT_EQ(found.far, 0) << name << ", level " << level << ", " << what << ": worst " << found.worst_m << " m at "
                               << found.where.transpose();
       EXPECT_LT(found.stepped, 0.01 * found.asked) << name << ", level " << level << ", " << what;
@@ -83,7 +83,7 @@ TEST(GroundLevels, OfSmallRadiiKeepWhatIsAsked) {
 
 // The project's worlds, on tiles drawn by lot from those through which a road runs.
 TEST(GroundLevels, OfTheProjectsWorldsKeepWhatIsAsked) {
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 5;
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20) / 5;
   for (const std::string name : {"haste", "n222", "ring", "lights"}) {
     const auto loaded = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(loaded.ok()) << loaded.error().Text();

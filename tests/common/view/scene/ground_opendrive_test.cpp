@@ -150,7 +150,7 @@ TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
                                  "esmini_straight_500m_signs",
                                  "asamqc_lane_gap_issue119",
                                  "asamqc_positive_v18"};
-  names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_LAND_FILES", 3)));
+  names.resize(std::min<std::size_t>(names.size(), Setting("RODEIRA_LAND_FILES", 2)));
   for (const std::string& name : names) {
     if (!std::filesystem::exists(SharedXodr(name))) GTEST_SKIP() << "skipped: " << SharedXodr(name) << " is absent";
     const auto loaded = road::World::Load(SharedXodr(name));

@@ -113,8 +113,7 @@ TEST(Ground, PaintOfTheProjectsRoadsLiesWhereTheWorldSays) {
     std::vector<double> sums_m2;
     const GroundPlan plan(world);
     for (const auto& tile_key : plan.tiles()) {
-      const GroundTile tile = plan.Build(tile_key);
-      const Mesh& marks = tile.levels[0].marks;
+      const Mesh marks = plan.BuildLevel(tile_key, 0).marks;
       for (std::size_t i = 0; i < marks.triangle_count(); ++i) {
         const auto c = triangles.emplace_back(CornersOf(marks, i));
         sums_m2.push_back(painted_m2 += 0.5 * std::fabs((c[1] - c[0]).x() * (c[2] - c[0]).y() -

@@ -36,15 +36,15 @@ inline std::shared_ptr<const road::World> OpenDriveWorld(const std::string& road
 inline std::string BendUnderBridge(double dx_m = 0.0, double dy_m = 0.0) {
   const auto width = [](double a) { return fmt::format("<width sOffset=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/>", a); };
   return fmt::format(
-      "<road id=\"1\" length=\"400\" junction=\"-1\"><planView>"
-      "<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"0.3\" length=\"120\"><spiral curvStart=\"0\" "
+      "<road id=\"1\" length=\"160\" junction=\"-1\"><planView>"
+      "<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"0.3\" length=\"50\"><spiral curvStart=\"0\" "
       "curvEnd=\"0.012\"/></geometry>"
-      "<geometry s=\"120\" x=\"{}\" y=\"{}\" hdg=\"1.02\" length=\"280\"><arc "
+      "<geometry s=\"50\" x=\"{}\" y=\"{}\" hdg=\"0.6\" length=\"110\"><arc "
       "curvature=\"0.012\"/></geometry></planView>"
-      "<elevationProfile><elevation s=\"0\" a=\"3\" b=\"0.05\" c=\"0\" d=\"0\"/><elevation s=\"100\" a=\"8\" "
-      "b=\"0.05\" c=\"-0.0005\" d=\"0\"/>"
-      "<elevation s=\"200\" a=\"8\" b=\"-0.05\" c=\"0\" d=\"0\"/></elevationProfile>"
-      "<lateralProfile><superelevation s=\"0\" a=\"0\" b=\"0.0004\" c=\"0\" d=\"0\"/><superelevation s=\"150\" "
+      "<elevationProfile><elevation s=\"0\" a=\"3\" b=\"0.05\" c=\"0\" d=\"0\"/><elevation s=\"40\" a=\"5\" "
+      "b=\"0.05\" c=\"-0.00125\" d=\"0\"/>"
+      "<elevation s=\"80\" a=\"5\" b=\"-0.05\" c=\"0\" d=\"0\"/></elevationProfile>"
+      "<lateralProfile><superelevation s=\"0\" a=\"0\" b=\"0.001\" c=\"0\" d=\"0\"/><superelevation s=\"60\" "
       "a=\"0.06\" b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>"
       "<lanes><laneSection s=\"0\"><left><lane id=\"2\" type=\"sidewalk\">{}<height sOffset=\"0\" inner=\"0.12\" "
       "outer=\"0.12\"/></lane>"
@@ -54,15 +54,15 @@ inline std::string BendUnderBridge(double dx_m = 0.0, double dy_m = 0.0) {
       "width=\"0.12\"/></lane></center>"
       "<right><lane id=\"-1\" type=\"driving\">{}<roadMark sOffset=\"0\" type=\"broken\" color=\"white\" "
       "width=\"0.12\"/></lane>"
-      "<lane id=\"-2\" type=\"shoulder\"><width sOffset=\"0\" a=\"1\" b=\"0.005\" c=\"0\" "
+      "<lane id=\"-2\" type=\"shoulder\"><width sOffset=\"0\" a=\"1\" b=\"0.0125\" c=\"0\" "
       "d=\"0\"/></lane></right></laneSection></lanes></road>\n"
-      "<road id=\"2\" length=\"500\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"2.0\" "
-      "length=\"500\"><line/></geometry></planView>"
-      "<elevationProfile><elevation s=\"0\" a=\"16\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
+      "<road id=\"2\" length=\"160\" junction=\"-1\"><planView><geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"2.9\" "
+      "length=\"160\"><line/></geometry></planView>"
+      "<elevationProfile><elevation s=\"0\" a=\"10.5\" b=\"0\" c=\"0\" d=\"0\"/></elevationProfile>"
       "<lanes><laneSection s=\"0\"><left><lane id=\"1\" type=\"driving\">{}</lane></left><center><lane "
       "id=\"0\"/></center>"
       "<right><lane id=\"-1\" type=\"driving\">{}</lane></right></laneSection></lanes></road>\n",
-      dx_m, dy_m, dx_m + 100.637374, dy_m + 60.179201, width(2.0), width(3.5), width(3.5), dx_m + 230.0, dy_m - 60.0,
+      dx_m, dy_m, dx_m + 45.870581, dy_m + 19.389643, width(2.0), width(3.5), width(3.5), dx_m + 157.22, dy_m + 48.35,
       width(3.0), width(3.0));
 }
 
