@@ -75,16 +75,24 @@ function(rodeira_program name)
 endfunction()
 
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.
-# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …).
+# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). Of a program whose tests run alone
+# BESIDE_OTHERS lists the tests, as --gtest_filter does, that may run beside others.
 function(rodeira_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;BESIDE_OTHERS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   rodeira_precompile(${name}_test rodeira_pch_test)
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
     GTest::gtest_main)
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60
+  set(alone)
+  if(ARG_BESIDE_OTHERS)
+    list(JOIN ARG_BESIDE_OTHERS ":" together)
+    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${together}"
+      TEST_LIST ${name}_together PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL FALSE)
+    set(alone TEST_FILTER "-${together}")
+  endif()
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 ${alone}
     PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()
 

@@ -42,7 +42,8 @@ TEST_P(DemoFault, IsNamedWithinASecondAndTheRecordingIsReadable) {
   const std::string recording = (folder_.path() / "cut.mcap").string();
   Started run({Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--for", "1000", "--pace", "real", "--run",
                run_name, "--record", recording, "--set",
-               "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string()});
+               "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string(), "--set",
+               "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=90"});
   ASSERT_TRUE(WaitForBytes(recording, 50'000, 60s));
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);

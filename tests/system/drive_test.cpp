@@ -14,6 +14,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
 #include "tests/system/recording.hpp"
 #include "tests/tree.hpp"
@@ -68,7 +69,7 @@ TEST_F(Drive, WithoutANameTheRecordingGoesToTheDataFolderWhichIsMade) {
 
 // However short the run is: what failed has not finished.
 TEST_F(Drive, ARecorderThatCannotWriteFailsTheRun) {
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < BriefOrLong(4, 10); ++i) {
     const auto run = RunCommand(Command({"--for", "0.05", "--record", Path("no/such/folder/a.mcap")}));
     ASSERT_NE(run.status, 0) << run.out;
     EXPECT_NE(run.out.find("node 'recorder' failed at step 0: " + Path("no/such/folder/a.mcap") +

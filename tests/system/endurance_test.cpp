@@ -44,8 +44,8 @@ double NumberBehind(const std::string& text, const std::string& word) {
 class RecorderKilled : public Endurance {
  protected:
   static constexpr std::uintmax_t kFirstSecondBytes =
-      100'000;                                      // what is embedded has 20 kB, the first chunk more than these
-  static constexpr const char* kSimulated = "120";  // seconds: at the pace below ten, longer than a run lives
+      100'000;                                     // what is embedded has 20 kB, the first chunk more than these
+  static constexpr const char* kSimulated = "60";  // seconds: at the pace below five, longer than a run lives
   std::vector<std::string> Command(const std::string& run, const std::string& recording) const {
     return {Bin("rodeira"),
             "run",

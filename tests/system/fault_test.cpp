@@ -22,7 +22,7 @@ void ExpectNamed(const std::string& node, int signal, const std::string& expecte
   const std::string run_name = "fault-" + node + std::to_string(signal);
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
                "--run", run_name});
-  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(Runs(run_name));
   const auto victims = ProcessesWith("--run " + run_name, node == "clock" ? "/rodeira-clock" : "--node " + node);
   ASSERT_EQ(victims.size(), 1u);
   ::kill(victims[0], signal);

@@ -25,7 +25,8 @@ class Leftover : public ::testing::Test {
   std::vector<std::string> Demo(const std::string& run_name, std::vector<std::string> more) const {
     more.insert(more.begin(), {Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--headless", "--run", run_name,
                                "--record", (folder_.path() / "a.mcap").string(), "--set",
-                               "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string()});
+                               "nodes.view.config.frames.folder=" + (folder_.path() / "frames").string(), "--set",
+                               "nodes.view.config.width_px=160", "--set", "nodes.view.config.height_px=90"});
     return more;
   }
   // The clock and six nodes.

@@ -107,7 +107,7 @@ class Recovery : public ::testing::Test {
 
 // RODEIRA_KILLS says how often, one part after the other; RODEIRA_KILLS_SEED repeats a sequence of instants.
 TEST_F(Recovery, KilledAndStoppedAtAnyInstantNothingIsLost) {
-  const int kills = static_cast<int>(Setting("RODEIRA_KILLS", 12));
+  const int kills = static_cast<int>(Setting("RODEIRA_KILLS", 6));
   const auto seed = static_cast<unsigned>(Setting("RODEIRA_KILLS_SEED", std::random_device()()));
   SCOPED_TRACE("RODEIRA_KILLS_SEED=" + std::to_string(seed));
   std::mt19937 lot(seed);
@@ -219,7 +219,7 @@ TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
 
 // It writes its pictures again, as an undisturbed one does.
 TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
-  const auto command = [&](const std::string& name) {
+  const auto command = [&](const std::string& name, const std::string& pace) {
     return std::vector<std::string>{Bin("rodeira"),
                                     "run",
                                     LaunchFile("demo.yaml"),
@@ -229,7 +229,7 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
                                     "--for",
                                     "20",
                                     "--pace",
-                                    "5",
+                                    pace,
                                     "--record",
                                     File(name + ".mcap"),
                                     "--set",
@@ -245,11 +245,11 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   };
   const std::string calm = "view-calm-" + std::to_string(::getpid()),
                     struck = "view-struck-" + std::to_string(::getpid());
-  const Ended undisturbed = RunCommand(command(calm));
+  const Ended undisturbed = RunCommand(command(calm, "max"));
   ASSERT_EQ(undisturbed.status, 0) << undisturbed.out;
   digest_ = DigestIn(undisturbed.out);
   samples_ = SamplesOf(File(calm + ".mcap"));
-  Started run(command(struck));
+  Started run(command(struck, "5"));
   ASSERT_TRUE(Runs(struck));
   for (const int signal : {SIGKILL, SIGSTOP}) {
     std::this_thread::sleep_for(500ms);

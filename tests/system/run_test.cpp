@@ -76,7 +76,7 @@ TEST(Run, RealPaceTakesRealTime) {
 TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
                "--run", "ctrlc"});
-  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(Runs("ctrlc"));
   ::kill(run.pid(), SIGINT);
   const Ended ended = run.Wait(10s);
   EXPECT_EQ(ended.status, 0) << ended.out;
@@ -99,7 +99,7 @@ TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
 TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
                "--run", "orphans"});
-  std::this_thread::sleep_for(1500ms);
+  ASSERT_TRUE(Runs("orphans"));
   ASSERT_EQ(ProcessesWith("--run orphans", "/rodeira-").size(), 5u);
   ::kill(run.pid(), SIGKILL);
   std::this_thread::sleep_for(2s);
