@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What SUMO's netconvert makes of an exported world, against the network it was made of.
 #include "tests/common/world/road/netconvert.hpp"
+#include "tests/long_form.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -125,7 +126,9 @@ void ExpectEveryEdge(const std::filesystem::path& folder, const Network& network
       "cd " + folder.string() +
       " && { [ -n \"$SUMO_HOME\" ] || [ ! -d /usr/share/sumo ] || export SUMO_HOME=/usr/share/sumo; } && netconvert "
       "--opendrive-files it.xodr "
-      "--opendrive.curve-resolution 0.2 --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
+      "--opendrive.curve-resolution " +
+      BriefOrLong<std::string>("1", "0.2") +
+      " --precision 6 --plain-output-prefix it --output-file it.net.xml > log 2>&1";
   ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder / "log").value();
   EXPECT_EQ(Complaints(base::ReadText(folder / "log").value()), "");
   const std::string edges = base::ReadText(folder / "it.edg.xml").value(),
