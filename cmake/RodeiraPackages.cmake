@@ -24,6 +24,8 @@ set(RODEIRA_HEADSET OFF)
 if(RODEIRA_VIEW)
   find_package(OpenSceneGraph REQUIRED COMPONENTS osgDB osgUtil osgGA osgText osgViewer)
   find_package(SDL2 REQUIRED)
+  # SDL's header would read all vector instructions of the processor: 40 000 lines that nothing here uses.
+  set_property(TARGET SDL2::SDL2 APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS SDL_DISABLE_IMMINTRIN_H)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   if(RODEIRA_OPENXR)
     find_package(OpenXR QUIET)

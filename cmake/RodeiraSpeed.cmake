@@ -5,8 +5,16 @@
 option(RODEIRA_UNITY "Compile the sources of a module in batches" ON)
 option(RODEIRA_PCH "Precompile the headers that nearly every source reads (GCC only)" ON)
 
-# Sources a batch. A batch of a changed source is compiled again as a whole: small enough for that, large enough to save.
-set(RODEIRA_BATCH 8)
+# Sources a batch, at most. A changed source compiles its batch again. A change in these two groups compiles much of what
+# lies above them, too: their batches are smaller, so that a test of the changed source runs sooner.
+set(RODEIRA_BATCH 16)
+set(RODEIRA_SMALL_BATCH 10)
+set(RODEIRA_SMALL_BATCH_GROUPS "^${CMAKE_SOURCE_DIR}/common/(core|world)/")
+
+# GCC collects garbage only beyond this many kilobytes: 4 % less processor time, 130 MB more memory a compiler.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options("SHELL:--param ggc-min-heapsize=1048576")
+endif()
 
 # Creates an object library whose precompiled header other targets share.
 function(rodeira_add_pch name)
@@ -43,11 +51,21 @@ endfunction()
 function(rodeira_compile_fast target)
   rodeira_precompile(${target} rodeira_pch)
   if(RODEIRA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${RODEIRA_BATCH})
+    set(limit ${RODEIRA_BATCH})
+    if(CMAKE_CURRENT_SOURCE_DIR MATCHES "${RODEIRA_SMALL_BATCH_GROUPS}")
+      set(limit ${RODEIRA_SMALL_BATCH})
+    endif()
+    # As few batches as the limit allows, of equal sizes.
+    get_target_property(sources ${target} SOURCES)
+    list(LENGTH sources count)
+    math(EXPR batches "(${count} + ${limit} - 1) / ${limit}")
+    math(EXPR batch "(${count} + ${batches} - 1) / ${batches}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
   endif()
 endfunction()
 
-# Sources whose loops the compiler vectorises: -O3, and square roots that set no errno. Every result keeps its bits.
+# Sources whose loops the compiler vectorises: -O3, and square roots that set no errno. Every result keeps its bits. They
+# read no precompiled header: GCC would compile them at its level, -O2, and say nothing.
 function(rodeira_vectorise)
   set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno"
     SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)

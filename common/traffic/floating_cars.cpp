@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "common/core/base/append_format.hpp"
 #include "common/core/base/constants.hpp"
 #include "common/traffic/xml_text.hpp"
 
@@ -38,14 +38,14 @@ std::string FloatingCarsAt(double time_s, const TrafficModel& model) {
     const double half = 0.5 * model.traits(pose.id).length_m;
     const Eigen::Vector3d front = pose.p_WB_W + half * ahead;
     const double angle = std::remainder(90.0 - base::kDegreesPerRadian * std::atan2(ahead.y(), ahead.x()), 360.0);
-    fmt::format_to(std::back_inserter(text),
-                   "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" "
-                   "speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
-                   pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps,
-                   agent.o_m + half - agent.path[i].zero_m,
-                   XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()),
-                   IndexOf(graph, agent.path[i].track),
-                   base::kDegreesPerRadian * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));
+    base::AppendFormat(text,
+                       "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" "
+                       "speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
+                       pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps,
+                       agent.o_m + half - agent.path[i].zero_m,
+                       XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()),
+                       IndexOf(graph, agent.path[i].track),
+                       base::kDegreesPerRadian * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));
   }
   return text + "    </timestep>\n";
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
+#include "common/core/base/append_format.hpp"
 #include "common/core/base/csv_cell.hpp"
 #include "common/traffic/drivetrain.hpp"
 #include "common/traffic/graph_bounds.hpp"
@@ -46,9 +46,9 @@ std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistic
       const LaneCell& cell = statistics.CellsOf(track)[i];
       const double d = (static_cast<double>(i) + 0.5) * length;
       const lanes::CurvePoint at = lane.curve.At(d);
-      fmt::format_to(
-          std::back_inserter(table), "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{},{},{:.3f}\n",
-          RoadCell(graph, track), lane.lane.lane, lane.curve.StationAt(d), at.p_W.x(), at.p_W.y(), length,
+      base::AppendFormat(
+          table, "{},{},{:.2f},{:.2f},{:.2f},{:.4f},{:.3f},{:.3f},{},{},{:.3f}\n", RoadCell(graph, track),
+          lane.lane.lane, lane.curve.StationAt(d), at.p_W.x(), at.p_W.y(), length,
           3600.0 * cell.Flow_vehps(length, watched), 1000.0 * cell.Density_vehpm(length, watched),
           cell.time_s > 0.0 ? fmt::format("{:.3f}", cell.Speed_mps()) : "",
           cell.distance_m > 0.0 ? fmt::format("{:.2f}", 1e6 * cell.fuel_mg / kFuelDensity_mgpl / cell.distance_m) : "",
@@ -62,8 +62,8 @@ std::string QueueTable(const lanes::Graph& graph, const LaneStatistics& statisti
   std::string table = "road,lane,length_m,queue_longest,queue_mean\n";
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const lanes::Track& lane = graph[track];
-    fmt::format_to(std::back_inserter(table), "{},{},{:.2f},{},{:.4f}\n", RoadCell(graph, track), lane.lane.lane,
-                   lane.length_m(), statistics.LongestQueue(track), statistics.MeanQueue(track));
+    base::AppendFormat(table, "{},{},{:.2f},{},{:.4f}\n", RoadCell(graph, track), lane.lane.lane, lane.length_m(),
+                       statistics.LongestQueue(track), statistics.MeanQueue(track));
   }
   return table;
 }
@@ -73,8 +73,8 @@ std::string FlowTable(const lanes::Graph& graph, const LaneStatistics& statistic
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
     const network::LaneKey& lane = graph[track].lane;
     const LaneCount& count = statistics.CountOf(track);
-    fmt::format_to(std::back_inserter(table), "{},{},{},{},{},{},{}\n", RoadCell(graph, track), lane.section, lane.lane,
-                   count.began, count.in, count.out, count.there());
+    base::AppendFormat(table, "{},{},{},{},{},{},{}\n", RoadCell(graph, track), lane.section, lane.lane, count.began,
+                       count.in, count.out, count.there());
   }
   return table;
 }
@@ -88,9 +88,9 @@ std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& interv
       const LaneIntervals::Track& of = interval.tracks[track];
       const LaneCell sum{of.distance_m, of.time_s, 0.0};
       const double length = graph[track].length_m();
-      fmt::format_to(
-          std::back_inserter(table), "{:.2f},{:.2f},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.4f}\n", interval.from_s,
-          interval.to_s, RoadCell(graph, track), graph[track].lane.section, graph[track].lane.lane, of.in, of.out,
+      base::AppendFormat(
+          table, "{:.2f},{:.2f},{},{},{},{},{},{:.3f},{:.3f},{},{},{:.4f}\n", interval.from_s, interval.to_s,
+          RoadCell(graph, track), graph[track].lane.section, graph[track].lane.lane, of.in, of.out,
           3600.0 * sum.Flow_vehps(length, watched), 1000.0 * sum.Density_vehpm(length, watched),
           of.time_s > 0.0 ? fmt::format("{:.3f}", sum.Speed_mps()) : "", of.queue_longest,
           interval.looks > 0 ? static_cast<double>(of.queue_sum) / static_cast<double>(interval.looks) : 0.0);
@@ -106,10 +106,10 @@ std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistic
   };
   std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow\n";
   for (const LaneTrip& trip : statistics.trips()) {
-    fmt::format_to(std::back_inserter(table), "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id,
-                   kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
-                   trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s,
-                   trip.flow < 0 ? "" : std::to_string(trip.flow + 1));
+    base::AppendFormat(table, "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id,
+                       kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
+                       trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s,
+                       trip.flow < 0 ? "" : std::to_string(trip.flow + 1));
   }
   return table;
 }
@@ -137,11 +137,11 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
       const int shade = shade_of(track, i);
       std::size_t end = i;
       while (end < count && shade_of(track, end) == shade) ++end;
-      fmt::format_to(std::back_inserter(svg), "<polyline stroke='{}' points='", shade < 0 ? "#d0d0d0" : ShadeOf(shade));
+      base::AppendFormat(svg, "<polyline stroke='{}' points='", shade < 0 ? "#d0d0d0" : ShadeOf(shade));
       for (std::size_t k = i; k <= end; ++k) {
         const Eigen::Vector3d p = graph[track].curve.At(static_cast<double>(k) * statistics.CellLength_m(track)).p_W;
-        fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", kRim_px + scale * (p.x() - frame.west_m),
-                       kMapTop_px + scale * (frame.north_m - p.y()));
+        base::AppendFormat(svg, "{:.1f},{:.1f} ", kRim_px + scale * (p.x() - frame.west_m),
+                           kMapTop_px + scale * (frame.north_m - p.y()));
       }
       svg += "'/>\n";
       i = end;
@@ -149,12 +149,11 @@ std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics
   }
   svg += "</g>\n";
   for (int shade = 0; shade < kSpeedShades; ++shade) {
-    fmt::format_to(std::back_inserter(svg), "<rect x='{}' y='26' width='6' height='8' fill='{}'/>",
-                   kRim_px + 6.0 * shade, ShadeOf(shade));
+    base::AppendFormat(svg, "<rect x='{}' y='26' width='6' height='8' fill='{}'/>", kRim_px + 6.0 * shade,
+                       ShadeOf(shade));
   }
-  fmt::format_to(std::back_inserter(svg),
-                 "<text x='{}' y='34'>mean speed, from standing to the limit; grey: nobody</text>\n</svg>\n",
-                 kRim_px + 6.0 * kSpeedShades + 8.0);
+  base::AppendFormat(svg, "<text x='{}' y='34'>mean speed, from standing to the limit; grey: nobody</text>\n</svg>\n",
+                     kRim_px + 6.0 * kSpeedShades + 8.0);
   return svg;
 }
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <set>
 
+#include "common/core/base/append_format.hpp"
 #include "common/traffic/xml_text.hpp"
 
 namespace rodeira::traffic {
@@ -26,11 +26,10 @@ int ShadeAt(double speed_mps, double limit_mps) {
 void Legend(std::string& svg) {
   double x = kPlotLeft_px;
   for (const char* shade : kSpeedColours) {
-    fmt::format_to(std::back_inserter(svg), "<rect x='{:.0f}' y='26' width='20' height='8' fill='{}'/>", x, shade);
+    base::AppendFormat(svg, "<rect x='{:.0f}' y='26' width='20' height='8' fill='{}'/>", x, shade);
     x += 20.0;
   }
-  fmt::format_to(std::back_inserter(svg), "<text x='{:.0f}' y='34'>speed, from standing to the limit</text>\n",
-                 x + 8.0);
+  base::AppendFormat(svg, "<text x='{:.0f}' y='34'>speed, from standing to the limit</text>\n", x + 8.0);
 }
 
 }  // namespace
@@ -62,11 +61,11 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
       kPlotTop_px, kPlotWidth_px, kPlotHeight_px, here.size());
   Legend(svg);
   for (int k = 0; k <= 4; ++k) {
-    fmt::format_to(std::back_inserter(svg),
-                   "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' "
-                   "text-anchor='end'>{:.4g} m</text>\n",
-                   x(0.25 * k * last_s_), kPlotTop_px + kPlotHeight_px + 18.0, 0.25 * k * last_s_, kPlotLeft_px - 6.0,
-                   y(0.25 * k * length) + 4.0, 0.25 * k * length);
+    base::AppendFormat(svg,
+                       "<text x='{:.0f}' y='{:.0f}' text-anchor='middle'>{:.5g} s</text><text x='{:.0f}' y='{:.0f}' "
+                       "text-anchor='end'>{:.4g} m</text>\n",
+                       x(0.25 * k * last_s_), kPlotTop_px + kPlotHeight_px + 18.0, 0.25 * k * last_s_,
+                       kPlotLeft_px - 6.0, y(0.25 * k * length) + 4.0, 0.25 * k * length);
   }
   svg += "<g fill='none' stroke-width='1'>\n";
   for (const auto& [who, points] : ways_) {
@@ -79,10 +78,10 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
       std::size_t end = i;
       while (goes_on(end) && (end == i || ShadeAt(points[end].speed_mps, limit) == shade)) ++end;
       for (std::size_t k = i; k <= end; ++k)
-        fmt::format_to(std::back_inserter(line), "{:.1f},{:.1f} ", x(points[k].time_s), y(points[k].d_m));
+        base::AppendFormat(line, "{:.1f},{:.1f} ", x(points[k].time_s), y(points[k].d_m));
       if (end > i)
-        fmt::format_to(std::back_inserter(svg), "<polyline stroke='{}' points='{}'/>\n",
-                       kSpeedColours[static_cast<std::size_t>(shade)], line);
+        base::AppendFormat(svg, "<polyline stroke='{}' points='{}'/>\n", kSpeedColours[static_cast<std::size_t>(shade)],
+                           line);
       i = std::max(end, i + 1);
     }
   }

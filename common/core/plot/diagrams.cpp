@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "common/core/base/append_format.hpp"
 #include "common/core/plot/table.hpp"
 
 namespace rodeira::plot {
@@ -67,7 +67,7 @@ void AddLine(const Table& table, std::size_t column, int top, const Extent& exte
       if (table.At(i, column) > table.At(high, column)) high = i;
     }
     for (const std::size_t i : {std::min(low, high), std::max(low, high)}) {
-      fmt::format_to(std::back_inserter(svg), "{:.1f},{:.1f} ", x(table.At(i, 0)), y(table.At(i, column)));
+      base::AppendFormat(svg, "{:.1f},{:.1f} ", x(table.At(i, 0)), y(table.At(i, column)));
     }
   }
   svg += "'/>\n";

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/core/plot/table.hpp"
 
-#include <fmt/format.h>
-
-#include <iterator>
+#include "common/core/base/append_format.hpp"
 
 namespace rodeira::plot {
 
@@ -13,7 +11,7 @@ std::string ToCsv(const Table& table) {
   text += "\n";
   for (std::size_t row = 0; row < table.rows(); ++row) {
     for (std::size_t c = 0; c < table.names.size(); ++c)
-      fmt::format_to(std::back_inserter(text), "{}{}", c == 0 ? "" : ",", table.At(row, c));
+      base::AppendFormat(text, "{}{}", c == 0 ? "" : ",", table.At(row, c));
     text += "\n";
   }
   return text;

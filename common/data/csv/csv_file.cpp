@@ -9,6 +9,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/core/base/append_format.hpp"
 #include "common/core/base/csv_cell.hpp"
 
 namespace rodeira::csv {
@@ -68,9 +69,9 @@ void AppendSeconds(std::int64_t time_ns, std::string& out) {
   const std::uint64_t size =
       time_ns < 0 ? 0 - static_cast<std::uint64_t>(time_ns) : static_cast<std::uint64_t>(time_ns);
   if (time_ns < 0) out += '-';
-  fmt::format_to(std::back_inserter(out), "{}", size / kSecond);
+  base::AppendFormat(out, "{}", size / kSecond);
   if (size % kSecond == 0) return;
-  fmt::format_to(std::back_inserter(out), ".{:09}", size % kSecond);
+  base::AppendFormat(out, ".{:09}", size % kSecond);
   while (out.back() == '0') out.pop_back();
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/data/csv/table_writer.hpp"
 
-#include <fmt/format.h>
-
 #include <utility>
+
+#include "common/core/base/append_format.hpp"
 
 namespace rodeira::csv {
 namespace {
@@ -12,7 +12,7 @@ using decode::Value;
 
 void AppendValue(const Value& value, std::string& out) {
   if (const auto* number = std::get_if<double>(&value); number != nullptr && *number == *number) {
-    fmt::format_to(std::back_inserter(out), "{}", *number);  // most values are: no text of their own
+    base::AppendFormat(out, "{}", *number);  // most values are: no text of their own
   } else if (const auto* text = std::get_if<std::string>(&value)) {
     AppendCell(*text, out);
   } else {
@@ -73,12 +73,12 @@ base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t 
   for (std::size_t row = 0; row < rows; ++row) {
     AppendSeconds(time_ns_, out);
     out += ',';
-    if (layout_.has_header) fmt::format_to(std::back_inserter(out), "{},", step_);
+    if (layout_.has_header) base::AppendFormat(out, "{},", step_);
     AppendCell(source, out);
     out += before_;
     if (!layout_.rows.empty()) out += row_cells_[row];
     out += after_;
-    if (layout_.has_header) fmt::format_to(std::back_inserter(out), ",{:016x}", digest_);
+    if (layout_.has_header) base::AppendFormat(out, ",{:016x}", digest_);
     out += '\n';
     ++rows_;
   }

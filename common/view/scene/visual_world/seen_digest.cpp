@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
 #include <map>
 
+#include "common/core/base/append_format.hpp"
 #include "common/view/scene/ground_materials/lay_picture.hpp"
 #include "common/view/scene/road_furniture/things.hpp"
 #include "common/view/scene/road_markings/road_paint.hpp"
@@ -27,20 +27,18 @@ base::Digest SeenDigest(const road::World& world) {
   for (const network::Road& road : world.network()->roads()) {
     std::string marks;
     for (const network::Marking& mark : network::MarkingsOf(road)) {
-      fmt::format_to(std::back_inserter(marks), "{} {} {} {} {} {} {} {} {} {}\n", mark.section, mark.lane,
-                     mark.from_s_m, mark.to_s_m, mark.t_offset_m, mark.width_m, mark.stroke_m, mark.gap_m, mark.first_m,
-                     mark.colour);
+      base::AppendFormat(marks, "{} {} {} {} {} {} {} {} {} {}\n", mark.section, mark.lane, mark.from_s_m, mark.to_s_m,
+                         mark.t_offset_m, mark.width_m, mark.stroke_m, mark.gap_m, mark.first_m, mark.colour);
       if (mark.sway == nullptr) continue;
       for (const geometry::Cubic& cubic : mark.sway->records())
-        fmt::format_to(std::back_inserter(marks), "{} {} {} {} {}\n", cubic.from, cubic.a, cubic.b, cubic.c, cubic.d);
+        base::AppendFormat(marks, "{} {} {} {} {}\n", cubic.from, cubic.a, cubic.b, cubic.c, cubic.d);
     }
     for (const network::LaneSection& section : road.spec().sections) {
       for (const auto* side : {&section.left, &section.right}) {
         for (const network::Lane& lane : *side) {
           for (const network::LaneMaterial& material : lane.materials) {
             if (const auto picture = PictureOf(material))
-              fmt::format_to(std::back_inserter(marks), "{} {} {}\n", lane.id, pictures.at(picture->file),
-                             picture->width_m);
+              base::AppendFormat(marks, "{} {} {}\n", lane.id, pictures.at(picture->file), picture->width_m);
           }
         }
       }
