@@ -71,7 +71,7 @@ std::string TrajectoryDiagram::ToSvg(const lanes::Graph& graph, const std::strin
   for (const auto& [who, points] : ways_) {
     for (std::size_t i = 0; i + 1 < points.size();) {
       const int shade = ShadeAt(points[i].speed_mps, limit);
-      const auto goes_on = [&](std::size_t k) {
+      const auto goes_on = [&points = points](std::size_t k) {
         return k + 1 < points.size() && points[k + 1].d_m >= points[k].d_m - 1e-9;
       };
       std::string line;
