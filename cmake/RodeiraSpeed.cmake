@@ -64,10 +64,21 @@ function(rodeira_compile_fast target)
   endif()
 endfunction()
 
-# Sources whose loops the compiler vectorises: -O3, and square roots that set no errno. Every result keeps its bits. They
+# rodeira_vectorise(network cluster.cpp …): sources of the library of the current folder whose loops the compiler
+# vectorises: -O3, and square roots that set no errno. Every result keeps its bits. They are a batch of their own, and
 # read no precompiled header: GCC would compile them at its level, -O2, and say nothing.
-function(rodeira_vectorise)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno"
+function(rodeira_vectorise name)
+  set(sources ${ARGN})
+  if(RODEIRA_UNITY)
+    set(batch ${CMAKE_CURRENT_BINARY_DIR}/vectorised.cpp)
+    list(TRANSFORM sources REPLACE "(.+)" "#include \"${CMAKE_CURRENT_SOURCE_DIR}/\\1\"\n" OUTPUT_VARIABLE includes)
+    string(CONCAT text ${includes})
+    file(CONFIGURE OUTPUT ${batch} CONTENT "${text}" @ONLY)
+    set_source_files_properties(${sources} PROPERTIES HEADER_FILE_ONLY ON)
+    target_sources(rodeira_${name} PRIVATE ${batch})
+    set(sources ${batch})
+  endif()
+  set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS "-O3;-fno-math-errno"
     SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
