@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
 
 namespace rodeira {
@@ -41,7 +42,7 @@ class Processors : public ::testing::Test {
     return system_test::DigestIn(
         OutputOf(processor, {kFixed},
                  {Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"), "--in-process", "--no-record",
-                  "--for", "1", "--set", "vehicle.model=" + model}));
+                  "--for", BriefOrLong<std::string>("0.3", "1"), "--set", "vehicle.model=" + model}));
   }
 };
 

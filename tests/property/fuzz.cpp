@@ -30,7 +30,7 @@ void Fuzz(const char* format, const std::vector<std::string>& good, const Read& 
     ASSERT_FALSE(error) << error->Text();
   }
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 2000);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 1000);
   std::size_t accepted = 0;
   for (std::size_t number = first; number < first + count; ++number) {
     Draw draw(number);

@@ -153,7 +153,7 @@ TEST(TrafficFiles, LightsOfMaps) {
         return std::nullopt;
       },
       MutateStructure);
-  if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
+  if (Setting("RODEIRA_FUZZ_FILES", 1000) >= 1000) {
     EXPECT_GT(conflicts, 0);
   }
 }
@@ -180,8 +180,8 @@ TEST(TrafficFiles, MapsChangedByBytes) {
          driven += model.value().on_road() > 0 ? 1 : 0;
          return std::nullopt;
        });
-  if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
-    EXPECT_GT(driven, 100);
+  if (Setting("RODEIRA_FUZZ_FILES", 1000) >= 1000) {
+    EXPECT_GT(driven, 50);  // of a thousand; 97 with the first of them
   }
 }
 
@@ -224,7 +224,7 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
         return refused;
       },
       MutateStructure);
-  if (Setting("RODEIRA_FUZZ_FILES", 2000) >= 1000) {
+  if (Setting("RODEIRA_FUZZ_FILES", 1000) >= 1000) {
     EXPECT_GT(appeared, 0);
   }
 }
