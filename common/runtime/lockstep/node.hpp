@@ -19,9 +19,9 @@ class Node {
   // One activation: what `inbox` shows is all that the node may know; returning means "step done".
   virtual base::Status Step(const StepInfo& step, const Inbox& inbox, Outbox& outbox) = 0;
 
-  // Before each activation: waits until what earlier ones gave to the node's own threads is done (pictures in their
-  // files), so that a new life of it need not do that again. It takes as long as the machine takes; the step's deadline
-  // does not count.
+  // After each activation, before its progress is told: waits until what it gave to the node's own threads is done
+  // (pictures in their files), so that a restarted node need not do that again. It takes as long as the machine takes;
+  // the step's deadline does not count.
   virtual base::Status Settle() { return {}; }
 
   // Its steps are short, ask no server (SUELO) and may run on any thread, one at a time: then they are done where the

@@ -116,7 +116,7 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
   switch (mailbox_.WaitForInputs(begun_at_, limit)) {
     case Mailbox::Woken::kReady: {
       const std::lock_guard lock(report_mutex_);
-      report_.progress = next_;
+      report_.progress = settled_ = next_;
     }
       Note(Phase::kReady, Waiting::kGrant);
       TellReport();
@@ -131,9 +131,24 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
   return Outcome::kBlocked;
 }
 
+// A step counts as progress only when the node's own threads have done what it gave to them: a restarted node begins
+// behind the progress that was told.
+base::Status Runner::SettleStep() {
+  if (settled_ == next_) return {};
+  Note(Phase::kRunning, Waiting::kOutput);
+  if (auto status = node_.Settle(); !status) return status;
+  settled_ = next_;
+  const std::lock_guard lock(report_mutex_);
+  report_.progress = next_;
+  report_.waiting = Waiting::kGrant;  // until it is known that something else is missing
+  since_ = WallClock::now();
+  return {};
+}
+
 Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   // Progress is told each quarter window, and before blocking on the grant (law L2): so the clock always knows enough
   // to grant the slowest node's next activation, and no more is ever said.
+  if (auto status = SettleStep(); !status) return Fail(status.error());
   const bool granted = mailbox_.IsGranted(next_);
   if (told_ < next_ && (!granted || next_ - told_ >= std::max<Step>(roster_.window() / 4, 1))) TellReport();
   switch (mailbox_.WaitForActivation(next_, limit)) {
@@ -149,7 +164,6 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
       return Outcome::kBlocked;
   }
   Note(Phase::kRunning, Waiting::kOutput);
-  if (auto status = node_.Settle(); !status) return Fail(status.error());
   if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
@@ -174,7 +188,6 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
     report_.busy_ns += took_ns;
     report_.worst_ns = std::max(report_.worst_ns, took_ns);
     next_ += spec_.period;
-    report_.progress = next_;
     report_.waiting = Waiting::kGrant;  // until it is known that something else is missing
     since_ = WallClock::now();
   }

@@ -51,6 +51,7 @@ class Runner {
 
   Outcome Begin();
   Outcome AwaitInputs(std::chrono::milliseconds limit);
+  base::Status SettleStep();
   Outcome Activate(std::chrono::milliseconds limit);
   Outcome End(std::chrono::milliseconds limit);
   Outcome Fail(const base::Error& error);
@@ -77,6 +78,7 @@ class Runner {
   Stage stage_ = Stage::kBegin;
   Step begun_at_ = 0;       // 0, or the step of the snapshot that was resumed
   Step next_ = 0;           // the next activation
+  Step settled_ = -1;       // everything before it is done, by the node's own threads too
   Step told_ = -1;          // the progress last told
   std::deque<Sample> own_;  // own samples that a snapshot or a late peer may still need
   base::StateWriter state_without_names_{base::StateWriter::Names::kWithout};

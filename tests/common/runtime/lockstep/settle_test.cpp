@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a node has given to its own threads is waited for before each activation, and that waiting is not its step's
-// time.
+// What a step has given to the node's own threads is waited for before its progress is told, and that waiting is not
+// the step's time.
 #include <gtest/gtest.h>
 
 #include "common/runtime/lockstep/runner.hpp"
@@ -15,7 +15,8 @@ class NoBus final : public Bus {
  public:
   base::Status Publish(const Sample&) override { return {}; }
   void Ask(const Gap&) override {}
-  void Tell(const Report&) override {}
+  void Tell(const Report& report) override { told.push_back(report); }
+  std::vector<Report> told;
 };
 
 // Remembers where its runner said that it stood.
@@ -24,9 +25,11 @@ class Writer final : public Node {
   base::Status Initialise(Outbox&) override { return {}; }
   base::Status Settle() override {
     seen.push_back(runner->report());
+    if (answer.ok()) settled_through = next;
     return answer;
   }
-  base::Status Step(const StepInfo&, const Inbox&, Outbox&) override {
+  base::Status Step(const StepInfo& step, const Inbox&, Outbox&) override {
+    next = step.step + step.period;
     seen.push_back(runner->report());
     return {};
   }
@@ -36,6 +39,7 @@ class Writer final : public Node {
   const Runner* runner = nullptr;
   base::Status answer;
   std::vector<Report> seen;
+  lockstep::Step next = 0, settled_through = 0;
 };
 
 class SettleTest : public ::testing::Test {
@@ -58,20 +62,24 @@ class SettleTest : public ::testing::Test {
   Runner runner_{roster_, 0, node_, bus_, mailbox_, {}};
 };
 
-TEST_F(SettleTest, IsWaitedForBeforeEachActivationAndIsNoComputing) {
+// A node that is restarted begins behind the progress that was told: a picture that is still drawn must not count.
+TEST_F(SettleTest, AStepIsProgressWhenItsWorkIsDone) {
   EXPECT_EQ(Go(), Runner::Outcome::kBlocked);
-  ASSERT_EQ(node_.seen.size(), 4u);  // activations 0 and 10
+  ASSERT_EQ(node_.seen.size(), 4u);  // activation 0, its work done, activation 10, its work done
   for (std::size_t i = 0; i < node_.seen.size(); ++i) {
-    EXPECT_EQ(node_.seen[i].waiting, i % 2 == 0 ? Waiting::kOutput : Waiting::kNothing) << i;
+    EXPECT_EQ(node_.seen[i].waiting, i % 2 == 1 ? Waiting::kOutput : Waiting::kNothing) << i;
     EXPECT_EQ(node_.seen[i].progress, i < 2 ? 0 : 10) << i;
     EXPECT_EQ(node_.seen[i].phase, Phase::kRunning) << i;
   }
+  EXPECT_EQ(runner_.report().progress, 20);
+  for (const Report& told : bus_.told) EXPECT_LE(told.progress, node_.settled_through) << "told before it was done";
 }
 
 TEST_F(SettleTest, WhatCannotBeWrittenEndsTheNode) {
   node_.answer = base::Failed("the disk is full");
   EXPECT_EQ(Go(), Runner::Outcome::kFailed);
-  EXPECT_EQ(node_.seen.size(), 1u);
+  EXPECT_EQ(node_.seen.size(), 2u);
+  EXPECT_EQ(runner_.report().progress, 0);
   EXPECT_NE(runner_.report().message.find("the disk is full"), std::string::npos);
 }
 
