@@ -113,8 +113,8 @@ TEST_F(Recordings, TablesHoldEverySampleOfTheDrive) {
     ASSERT_EQ(std::strtod(cells[4].c_str(), nullptr), states[rows].position_w_m().y());
   }
   EXPECT_EQ(rows, states.size());
-  for (const char* name :
-       {"tables/wall.csv", "tables/remarks.csv"}) {  // what the clock says is no sample, and has a source all the same
+  for (const char* name : {"tables/wall_time.csv",
+                           "tables/remarks.csv"}) {  // what the clock says is no sample, and has a source all the same
     const std::string clocks = base::ReadText(Path(name)).value();
     EXPECT_THAT(clocks, HasSubstr(",clock,"));
     EXPECT_THAT(clocks, testing::Not(HasSubstr("channel")));
