@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# What is installed, and where. Components: headless (front door, nodes, worlds, vehicles, launch files), graphics (view,
-# editor, start window), development (libraries and headers for nodes of one's own), documentation.
+# What is installed, and where. Components: headless (front door, nodes, worlds, vehicles, launch files), graphics
+# (view, editor, start window), development (libraries and headers for nodes of one's own), documentation.
 # cmake/RodeiraPackage.cmake makes Debian packages of them.
 
 include(GNUInstallDirs)

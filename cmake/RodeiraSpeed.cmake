@@ -5,8 +5,8 @@
 option(RODEIRA_UNITY "Compile the sources of a module in batches" ON)
 option(RODEIRA_PCH "Precompile the headers that nearly every source reads (GCC only)" ON)
 
-# Sources a batch, at most. A changed source compiles its batch again. A change in these two groups compiles much of what
-# lies above them, too: their batches are smaller, so that a test of the changed source runs sooner.
+# Sources a batch, at most. A changed source compiles its batch again. A change in these two groups compiles much of
+# what lies above them, too: their batches are smaller, so that a test of the changed source runs sooner.
 set(RODEIRA_BATCH 16)
 set(RODEIRA_SMALL_BATCH 10)
 set(RODEIRA_SMALL_BATCH_GROUPS "^${CMAKE_SOURCE_DIR}/common/(core|world)/")

@@ -45,7 +45,7 @@ struct OtherType {
 };
 // What differs from this program's type of the topic, "member 3: found …, expected …"; none if they are the same.
 std::optional<std::string> TypeDifference(std::string_view topic, const OtherType& found);
-// The same of a recording, whose topic and types may have names of earlier versions (idl/aliases.hpp).
+// The same of a recording. Its topic and types may have names of earlier versions (idl/aliases.hpp).
 std::optional<std::string> RecordedTypeDifference(std::string_view topic, const OtherType& found);
 
 }  // namespace rodeira::idl

@@ -7,7 +7,10 @@ if [ "$(id -u)" -ne 0 ]; then
   echo "install.sh: root is needed: sudo $0 $*" >&2
   exit 1
 fi
-[ -f "$here/debian/Packages" ] || { echo "install.sh: $here/debian/Packages: no such file; copy the whole folder" >&2; exit 2; }
+if [ ! -f "$here/debian/Packages" ]; then
+  echo "install.sh: $here/debian/Packages: no such file; copy the whole folder" >&2
+  exit 2
+fi
 [ $# -gt 0 ] || set -- rodeira
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -16,7 +19,8 @@ mkdir -p "$work/lists/partial"
 echo "deb [trusted=yes] file:$here/debian ./" >"$work/sources.list"
 apt_here() {
   apt-get -q -o Dir::Etc::SourceList="$work/sources.list" -o Dir::Etc::SourceParts=/dev/null \
-    -o Dir::State::Lists="$work/lists" -o APT::Sandbox::User=root -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= "$@"
+    -o Dir::State::Lists="$work/lists" -o APT::Sandbox::User=root \
+    -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache= "$@"
 }
 apt_here update
 DEBIAN_FRONTEND=noninteractive apt_here install -y --no-install-recommends "$@"

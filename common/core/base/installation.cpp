@@ -14,8 +14,8 @@ bool HoldsData(const fs::path& folder) {
   return fs::is_directory(folder / "launch", problem) && fs::is_directory(folder / "configs", problem);
 }
 
-// The prefix of the installation whose bin/ or libexec/rodeira/ is `folder`; empty in a build folder, whose programs
-// lie side by side.
+// The prefix of the installation that has `folder` as its bin/ or libexec/rodeira/; empty in a build folder: there all
+// programs lie side by side.
 fs::path PrefixOf(const fs::path& folder) {
   std::error_code problem;
   for (const char* up : {"..", "../.."}) {

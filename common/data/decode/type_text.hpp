@@ -13,8 +13,8 @@ namespace rodeira::decode {
 // "sequence<m::Wheel, 4> wheels", "long cells[2][3]": a member as IDL declares it.
 std::string Declaration(const Type& type, std::string_view name);
 
-// The type and all types that it uses as one IDL text without comments: the same for two types whose names, members,
-// their order and extensibility are the same, whatever their source looked like. An unmarked type is written as final.
+// The type and all types that it uses as one IDL text without comments: the same for two types with the same
+// names, members, order and extensibility, whatever their source looked like. An unmarked type is written as final.
 std::string CanonicalIdl(const Type& type);
 
 // XXH3-64 of the canonical text.

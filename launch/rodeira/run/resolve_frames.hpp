@@ -7,7 +7,7 @@
 
 namespace rodeira::cli {
 
-// Names the folder of pictures (`frames`) of each view on this host whose launch file names none: RECORDING-frames
+// Names the folder of pictures (`frames`) of each view on this host that has no folder yet: RECORDING-frames
 // beside `recording`, or a dated folder among the user's recordings if `recording` is empty. With several such views
 // the node's name follows. Adds to `overrides`.
 void ResolveFrames(const launch::Launch& launch, const Placement& placement, const std::string& recording,

@@ -14,7 +14,7 @@ const launch::Launch& Empty() {
   return kLaunch;
 }
 
-// Node 'a' of a program whose type of a topic is another one.
+// Node 'a' of a program that has another type of a topic.
 Hello Pretended(const char* change) {
   ::setenv("RODEIRA_PRETEND_TYPE", change, 1);
   const Hello hello = OwnHello(Empty(), 0);
