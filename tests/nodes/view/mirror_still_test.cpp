@@ -139,12 +139,14 @@ class MirrorsInTurn : public MirrorStill {
   Image Next() {
     picture_.moment.time_ns += 40'000'000;
     Car().p_WB_W += 0.8 * (Car().q_WB * Eigen::Vector3d::UnitX());
-    return Drawn();
+    return InTurn();
   }
-  Image Whole() {
-    painter_->DrawWhole(picture_);
+  // As a window draws it.
+  Image InTurn() {
+    painter_->Draw(picture_);
     return painter_->Read();
   }
+  Image Whole() { return Drawn(); }
 };
 
 // At low quality a window's pictures draw one mirror each, in a fixed order; every third picture it is that one's turn
@@ -189,16 +191,16 @@ TEST_F(MirrorsInTurn, AHeadsetsEyesInBetweenChangeNothing) {
 // Pictures for files, those after a leap, and those of time that stands, show all three as they are.
 TEST_F(MirrorsInTurn, WhatIsKeptOrDoesNotGoOnIsDrawnWhole) {
   for (int i = 0; i < 4; ++i) (void)Next();
-  const Image standing = Drawn();
+  const Image standing = InTurn();
   EXPECT_EQ(Whole().rgb, standing.rgb) << "the same time again";
   (void)Next();
   const Image whole = Whole();
   (void)Next();
   picture_.moment.time_ns += 5'000'000'000;
-  (void)Drawn();
+  (void)InTurn();
   picture_.moment.time_ns -= 5'040'000'000;
   Car().p_WB_W -= 0.8 * (Car().q_WB * Eigen::Vector3d::UnitX());
-  EXPECT_EQ(Drawn().rgb, whole.rgb) << "a leap";
+  EXPECT_EQ(InTurn().rgb, whole.rgb) << "a leap";
 }
 
 }  // namespace
