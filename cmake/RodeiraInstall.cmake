@@ -86,17 +86,22 @@ endfunction()
 # Libraries, headers and CMake's description of them, for `find_package(Rodeira)`.
 function(rodeira_install_kit)
   set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/Rodeira)
+  set(RODEIRA_IDL_FOLDER include/rodeira/idl)
   include(CMakePackageConfigHelpers)
   configure_package_config_file(${CMAKE_SOURCE_DIR}/cmake/RodeiraConfig.cmake.in
-    ${CMAKE_BINARY_DIR}/RodeiraConfig.cmake INSTALL_DESTINATION ${cmake_folder})
+    ${CMAKE_BINARY_DIR}/RodeiraConfig.cmake INSTALL_DESTINATION ${cmake_folder}
+    PATH_VARS RODEIRA_IDL_FOLDER RODEIRA_DATA_FOLDER)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_BINARY_DIR}/RodeiraConfig.cmake ${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake
+          ${CMAKE_SOURCE_DIR}/cmake/RodeiraNode.cmake ${CMAKE_SOURCE_DIR}/cmake/quiet.cmake
           DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   install(EXPORT RodeiraTargets NAMESPACE rodeira:: DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   foreach(folder common/core common/world common/data common/runtime common/vehicle idl)
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/rodeira/${folder} COMPONENT development
             EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.hpp PATTERN *.idl PATTERN sdl_devices EXCLUDE)
   endforeach()
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${RODEIRA_DATA_FOLDER} COMPONENT development
+          EXCLUDE_FROM_ALL)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/idl/generated/ DESTINATION include/rodeira/generated COMPONENT development
           EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.h)
 endfunction()

@@ -72,6 +72,14 @@ base::Digest ProtocolHash() {
   return ProtocolHash(TextsOf(topics));
 }
 
+std::optional<std::string> DifferenceBetween(const OtherType& found, const OtherType& expected) {
+  const auto first = decode::ReadType(found.idl, std::string(found.type));
+  if (!first) return first.error().Text();
+  const auto second = decode::ReadType(expected.idl, std::string(expected.type));
+  if (!second) return second.error().Text();
+  return decode::FirstTypeDifference(*first.value(), *second.value());
+}
+
 std::optional<std::string> TypeDifference(std::string_view topic, const OtherType& found) {
   return Difference(topic, found, nullptr);
 }

@@ -43,6 +43,8 @@ struct OtherType {
   std::string_view idl;
   std::string_view type;
 };
+// What differs between two types, "member 3: found …, expected …"; none if they are the same.
+std::optional<std::string> DifferenceBetween(const OtherType& found, const OtherType& expected);
 // What differs from this program's type of the topic, "member 3: found …, expected …"; none if they are the same.
 std::optional<std::string> TypeDifference(std::string_view topic, const OtherType& found);
 // The same of a recording. Its topic and types may have names of earlier versions (idl/aliases.hpp).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/commands.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 
@@ -341,7 +343,8 @@ void AddEdit(CLI::App& app, EditOptions& options) {
   edit->callback([&options] { options.asked = true; });
 }
 
-CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes) {
+CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::string>& changes,
+                    std::vector<std::string>& libraries) {
   CLI::App* replay = app.add_subcommand("replay", "watch a recording, or run it again");
   replay->add_option("FILE.mcap", options.file, "recording")->required();
   CLI::Option* view = replay->add_flag("--view", options.view, "watch it, or the branch, in a window");
@@ -362,6 +365,8 @@ CLI::App* AddReplay(CLI::App& app, ReplayOptions& options, std::vector<std::stri
   replay->add_flag("--verify", options.verify, "compute everything again and compare every sample and state");
   replay->add_option("--from", options.from_s, "simulated seconds at which to begin");
   replay->add_option("--branch", changes, "KEY=VALUE: go on from --from with another value of the launch file");
+  replay->add_option("--library", libraries,
+                     "NODE=FILE.so: run this external node again, in a verification or a branch");
   replay->add_option("--for", options.for_s, "simulated seconds of the branch or film")->check(Positive);
   replay->add_option("--record", options.record, "recording of the branch (MCAP)");
   replay->add_option("--pace", options.pace,
@@ -447,7 +452,8 @@ int Main(int argc, char** argv) {
   AddRecording(app, recording);
   ReplayOptions replay_options;
   std::vector<std::string> changes;
-  CLI::App* replay = AddReplay(app, replay_options, changes);
+  std::vector<std::string> libraries;
+  CLI::App* replay = AddReplay(app, replay_options, changes, libraries);
   ViewOptions view_options;
   const CLI::App* view = AddView(app, view_options);
   ShellOptions shell;
@@ -480,7 +486,9 @@ int Main(int argc, char** argv) {
   if (app.got_subcommand("info")) return Info(recording.info_file);
   if (app.got_subcommand("export")) return Export(recording.exported);
   if (app.got_subcommand("repair")) return RepairRecording(recording.repair_file, recording.repair_out);
-  if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes)) return 2;
+  if (!TakePairs("--set", sets, run.overrides) || !TakePairs("--branch", changes, replay_options.changes) ||
+      !TakePairs("--library", libraries, replay_options.libraries))
+    return 2;
   if (replay->parsed()) return Replay(replay_options);
   return Run(run);
 }

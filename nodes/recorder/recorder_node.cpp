@@ -55,7 +55,7 @@ class RecorderNode final : public lockstep::Node {
       if (!gone_on) return gone_on.error();
       if (gone_on.value()) {
         has_samples_ = true;
-        if (auto status = AddChannels(context.index()); !status) return status;
+        if (auto status = AddChannels(context.launch().topics(), context.index()); !status) return status;
         context.BeginBehind(last_step_ - 1);
         written_.BeginBehind(last_step_, last_source_);
         if (tell_safe_) tell_safe_(last_step_ - 1);
@@ -67,7 +67,7 @@ class RecorderNode final : public lockstep::Node {
     if (!writer) return writer.error();
     writer_.emplace(std::move(writer).value());
     if (auto status = Begin(context.launch(), meta); !status) return status;
-    return AddChannels(context.index());
+    return AddChannels(context.launch().topics(), context.index());
   }
 
   base::Status AskForTheWorld(launch::NodeContext& context) {
@@ -141,12 +141,12 @@ class RecorderNode final : public lockstep::Node {
     return EmbedFiles(launch, *writer_);
   }
 
-  base::Status AddChannels(lockstep::NodeIndex self) {
+  base::Status AddChannels(const idl::TopicTable& topics, lockstep::NodeIndex self) {
     channels_.assign(roster_.sources().size(), 0);
     for (const lockstep::Port& port : roster_.node(self).inputs) {
-      const idl::TopicInfo* topic = idl::FindTopic(port.topic);
-      RODEIRA_ASSERT(topic != nullptr);
-      const auto schema = writer_->AddSchema(topic->type, "omgidl", idl::IdlTextOf(topic->subject));
+      const auto topic = topics.SchemaOf(port.topic);
+      RODEIRA_ASSERT(topic.has_value());
+      const auto schema = writer_->AddSchema(topic->type, "omgidl", topic->idl);
       if (!schema) return schema.error();
       for (const lockstep::SourceIndex source : port.sources) {
         const auto& from = roster_.source(source);

@@ -36,6 +36,7 @@ fs::path ProgramFolder() {
 }
 
 fs::path FindProgram(std::string_view name, const fs::path& folder) {
+  if (fs::path(name).is_absolute()) return name;
   const fs::path beside = folder / name;
   const fs::path prefix = PrefixOf(folder);
   if (prefix.empty()) return beside;

@@ -12,7 +12,7 @@ namespace rodeira::base {
 std::filesystem::path ProgramFolder();
 
 // Path of a program of Rodeira: `name` beside the program in `folder`, else in the bin/ or libexec/rodeira/ of the same
-// installation. A program that exists in none of them is returned as `folder`/`name`.
+// installation. A program that exists in none of them is returned as `folder`/`name`, an absolute path as it is.
 std::filesystem::path FindProgram(std::string_view name, const std::filesystem::path& folder = ProgramFolder());
 
 // True if the program in `folder` belongs to an installation, false in a build folder.

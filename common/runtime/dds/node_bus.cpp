@@ -275,7 +275,7 @@ void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
   auto kept = answers_->Kept(came.source(), came.valid());
   if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
   Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came)
-            ? launch::ContradictionText(roster_, *kept, came)
+            ? launch::ContradictionText(roster_, settings_.topics, *kept, came)
             : error.Text());
 }
 

@@ -31,6 +31,7 @@ class NodeBus final : public lockstep::Bus {
     lockstep::NodeIndex node = 0;
     std::uint32_t incarnation = 0;
     Hello hello;
+    idl::TopicTable topics;  // of the launch
     bool keeps_all =
         false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
     std::size_t most_parcel_bytes = 8'000;  // as Parcels

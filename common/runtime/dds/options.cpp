@@ -84,7 +84,8 @@ DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& lau
           launch.discovery(),
           false,
           launch.keeps_for_restarts(),
-          options.incarnation > 0};
+          options.incarnation > 0,
+          launch.topics()};
 }
 
 }  // namespace rodeira::dds

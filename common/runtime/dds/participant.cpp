@@ -75,8 +75,9 @@ class FastReader final : public Reader, public fdds::DataReaderListener {
 
 class FastParticipant final : public Participant {
  public:
-  FastParticipant(fdds::DomainParticipant* participant, fdds::Publisher* publisher, fdds::Subscriber* subscriber)
-      : participant_(participant), publisher_(publisher), subscriber_(subscriber) {}
+  FastParticipant(fdds::DomainParticipant* participant, fdds::Publisher* publisher, fdds::Subscriber* subscriber,
+                  idl::TopicTable table)
+      : participant_(participant), publisher_(publisher), subscriber_(subscriber), table_(std::move(table)) {}
   ~FastParticipant() override {
     participant_->delete_contained_entities();
     fdds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
@@ -138,12 +139,12 @@ class FastParticipant final : public Participant {
   }
 
   fdds::Topic* TopicOf(std::string_view name) {
-    const idl::TopicInfo* info = idl::FindTopic(name);
-    if (info == nullptr) return nullptr;
+    const auto schema = table_.SchemaOf(name);
+    if (!schema) return nullptr;
     const std::lock_guard lock(mutex_);
     auto& topic = topics_[std::string(name)];
     if (topic == nullptr) {
-      const std::string type_name(info->type);
+      const std::string& type_name = schema->type;
       if (participant_->find_type(type_name).empty())
         fdds::TypeSupport(new RawType(type_name)).register_type(participant_);
       topic = participant_->create_topic(std::string(name), type_name, fdds::TOPIC_QOS_DEFAULT);
@@ -154,6 +155,7 @@ class FastParticipant final : public Participant {
   fdds::DomainParticipant* participant_;
   fdds::Publisher* publisher_;
   fdds::Subscriber* subscriber_;
+  const idl::TopicTable table_;
   std::mutex mutex_;
   std::map<std::string, fdds::Topic*, std::less<>> topics_;
 };
@@ -188,7 +190,8 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
     factory->delete_participant(participant);
     return base::Failed("Fast DDS makes no publisher and subscriber");
   }
-  return std::unique_ptr<Participant>(std::make_unique<FastParticipant>(participant, publisher, subscriber));
+  return std::unique_ptr<Participant>(
+      std::make_unique<FastParticipant>(participant, publisher, subscriber, settings.topics));
 }
 
 }  // namespace rodeira::dds

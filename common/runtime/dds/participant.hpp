@@ -10,6 +10,7 @@
 #include "common/core/base/bytes.hpp"
 #include "common/core/base/result.hpp"
 #include "common/runtime/launch/launch.hpp"
+#include "idl/topic_table.hpp"
 
 namespace rodeira::dds {
 
@@ -30,6 +31,7 @@ struct DomainSettings {
   bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
   bool meets_later = false;       // processes may be started again in the midst of the run
   bool is_another_life = false;   // of a process that has died: takes none of its places in shared memory
+  idl::TopicTable topics = {};    // names and types of the topics
 };
 
 class Writer {
@@ -47,7 +49,7 @@ class Reader {
 // Gets every payload on a receive thread of the library: it moves the sample on and returns; it never waits.
 using OnPayload = std::function<void(base::Bytes&&)>;
 
-// A DDS participant, one a process. Topics and types are those of idl/topics.hpp.
+// A DDS participant, one a process. Its topics are those of DomainSettings::topics.
 class Participant {
  public:
   // Wrong input where the discovery server's port is in use: the library would silently take another.

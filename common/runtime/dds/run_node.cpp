@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/remote_requests.hpp"
 #include "common/runtime/dds/run.hpp"
+#include "common/runtime/launch/node_library.hpp"
 #include "common/runtime/lockstep/pump.hpp"
 #include "common/runtime/lockstep/recovery.hpp"
 #include "common/runtime/lockstep/runner.hpp"
@@ -152,6 +154,8 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   };
   auto node = factory(context);
   if (!node) return fail(node.error());
+  node = launch::AsManifestSays(*context.launch().node(context.index()).kind, std::move(node).value());
+  if (!node) return fail(node.error());
   if (auto status = context.launch().file().Finish(); !status) return fail(status.error());
   bus.SetWorldHash(context.world_hash());
   lockstep::Runner::Settings settings;
@@ -174,7 +178,9 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
 int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory) {
   base::FixMathematics(argv);
   base::TraceCrashes();
-  const std::string program = fmt::format("rodeira-{}", kind);
+  // An external node is called as its file is.
+  const std::string program = kind == launch::kExternalKind ? std::filesystem::path(argv[0]).filename().string()
+                                                            : fmt::format("rodeira-{}", kind);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   NodeBus::HandleSignals();
@@ -197,6 +203,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.node = index;
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch.value(), index);
+  settings.topics = launch.value().topics();
   settings.most_parcel_bytes =
       domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
   settings.most_answer_bytes =

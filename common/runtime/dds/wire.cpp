@@ -11,9 +11,11 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/data/decode/type_text.hpp"
 #include "common/runtime/launch/agreement.hpp"
 #include "common/runtime/launch/used_topics.hpp"
 #include "idl/codec.hpp"
+#include "idl/idl_source.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 
@@ -44,6 +46,14 @@ void Pretend(std::string_view what, std::vector<idl::TopicText>& topics) {
   }
 }
 
+// What an external node's program was compiled with counts, not what its manifest names today.
+void UseCompiledTypes(const idl::TopicTable& table, std::vector<idl::TopicText>& topics) {
+  for (idl::TopicText& text : topics) {
+    if (table.FindAdded(text.topic) == nullptr) continue;
+    if (const decode::TypePtr compiled = idl::CompiledType(text.type)) text.idl = decode::CanonicalIdl(*compiled);
+  }
+}
+
 const idl::TopicText* FindText(const std::vector<idl::TopicText>& topics, std::string_view topic) {
   const auto found = std::ranges::find(topics, topic, &idl::TopicText::topic);
   return found == topics.end() ? nullptr : &*found;
@@ -52,12 +62,19 @@ const idl::TopicText* FindText(const std::vector<idl::TopicText>& topics, std::s
 // Why two protocol hashes differ.
 std::string ProtocolDifference(const Hello& own, const Hello& other) {
   constexpr std::string_view kAdvice = "both PCs need the same version of Rodeira";
+  constexpr std::string_view kBuildAgain = "build its program again, from the IDL that its manifest names";
   if (other.topics != nullptr && own.topics != nullptr) {
     for (const idl::TopicText& text : *other.topics) {
-      if (FindText(*own.topics, text.topic) == nullptr)
+      const idl::TopicText* expected = FindText(*own.topics, text.topic);
+      if (expected == nullptr)
         return fmt::format("it uses topic {}, which the clock does not expect of it; {}", text.topic, kAdvice);
-      if (const auto difference = idl::TypeDifference(text.topic, {text.idl, text.type}))
-        return fmt::format("its type of topic {} differs from the clock's: {}; {}", text.topic, *difference, kAdvice);
+      const bool is_added = idl::FindTopic(text.topic) == nullptr;
+      const idl::OtherType found{text.idl, text.type};
+      const auto difference = is_added ? idl::DifferenceBetween(found, {expected->idl, expected->type})
+                                       : idl::TypeDifference(text.topic, found);
+      if (!difference) continue;
+      return fmt::format("its type of topic {} differs from the clock's: {}; {}", text.topic, *difference,
+                         is_added ? kBuildAgain : kAdvice);
     }
     for (const idl::TopicText& text : *own.topics) {
       if (FindText(*other.topics, text.topic) == nullptr)
@@ -89,7 +106,8 @@ base::Digest FirstMember(const base::Bytes& payload) {
 }  // namespace
 
 Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
-  std::vector<idl::TopicText> topics = idl::TextsOf(launch::UsedTopics(launch, node));
+  std::vector<idl::TopicText> topics = launch.topics().TextsOf(launch::UsedTopics(launch, node));
+  UseCompiledTypes(launch.topics(), topics);
   if (const char* pretend = std::getenv("RODEIRA_PRETEND_TYPE")) Pretend(pretend, topics);
   Hello hello;
   hello.report = base::Hash(FindText(topics, idl::topics::kReport)->idl);

@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "common/core/base/files.hpp"
+#include "idl/idl_source.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -58,6 +59,7 @@ class Collector {
  public:
   explicit Collector(const Launch& launch) : home_(fs::absolute(launch.path()).parent_path().lexically_normal()) {
     for (const LaunchNode& node : launch.nodes()) {
+      if (node.is_external()) outputs_.insert({node.kind->program, node.kind->library});  // programs are not embedded
       if (node.kind->name != "recorder") continue;
       if (const auto file = node.config->Peek({"config", "file"}))
         outputs_.insert(fs::absolute(launch.path().parent_path() / *file).lexically_normal());
@@ -95,6 +97,10 @@ class Collector {
           fs::file_size(named, problem) > kMostBytes)
         continue;
       if (auto status = Take(named, absolute); !status) return status;
+      if (named.extension() == ".idl") {
+        if (auto status = FollowIdl(named, absolute); !status) return status;
+        continue;
+      }
       if (named.extension() != ".yaml" && named.extension() != ".yml") {
         // A raster's projection and a picture's place stand beside it.
         for (const char* extension :
@@ -108,6 +114,20 @@ class Collector {
       const auto inner = config::File::Load(named);
       if (!inner) continue;  // whoever reads it says what is wrong
       if (auto status = Follow(named, inner.value(), absolute); !status) return status;
+    }
+    return {};
+  }
+
+  // Files that an IDL file includes; Rodeira's own are not beside it.
+  base::Status FollowIdl(const fs::path& path, bool absolute) {
+    const auto text = base::ReadText(path);
+    if (!text) return text.error();
+    for (const std::string& name : idl::IncludesOf(text.value())) {
+      const fs::path included = (path.parent_path() / name).lexically_normal();
+      std::error_code problem;
+      if (Seen(included, absolute) || !fs::is_regular_file(included, problem)) continue;
+      if (auto status = Take(included, absolute); !status) return status;
+      if (auto status = FollowIdl(included, absolute); !status) return status;
     }
     return {};
   }

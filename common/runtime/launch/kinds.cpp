@@ -9,8 +9,39 @@ namespace topics = idl::topics;
 using lockstep::PortKind;
 using lockstep::Role;
 
-const std::vector<NodeKind>& NodeKinds() {
-  static const std::vector<NodeKind> kKinds = {
+namespace {
+
+struct PortRow {
+  std::string_view topic;
+  PortKind kind;
+  bool many;
+  bool required;
+};
+struct KindRow {
+  std::string_view name;
+  Role role;
+  double default_period_s;
+  std::vector<std::string_view> outputs;
+  std::vector<PortRow> inputs;
+  std::string_view program;
+  std::vector<std::string_view> side_topics;
+};
+
+NodeKind KindOf(const KindRow& row) {
+  NodeKind kind;
+  kind.name = row.name;
+  kind.role = row.role;
+  kind.default_period_s = row.default_period_s;
+  kind.outputs.assign(row.outputs.begin(), row.outputs.end());
+  for (const PortRow& port : row.inputs)
+    kind.inputs.push_back({std::string(port.topic), port.kind, port.many, port.required});
+  kind.program = row.program;
+  kind.side_topics.assign(row.side_topics.begin(), row.side_topics.end());
+  return kind;
+}
+
+std::vector<NodeKind> MakeKinds() {
+  const std::vector<KindRow> rows = {
       {"road",
        Role::kService,
        0.0,
@@ -90,6 +121,15 @@ const std::vector<NodeKind>& NodeKinds() {
        "rodeira-empty",
        {}},
   };
+  std::vector<NodeKind> kinds;
+  for (const KindRow& row : rows) kinds.push_back(KindOf(row));
+  return kinds;
+}
+
+}  // namespace
+
+const std::vector<NodeKind>& NodeKinds() {
+  static const std::vector<NodeKind> kKinds = MakeKinds();
   return kKinds;
 }
 
@@ -102,7 +142,8 @@ const NodeKind* FindKind(std::string_view name) {
 
 std::vector<std::string> KindNames() {
   std::vector<std::string> names;
-  for (const NodeKind& kind : NodeKinds()) names.emplace_back(kind.name);
+  for (const NodeKind& kind : NodeKinds()) names.push_back(kind.name);
+  names.emplace_back(kExternalKind);
   return names;
 }
 

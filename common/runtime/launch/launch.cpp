@@ -7,7 +7,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/core/base/assert.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/runtime/launch/manifest.hpp"
 #include "common/runtime/launch/pace.hpp"
 
 namespace rodeira::launch {
@@ -19,7 +21,10 @@ using lockstep::Step;
 
 constexpr std::string_view kTopicPrefix = "rodeira/";
 
-std::string ShortName(std::string_view topic) { return std::string(topic.substr(kTopicPrefix.size())); }
+// A launch file names Rodeira's topics without their prefix, all others by their whole name.
+std::string ShortName(std::string_view topic) {
+  return std::string(topic.starts_with(kTopicPrefix) ? topic.substr(kTopicPrefix.size()) : topic);
+}
 
 // Seconds to whole steps; a period that is none is a problem of the file.
 Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::int64_t base_step_ns) {
@@ -36,16 +41,63 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
 NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
   NodeWish wish;
   wish.name = name;
-  wish.kind = std::string(kind.name);
+  wish.kind = kind.name;
   wish.role = kind.role;
   wish.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
   if (kind.role == lockstep::Role::kService) return wish;
   wish.period =
       ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
-  if (map.Has("delay_s"))
-    wish.delay = ToSteps(map, "delay_s", map.Number("delay_s", config::Range::Positive()), base_step_ns);
-  for (const std::string_view topic : kind.outputs) wish.outputs.emplace_back(topic);
+  if (map.Has("delay_s") || kind.default_delay_s) {
+    const double delay_s = map.Number("delay_s", config::Range::Positive(), kind.default_delay_s.value_or(1.0));
+    wish.delay = ToSteps(map, "delay_s", delay_s, base_step_ns);
+  }
+  wish.outputs = kind.outputs;
   return wish;
+}
+
+// The kind of a node that stands in `map`; of an external node it is made from the manifest.
+base::Result<std::shared_ptr<const NodeKind>> ReadKind(const config::Map& map, std::vector<Manifest>& manifests,
+                                                       idl::TopicTable& topics) {
+  const std::string name = map.Choice("kind", KindNames());
+  if (name != kExternalKind) {
+    const NodeKind* known = FindKind(name);
+    RODEIRA_ASSERT(known != nullptr);  // a problem gives the first one
+    return std::shared_ptr<const NodeKind>(std::shared_ptr<void>(), known);
+  }
+  const std::filesystem::path program = map.Path("program");
+  const std::filesystem::path path = map.Path("manifest");
+  const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
+  if (!path.empty() && !is_yaml)
+    map.Problem("manifest", fmt::format("'{}' was found; a file NAME.yaml was expected", path.string()));
+  if (program.empty() || !is_yaml) {  // a problem of the launch file, which is said later
+    NodeKind unknown;
+    unknown.name = name;
+    unknown.default_period_s = 1.0;
+    return std::make_shared<const NodeKind>(std::move(unknown));
+  }
+  auto manifest = ReadManifest(path);
+  if (!manifest) return manifest.error();
+  for (std::size_t i = 0; i < manifest.value().topics.size(); ++i) {
+    if (auto status = topics.Add(manifest.value().topics[i]); !status)
+      return base::Error{status.error().code, status.error().message, manifest.value().topic_places[i]};
+  }
+  manifest.value().kind.program = std::filesystem::absolute(program).lexically_normal().string();
+  if (const auto library = map.OptionalPath("library"))
+    manifest.value().kind.library = std::filesystem::absolute(*library).lexically_normal().string();
+  manifests.push_back(std::move(manifest).value());
+  return std::make_shared<const NodeKind>(manifests.back().kind);
+}
+
+// Recorders take every topic that manifests add.
+void AddToRecorders(const idl::TopicTable& topics, std::vector<LaunchNode>& nodes) {
+  if (topics.added().empty()) return;
+  for (LaunchNode& node : nodes) {
+    if (node.kind->name != "recorder") continue;
+    NodeKind kind = *node.kind;
+    for (const idl::AddedTopic& added : topics.added())
+      kind.inputs.push_back({added.topic, lockstep::PortKind::kEvent, true, false});
+    node.kind = std::make_shared<const NodeKind>(std::move(kind));
+  }
 }
 
 // Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`,
@@ -213,20 +265,31 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   const config::Map nodes = root.Child("nodes");
   std::vector<NodeWish> wishes;
   std::vector<config::Map> maps;
+  std::vector<Manifest> manifests;
   for (const std::string& name : nodes.Keys()) {
     if (nodes.Peek({name, "kind"}) == kNoKind) continue;  // as if it were not there, with all that stands under it
     const config::Map map = nodes.OptionalChild(name);
-    const std::string kind_name = map.Choice("kind", KindNames());
-    const NodeKind* kind = FindKind(kind_name);
-    LaunchNode node{name, kind, map.Text("host", ""), std::make_shared<const config::Map>(map), launch.recovery_};
+    const auto kind = ReadKind(map, manifests, launch.topics_);
+    if (!kind) return kind.error();
+    LaunchNode node{name, kind.value(), map.Text("host", ""), std::make_shared<const config::Map>(map),
+                    launch.recovery_};
     if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
     map.LeaveToOthers("config");
-    wishes.push_back(ReadNode(map, name, *kind, base_step_ns));
+    wishes.push_back(ReadNode(map, name, *kind.value(), base_step_ns));
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
+  AddToRecorders(launch.topics_, launch.nodes_);
   SetSnapshots(root, base_step_ns, wishes);
   ExceptLiveInput(maps, launch.nodes_);
+  for (const Manifest& manifest : manifests) {
+    const base::Status inputs = CheckInputs(manifest, launch.topics_);
+    if (inputs.ok()) continue;
+    // What is wrong with the launch file itself comes first: it may be the cause.
+    for (const config::Map& map : maps) map.LeaveToOthers("inputs");
+    if (auto status = launch.file_->Finish(); !status) return status.error();
+    return inputs.error();
+  }
   for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());

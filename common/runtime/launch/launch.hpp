@@ -16,6 +16,7 @@
 #include "common/runtime/lockstep/recovery.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/watchdog.hpp"
+#include "idl/topic_table.hpp"
 
 namespace rodeira::launch {
 
@@ -23,13 +24,15 @@ enum class Transport { kSharedMemory, kUdp };
 
 struct LaunchNode {
   std::string name;
-  const NodeKind* kind = nullptr;
+  std::shared_ptr<const NodeKind> kind;
   std::string host;                                     // of a laboratory; empty: the clock's
   std::shared_ptr<const config::Map> config;            // what the node itself reads; may be empty
   lockstep::Policy recovery = lockstep::Policy::kStop;  // what becomes of the run where the node is lost
 
   // Driven by a person: what it publishes cannot be computed again.
   bool is_live() const;
+  // A program outside Rodeira, with a manifest.
+  bool is_external() const { return kind->name == kExternalKind; }
   // A scenario that makes events of what windows ask for.
   bool takes_requests() const;
 };
@@ -70,6 +73,8 @@ class Launch {
   base::Status CheckRecovery() const;
   bool keeps_for_restarts() const;  // somebody may be started again: recorders answer for everybody
   const lockstep::Roster& roster() const { return *roster_; }
+  // Rodeira's topics, and those that manifests of external nodes add.
+  const idl::TopicTable& topics() const { return topics_; }
   const std::vector<LaunchNode>& nodes() const { return nodes_; }  // in the roster's order
   const LaunchNode& node(lockstep::NodeIndex index) const { return nodes_[index]; }
 
@@ -90,6 +95,7 @@ class Launch {
   lockstep::Watchdog::Settings watchdog_;
   lockstep::Policy recovery_ = lockstep::Policy::kStop;
   std::shared_ptr<const lockstep::Roster> roster_;
+  idl::TopicTable topics_;
   std::vector<LaunchNode> nodes_;
 };
 

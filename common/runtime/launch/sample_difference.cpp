@@ -53,12 +53,13 @@ const decode::Type* SampleDifference::TypeOf(lockstep::SourceIndex source) {
   const std::string& topic = roster_.source(source).topic;
   const auto known = types_.find(topic);
   if (known != types_.end()) return known->second.get();
-  return (types_[topic] = idl::TypeOf(topic)).get();
+  return (types_[topic] = topics_.TypeOf(topic)).get();
 }
 
-std::string ContradictionText(const lockstep::Roster& roster, const Sample& before, const Sample& now) {
+std::string ContradictionText(const lockstep::Roster& roster, const idl::TopicTable& topics, const Sample& before,
+                              const Sample& now) {
   const auto& source = roster.source(now.source());
-  const auto field = SampleDifference(roster).Between(before, now);
+  const auto field = SampleDifference(roster, topics).Between(before, now);
   return fmt::format(
       "node '{}' contradicts itself at step {}, topic {}, field '{}': {} before, {} now; what it computes depends on "
       "more than its inputs and its state",

@@ -3,11 +3,13 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include "common/data/decode/difference.hpp"
 #include "common/data/decode/type.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/sample.hpp"
+#include "idl/topic_table.hpp"
 
 namespace rodeira::launch {
 
@@ -16,7 +18,8 @@ namespace rodeira::launch {
 // both digests.
 class SampleDifference {
  public:
-  explicit SampleDifference(const lockstep::Roster& roster) : roster_(roster) {}
+  SampleDifference(const lockstep::Roster& roster, idl::TopicTable topics)
+      : roster_(roster), topics_(std::move(topics)) {}
   // Call it for samples whose content differs (lockstep::SameContent).
   decode::Difference Between(const lockstep::Sample& a, const lockstep::Sample& b);
 
@@ -24,11 +27,12 @@ class SampleDifference {
   const decode::Type* TypeOf(lockstep::SourceIndex source);  // null where the topic is not known
 
   const lockstep::Roster& roster_;
+  idl::TopicTable topics_;
   std::map<std::string, decode::TypePtr> types_;  // by topic, as they are needed
 };
 
 // Of a node that said one thing, and another for the same step: who it is, where, and what differs.
-std::string ContradictionText(const lockstep::Roster& roster, const lockstep::Sample& before,
-                              const lockstep::Sample& now);
+std::string ContradictionText(const lockstep::Roster& roster, const idl::TopicTable& topics,
+                              const lockstep::Sample& before, const lockstep::Sample& now);
 
 }  // namespace rodeira::launch

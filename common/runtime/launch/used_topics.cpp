@@ -20,7 +20,7 @@ idl::TopicSet UsedTopics(const Launch& launch, lockstep::NodeIndex node) {
   for (const lockstep::Port& port : spec.inputs) {
     if (!port.sources.empty()) used.insert(port.topic);
   }
-  for (const std::string_view topic : launch.node(node).kind->side_topics) used.emplace(topic);
+  for (const std::string& topic : launch.node(node).kind->side_topics) used.insert(topic);
   return used;
 }
 

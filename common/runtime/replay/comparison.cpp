@@ -22,7 +22,7 @@ Comparison::Comparison(const RecordedRun& run, lockstep::Step from, const std::v
       trusted_(trusted),
       stream_(run.Samples(from)),
       waiting_(run.roster().sources().size()),
-      differences_(run.roster()) {}
+      differences_(run.roster(), run.launch().topics()) {}
 
 bool Comparison::ReadOne() {
   if (over_ || problem_) return false;

@@ -164,6 +164,11 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     }
   }
   launch_ = std::make_shared<launch::Launch>(std::move(recorded).value());
+  for (const launch::LaunchNode& node : launch_->nodes()) {
+    const std::string key = fmt::format("nodes.{}.library", node.name);
+    if (std::ranges::any_of(extra, [&](const auto& change) { return change.first == key; }))
+      with_library_.insert(node.name);
+  }
 
   for (const auto& [id, channel] : reader_.channels()) {
     const auto number = record::WholeNumber(channel.metadata, "source_number");
@@ -205,9 +210,10 @@ base::Status RecordedRun::CheckTypes(const std::set<std::string_view>& topics) c
     const std::string topic(idl::Aliases().Topic(channel.topic));
     if (!topics.contains(topic) || !compared.insert({topic, channel.schema}).second) continue;
     const auto schema = reader_.schemas().find(channel.schema);
-    const auto difference = schema == reader_.schemas().end()
-                                ? std::optional<std::string>("it has no type in the recording")
-                                : idl::RecordedTypeDifference(topic, {schema->second.text, schema->second.name});
+    const auto difference =
+        schema == reader_.schemas().end()
+            ? std::optional<std::string>("it has no type in the recording")
+            : launch_->topics().RecordedTypeDifference(topic, {schema->second.text, schema->second.name});
     if (difference) differences += fmt::format("{}topic {}: {}", differences.empty() ? "" : "; ", topic, *difference);
   }
   if (differences.empty()) return {};
@@ -267,6 +273,11 @@ base::Status RecordedRun::CheckMathematics() const {
       path_.string());
 }
 
+bool RecordedRun::is_substituted(lockstep::NodeIndex node) const {
+  const launch::LaunchNode& known = launch().node(node);
+  return known.is_live() || (known.is_external() && !with_library_.contains(known.name));
+}
+
 std::optional<record::ChannelId> RecordedRun::ChannelOf(lockstep::SourceIndex source) const {
   for (const auto& [channel, recorded] : sources_) {
     if (recorded == source) return channel;
@@ -297,7 +308,7 @@ base::Result<std::vector<lockstep::NodeIndex>> RecordedRun::WithoutState() const
     --missing;
     const auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);
     if (!snapshot) return snapshot.error();
-    if (!snapshot.value().has_state && !launch().node(n).is_live()) without.push_back(n);
+    if (!snapshot.value().has_state && !is_substituted(n)) without.push_back(n);
   }
   return without;
 }

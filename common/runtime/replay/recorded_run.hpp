@@ -69,6 +69,9 @@ class RecordedRun {
   std::vector<record::ChannelId> ChannelsOf(std::string_view topic) const;
   // Wrong input where this process would compute other bits than the one that recorded (law L7).
   base::Status CheckMathematics() const;
+  // Its samples are taken from the recording where the run is computed again: live input, and external nodes but those
+  // whose shared object `extra` of Open names (nodes.NAME.library). What a recording itself names is never loaded.
+  bool is_substituted(lockstep::NodeIndex node) const;
   // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
   lockstep::Step branched_at() const { return branched_at_; }
   const std::string& parent() const { return parent_; }  // its file's name; empty where it has none
@@ -80,8 +83,8 @@ class RecordedRun {
   const record::McapReader& reader() const { return reader_; }
   // Where a source's samples are recorded; nothing where they are not.
   std::optional<record::ChannelId> ChannelOf(lockstep::SourceIndex source) const;
-  // The nodes, but live input, whose snapshots say that they could not save their state: what they did can be computed
-  // again only from the first step on.
+  // The nodes, but live input and external nodes, whose snapshots say that they could not save their state: what they
+  // did can be computed again only from the first step on.
   base::Result<std::vector<lockstep::NodeIndex>> WithoutState() const;
   // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
   // least); 0 where there is only the beginning, or a node without a state. Wrong input where a branch has none, or
@@ -103,6 +106,7 @@ class RecordedRun {
   record::McapReader reader_;
   base::TemporaryFolder folder_;
   std::shared_ptr<launch::Launch> launch_;
+  std::set<std::string> with_library_;  // names of nodes
   std::map<record::ChannelId, lockstep::SourceIndex> sources_;
   lockstep::Step last_step_ = 0;
   lockstep::Step branched_at_ = 0;

@@ -72,6 +72,20 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   return {};
 }
 
+// Its recorded samples answer what the parent did, not what the branch does.
+base::Status CheckExternalNodes(const replay::RecordedRun& parent) {
+  for (NodeIndex n = 0; n < parent.roster().nodes().size(); ++n) {
+    if (!parent.launch().node(n).is_external() || !parent.is_substituted(n) || parent.roster().node(n).is_sink())
+      continue;
+    return base::WrongInput(
+        fmt::format("node '{0}' is an external program, which a branch cannot run; its recorded samples do not answer "
+                    "what changes in a branch; --library {0}=FILE.so names its shared object",
+                    parent.roster().node(n).name),
+        parent.path().string());
+  }
+  return {};
+}
+
 using GoingOn = std::map<NodeIndex, ContinuedNode*>;
 
 // Each node's state for its new model, but for those that go on themselves; the names of those that had to take over.
@@ -155,6 +169,7 @@ std::vector<std::string> NamesOf(const launch::Launch& launch, const std::vector
 base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchWish& wish,
                                           const std::filesystem::path& own) {
   launch::Overrides changes = wish.changes;
+  changes.insert(changes.end(), wish.libraries.begin(), wish.libraries.end());
   changes.emplace_back("nodes." + NodeOfKind(parent.launch(), "recorder") + ".config.file", "\"" + own.string() + "\"");
   if (!wish.with_view) return changes;
   const std::string view = NodeOfKind(parent.launch(), "view");
@@ -184,11 +199,12 @@ base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchWish
 base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   BranchOutcome outcome;
   outcome.at = wish.at;
-  auto parent = replay::RecordedRun::Open(wish.parent);
+  auto parent = replay::RecordedRun::Open(wish.parent, wish.libraries);
   if (!parent) return parent.error();
   outcome.recorded_by_another = RecordedByAnother(parent.value().version(), parent.value().commit());
   const auto& roster = parent.value().roster();
   if (auto status = parent.value().CheckTypes(); !status) return status.error();
+  if (auto status = CheckExternalNodes(parent.value()); !status) return status.error();
   if (auto status = CheckStep(parent.value(), wish.at); !status) return status.error();
   auto folder = base::TemporaryFolder::Make("branch");
   if (!folder) return folder.error();

@@ -17,6 +17,7 @@ struct BranchWish {
   std::string parent;                       // recording
   lockstep::Step at = 0;                    // base steps: where the branch leaves its parent
   launch::Overrides changes;                // of the launch file
+  launch::Overrides libraries = {};         // nodes.NAME.library, of external nodes
   std::optional<lockstep::Step> last_step;  // none: the parent's
   std::string recording;                    // the new file
   std::function<bool()> stop_requested =

@@ -66,6 +66,9 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options, bool& needs_graphi
   wish.at = steps(*options.from_s);
   if (options.for_s) wish.last_step = wish.at + steps(*options.for_s);
   for (const auto& [key, value] : options.changes) wish.changes.emplace_back(key, WithFilesFromHere(value));
+  auto libraries = LibrariesOf(options);
+  if (!libraries) return libraries.error();
+  wish.libraries = std::move(libraries).value();
   wish.recording = options.record;
   wish.stop_requested = Interrupted;
   wish.with_view = options.view;

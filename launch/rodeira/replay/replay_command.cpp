@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "common/core/base/print_error.hpp"
+#include "common/core/base/suggest.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch_command.hpp"
@@ -54,6 +55,27 @@ int ShowRecording(const ReplayOptions& options) {
 
 }  // namespace
 
+base::Result<launch::Overrides> LibrariesOf(const ReplayOptions& options) {
+  launch::Overrides overrides;
+  if (options.libraries.empty()) return overrides;
+  const auto run = replay::RecordedRun::Open(options.file);
+  if (!run) return run.error();
+  std::vector<std::string> known;
+  for (const launch::LaunchNode& node : run.value().launch().nodes()) {
+    if (node.is_external()) known.push_back(node.name);
+  }
+  for (const auto& [node, file] : options.libraries) {
+    if (std::ranges::find(known, node) == known.end()) {
+      return base::WrongInput(fmt::format("the recording has no external node '{}'{}", node,
+                                          known.empty() ? "" : base::DidYouMean(node, known)),
+                              "--library");
+    }
+    overrides.emplace_back(fmt::format("nodes.{}.library", node),
+                           fmt::format("\"{}\"", std::filesystem::absolute(file).lexically_normal().string()));
+  }
+  return overrides;
+}
+
 int Replay(const ReplayOptions& options) {
   const int wishes = (options.verify ? 1 : 0) + (options.view && options.changes.empty() ? 1 : 0) +
                      (options.watch.frames.empty() ? 0 : 1) + (options.changes.empty() ? 0 : 1);
@@ -78,8 +100,12 @@ int Replay(const ReplayOptions& options) {
   if (options.pace)
     return base::PrintError("rodeira",
                             base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
+  if (!options.verify && !options.libraries.empty())
+    return base::PrintError("rodeira", base::WrongInput("--library is of --verify and --branch", "rodeira replay"));
   if (!options.verify) return ShowRecording(options);
-  const auto run = replay::RecordedRun::Open(options.file);
+  const auto libraries = LibrariesOf(options);
+  if (!libraries) return base::PrintError("rodeira", libraries.error());
+  const auto run = replay::RecordedRun::Open(options.file, libraries.value());
   if (!run) return base::PrintError("rodeira", run.error());
   const double base_step_s = static_cast<double>(run.value().roster().base_step_ns()) * 1e-9;
   const auto from = static_cast<lockstep::Step>(std::floor(options.from_s.value_or(0.0) / base_step_s + 1e-9));
@@ -98,6 +124,11 @@ int Replay(const ReplayOptions& options) {
   const VerifyResult& found = verdict.value();
   if (!found.substituted.empty())
     fmt::print("live input taken from the recording: {}\n", fmt::join(found.substituted, ", "));
+  if (!found.external.empty())
+    fmt::print(
+        "not computed again, their programs are not part of Rodeira: {}; their samples were taken from the "
+        "recording\n",
+        fmt::join(found.external, ", "));
   if (!found.without_state.empty()) fmt::print("{}", ComputedFromTheStart(found.without_state));
   if (found.difference) {
     fmt::print("{}\n{}", found.difference->Text(), RecordedByAnother(run.value().version(), run.value().commit()));

@@ -58,8 +58,9 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   }
   std::vector<bool> trusted(roster.nodes().size(), false);
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-    trusted[n] = run.launch().node(n).is_live();
-    if (trusted[n]) verdict.substituted.push_back(roster.node(n).name);
+    const launch::LaunchNode& node = run.launch().node(n);
+    trusted[n] = run.is_substituted(n) && !roster.node(n).is_sink();
+    if (trusted[n]) (node.is_external() ? verdict.external : verdict.substituted).push_back(node.name);
     if (!trusted[n] && !roster.node(n).is_sink() && roster.node(n).role == lockstep::Role::kStepped) ++verdict.nodes;
   }
   auto nodes = LocalNodes::Make(run.launch(), [&](lockstep::NodeIndex n) -> std::unique_ptr<lockstep::Node> {

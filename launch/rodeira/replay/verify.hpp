@@ -22,6 +22,7 @@ struct VerifyResult {
   std::uint64_t snapshots = 0;
   std::vector<std::string> without_state;  // cannot save it: everything is computed from the first step on
   std::vector<std::string> substituted;    // live input: their samples were taken from the recording
+  std::vector<std::string> external;       // external nodes: their samples, too
   std::optional<replay::Difference> difference;
 };
 
@@ -44,8 +45,9 @@ struct Recomputed {
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
 
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
-// before `from`, and compares every sample, every state digest and every snapshot. Live input is substituted by its
-// recorded samples, sinks by nobody. Failed where a node fails that did not fail then, and where it was stopped.
+// before `from`, and compares every sample, every state digest and every snapshot. Live input and external nodes
+// are substituted by their recorded samples, sinks by nobody. Failed where a node fails that did not fail then, and
+// where it was stopped.
 base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step from,
                                   const std::function<void(lockstep::Step)>& on_progress = {},
                                   const std::function<bool()>& stop_requested = {});

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/runtime/launch/node_library.hpp"
 #include "launch/rodeira/run/node_factories.hpp"
 #include "nodes/road/road_service.hpp"
 
@@ -51,6 +52,13 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
   return std::shared_ptr<const road::World>();
 }
 
+base::Result<launch::NodeFactory> LibraryOf(const launch::LaunchNode& node) {
+  if (!node.kind->library.empty()) return launch::LoadNodeLibrary(node.kind->library);
+  return base::WrongInput(
+      fmt::format("its program {} is a process of its own; a run in one process needs its shared object, as 'library'",
+                  node.kind->program));
+}
+
 }  // namespace
 
 LocalNodes::LocalNodes(LocalNodes&&) noexcept = default;
@@ -73,14 +81,21 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       made.nodes_.back() = made.owned_.back().get();
       continue;
     }
-    const launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
+    launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
     if (factory == nullptr && roster.node(n).kind == "view")
       return base::WrongInput("this program has no view: it was built with RODEIRA_VIEW=OFF",
                               fmt::format("node '{}'", roster.node(n).name));
+    if (launch.node(n).is_external()) {
+      auto loaded = LibraryOf(launch.node(n));
+      if (!loaded)
+        return base::Error{loaded.error().code, loaded.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+      factory = std::move(loaded).value();
+    }
     if (factory == nullptr)
       return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
                               fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());
+    if (node.ok()) node = launch::AsManifestSays(*launch.node(n).kind, std::move(node).value());
     if (!node)
       return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
     made.owned_.push_back(std::move(node).value());

@@ -2,6 +2,7 @@
 #include "launch/rodeira/run/run_command.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,8 +34,14 @@ std::string FreshRunName() {
 // A node whose program is missing would end the run after its start: it is refused before.
 base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& placement) {
   for (const launch::LaunchNode& node : launch.nodes()) {
+    if (!placement.Has(node)) continue;
     const std::string program = base::FindProgram(node.kind->program).string();
-    if (!placement.Has(node) || ::access(program.c_str(), X_OK) == 0) continue;
+    struct stat found {};
+    if (::stat(program.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) {
+      errno = EISDIR;
+    } else if (::access(program.c_str(), X_OK) == 0) {
+      continue;
+    }
     return base::WrongInput(fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
                                         std::strerror(errno), node.name),
                             fmt::format("node '{}'", node.name));
