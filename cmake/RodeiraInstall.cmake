@@ -93,7 +93,7 @@ function(rodeira_install_kit)
     PATH_VARS RODEIRA_IDL_FOLDER RODEIRA_DATA_FOLDER)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_BINARY_DIR}/RodeiraConfig.cmake ${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake
-          ${CMAKE_SOURCE_DIR}/cmake/RodeiraNode.cmake ${CMAKE_SOURCE_DIR}/cmake/quiet.cmake
+          ${CMAKE_SOURCE_DIR}/cmake/RodeiraKit.cmake ${CMAKE_SOURCE_DIR}/cmake/quiet.cmake
           DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   install(EXPORT RodeiraTargets NAMESPACE rodeira:: DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   foreach(folder common/core common/world common/data common/runtime common/vehicle idl)

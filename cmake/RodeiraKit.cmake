@@ -67,3 +67,20 @@ namespace {
     target_include_directories(${target} SYSTEM PRIVATE ${generated})
   endforeach()
 endfunction()
+
+# rodeira_add_vehicle(NAME SOURCES a.cpp …): the shared object NAME.so with a vehicle model, which a vehicle file names
+# (`model: library`, `library: NAME.so`).
+function(rodeira_add_vehicle name)
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "SOURCES")
+  if(NOT ARG_SOURCES OR ARG_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "rodeira_add_vehicle(NAME SOURCES …) was expected for ${name}")
+  endif()
+  add_library(${name} MODULE ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE rodeira::dynamics)
+  target_compile_features(${name} PRIVATE cxx_std_20)
+  target_compile_options(${name} PRIVATE -ffp-contract=off)  # the same bits on every machine
+  set_target_properties(${name} PROPERTIES PREFIX "")
+  if(NOT CMAKE_LIBRARY_OUTPUT_DIRECTORY)
+    set_target_properties(${name} PROPERTIES LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endif()
+endfunction()

@@ -19,9 +19,9 @@ class GazeMonitor final : public lockstep::Node {
     return Take(inbox);
   }
   // The samples after the last activation.
-  base::Status Finish(const lockstep::Inbox& rest, lockstep::Step, bool) override {
+  base::Status Finish(const lockstep::Inbox& rest, lockstep::Step, bool complete) override {
     if (auto status = Take(rest); !status) return status;
-    std::printf("gaze_monitor: %d samples, farthest glance %.2f m\n", samples_, farthest_m_);
+    if (complete) std::printf("gaze_monitor: %d samples, farthest glance %.2f m\n", samples_, farthest_m_);
     return {};
   }
   // Nothing: a sink that is started again begins anew.

@@ -179,8 +179,8 @@ std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::
   if (hits == "none") return std::nullopt;
   if (!model.can_be_pushed()) {
     fmt::print(stderr,
-               "rodeira: node '{}': the FMU has no inputs push_x_N … push_moment_z_Nm: collisions are told, but do not "
-               "move the car\n",
+               "rodeira: node '{}': its model takes no forces of collisions (an FMU: inputs push_x_N … "
+               "push_moment_z_Nm): collisions are recorded, but do not move the car\n",
                node);
   }
   const dynamics::VehicleDimensions& dimensions = model.dimensions();

@@ -2,6 +2,7 @@
 #include "tests/system/recording.hpp"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include "common/runtime/lockstep/sample.hpp"
 #include "idl/topics.hpp"
@@ -10,21 +11,25 @@ namespace rodeira::system_test {
 
 std::vector<Recorded> SamplesOf(const std::string& recording) {
   std::vector<Recorded> samples;
+  const auto unreadable = [&](const std::string& why) {
+    ADD_FAILURE() << recording << ": " << why;
+    return std::vector<Recorded>();
+  };
   const auto reader = record::McapReader::Open(recording);
-  if (!reader || !reader.value().condition().whole) return {};
+  if (!reader) return unreadable(reader.error().Text());
+  if (!reader.value().condition().whole) return unreadable("it is not whole");
   record::Query query;
   query.order = record::Query::Order::kFile;
   auto cursor = reader.value().Messages(query);
   for (;;) {
     const auto message = cursor.Next();
-    if (!message) return {};
+    if (!message) return unreadable(message.error().Text());
     if (!message.value()) return samples;
     const std::string& name = reader.value().channels().at(message.value()->channel).topic;
     const idl::TopicInfo* topic = idl::FindTopic(name);
-    if (topic == nullptr) return {};
-    if (!topic->lockstep) continue;
+    if (topic != nullptr && !topic->lockstep) continue;  // topics of external nodes are in lockstep
     const auto& bytes = message.value()->data;
-    if (!lockstep::SampleHeader::HasHeader(bytes)) return {};
+    if (!lockstep::SampleHeader::HasHeader(bytes)) return unreadable(name + ": a sample without a header");
     const auto header = lockstep::SampleHeader::Read(bytes);
     samples.push_back({name, header.source, header.step, base::Hash(bytes), header.state_digest});
   }

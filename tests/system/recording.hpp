@@ -25,7 +25,7 @@ struct Recorded {
 };
 
 // Every sample of the lockstep in the file's order, which is what makes two recordings identical: wall times and
-// remarks are passed over. None where the file cannot be read whole.
+// remarks are passed over. A file that cannot be read whole fails the test.
 std::vector<Recorded> SamplesOf(const std::string& recording);
 // Where two runs part: node, step, topic and both digests. Empty where they never do.
 std::string FirstDifference(const std::vector<Recorded>& a, const std::vector<Recorded>& b);

@@ -61,7 +61,7 @@ const idl::TopicText* FindText(const std::vector<idl::TopicText>& topics, std::s
 
 // Why two protocol hashes differ.
 std::string ProtocolDifference(const Hello& own, const Hello& other) {
-  constexpr std::string_view kAdvice = "both PCs need the same version of Rodeira";
+  constexpr std::string_view kAdvice = "all programs of a run need the same version of Rodeira";
   constexpr std::string_view kBuildAgain = "build its program again, from the IDL that its manifest names";
   if (other.topics != nullptr && own.topics != nullptr) {
     for (const idl::TopicText& text : *other.topics) {
@@ -183,7 +183,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
     const msg::NodeIdentity& who = identity.value();
     return base::WrongInput(fmt::format(
         "node '{}' (process {} on host {}) was refused: its type of topic {} differs from the clock's: its hash is {}, "
-        "the clock's is {}; both PCs need the same version of Rodeira",
+        "the clock's is {}; all programs of a run need the same version of Rodeira",
         who.node(), who.pid(), who.host(), idl::topics::kReport, base::Hex(who.report_hash()),
         base::Hex(ReportHash())));
   }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/launch/node_library.hpp"
 
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <utility>
 
-#include "common/core/base/version.hpp"
+#include "common/core/base/shared_object.hpp"
 #include "common/data/decode/type_text.hpp"
 #include "common/runtime/launch/used_topics.hpp"
 #include "idl/idl_source.hpp"
@@ -52,9 +51,7 @@ class NodeWithoutState final : public lockstep::Node {
 
 }  // namespace
 
-std::string NodeBuild() {
-  return fmt::format("Rodeira {}, compiler {}, layout {:x}", base::Version(), __VERSION__, Layout());
-}
+std::string NodeBuild() { return base::BuildText(Layout()); }
 
 base::Status CheckCompiledTypes(const NodeContext& context) {
   const idl::TopicTable& table = context.launch().topics();
@@ -73,25 +70,9 @@ base::Status CheckCompiledTypes(const NodeContext& context) {
 }
 
 base::Result<NodeFactory> LoadNodeLibrary(const std::filesystem::path& path) {
-  ::dlerror();
-  void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) {
-    const char* problem = ::dlerror();
-    return base::WrongInput(fmt::format("cannot load the shared object: {}", problem == nullptr ? "?" : problem));
-  }
-  const auto build = reinterpret_cast<const char* (*)()>(::dlsym(library, kBuildEntry));
-  const auto make = reinterpret_cast<void (*)(NodeContext&, MadeNode&)>(::dlsym(library, kMakeEntry));
-  if (build == nullptr || make == nullptr) {
-    return base::WrongInput(fmt::format("the shared object has no entry point '{}'; RODEIRA_NODE in one of its sources "
-                                        "was expected",
-                                        build == nullptr ? kBuildEntry : kMakeEntry),
-                            path.string());
-  }
-  if (build() != NodeBuild()) {
-    return base::WrongInput(
-        fmt::format("the shared object was built with {}, this program is {}; build it again", build(), NodeBuild()),
-        path.string());
-  }
+  const auto entry = base::LoadSharedObject(path, {kBuildEntry, kMakeEntry, "RODEIRA_NODE"}, NodeBuild());
+  if (!entry) return entry.error();
+  const auto make = reinterpret_cast<void (*)(NodeContext&, MadeNode&)>(entry.value());
   return NodeFactory([make](NodeContext& context) -> base::Result<std::unique_ptr<lockstep::Node>> {
     MadeNode made;
     make(context, made);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "common/vehicle/dynamics/fmu_model.hpp"
 #include "common/vehicle/dynamics/multibody_model.hpp"
 #include "common/vehicle/dynamics/ode_model.hpp"
+#include "common/vehicle/dynamics/vehicle_library.hpp"
 
 namespace rodeira::dynamics {
 
@@ -52,6 +54,7 @@ std::vector<ModelKind> AllKinds(std::span<const ModelKind> more) {
                    [](VehicleModel& model, const config::Map&) { return static_cast<FmuModel&>(model).Build(); }});
   kinds.push_back({"ode", [](const config::Map& root) { return std::make_unique<OdeModel>(ReadOde(root)); },
                    [](VehicleModel& model, const config::Map&) { return static_cast<OdeModel&>(model).Build(); }});
+  kinds.push_back({"library", MakeFromLibrary, CheckLibraryModel});
   kinds.insert(kinds.end(), more.begin(), more.end());
   return kinds;
 }
@@ -75,6 +78,12 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   (void)root.Choice("rodeira", {"vehicle/1"});
   (void)root.Text("name", "");
   const std::string own = root.Choice("model", names);
+  const auto said = root.Peek({"model"});
+  if (!said || std::ranges::find(names, *said) == names.end()) {  // no model: which other keys are known is open
+    for (const base::Error& problem : file.value().Problems()) {
+      if (problem.message.find("'model'") != std::string::npos) return problem;
+    }
+  }
   const auto models = ReadModels(root.OptionalChild("models"));
   if (!wanted.empty() && wanted != own) {
     if (named)
@@ -103,11 +112,6 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
       if (const base::Status status = file.value().Finish(); !status) return status.error();
     }
     return model;
-  }
-  // Without a known model nobody can say which other keys are known.
-  for (const base::Error& problem : file.value().Problems()) {
-    if (problem.message.find("'rodeira'") != std::string::npos || problem.message.find("'model'") != std::string::npos)
-      return problem;
   }
   return base::WrongInput("'model' is not known", root.Place("model"));
 }

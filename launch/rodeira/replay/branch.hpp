@@ -17,7 +17,6 @@ struct BranchWish {
   std::string parent;                       // recording
   lockstep::Step at = 0;                    // base steps: where the branch leaves its parent
   launch::Overrides changes;                // of the launch file
-  launch::Overrides libraries = {};         // nodes.NAME.library, of external nodes
   std::optional<lockstep::Step> last_step;  // none: the parent's
   std::string recording;                    // the new file
   std::function<bool()> stop_requested =
@@ -25,6 +24,7 @@ struct BranchWish {
   bool with_view = false;  // the launch file's view shows the branch as it is driven; otherwise it is not drawn
   double pace = 0.0;       // of the branch behind T, as Pacer: 0 as fast as possible, 1 real time
   std::function<std::optional<lockstep::Asked>()> next_command = {};  // of an operator, for the branch behind T
+  launch::Overrides libraries = {};                                   // nodes.NAME.library, of external nodes
 };
 
 struct BranchOutcome {

@@ -55,7 +55,7 @@ TEST(Wire, ANodeWhoseTopicDiffersIsRefusedWithTheMember) {
   EXPECT_EQ(refused.error().exit_status(), 2);
   EXPECT_EQ(refused.error().Text(),
             "its type of topic rodeira/pulse differs from the clock's: rodeira::msg::Pulse, member 2: found 'double "
-            "value', expected 'unsigned long long value'; both PCs need the same version of Rodeira");
+            "value', expected 'unsigned long long value'; all programs of a run need the same version of Rodeira");
 }
 
 TEST(Wire, ANodeWhoseOtherTopicsDifferIsNotRefused) {
@@ -69,7 +69,8 @@ TEST(Wire, WithoutItsTypesANodeIsRefusedWithBothHashes) {
   const auto refused = CheckHello(own, other);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().Text(), "its protocol hash is " + base::Hex(other.protocol) + ", the clock's is " +
-                                        base::Hex(own.protocol) + "; both PCs need the same version of Rodeira");
+                                        base::Hex(own.protocol) +
+                                        "; all programs of a run need the same version of Rodeira");
 }
 
 TEST(Wire, ANodeThatUsesOtherTopicsIsRefused) {
@@ -81,12 +82,14 @@ TEST(Wire, ANodeThatUsesOtherTopicsIsRefused) {
   const auto refused = CheckHello(OwnHello(Empty(), 0), more);
   ASSERT_FALSE(refused.ok());
   EXPECT_EQ(refused.error().Text(),
-            "it uses topic rodeira/new, which the clock does not expect of it; both PCs need the same version of "
+            "it uses topic rodeira/new, which the clock does not expect of it; all programs of a run need the same "
+            "version of "
             "Rodeira");
   const auto less = CheckHello(more, OwnHello(Empty(), 0));
   ASSERT_FALSE(less.ok());
   EXPECT_EQ(less.error().Text(),
-            "it does not use topic rodeira/new, which the clock expects of it; both PCs need the same version of "
+            "it does not use topic rodeira/new, which the clock expects of it; all programs of a run need the same "
+            "version of "
             "Rodeira");
 }
 
