@@ -29,7 +29,7 @@ void CheckRates(const config::Map& map) {
     if (map.Has(key)) found.push_back(key);
   }
   if (found.size() == 1) return;
-  for (const std::string& key : found) map.LeaveToOthers(key);
+  for (const std::string& key : found) map.IgnoreKey(key);
   if (found.size() > 1) return map.Problem(found[1], fmt::format("{} were found; {}", Listed(found), kOneRate));
   const std::vector<std::string> keys = map.Keys();
   for (const std::string& key : keys) {

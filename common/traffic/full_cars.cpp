@@ -61,7 +61,8 @@ base::Status FullCars::Place(std::uint32_t id, std::uint32_t body, const dynamic
   if (const base::Status status = cars_.Place(id, body, initial, *ground_); !status) return status;
   controls_[id] = {};
   feet_[id] = {};
-  if (initial.speed_mps > 0.0) feet_[id].TakeOver(cars_.car(id).powertrain.engine().throttle(), 0.0, initial.speed_mps);
+  if (initial.speed_mps > 0.0)
+    feet_[id].InitialiseFrom(cars_.car(id).powertrain.engine().throttle(), 0.0, initial.speed_mps);
   return {};
 }
 
@@ -104,7 +105,7 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
   // Who slows down does not first make good the speed that his engine was too weak to come to.
   driver::Pedals& foot = feet_[id];
   if (wanted_mps2 < kSlows_mps2 && !foot.holds() && foot.throttle() > 0.0 && foot.reference_mps() > speed)
-    foot.TakeOver(foot.throttle(), foot.brake(), speed);
+    foot.InitialiseFrom(foot.throttle(), foot.brake(), speed);
   foot.Step(PedalsOf(cars_.chassis(id), car.powertrain, speed, wanted_mps2), wanted_mps2, speed, grade, dt_s);
   controls.throttle = foot.throttle();
   controls.brake = foot.brake();

@@ -66,7 +66,7 @@ class KinematicCar final : public dynamics::VehicleModel {
   }
 
   void Step(const dynamics::Controls& given, ground::Ground& ground, double dt_s) override {
-    const dynamics::Controls controls = dynamics::Cut(given);
+    const dynamics::Controls controls = dynamics::Clamp(given);
     const double limit_rad = settings_.dimensions.steering_wheel_limit_rad;
     steering_wheel_rad_ = std::clamp(controls.steering_wheel_rad, -limit_rad, limit_rad);
 
@@ -137,7 +137,7 @@ class KinematicCar final : public dynamics::VehicleModel {
       contacts_W_[i] = rear_W_ + (hub_B.x() + half_base_m()) * forward_W + hub_B.y() * left_W;
       wheels[i] = &grounds_[i];
     }
-    dynamics::AskGround(ground, contacts_W_, wheels);
+    dynamics::QueryGround(ground, contacts_W_, wheels);
   }
   // The wheels stand on the planes below them; the body is parallel to both diagonals of the contact points.
   void SettleOnGround() {

@@ -46,7 +46,7 @@ class EmptyNode final : public lockstep::Node {
     return {};
   }
 
-  bool is_brief() const override { return true; }
+  bool runs_inline() const override { return true; }
   // Where it cannot be saved, something of it is known all the same.
   void Save(base::StateWriter& out) const override { out.Put("value", saves_ ? value_ : value_ % 1000); }
   void Restore(base::StateReader& in) override {
@@ -54,7 +54,7 @@ class EmptyNode final : public lockstep::Node {
     in.Get("value", value_);
   }
   bool can_save() const override { return saves_; }
-  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+  base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
     if (published.empty()) return base::WrongInput("no published value was found");
     const auto pulse = idl::Decode<msg::Pulse>(*published.back().payload);
     if (!pulse) return pulse.error();

@@ -81,8 +81,8 @@ class AutopilotSource final : public Source {
 
   void Save(base::StateWriter& out) const override { out.Put("autopilot", autopilot_); }
   void Restore(base::StateReader& in) override { in.Get("autopilot", autopilot_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& /*signals*/) override {
-    autopilot_.TakeOver(last);
+  void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& /*signals*/) override {
+    autopilot_.InitialiseFrom(last);
   }
 
  private:

@@ -78,7 +78,7 @@ std::unique_ptr<Source> AnyPad(const Search& search) {
 
 base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config, launch::NodeContext& context) {
   const bool has_keys = config.OptionalPath("keyboard").has_value();
-  config.LeaveToOthers("devices");
+  config.IgnoreKey("devices");
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   Search search{context.spec().name, {}, std::nullopt};
   if (input_devices::HasDeviceAccess() || !has_keys) {

@@ -46,7 +46,7 @@ dynamics::Controls ControlsFromWire(const msg::Controls& in) {
   out.gear = in.gear();
   out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   out.starter = in.starter() != 0;
-  return dynamics::Cut(out);
+  return dynamics::Clamp(out);
 }
 
 input_devices::Signals SignalsOf(const msg::Controls& in) {
@@ -70,14 +70,14 @@ class InputNode final : public lockstep::Node {
     outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value(), source_->signals())));
     return {};
   }
-  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+  base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
     if (published.empty()) return base::WrongInput("no published controls were found");
     const auto last = idl::Decode<msg::Controls>(*published.back().payload);
     if (!last) return last.error();
-    source_->TakeOver(ControlsFromWire(last.value()), SignalsOf(last.value()));
+    source_->InitialiseFrom(ControlsFromWire(last.value()), SignalsOf(last.value()));
     return {};
   }
-  bool is_brief() const override { return source_->is_brief(); }
+  bool runs_inline() const override { return source_->runs_inline(); }
   void Save(base::StateWriter& out) const override { out.Put("source", *source_); }
   void Restore(base::StateReader& in) override { in.Get("source", *source_); }
 

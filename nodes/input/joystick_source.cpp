@@ -52,11 +52,11 @@ class JoystickSource final : public Source {
   }
 
   input_devices::Signals signals() const override { return driver_.signals(); }
-  bool is_brief() const override { return false; }  // SDL wants one thread
+  bool runs_inline() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("wheel", driver_); }
   void Restore(base::StateReader& in) override { in.Get("wheel", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
-    driver_.TakeOver(last, signals);
+  void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.InitialiseFrom(last, signals);
   }
 
  private:
@@ -178,8 +178,8 @@ base::Result<std::unique_ptr<Source>> OpenWheelFile(const std::filesystem::path&
 base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context) {
   const auto file = config.OptionalPath("wheel");
   if (!file) return MakeFoundSource(config, context);
-  config.LeaveToOthers("devices");
-  config.LeaveToOthers("keyboard");  // for who names no wheel
+  config.IgnoreKey("devices");
+  config.IgnoreKey("keyboard");  // for who names no wheel
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   auto source = OpenWheelFile(*file, config, context.spec().name);
   if (auto status = context.launch().file().Finish(); !status) return status.error();  // GUIDs that it says

@@ -46,8 +46,8 @@ class KeyboardSource final : public Source {
   input_devices::Signals signals() const override { return driver_.signals(); }
   void Save(base::StateWriter& out) const override { out.Put("keyboard", driver_); }
   void Restore(base::StateReader& in) override { in.Get("keyboard", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
-    driver_.TakeOver(last, signals);
+  void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.InitialiseFrom(last, signals);
   }
 
  private:

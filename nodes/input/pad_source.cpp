@@ -29,11 +29,11 @@ class PadSource final : public Source {
   }
 
   input_devices::Signals signals() const override { return driver_.signals(); }
-  bool is_brief() const override { return false; }  // SDL wants one thread
+  bool runs_inline() const override { return false; }  // SDL wants one thread
   void Save(base::StateWriter& out) const override { out.Put("pad", driver_); }
   void Restore(base::StateReader& in) override { in.Get("pad", driver_); }
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
-    driver_.TakeOver(last, signals);
+  void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    driver_.InitialiseFrom(last, signals);
   }
 
  private:

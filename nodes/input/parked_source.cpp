@@ -37,7 +37,7 @@ class Parked final : public Source {
   }
 
   input_devices::Signals signals() const override { return person_->signals(); }
-  bool is_brief() const override { return person_->is_brief(); }
+  bool runs_inline() const override { return person_->runs_inline(); }
 
   void Save(base::StateWriter& out) const override {
     out.Put("person", *person_);
@@ -53,8 +53,8 @@ class Parked final : public Source {
   }
 
   // Whoever takes over a car whose handbrake is pulled finds it so.
-  void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) override {
-    person_->TakeOver(last, signals);
+  void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {
+    person_->InitialiseFrom(last, signals);
     begun_ = true;
     parked_ = last.handbrake > kPulled && last.throttle <= kPressed;
     pulls_ = false;

@@ -166,7 +166,7 @@ class ScriptSource final : public Source {
   }
   void Save(base::StateWriter&) const override {}  // a function of time alone
   void Restore(base::StateReader&) override {}
-  void TakeOver(const Controls&, const input_devices::Signals&) override {}
+  void InitialiseFrom(const Controls&, const input_devices::Signals&) override {}
 
  private:
   Script script_;

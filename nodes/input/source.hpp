@@ -22,11 +22,11 @@ class Source {
   // Lamps and horn that go with the controls of the last First or Step.
   virtual input_devices::Signals signals() const { return {}; }
   // May be asked on any thread, one at a time, and soon has its answer.
-  virtual bool is_brief() const { return true; }
+  virtual bool runs_inline() const { return true; }
   virtual void Save(base::StateWriter& out) const = 0;
   virtual void Restore(base::StateReader& in) = 0;
   // In place of First(): goes on where another source has left hands, feet and levers.
-  virtual void TakeOver(const dynamics::Controls& last, const input_devices::Signals& signals) = 0;
+  virtual void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) = 0;
 };
 
 }  // namespace rodeira::nodes

@@ -157,7 +157,7 @@ class ScenarioNode final : public lockstep::Node {
     return {};
   }
 
-  bool is_brief() const override { return true; }
+  bool runs_inline() const override { return true; }
   void Save(base::StateWriter& out) const override {
     for (const Gate& gate : gates_) out.Put("gate", gate);
     out.Put("weathers", static_cast<std::uint32_t>(became_.size()));
@@ -251,7 +251,7 @@ class ScenarioNode final : public lockstep::Node {
 // The nodes of this kind that obey the node's events.
 std::vector<std::string> Obedient(const launch::NodeContext& context, std::string_view kind) {
   std::vector<std::string> names;
-  for (const lockstep::NodeSpec& node : context.roster().nodes()) {
+  for (const lockstep::RosterNode& node : context.roster().nodes()) {
     if (node.kind != kind) continue;
     for (const lockstep::Port& port : node.inputs) {
       if (port.topic != topics::kScenarioEvents) continue;

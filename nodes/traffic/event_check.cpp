@@ -71,7 +71,7 @@ base::Status CheckScenarios(const launch::NodeContext& context, const traffic::T
       const std::filesystem::path file = (launch.path().parent_path() / *named).lexically_normal();
       std::error_code problem;
       if (!std::filesystem::is_regular_file(file, problem)) continue;
-      const lockstep::NodeSpec& says = context.roster().node(node);
+      const lockstep::RosterNode& says = context.roster().node(node);
       const auto scenario = scenario::LoadScenario(file, {context.roster().base_step_ns(), says.period, says.delay});
       if (!scenario) continue;  // that node says it
       for (const auto& event : scenario.value().scheduled) {

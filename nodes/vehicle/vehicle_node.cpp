@@ -66,7 +66,7 @@ class VehicleNode final : public lockstep::Node {
     return {};
   }
 
-  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override {
+  base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
     const auto newest = std::find_if(published.rbegin(), published.rend(),
                                      [&](const lockstep::Sample& sample) { return sample.source() == state_source_; });
     if (newest == published.rend()) return base::WrongInput("no published state of the car was found");

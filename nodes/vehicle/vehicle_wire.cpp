@@ -73,7 +73,7 @@ dynamics::Controls FromWire(const msg::Controls& in) {
   out.gear = in.gear();
   out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   out.starter = in.starter() != 0;
-  return dynamics::Cut(out);
+  return dynamics::Clamp(out);
 }
 
 dynamics::VehicleState FromWire(const msg::VehicleState& in) {

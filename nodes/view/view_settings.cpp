@@ -19,14 +19,14 @@ namespace rodeira::nodes {
 namespace {
 
 // The cars' streams, as the view's port is wired.
-std::vector<lockstep::SourceIndex> CarSources(const lockstep::NodeSpec& view) {
+std::vector<lockstep::SourceIndex> CarSources(const lockstep::RosterNode& view) {
   for (const lockstep::Port& port : view.inputs) {
     if (port.topic == idl::topics::kVehicleState) return port.sources;
   }
   return {};
 }
 
-void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map,
+void ReadFollowed(const lockstep::Roster& roster, const lockstep::RosterNode& view, const config::Map& map,
                   ViewSettings& settings) {
   if (!map.Has("follow")) return;
   const auto followed = FindFollowed(roster, CarSources(view), map.Text("follow"));
@@ -36,7 +36,7 @@ void ReadFollowed(const lockstep::Roster& roster, const lockstep::NodeSpec& view
     map.Problem("follow", followed.error().message);
 }
 
-void ReadPaints(const lockstep::Roster& roster, const lockstep::NodeSpec& view, const config::Map& map,
+void ReadPaints(const lockstep::Roster& roster, const lockstep::RosterNode& view, const config::Map& map,
                 ViewSettings& settings) {
   const auto cars = CarSources(view);
   for (const std::string& name : map.Keys()) {
@@ -172,7 +172,7 @@ CarStart ReadStart(const launch::LaunchNode& vehicle) {
 }
 
 // All but the frames.
-ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::NodeSpec& view, const config::Map& map) {
+ViewSettings ReadWindow(const launch::Launch& launch, const lockstep::RosterNode& view, const config::Map& map) {
   ViewSettings settings;
   settings.width_px = static_cast<int>(map.Integer("width_px", 64, 7680, 1280));
   settings.height_px = static_cast<int>(map.Integer("height_px", 64, 4320, 720));
@@ -232,7 +232,7 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
 base::Result<ViewSettings> ReadWindowSettings(const launch::Launch& launch, lockstep::NodeIndex view) {
   const config::Map map = launch.node(view).config->OptionalChild("config");
   ViewSettings settings = ReadWindow(launch, launch.roster().node(view), map);
-  map.LeaveToOthers("frames");
+  map.IgnoreKey("frames");
   if (auto status = launch.file().Finish(); !status) return status.error();
   return settings;
 }

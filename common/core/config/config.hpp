@@ -40,15 +40,16 @@ class Map {
   bool Has(std::string_view key) const;
 
   double Number(std::string_view key, Range range = {}) const;
-  double Number(std::string_view key, Range range, double otherwise) const;
+  double Number(std::string_view key, Range range, double default_value) const;
   std::int64_t Integer(std::string_view key, std::int64_t low, std::int64_t high) const;
-  std::int64_t Integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t otherwise) const;
-  bool Flag(std::string_view key, bool otherwise) const;
+  std::int64_t Integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t default_value) const;
+  bool Flag(std::string_view key, bool default_value) const;
   std::string Text(std::string_view key) const;
-  std::string Text(std::string_view key, std::string_view otherwise) const;
+  std::string Text(std::string_view key, std::string_view default_value) const;
   // One of the allowed words, or a problem that names the nearest.
   std::string Choice(std::string_view key, const std::vector<std::string>& allowed) const;
-  std::string Choice(std::string_view key, const std::vector<std::string>& allowed, std::string_view otherwise) const;
+  std::string Choice(std::string_view key, const std::vector<std::string>& allowed,
+                     std::string_view default_value) const;
   // A path, taken relative to the file that names it.
   std::filesystem::path Path(std::string_view key) const;
   std::optional<std::filesystem::path> OptionalPath(std::string_view key) const;
@@ -59,7 +60,7 @@ class Map {
   List Items(std::string_view key) const;         // required sequence
   List OptionalItems(std::string_view key) const;
   // Marks a key as known without looking into it: somebody else reads what stands there.
-  void LeaveToOthers(std::string_view key) const;
+  void IgnoreKey(std::string_view key) const;
   // The text at the end of a way of keys, without asking for it: it is somebody else's, who says what is wrong with it.
   // Nothing where there is none.
   std::optional<std::string> Peek(std::initializer_list<std::string_view> way) const;

@@ -11,9 +11,9 @@
 namespace rodeira::config {
 
 // A problem where both keys stand in the mapping: they say the same thing in two ways. Whether they do.
-inline bool SaysTwice(const Map& map, std::string_view key, std::string_view other) {
+inline bool RejectConflictingKeys(const Map& map, std::string_view key, std::string_view other) {
   if (!map.Has(key) || !map.Has(other)) return false;
-  map.LeaveToOthers(other);
+  map.IgnoreKey(other);
   map.Problem(other, fmt::format("'{}' and '{}' say the same in two ways; one of both was expected", key, other));
   return true;
 }

@@ -76,8 +76,8 @@ std::optional<double> Map::Checked(std::string_view key, std::optional<double> v
 double Map::Number(std::string_view key, Range range) const {
   return Checked(key, Scalar<double>(key, true, "a number"), range).value_or(std::clamp(0.0, range.low, range.high));
 }
-double Map::Number(std::string_view key, Range range, double otherwise) const {
-  return Checked(key, Scalar<double>(key, false, "a number"), range).value_or(otherwise);
+double Map::Number(std::string_view key, Range range, double default_value) const {
+  return Checked(key, Scalar<double>(key, false, "a number"), range).value_or(default_value);
 }
 
 std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t high) const {
@@ -87,21 +87,21 @@ std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t h
   }
   return Integer(key, low, high, low);
 }
-std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t otherwise) const {
+std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t default_value) const {
   const std::string expected = fmt::format("a whole number from {} to {}", low, high);
   const auto value = Scalar<std::int64_t>(key, false, expected);
   if (value && (*value < low || *value > high))
     Problem(key, fmt::format("'{}' is {}; {} was expected", Sub(path_, key), *value, expected));
-  return std::clamp(value.value_or(otherwise), low, high);
+  return std::clamp(value.value_or(default_value), low, high);
 }
 
-bool Map::Flag(std::string_view key, bool otherwise) const {
-  return Scalar<bool>(key, false, "true or false").value_or(otherwise);
+bool Map::Flag(std::string_view key, bool default_value) const {
+  return Scalar<bool>(key, false, "true or false").value_or(default_value);
 }
 
 std::string Map::Text(std::string_view key) const { return Scalar<std::string>(key, true, "a text").value_or(""); }
-std::string Map::Text(std::string_view key, std::string_view otherwise) const {
-  return Scalar<std::string>(key, false, "a text").value_or(std::string(otherwise));
+std::string Map::Text(std::string_view key, std::string_view default_value) const {
+  return Scalar<std::string>(key, false, "a text").value_or(std::string(default_value));
 }
 
 std::string Map::Choice(std::string_view key, const std::vector<std::string>& allowed) const {
@@ -112,12 +112,12 @@ std::string Map::Choice(std::string_view key, const std::vector<std::string>& al
   return Choice(key, allowed, allowed.front());
 }
 std::string Map::Choice(std::string_view key, const std::vector<std::string>& allowed,
-                        std::string_view otherwise) const {
+                        std::string_view default_value) const {
   const auto value = Scalar<std::string>(key, false, "a word");
-  if (!value) return std::string(otherwise);
+  if (!value) return std::string(default_value);
   if (std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
     Problem(key, fmt::format("'{}' is '{}'{}", Sub(path_, key), *value, base::DidYouMean(*value, allowed)));
-    return std::string(otherwise);
+    return std::string(default_value);
   }
   return *value;
 }
@@ -171,7 +171,7 @@ List Map::Items(std::string_view key) const {
   return OptionalItems(key);
 }
 
-void Map::LeaveToOthers(std::string_view key) const {
+void Map::IgnoreKey(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
 }
 

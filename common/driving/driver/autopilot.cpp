@@ -107,8 +107,8 @@ dynamics::Controls Autopilot::Step(const DriverView& view, double dt_s) {
 }
 
 // Allowed speed and leader are for displays and found anew each step, but they are published: kept too.
-void Autopilot::TakeOver(const dynamics::Controls& last) {
-  pedals_.TakeOver(last.throttle, last.brake);
+void Autopilot::InitialiseFrom(const dynamics::Controls& last) {
+  pedals_.InitialiseFrom(last.throttle, last.brake);
   steering_wheel_rad_ = last.steering_wheel_rad;
   allowed_mps_ = 0.0;
   leader_.reset();

@@ -76,7 +76,7 @@ class Autopilot {
   // The controls for the coming dt_s (over 0), from what is seen now.
   dynamics::Controls Step(const DriverView& view, double dt_s);
   // Goes on from where others have left steering wheel and pedals.
-  void TakeOver(const dynamics::Controls& last);
+  void InitialiseFrom(const dynamics::Controls& last);
 
   // What Step would steer and drive by there; keeps nothing. Nothing beside the way's ends.
   std::optional<Aim> AimOf(const CarMotion& car) const;

@@ -49,11 +49,11 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
   if (brake_ > 0.0 && throttle == 0.0) throttle_ = 0.0;
 }
 
-void Pedals::TakeOver(double throttle, double brake) {
-  TakeOver(throttle, brake, 0.0);
+void Pedals::InitialiseFrom(double throttle, double brake) {
+  InitialiseFrom(throttle, brake, 0.0);
 }  // Step holds the reference near the speed
 
-void Pedals::TakeOver(double throttle, double brake, double speed_mps) {
+void Pedals::InitialiseFrom(double throttle, double brake, double speed_mps) {
   throttle_ = throttle;
   brake_ = brake;
   reference_mps_ = speed_mps;

@@ -31,9 +31,9 @@ class Pedals {
   // One step. `wanted_mps2` along the car, `speed_mps` forward, `grade` uphill positive.
   void Step(const PedalSettings& settings, double wanted_mps2, double speed_mps, double grade, double dt_s);
   // Goes on with the pedals as they are, of a car that may be moving.
-  void TakeOver(double throttle, double brake);
+  void InitialiseFrom(double throttle, double brake);
   // The same at a speed that is as it was wanted.
-  void TakeOver(double throttle, double brake, double speed_mps);
+  void InitialiseFrom(double throttle, double brake, double speed_mps);
   double throttle() const { return throttle_; }
   double brake() const { return brake_; }
   // The speed that the wanted accelerations have led to, which the foot keeps to; 0 while it holds the car.

@@ -91,7 +91,7 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
     Event event = ReadEvent(map);
     if (map.Has("when")) {
       if (map.Has("at_s")) map.Problem("at_s", "an event has 'at_s' and 'when'; one of them was expected");
-      map.LeaveToOthers("at_s");
+      map.IgnoreKey("at_s");
       const config::Map when = map.Child("when");
       const double passes_m = when.Number("passes_m", {0.0, 1e6});
       scenario.conditional.push_back({when.Text("road", ""), passes_m, std::move(event), when.Place()});

@@ -166,8 +166,8 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   lockstep::Runner runner(context.roster(), context.index(), *node.value(), bus, mailbox, settings);
   context.Follow(&runner);
   bus.Follow(&runner);
-  const bool brief = node.value()->is_brief();
-  const auto outcome = brief ? lockstep::RunWhereMessagesArrive(runner, mailbox, settings) : runner.Run();
+  const bool brief = node.value()->runs_inline();
+  const auto outcome = brief ? lockstep::RunInline(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
   bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
   return outcome == lockstep::Runner::Outcome::kFinished ? 0 : 1;

@@ -15,8 +15,8 @@
 namespace rodeira::launch {
 namespace {
 
-using lockstep::NodeWish;
-using lockstep::PortWish;
+using lockstep::NodeSpec;
+using lockstep::PortSpec;
 using lockstep::Step;
 
 constexpr std::string_view kTopicPrefix = "rodeira/";
@@ -38,8 +38,8 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
   return static_cast<Step>(whole);
 }
 
-NodeWish ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
-  NodeWish wish;
+NodeSpec ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
+  NodeSpec wish;
   wish.name = name;
   wish.kind = kind.name;
   wish.role = kind.role;
@@ -102,29 +102,29 @@ void AddToRecorders(const idl::TopicTable& topics, std::vector<LaunchNode>& node
 
 // Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`,
 // rounded up to a common multiple of their periods.
-void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeWish>& wishes) {
+void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeSpec>& wishes) {
   Step every =
       ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
-  const auto has_state = [](const NodeWish& wish) {
+  const auto has_state = [](const NodeSpec& wish) {
     return wish.role == lockstep::Role::kStepped && !wish.outputs.empty();
   };
-  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeWish& wish) { return wish.kind == "recorder"; })) return;
+  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeSpec& wish) { return wish.kind == "recorder"; })) return;
   Step common = 1;
-  for (const NodeWish& wish : wishes) {
+  for (const NodeSpec& wish : wishes) {
     // Recorders too: one that begins at a snapshot waits for none that lies before.
     if (has_state(wish) || wish.kind == "recorder") common = std::lcm(common, wish.period);
   }
   every = lockstep::CeilTo(every, common);
-  for (NodeWish& wish : wishes) {
+  for (NodeSpec& wish : wishes) {
     if (has_state(wish)) wish.snapshot_every = every;
   }
 }
 
 // Names of the other nodes that publish a topic.
-std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::string_view topic,
+std::vector<std::string> Publishers(const std::vector<NodeSpec>& wishes, std::string_view topic,
                                     const std::string& except) {
   std::vector<std::string> names;
-  for (const NodeWish& wish : wishes) {
+  for (const NodeSpec& wish : wishes) {
     if (wish.name == except) continue;
     if (topic == lockstep::kSnapshotTopic && wish.snapshot_every > 0) names.push_back(wish.name);
     for (const std::string& output : wish.outputs) {
@@ -135,11 +135,11 @@ std::vector<std::string> Publishers(const std::vector<NodeWish>& wishes, std::st
 }
 
 // Wires a node's inputs: as `inputs` says, otherwise to everybody else who publishes the topic.
-void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeWish>& wishes, NodeWish& wish) {
+void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSpec>& wishes, NodeSpec& wish) {
   const config::Map inputs = map.OptionalChild("inputs");
   for (const KindPort& port : kind.inputs) {
     const std::string key = ShortName(port.topic);
-    PortWish out{std::string(port.topic), port.kind, {}};
+    PortSpec out{std::string(port.topic), port.kind, {}};
     if (inputs.Has(key)) {
       const config::List names = inputs.OptionalItems(key);
       for (std::size_t i = 0; i < names.size(); ++i) out.sources.push_back(names.Text(i));
@@ -199,7 +199,7 @@ std::vector<lockstep::Policy> Launch::policies() const {
 
 base::Status Launch::CheckRecovery() const {
   const auto& nodes = roster_->nodes();
-  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::NodeSpec& node) { return node.keeps_snapshots(); }))
+  if (std::any_of(nodes.begin(), nodes.end(), [](const lockstep::RosterNode& node) { return node.keeps_snapshots(); }))
     return {};
   for (const LaunchNode& node : nodes_) {
     if (node.recovery != lockstep::Policy::kRestart || node.kind->outputs.empty()) continue;
@@ -263,7 +263,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
 
   launch.recovery_ = ReadPolicy(root, "stop");
   const config::Map nodes = root.Child("nodes");
-  std::vector<NodeWish> wishes;
+  std::vector<NodeSpec> wishes;
   std::vector<config::Map> maps;
   std::vector<Manifest> manifests;
   for (const std::string& name : nodes.Keys()) {
@@ -274,7 +274,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     LaunchNode node{name, kind.value(), map.Text("host", ""), std::make_shared<const config::Map>(map),
                     launch.recovery_};
     if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
-    map.LeaveToOthers("config");
+    map.IgnoreKey("config");
     wishes.push_back(ReadNode(map, name, *kind.value(), base_step_ns));
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
@@ -286,7 +286,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     const base::Status inputs = CheckInputs(manifest, launch.topics_);
     if (inputs.ok()) continue;
     // What is wrong with the launch file itself comes first: it may be the cause.
-    for (const config::Map& map : maps) map.LeaveToOthers("inputs");
+    for (const config::Map& map : maps) map.IgnoreKey("inputs");
     if (auto status = launch.file_->Finish(); !status) return status.error();
     return inputs.error();
   }

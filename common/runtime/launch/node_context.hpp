@@ -32,7 +32,7 @@ class NodeContext {
   const Launch& launch() const { return launch_; }
   const lockstep::Roster& roster() const { return launch_.roster(); }
   lockstep::NodeIndex index() const { return index_; }
-  const lockstep::NodeSpec& spec() const { return launch_.roster().node(index_); }
+  const lockstep::RosterNode& spec() const { return launch_.roster().node(index_); }
   std::uint64_t seed() const { return launch_.seed(); }
   // The node's own keys: `nodes.NAME.config`. After reading them, launch().file().Finish() finds what is wrong there.
   config::Map config() const { return launch_.node(index_).config->OptionalChild("config"); }

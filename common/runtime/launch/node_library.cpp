@@ -20,7 +20,7 @@ constexpr std::size_t Layout() {
   std::size_t layout = kLayoutVersion;
   for (const std::size_t size :
        {sizeof(NodeContext), sizeof(Launch), sizeof(LaunchNode), sizeof(NodeKind), sizeof(config::Map),
-        sizeof(lockstep::Roster), sizeof(lockstep::NodeSpec), sizeof(lockstep::StepInfo), sizeof(lockstep::Inbox),
+        sizeof(lockstep::Roster), sizeof(lockstep::RosterNode), sizeof(lockstep::StepInfo), sizeof(lockstep::Inbox),
         sizeof(lockstep::Outbox), sizeof(lockstep::Sample), sizeof(lockstep::Node), sizeof(base::StateWriter),
         sizeof(base::StateReader), sizeof(base::Error), sizeof(MadeNode), sizeof(idl::TopicTable)})
     layout = layout * 1'000'003 + size;
@@ -36,11 +36,13 @@ class NodeWithoutState final : public lockstep::Node {
     return node_->Step(step, inbox, outbox);
   }
   base::Status Settle() override { return node_->Settle(); }
-  bool is_brief() const override { return node_->is_brief(); }
+  bool runs_inline() const override { return node_->runs_inline(); }
   void Save(base::StateWriter& out) const override { node_->Save(out); }
   void Restore(base::StateReader& in) override { node_->Restore(in); }
   bool can_save() const override { return false; }
-  base::Status TakeOver(const std::vector<lockstep::Sample>& published) override { return node_->TakeOver(published); }
+  base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
+    return node_->InitialiseFrom(published);
+  }
   base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
     return node_->Finish(rest, last_step, complete);
   }

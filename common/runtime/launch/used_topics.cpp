@@ -9,7 +9,7 @@ namespace topics = idl::topics;
 
 idl::TopicSet UsedTopics(const Launch& launch, lockstep::NodeIndex node) {
   const lockstep::Roster& roster = launch.roster();
-  const lockstep::NodeSpec& spec = roster.node(node);
+  const lockstep::RosterNode& spec = roster.node(node);
   idl::TopicSet used{std::string(topics::kGrant), std::string(topics::kReport)};
   if (spec.role == lockstep::Role::kStepped) {
     for (const std::string_view topic : {topics::kNack, topics::kRetransmissions, topics::kSampleBatches})

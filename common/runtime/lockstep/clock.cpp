@@ -26,7 +26,7 @@ base::Status Clock::Take(const Report& report) {
     return base::WrongInput(
         fmt::format("a report of node number {} was refused: the roster has {} nodes", report.node, reports_.size()));
   }
-  const NodeSpec& spec = roster_.node(report.node);
+  const RosterNode& spec = roster_.node(report.node);
   Report& known = reports_[report.node];
   const auto refuse = [&](std::string why) {
     return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name));

@@ -50,8 +50,8 @@ class ThreadedRun {
     for (NodeIndex n = 0; n < runners_.size(); ++n) {
       if (runners_[n] == nullptr) continue;
       threads.emplace_back([this, n] {
-        if (nodes_[n]->is_brief()) {
-          RunWhereMessagesArrive(*runners_[n], *mailboxes_[n], {});
+        if (nodes_[n]->runs_inline()) {
+          RunInline(*runners_[n], *mailboxes_[n], {});
         } else {
           runners_[n]->Run();
         }

@@ -101,7 +101,7 @@ class Mailbox {
   Woken Wait(const Want& want, std::chrono::milliseconds limit);
 
   const Roster& roster_;
-  const NodeSpec& spec_;
+  const RosterNode& spec_;
   mutable std::mutex mutex_;
   std::condition_variable woken_;
   std::vector<Track> tracks_;

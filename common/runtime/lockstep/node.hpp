@@ -26,7 +26,7 @@ class Node {
 
   // Its steps are short, ask no server (SUELO) and may run on any thread, one at a time: then they are done where the
   // last input arrives, without a switch between threads.
-  virtual bool is_brief() const { return false; }
+  virtual bool runs_inline() const { return false; }
 
   // The whole state, before an activation: Restore into a fresh node gives the same bits from there on.
   virtual void Save(base::StateWriter& out) const = 0;
@@ -39,7 +39,7 @@ class Node {
 
   // A branch (X4): begins where another model of this node stood, from its own newest published samples. Called instead
   // of Initialise where the other's state does not fit. Refused unless a node knows how.
-  virtual base::Status TakeOver(const std::vector<Sample>& /*published*/) {
+  virtual base::Status InitialiseFrom(const std::vector<Sample>& /*published*/) {
     return base::WrongInput("its state does not fit what was changed, and it cannot begin from what was published");
   }
 

@@ -65,7 +65,7 @@ class Pump {
 
 }  // namespace
 
-Runner::Outcome RunWhereMessagesArrive(Runner& runner, Mailbox& mailbox, const Runner::Settings& settings) {
+Runner::Outcome RunInline(Runner& runner, Mailbox& mailbox, const Runner::Settings& settings) {
   // Shared: a message may still be on its way through the callback when the run is over.
   const auto pump = std::make_shared<Pump>(runner);
   mailbox.OnReady(std::make_shared<const std::function<void()>>([pump] { pump->Poke(); }));

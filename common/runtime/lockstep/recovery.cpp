@@ -15,7 +15,7 @@ constexpr int kMostTimes = 4;
 
 Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, Step has_through) {
   if (grant.through < 0) return {};
-  const NodeSpec& spec = roster.node(node);
+  const RosterNode& spec = roster.node(node);
   if (spec.keeps_snapshots()) return {0, CeilTo(has_through + 1, spec.period)};
   if (spec.is_sink()) return {0, FloorTo(std::max<Step>(grant.through - roster.window(), 0), spec.period)};
   return {grant.resume, 0};
@@ -30,8 +30,8 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
   const bool wished =
       std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
   restarts_ = wished && std::any_of(roster.nodes().begin(), roster.nodes().end(),
-                                    [](const NodeSpec& node) { return node.keeps_snapshots(); });
-  for (const NodeSpec& node : roster.nodes()) {
+                                    [](const RosterNode& node) { return node.keeps_snapshots(); });
+  for (const RosterNode& node : roster.nodes()) {
     if (node.role != Role::kStepped) continue;
     ahead_ = std::max(ahead_, node.delay);
     if (node.snapshots) every_ = roster.source(*node.snapshots).period;

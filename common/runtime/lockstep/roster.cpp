@@ -11,7 +11,7 @@
 namespace rodeira::lockstep {
 namespace {
 
-base::Status CheckNode(const NodeWish& wish) {
+base::Status CheckNode(const NodeSpec& wish) {
   const std::string where = fmt::format("node '{}'", wish.name);
   if (wish.name.empty()) return base::WrongInput("a node has no name");
   if (wish.role == Role::kService && (!wish.outputs.empty() || !wish.inputs.empty())) {
@@ -31,12 +31,12 @@ base::Status CheckNode(const NodeWish& wish) {
   return {};
 }
 
-base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& nodes,
+base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<RosterNode>& nodes,
                     const std::vector<Source>& sources) {
   base::ByteWriter out;
   out.Put(base_step_ns);
   out.Put(window);
-  for (const NodeSpec& node : nodes) {
+  for (const RosterNode& node : nodes) {
     out.PutString(node.name);
     out.PutString(node.kind);
     out.Put(node.role);
@@ -55,19 +55,19 @@ base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<No
 
 }  // namespace
 
-base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeWish>& wishes) {
+base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& wishes) {
   if (base_step_ns < 1)
     return base::WrongInput(fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
   if (window < 1) return base::WrongInput(fmt::format("window {} was found, at least 1 step was expected", window));
   Roster roster;
   roster.base_step_ns_ = base_step_ns;
   roster.window_ = window;
-  for (const NodeWish& wish : wishes) {
+  for (const NodeSpec& wish : wishes) {
     if (auto status = CheckNode(wish); !status) return status.error();
     if (roster.Find(wish.name) != roster.nodes_.size())
       return base::WrongInput(fmt::format("two nodes are named '{}'", wish.name));
-    NodeSpec node{wish.name,        wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay,
-                  wish.deadline_ms, {},        {},        {}};
+    RosterNode node{wish.name,        wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay,
+                    wish.deadline_ms, {},        {},        {}};
     for (const std::string& topic : wish.outputs) {
       node.outputs.push_back(static_cast<SourceIndex>(roster.sources_.size()));
       roster.sources_.push_back({static_cast<NodeIndex>(roster.nodes_.size()), topic, node.period, node.delay});
@@ -81,7 +81,7 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
     roster.sources_.push_back({n, std::string(kSnapshotTopic), wishes[n].snapshot_every, wishes[n].snapshot_every});
   }
   for (std::size_t n = 0; n < wishes.size(); ++n) {
-    for (const PortWish& wish : wishes[n].inputs) {
+    for (const PortSpec& wish : wishes[n].inputs) {
       Port port{wish.topic, wish.kind, {}};
       for (const std::string& name : wish.sources) {
         const NodeIndex from = roster.Find(name);
@@ -119,20 +119,20 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
   return roster;
 }
 
-bool NodeSpec::keeps_snapshots() const {
+bool RosterNode::keeps_snapshots() const {
   return is_sink() &&
          std::any_of(inputs.begin(), inputs.end(), [](const Port& port) { return port.topic == kSnapshotTopic; });
 }
 
 NodeIndex Roster::Find(std::string_view name) const {
   const auto found =
-      std::find_if(nodes_.begin(), nodes_.end(), [&](const NodeSpec& node) { return node.name == name; });
+      std::find_if(nodes_.begin(), nodes_.end(), [&](const RosterNode& node) { return node.name == name; });
   return static_cast<NodeIndex>(found - nodes_.begin());
 }
 
 std::vector<std::string> Roster::Names() const {
   std::vector<std::string> names;
-  for (const NodeSpec& node : nodes_) names.push_back(node.name);
+  for (const RosterNode& node : nodes_) names.push_back(node.name);
   return names;
 }
 
@@ -143,7 +143,7 @@ std::string Roster::SourceName(SourceIndex index) const {
 
 Step Roster::OldestNeeded(SourceIndex source, Step step) const {
   Step oldest = FloorTo(step, sources_[source].period);
-  for (const NodeSpec& node : nodes_) {
+  for (const RosterNode& node : nodes_) {
     const Step first = CeilTo(step, node.period);
     for (const Port& port : node.inputs) {
       if (!std::binary_search(port.sources.begin(), port.sources.end(), source)) continue;

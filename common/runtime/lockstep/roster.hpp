@@ -31,14 +31,14 @@ enum class PortKind : std::uint32_t {
 inline constexpr std::string_view kSnapshotTopic = "rodeira/snapshot";
 
 // One input of a node: a topic and the nodes that it is wired to.
-struct PortWish {
+struct PortSpec {
   std::string topic;
   PortKind kind = PortKind::kState;
   std::vector<std::string> sources;  // names of nodes
 };
 
 // A node as the launch file describes it.
-struct NodeWish {
+struct NodeSpec {
   std::string name;
   std::string kind;
   Role role = Role::kStepped;
@@ -46,7 +46,7 @@ struct NodeWish {
   Step delay = 0;                    // D, base steps; 0 means P
   std::int64_t deadline_ms = 0;      // longest wall time of one step; 0 means the run's default
   std::vector<std::string> outputs;  // topics
-  std::vector<PortWish> inputs;
+  std::vector<PortSpec> inputs;
   Step snapshot_every = 0;  // a multiple of the period: the node's state is a stream of samples too; 0: it is not
 };
 
@@ -64,7 +64,7 @@ struct Port {
   std::vector<SourceIndex> sources;  // ascending
 };
 
-struct NodeSpec {
+struct RosterNode {
   std::string name;
   std::string kind;
   Role role = Role::kStepped;
@@ -87,13 +87,13 @@ class Roster {
  public:
   // Wrong input: a name twice, a period below one, a delay that is no multiple of the period, a source that does not
   // exist or does not publish the topic.
-  static base::Result<Roster> Create(std::int64_t base_step_ns, Step window, const std::vector<NodeWish>& wishes);
+  static base::Result<Roster> Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& wishes);
 
   std::int64_t base_step_ns() const { return base_step_ns_; }
   Step window() const { return window_; }
-  const std::vector<NodeSpec>& nodes() const { return nodes_; }
+  const std::vector<RosterNode>& nodes() const { return nodes_; }
   const std::vector<Source>& sources() const { return sources_; }
-  const NodeSpec& node(NodeIndex index) const { return nodes_[index]; }
+  const RosterNode& node(NodeIndex index) const { return nodes_[index]; }
   const Source& source(SourceIndex index) const { return sources_[index]; }
 
   // The index, or nodes().size() where no node has the name.
@@ -110,7 +110,7 @@ class Roster {
  private:
   std::int64_t base_step_ns_ = 1'000'000;
   Step window_ = 1;
-  std::vector<NodeSpec> nodes_;
+  std::vector<RosterNode> nodes_;
   std::vector<Source> sources_;
   base::Digest hash_ = 0;
 };

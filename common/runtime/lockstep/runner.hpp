@@ -69,7 +69,7 @@ class Runner {
 
   const Roster& roster_;
   const NodeIndex index_;
-  const NodeSpec& spec_;
+  const RosterNode& spec_;
   Node& node_;
   Bus& bus_;
   Mailbox& mailbox_;

@@ -189,7 +189,7 @@ class ShuffledRun {
     const Grant grant = clock_.grant();
     Runner::Settings settings;
     settings.incarnation = clock_.life(n);
-    const NodeSpec& spec = roster_.node(n);
+    const RosterNode& spec = roster_.node(n);
     if (!spec.keeps_snapshots()) {
       const Beginning beginning = BeginningOf(roster_, n, grant, -1);
       settings.sink_from = beginning.sink_from;

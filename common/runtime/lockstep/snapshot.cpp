@@ -63,7 +63,7 @@ base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
 }
 
 Sample Snapshot::ToSample(const Roster& roster, std::uint32_t incarnation) const {
-  const NodeSpec& spec = roster.node(node);
+  const RosterNode& spec = roster.node(node);
   RODEIRA_ASSERT(spec.snapshots.has_value());
   const base::Bytes content = Encode();
   base::ByteWriter out;

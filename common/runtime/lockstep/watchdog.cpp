@@ -65,7 +65,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   }
   for (NodeIndex n = 0; n < lives_.size() && !recovering_; ++n) {
     const Life& life = lives_[n];
-    const NodeSpec& spec = roster_.node(n);
+    const RosterNode& spec = roster_.node(n);
     if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
     if (silence_ms > (life.held_up ? kHeldUp : 1) * settings_.silence_ms) {

@@ -69,7 +69,7 @@ class NullSink final : public lockstep::Node {
  public:
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
   base::Status Step(const lockstep::StepInfo&, const lockstep::Inbox&, lockstep::Outbox&) override { return {}; }
-  bool is_brief() const override { return true; }
+  bool runs_inline() const override { return true; }
   void Save(base::StateWriter&) const override {}
   void Restore(base::StateReader&) override {}
 };

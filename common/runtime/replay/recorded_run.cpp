@@ -294,7 +294,7 @@ SampleStream RecordedRun::Samples(Step from) const {
 base::Result<std::vector<lockstep::NodeIndex>> RecordedRun::WithoutState() const {
   std::vector<lockstep::NodeIndex> without;
   std::size_t missing = 0;  // first snapshots that have not been seen
-  for (const lockstep::NodeSpec& node : roster().nodes()) missing += node.snapshots.has_value() ? 1 : 0;
+  for (const lockstep::RosterNode& node : roster().nodes()) missing += node.snapshots.has_value() ? 1 : 0;
   if (missing == 0) return without;
   std::vector<bool> seen(roster().nodes().size(), false);
   SampleStream samples = Samples(branched_at_);
@@ -323,7 +323,7 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
                                         roster().node(without.value().front()).name, branched_at_),
                             path_.string());
   }
-  for (const lockstep::NodeSpec& node : roster().nodes()) {
+  for (const lockstep::RosterNode& node : roster().nodes()) {
     if (!node.snapshots) continue;
     const Step period = roster().source(*node.snapshots).period;
     const Step own = lockstep::CeilTo(branched_at_, period);
@@ -337,7 +337,7 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
 
 // Somebody would wait for one that is missing, for ever.
 base::Status RecordedRun::CheckSamples(const lockstep::Snapshot& snapshot) const {
-  const lockstep::NodeSpec& spec = roster().node(snapshot.node);
+  const lockstep::RosterNode& spec = roster().node(snapshot.node);
   for (const lockstep::SourceIndex source : spec.outputs) {
     const Step newest = std::min(last_step_, lockstep::CeilTo(snapshot.at, spec.period) - spec.period + spec.delay);
     for (Step valid = lockstep::CeilTo(roster().OldestNeeded(source, snapshot.at), spec.period); valid <= newest;
@@ -367,7 +367,7 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
   for (lockstep::SourceIndex s = 0; s < roster().sources().size(); ++s)
     oldest = std::min(oldest, roster().OldestNeeded(s, at));
   Step newest = at;
-  for (const lockstep::NodeSpec& node : roster().nodes()) newest = std::max(newest, at - node.period + node.delay);
+  for (const lockstep::RosterNode& node : roster().nodes()) newest = std::max(newest, at - node.period + node.delay);
   SampleStream samples = Samples(oldest);
   for (;;) {
     auto sample = samples.Next();
@@ -376,7 +376,7 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
     const auto source = sample.value()->source();
     const Step valid = sample.value()->valid();
     const lockstep::NodeIndex n = roster().source(source).node;
-    const lockstep::NodeSpec& spec = roster().node(n);
+    const lockstep::RosterNode& spec = roster().node(n);
     if (spec.snapshots == source) {
       if (valid != at) continue;
       auto snapshot = lockstep::Snapshot::FromSample(*sample.value()->payload);

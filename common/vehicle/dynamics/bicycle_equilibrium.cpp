@@ -206,7 +206,7 @@ base::Status BicycleEquilibrium::Find(ground::Ground& ground) {
   Unknowns unknowns(start.z_m, 0.0, 0.0);
   for (int turn = 0; turn < kMaxGroundIterations; ++turn) {
     Place(unknowns);
-    model_.AskGround(ground, 0.0);
+    model_.QueryGround(ground, 0.0);
     for (std::size_t i = 0; i < kWheels; ++i) {
       if (!model_.car_.wheels[i].inside) return refusal("a wheel would stand outside of the world");
     }

@@ -8,7 +8,7 @@
 
 namespace rodeira::dynamics {
 
-void BicycleModel::AskGround(ground::Ground& ground, double steering_wheel_rad) {
+void BicycleModel::QueryGround(ground::Ground& ground, double steering_wheel_rad) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -17,16 +17,16 @@ void BicycleModel::AskGround(ground::Ground& ground, double steering_wheel_rad) 
     places.axles_W[i] = car_.body.q_WG * Eigen::Vector3d(-std::sin(steer), std::cos(steer), 0.0);
     wheels[i] = &car_.wheels[i];
   }
-  dynamics::AskGround(ground, settings().wheel.enveloping, settings().wheel.radius_m, places, wheels);
+  dynamics::QueryGround(ground, settings().wheel.enveloping, settings().wheel.radius_m, places, wheels);
 }
 
 void BicycleModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
-  const Controls cut = Cut(controls);
-  AskGround(ground, cut.steering_wheel_rad);
-  car_.Step(chassis_, cut, push_, dt_s, findings_);
+  const Controls clamped = Clamp(controls);
+  QueryGround(ground, clamped.steering_wheel_rad);
+  car_.Step(chassis_, clamped, push_, dt_s, findings_);
   push_ = {};
-  Publish(cut, dt_s);
+  Publish(clamped, dt_s);
 }
 
 }  // namespace rodeira::dynamics

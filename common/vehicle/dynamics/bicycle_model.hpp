@@ -35,7 +35,7 @@ class BicycleModel final : public VehicleModel {
 
   Eigen::Vector3d p_WB_W() const { return car_.p_WB_W(chassis_); }
   Eigen::Vector3d v_WB_W() const { return car_.body.VelocityAt(p_WB_W()); }
-  void AskGround(ground::Ground& ground, double steering_wheel_rad);
+  void QueryGround(ground::Ground& ground, double steering_wheel_rad);
   void Publish(const Controls& controls, double dt_s);
   double SteeringTorque() const;
 

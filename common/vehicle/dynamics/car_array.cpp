@@ -43,7 +43,7 @@ base::Status CarArray::Place(std::size_t i, std::uint32_t kind, const InitialCon
   return {};
 }
 
-void CarArray::AskGround(ground::Ground& ground) {
+void CarArray::QueryGround(ground::Ground& ground) {
   queries_.clear();
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     if (!present(i)) continue;
@@ -63,14 +63,14 @@ void CarArray::AskGround(ground::Ground& ground) {
 
 void CarArray::StepRange(std::span<const Controls> controls, double dt_s, std::size_t from, std::size_t to) {
   for (std::size_t i = from; i < to; ++i) {
-    if (present(i)) cars_[i].Step(chassis(i), Cut(controls[i]), Wrench(), dt_s, findings_[i]);
+    if (present(i)) cars_[i].Step(chassis(i), Clamp(controls[i]), Wrench(), dt_s, findings_[i]);
   }
 }
 
 void CarArray::Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   RODEIRA_ASSERT(controls.size() == cars_.size());
-  AskGround(ground);
+  QueryGround(ground);
   base::Share(crew, cars_.size(), [&](std::size_t from, std::size_t to) { StepRange(controls, dt_s, from, to); });
 }
 

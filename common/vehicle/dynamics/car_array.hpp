@@ -54,7 +54,7 @@ class CarArray {
   void Restore(base::StateReader& reader);
 
  private:
-  void AskGround(ground::Ground& ground);
+  void QueryGround(ground::Ground& ground);
   void StepRange(std::span<const Controls> controls, double dt_s, std::size_t from, std::size_t to);
 
   std::vector<std::shared_ptr<const BicycleChassis>> chassis_;  // by kind

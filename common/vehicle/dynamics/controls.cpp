@@ -11,7 +11,7 @@ double CutTo(double value, double low, double high) { return std::isnan(value) ?
 
 }  // namespace
 
-Controls Cut(const Controls& controls) {
+Controls Clamp(const Controls& controls) {
   constexpr double kAnyWheel_rad = 100.0;  // the car's own stops are nearer
   Controls cut = controls;
   cut.steering_wheel_rad = CutTo(controls.steering_wheel_rad, -kAnyWheel_rad, kAnyWheel_rad);

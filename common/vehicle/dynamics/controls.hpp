@@ -30,6 +30,6 @@ struct Controls {
 };
 
 // The same controls with each value in its range, NaN replaced by 0, an unknown mode by automatic.
-Controls Cut(const Controls& controls);
+Controls Clamp(const Controls& controls);
 
 }  // namespace rodeira::dynamics

@@ -97,10 +97,10 @@ void AskGroundByRing(ground::Ground& ground, double radius_m, const WheelPlaces&
 
 }  // namespace
 
-void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
-               const std::array<WheelGround*, kWheels>& wheels) {
+void QueryGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
+                 const std::array<WheelGround*, kWheels>& wheels) {
   if (enveloping == Enveloping::kNone)
-    AskGround(ground, places.hubs_W, wheels);
+    QueryGround(ground, places.hubs_W, wheels);
   else
     AskGroundByRing(ground, radius_m, places, wheels);
 }

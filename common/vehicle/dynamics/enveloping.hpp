@@ -28,7 +28,7 @@ struct WheelPlaces {
 
 // Asks for the ground under the four wheels as `enveloping` says, in one batch (law L4). Outside of the world a wheel
 // goes on upon the plane that it knows.
-void AskGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
-               const std::array<WheelGround*, kWheels>& wheels);
+void QueryGround(ground::Ground& ground, Enveloping enveloping, double radius_m, const WheelPlaces& places,
+                 const std::array<WheelGround*, kWheels>& wheels);
 
 }  // namespace rodeira::dynamics

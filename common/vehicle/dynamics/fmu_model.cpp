@@ -47,7 +47,7 @@ Eigen::Vector3d FmuModel::HubAtRest_B(std::size_t wheel) const {
           d.wheel_radius_m};
 }
 
-void FmuModel::AskGround(ground::Ground& ground) {
+void FmuModel::QueryGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -56,7 +56,7 @@ void FmuModel::AskGround(ground::Ground& ground) {
     places.axles_W[i] = state_.q_WB * Eigen::Vector3d(-std::sin(wheel.steer_rad), std::cos(wheel.steer_rad), 0.0);
     wheels[i] = &wheels_[i];
   }
-  dynamics::AskGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
+  dynamics::QueryGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
 }
 
 base::Status FmuModel::Set(const fmi::Variable* variable, double value) {
@@ -157,7 +157,7 @@ base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& gr
   const Eigen::Vector3d forward = std::cos(pitch) * ahead - std::sin(pitch) * Eigen::Vector3d::UnitZ();
   state_.p_WB_W = {initial.x_m, initial.y_m, start.z_m};
   state_.q_WB = Attitude(std::atan2(up.cross(forward).z(), up.z()), pitch, initial.heading_rad);
-  AskGround(ground);
+  QueryGround(ground);
   for (const WheelGround& wheel : wheels_) {
     if (!wheel.inside) return refusal("a wheel would stand outside of the world");
   }
@@ -259,8 +259,8 @@ base::Status FmuModel::Advance(const Controls& controls, double dt_s) {
 
 void FmuModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
-  AskGround(ground);
-  if (problem_) problem_ = Advance(Cut(controls), dt_s);
+  QueryGround(ground);
+  if (problem_) problem_ = Advance(Clamp(controls), dt_s);
   push_ = {};
 }
 

@@ -51,7 +51,7 @@ class FmuModel final : public VehicleModel {
 
  private:
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
-  void AskGround(ground::Ground& ground);
+  void QueryGround(ground::Ground& ground);
   base::Status Set(const fmi::Variable* variable, double value);
   base::Status SetGround();
   base::Status SetPushInputs();

@@ -184,7 +184,7 @@ base::Status MultibodyModel::Settle(const InitialCondition& initial, ground::Gro
   // On rough ground nothing goes on steadily: it begins to roll from where it would stand.
   std::copy(stands.begin(), stands.end(), system_->q().begin());
   chassis_load_->SetDrive(0.0);
-  AskGround(ground);
+  QueryGround(ground);
   for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
   return {};
 }
@@ -196,7 +196,7 @@ base::Status MultibodyModel::Balance(const InitialCondition& initial, ground::Gr
   std::array<Eigen::Vector3d, kWheels> anchors;
   for (std::size_t i = 0; i < kWheels; ++i) anchors[i] = Hub_W(i);
   for (int turn = 0; turn < kMaxMultibodyGroundIterations; ++turn) {
-    AskGround(ground);
+    QueryGround(ground);
     for (std::size_t i = 0; i < kWheels; ++i) {
       if (!wheels_[i].inside) return Refusal(initial, "a wheel would stand outside of the world");
       GiveGround(i);

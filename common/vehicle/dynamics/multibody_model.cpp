@@ -91,7 +91,7 @@ void MultibodyModel::GiveGround(std::size_t wheel) {
   wheels_[wheel].load->SetPlane(wheels_[wheel].plane_W, wheels_[wheel].normal_W);
 }
 
-void MultibodyModel::AskGround(ground::Ground& ground) {
+void MultibodyModel::QueryGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -99,20 +99,20 @@ void MultibodyModel::AskGround(ground::Ground& ground) {
     places.axles_W[i] = system_->motion().At(settings_.wheels[i].axle);
     wheels[i] = &wheels_[i];
   }
-  dynamics::AskGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
+  dynamics::QueryGround(ground, settings_.wheel.enveloping, settings_.wheel.radius_m, places, wheels);
 }
 
 void MultibodyModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
-  const Controls cut = Cut(controls);
-  AskGround(ground);
+  const Controls clamped = Clamp(controls);
+  QueryGround(ground);
   const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
   body_load_->SetGround(under.point_W, under.normal_W);
   body_load_->SetPush(push_);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
-  for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  for (int i = 0; i < substeps; ++i) Substep(clamped, dt_s / substeps);
   push_ = {};
-  Publish(cut, dt_s);
+  Publish(clamped, dt_s);
 }
 
 MultibodyModel::Contacts MultibodyModel::FindContacts(const multibody::Motion& motion) const {

@@ -69,7 +69,7 @@ class MultibodyModel final : public VehicleModel {
   Eigen::Vector3d Hub_W(std::size_t wheel) const;
   Eigen::Vector3d Forward_W() const;
   Eigen::Vector3d Turning_W(const multibody::Frame& frame, const multibody::Motion& motion) const;  // angular velocity
-  void AskGround(ground::Ground& ground);
+  void QueryGround(ground::Ground& ground);
   void GiveGround(std::size_t wheel);
   // One substep.
   void Substep(const Controls& controls, double dt_s);

@@ -87,7 +87,7 @@ MultibodySettings ReadMultibody(const Map& root) {
   MultibodySettings car;
   const Map mechanism = root.Child("mechanism");
   const DrawingReader reader(mechanism);
-  mechanism.LeaveToOthers("outputs");  // MultibodyModel::ReadOutputs
+  mechanism.IgnoreKey("outputs");  // MultibodyModel::ReadOutputs
   const Map body = root.Child("body");
   if (const auto chassis = reader.Body(body, "chassis")) {
     car.chassis = *chassis;

@@ -215,7 +215,7 @@ base::Status OdeEquilibrium::Find(ground::Ground& ground) {
   unknowns[0] = start.z_m;
   for (int turn = 0; turn < kMaxGroundIterations; ++turn) {
     Place(unknowns);
-    model_.AskGround(ground);
+    model_.QueryGround(ground);
     for (const auto& wheel : model_.now_.wheels) {
       if (!wheel.inside) return refusal("a wheel would stand outside of the world");
     }

@@ -42,7 +42,7 @@ double OdeModel::StrutExtra(std::size_t wheel) const {
          settings_.stop_Npm * beyond;
 }
 
-void OdeModel::AskGround(ground::Ground& ground) {
+void OdeModel::QueryGround(ground::Ground& ground) {
   WheelPlaces places;
   std::array<WheelGround*, kWheels> wheels{};
   for (std::size_t i = 0; i < kWheels; ++i) {
@@ -50,7 +50,7 @@ void OdeModel::AskGround(ground::Ground& ground) {
     places.axles_W[i] = now_.bodies[i].q_WG * Eigen::Vector3d::UnitY();
     wheels[i] = &now_.wheels[i];
   }
-  dynamics::AskGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
+  dynamics::QueryGround(ground, settings_.car.wheel.enveloping, settings_.car.wheel.radius_m, places, wheels);
 }
 
 OdeModel::Contact OdeModel::ContactOf(std::size_t wheel) const {
@@ -84,16 +84,16 @@ TyreMotion OdeModel::MotionOf(std::size_t wheel, const Contact& contact) const {
 
 void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
-  const Controls cut = Cut(controls);
+  const Controls clamped = Clamp(controls);
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
   now_.bodies = car_->bodies();
-  AskGround(ground);
+  QueryGround(ground);
   const Plane under = PlaneUnder({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
   car_->SetGround(under.point_W, under.normal_W);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
-  for (int i = 0; i < substeps; ++i) Substep(cut, dt_s / substeps);
+  for (int i = 0; i < substeps; ++i) Substep(clamped, dt_s / substeps);
   push_ = {};
-  Publish(cut, dt_s);
+  Publish(clamped, dt_s);
 }
 
 void OdeModel::Substep(const Controls& controls, double dt_s) {

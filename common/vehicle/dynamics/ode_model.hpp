@@ -70,7 +70,7 @@ class OdeModel final : public VehicleModel {
   double Travel(std::size_t wheel) const;      // compression from rest, m
   double TravelRate(std::size_t wheel) const;  // m/s
   double StrutExtra(std::size_t wheel) const;  // preload, anti-roll bar and stops, N; the spring is the joint's
-  void AskGround(ground::Ground& ground);
+  void QueryGround(ground::Ground& ground);
   Contact ContactOf(std::size_t wheel) const;
   TyreMotion MotionOf(std::size_t wheel, const Contact& contact) const;
   void Substep(const Controls& controls, double dt_s);

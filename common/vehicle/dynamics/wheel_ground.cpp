@@ -21,7 +21,7 @@ void WheelGround::Restore(base::StateReader& reader) {
   reader.Get("inside", inside);
 }
 
-void WheelGround::Take(const ground::GroundQuery& query, const ground::GroundPoint& point) {
+void WheelGround::Update(const ground::GroundQuery& query, const ground::GroundPoint& point) {
   inside = point.inside;
   surface = point.surface;
   if (!inside) return;
@@ -30,13 +30,13 @@ void WheelGround::Take(const ground::GroundQuery& query, const ground::GroundPoi
   friction = point.friction;
 }
 
-void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
-               const std::array<WheelGround*, kWheels>& wheels) {
+void QueryGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
+                 const std::array<WheelGround*, kWheels>& wheels) {
   std::array<ground::GroundQuery, kWheels> queries;
   std::array<ground::GroundPoint, kWheels> points;
   for (std::size_t i = 0; i < kWheels; ++i) queries[i] = {hubs_W[i].x(), hubs_W[i].y(), hubs_W[i].z()};
   ground.Query(queries, points);
-  for (std::size_t i = 0; i < kWheels; ++i) wheels[i]->Take(queries[i], points[i]);
+  for (std::size_t i = 0; i < kWheels; ++i) wheels[i]->Update(queries[i], points[i]);
 }
 
 Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels) {

@@ -19,7 +19,7 @@ struct WheelGround {
   bool inside = false;
 
   // SUELO's answer to the question below the hub. Outside of the world the plane stays.
-  void Take(const ground::GroundQuery& query, const ground::GroundPoint& point);
+  void Update(const ground::GroundQuery& query, const ground::GroundPoint& point);
 
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
@@ -27,8 +27,8 @@ struct WheelGround {
 
 // Asks for the ground under the four hubs (m, in W), one batch (law L4). Outside of the world a wheel goes on upon the
 // plane that it knows.
-void AskGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
-               const std::array<WheelGround*, kWheels>& wheels);
+void QueryGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
+                 const std::array<WheelGround*, kWheels>& wheels);
 
 struct Plane {
   Eigen::Vector3d point_W = Eigen::Vector3d::Zero();

@@ -23,7 +23,7 @@ void GearSelector::Show(dynamics::Controls& controls) const {
   controls.gearbox = mode_;
 }
 
-void GearSelector::TakeOver(const dynamics::Controls& last) {
+void GearSelector::InitialiseFrom(const dynamics::Controls& last) {
   mode_ = last.gearbox;
   gear_ = std::clamp(last.gear, -1, mode_ == GearboxMode::kAutomatic ? 1 : forward_gears_);
 }

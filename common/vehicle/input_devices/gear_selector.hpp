@@ -28,7 +28,7 @@ class GearSelector {
   void Put(std::int32_t gear) { gear_ = gear; }
   void Show(dynamics::Controls& controls) const;
   // The lever and mode that other hands have left; gears that this one does not have: its nearest.
-  void TakeOver(const dynamics::Controls& last);
+  void InitialiseFrom(const dynamics::Controls& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

@@ -44,15 +44,15 @@ dynamics::Controls KeyboardDriver::controls() const {
   return controls;
 }
 
-void KeyboardDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
+void KeyboardDriver::InitialiseFrom(const dynamics::Controls& last, const Signals& signals) {
   wheel_rad_ = last.steering_wheel_rad;
   throttle_ = last.throttle;
   brake_ = last.brake;
   clutch_ = last.clutch;
   handbrake_ = false;
   starter_ = false;
-  lever_.TakeOver(last);
-  signals_.TakeOver(signals);
+  lever_.InitialiseFrom(last);
+  signals_.InitialiseFrom(signals);
 }
 
 void KeyboardDriver::Save(base::StateWriter& out) const {

@@ -89,7 +89,7 @@ class KeyboardDriver {
   dynamics::Controls controls() const;
   Signals signals() const { return signals_.signals(); }
   // Goes on from where others have left hands, feet and levers.
-  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
+  void InitialiseFrom(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

@@ -26,7 +26,7 @@ std::uint32_t PadDriver::Presses(const PadReading& pad, PadButton button) {
 dynamics::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, double speed_mps, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0);
   if (!pad.connected) {
-    TakeOver(controls_, signals());
+    InitialiseFrom(controls_, signals());
     return controls_;
   }
   const double lock_rad = LockAt(settings_.lock_rad, speed_mps, settings_.half_lock_speed_mps);
@@ -55,11 +55,11 @@ dynamics::Controls PadDriver::Step(const PadReading& pad, std::int32_t engaged, 
   return controls_;
 }
 
-void PadDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
+void PadDriver::InitialiseFrom(const dynamics::Controls& last, const Signals& signals) {
   const double steering_wheel_rad = last.steering_wheel_rad;
   std::fill(std::begin(down_), std::end(down_), false);
-  lever_.TakeOver(last);
-  signals_.TakeOver(signals);
+  lever_.InitialiseFrom(last);
+  signals_.InitialiseFrom(signals);
   controls_ = dynamics::Controls();
   controls_.steering_wheel_rad = steering_wheel_rad;
   lever_.Show(controls_);

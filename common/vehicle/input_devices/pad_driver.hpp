@@ -63,7 +63,7 @@ class PadDriver {
   const dynamics::Controls& controls() const { return controls_; }
   Signals signals() const { return signals_.signals(); }
   // Goes on from where others have left steering and lever; pedals are released.
-  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
+  void InitialiseFrom(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

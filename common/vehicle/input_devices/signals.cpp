@@ -29,7 +29,7 @@ Signals SignalSwitch::Step(const SignalRequests& requests, double steering_wheel
 
 Signals SignalSwitch::signals() const { return {hazard_ ? Indicators::kHazard : lever_, headlights_, horn_}; }
 
-void SignalSwitch::TakeOver(const Signals& last) {
+void SignalSwitch::InitialiseFrom(const Signals& last) {
   hazard_ = last.indicators == Indicators::kHazard;
   lever_ = hazard_ ? Indicators::kOff : last.indicators;
   headlights_ = last.headlights;

@@ -37,7 +37,7 @@ class SignalSwitch {
   Signals Step(const SignalRequests& requests, double steering_wheel_rad);
   Signals signals() const;
   // As others have left it.
-  void TakeOver(const Signals& last);
+  void InitialiseFrom(const Signals& last);
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

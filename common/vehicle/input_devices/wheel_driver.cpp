@@ -110,12 +110,12 @@ void WheelDriver::StepSignals(std::span<const DeviceReading> devices) {
   (void)signals_.Step(requests, controls_.steering_wheel_rad);
 }
 
-void WheelDriver::TakeOver(const dynamics::Controls& last, const Signals& signals) {
+void WheelDriver::InitialiseFrom(const dynamics::Controls& last, const Signals& signals) {
   ReleasePedals();
   std::fill(std::begin(down_), std::end(down_), false);
   controls_.steering_wheel_rad = last.steering_wheel_rad;
-  lever_.TakeOver(last);
-  signals_.TakeOver(signals);
+  lever_.InitialiseFrom(last);
+  signals_.InitialiseFrom(signals);
   lever_.Show(controls_);
 }
 

@@ -107,7 +107,7 @@ class WheelDriver {
   std::optional<double> rim_rad() const { return rim_rad_; }
   // Goes on from where others have left steering and lever: the steering stays there until the wheel is moved. Pedals
   // are released.
-  void TakeOver(const dynamics::Controls& last, const Signals& signals = {});
+  void InitialiseFrom(const dynamics::Controls& last, const Signals& signals = {});
 
   void Save(base::StateWriter& out) const;
   void Restore(base::StateReader& in);

@@ -30,7 +30,7 @@ std::vector<DeviceUse> ReadDevices(const config::Map& map) {
 
 // Which of the devices; a single one needs no name.
 std::size_t ReadDevice(const config::Map& map, const std::vector<DeviceUse>& devices) {
-  if (devices.empty()) map.LeaveToOthers("device");  // which is said already
+  if (devices.empty()) map.IgnoreKey("device");  // which is said already
   if (devices.empty() || (devices.size() == 1 && !map.Has("device"))) return 0;
   std::vector<std::string> names;
   for (const DeviceUse& device : devices) names.push_back(device.name);

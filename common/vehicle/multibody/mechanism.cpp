@@ -10,7 +10,7 @@ base::Result<Mechanism> Read(config::File& file, const SystemSettings& settings)
   const config::Map root = file.root();
   (void)root.Choice("rodeira", {"mechanism/1"});
   const DrawingReader reader(root);
-  root.LeaveToOthers("outputs");
+  root.IgnoreKey("outputs");
   if (const auto status = file.Finish(); !status) return status.error();
   auto system = System::Make(reader.drawing(), settings);
   if (!system) return system.error();

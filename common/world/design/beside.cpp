@@ -17,7 +17,8 @@ using IndexRange = std::pair<std::size_t, std::size_t>;
 
 Beside::Beside(const config::Map& item, const network::RoadSpec& spec, double usual_m, bool right_side) {
   if (item.Has("t_m")) {
-    (void)config::SaysTwice(item, "t_m", "side"), (void)config::SaysTwice(item, "t_m", "beside_m");
+    (void)config::RejectConflictingKeys(item, "t_m", "side"),
+        (void)config::RejectConflictingKeys(item, "t_m", "beside_m");
     along_ = Constant(item.Number("t_m", {-1000.0, 1000.0}));
     return;
   }

@@ -173,7 +173,7 @@ std::string DrivenLanes(const network::RoadSpec& spec) {
   return lanes;
 }
 
-std::optional<StartPlace> FindStart(const StartWish& wish, const Map& map, const std::vector<RoadDesign>& designs,
+std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const std::vector<RoadDesign>& designs,
                                     const Layout& layout) {
   std::vector<std::string> ids;
   std::optional<std::size_t> road;
@@ -293,7 +293,7 @@ std::vector<network::Laid> DistributeLaid(const std::vector<RoadDesign>& designs
 }  // namespace
 
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const Map& start_map,
+                  const std::string& geo_reference, const StartSpec& start, const Map& start_map,
                   const TerrainIsAt& terrain_is_at) {
   Design design;
   const Files files(file);
@@ -317,7 +317,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
       ReadLinks(item, designs.size(), links);
       designs.push_back(ReadRoad(item, context, designs));
     }
-    root.LeaveToOthers("junctions");
+    root.IgnoreKey("junctions");
     ReadStanding(root, terrain_is_at, design.standing);
   }
   const auto sound = [&] {
@@ -340,7 +340,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
     roads.push_back(std::move(*built));
   }
   if (!sound()) return design;
-  std::vector<JunctionWish> junctions;
+  std::vector<JunctionSpec> junctions;
   for (const Map& root : files.roots()) {
     auto more = ReadJunctions(root, designs, roads);
     std::move(more.begin(), more.end(), std::back_inserter(junctions));

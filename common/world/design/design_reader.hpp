@@ -18,7 +18,7 @@
 namespace rodeira::design {
 
 // Where a car starts, as an author says it: a road of the file, not a part of one.
-struct StartWish {
+struct StartSpec {
   std::string road;  // empty: the first one
   std::optional<int> lane;
   std::optional<double> s_m;
@@ -47,7 +47,7 @@ struct Design {
 // it includes. `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions;
 // `start_map` has it. Roads must keep within the terrain, and clear of themselves (CheckFits).
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
-                  const std::string& geo_reference, const StartWish& start, const config::Map& start_map,
+                  const std::string& geo_reference, const StartSpec& start, const config::Map& start_map,
                   const TerrainIsAt& terrain_is_at = {});
 
 }  // namespace rodeira::design

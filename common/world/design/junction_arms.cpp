@@ -20,7 +20,7 @@ double HalfWidth(const network::Road& road, double s_m) {
 
 }  // namespace
 
-std::vector<Setback> Setbacks(const JunctionWish& junction, const std::vector<network::Road>& roads) {
+std::vector<Setback> Setbacks(const JunctionSpec& junction, const std::vector<network::Road>& roads) {
   std::vector<Setback> setbacks(junction.meetings.size());
   for (std::size_t i = 0; i < junction.meetings.size(); ++i) {
     const Meeting& own = junction.meetings[i];

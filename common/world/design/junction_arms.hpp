@@ -26,7 +26,7 @@ struct ArmLane {
 struct Setback {
   double before_m = 0.0, after_m = 0.0;
 };
-std::vector<Setback> Setbacks(const JunctionWish& junction, const std::vector<network::Road>& roads);
+std::vector<Setback> Setbacks(const JunctionSpec& junction, const std::vector<network::Road>& roads);
 
 // The drivable lanes that lead into the junction, and out of it, from the left to the right as their traffic sees them.
 std::vector<ArmLane> LanesOf(const network::Road& road, network::End end, bool incoming);

@@ -32,7 +32,7 @@ using Specs = std::vector<network::RoadSpec>;
 class Builder {
  public:
   Builder(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
-          const std::vector<JunctionWish>& junctions)
+          const std::vector<JunctionSpec>& junctions)
       : designs_(designs), roads_(roads), junctions_(junctions), arms_(junctions.size()), gaps_(roads.size()) {}
 
   Layout Build() {
@@ -48,7 +48,7 @@ class Builder {
 
  private:
   void FindGaps(std::size_t index) {
-    const JunctionWish& junction = junctions_[index];
+    const JunctionSpec& junction = junctions_[index];
     const std::vector<Setback> setbacks = Setbacks(junction, roads_);
     for (std::size_t i = 0; i < junction.meetings.size(); ++i) {
       const Meeting& meeting = junction.meetings[i];
@@ -96,7 +96,7 @@ class Builder {
   }
 
   void Crowded(const Gap& gap, std::size_t road, double left_m) {
-    const JunctionWish& junction = junctions_[gap.junction];
+    const JunctionSpec& junction = junctions_[gap.junction];
     junction.map.Problem(
         "roads",
         fmt::format("junction '{}' reaches from s = {:.1f} m to {:.1f} m of road '{}': {:.1f} m are left before the "
@@ -107,7 +107,7 @@ class Builder {
   network::Road Piece(std::uint32_t index) const { return {specs_[index], axes_[index]}; }
 
   void BuildJunction(std::size_t index) {
-    const JunctionWish& wish = junctions_[index];
+    const JunctionSpec& wish = junctions_[index];
     std::vector<Arm>& arms = arms_[index];
     std::vector<network::Road> pieces;
     Eigen::Vector2d middle = roads_[wish.meetings[0].road].axis().Evaluate(wish.meetings[0].s_m).p_W;
@@ -146,7 +146,7 @@ class Builder {
   }
 
   // A light before each arm that traffic comes from, a controller a road.
-  void AddLights(const JunctionWish& wish, const std::vector<Arm>& arms, network::Junction& junction) {
+  void AddLights(const JunctionSpec& wish, const std::vector<Arm>& arms, network::Junction& junction) {
     for (const std::string& name : wish.lights->Names()) {
       network::Controller controller;
       controller.id = fmt::format("{}-{}", wish.id, name);
@@ -163,7 +163,7 @@ class Builder {
   }
 
   // Straight on along roads that pass.
-  void AddThrough(const JunctionWish& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
+  void AddThrough(const JunctionSpec& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
                   const JunctionSurface& surface, network::Junction& junction) {
     for (std::size_t meeting = 0; meeting < wish.meetings.size(); ++meeting) {
       const Meeting& passing = wish.meetings[meeting];
@@ -203,7 +203,7 @@ class Builder {
   }
 
   // Of a road with priority the middle line goes on, and the lines on a side without other roads; of others none.
-  bool KeepsLine(const JunctionWish& wish, const std::vector<Arm>& arms, std::size_t meeting,
+  bool KeepsLine(const JunctionSpec& wish, const std::vector<Arm>& arms, std::size_t meeting,
                  const network::PaintedLine& line, double centre) const {
     if (meeting != 0) return false;
     const double t = line.t.Value(0.5 * (line.from_s_m + line.to_s_m)) - centre;
@@ -220,7 +220,7 @@ class Builder {
   }
 
   // From each arm to each other one that no road leads to: the leftmost lanes turn left, the rightmost right.
-  void AddTurns(const JunctionWish& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
+  void AddTurns(const JunctionSpec& wish, const std::vector<Arm>& arms, const std::vector<network::Road>& pieces,
                 const JunctionSurface& surface, network::Junction& junction) {
     for (std::size_t from = 0; from < arms.size(); ++from) {
       for (std::size_t to = 0; to < arms.size(); ++to) {
@@ -260,7 +260,7 @@ class Builder {
 
   const std::vector<RoadDesign>& designs_;
   const std::vector<network::Road>& roads_;
-  const std::vector<JunctionWish>& junctions_;
+  const std::vector<JunctionSpec>& junctions_;
   std::vector<std::vector<Arm>> arms_;
   std::vector<std::vector<Gap>> gaps_;  // by road
   Specs specs_;                         // of the pieces
@@ -273,7 +273,7 @@ class Builder {
 }  // namespace
 
 Layout BuildLayout(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
-                   const std::vector<JunctionWish>& junctions) {
+                   const std::vector<JunctionSpec>& junctions) {
   return Builder(designs, roads, junctions).Build();
 }
 

@@ -30,6 +30,6 @@ struct Layout {
 // Cuts the roads, makes the ways through the junctions (straight on along the road, otherwise cubics from lane to
 // lane), their surfaces, marks and signs. Problems where junctions leave no road between them.
 Layout BuildLayout(const std::vector<RoadDesign>& designs, const std::vector<network::Road>& roads,
-                   const std::vector<JunctionWish>& junctions);
+                   const std::vector<JunctionSpec>& junctions);
 
 }  // namespace rodeira::design

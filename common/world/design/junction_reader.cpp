@@ -49,7 +49,7 @@ std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign
 }
 
 // The phases of a junction's lights: every road that meets it is green in one of them.
-void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, JunctionWish& junction) {
+void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, JunctionSpec& junction) {
   const Map map = item.Child("lights");
   junction.lights = lights::ReadLightPlan(map);
   if (junction.lights->phases.empty()) return;
@@ -83,7 +83,7 @@ double EdgeDrop(const network::Road& road, double s_m) {
   return road.spec().elevation.Value(s_m) - edges;
 }
 
-void CheckMeets(const JunctionWish& junction, const std::vector<network::Road>& roads) {
+void CheckMeets(const JunctionSpec& junction, const std::vector<network::Road>& roads) {
   const Meeting& first = junction.meetings[0];
   const geometry::PlanPoint at = roads[first.road].axis().Evaluate(first.s_m);
   const config::List items = junction.map.Items("roads");
@@ -113,16 +113,16 @@ void CheckMeets(const JunctionWish& junction, const std::vector<network::Road>& 
 
 }  // namespace
 
-std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadDesign>& designs,
+std::vector<JunctionSpec> ReadJunctions(const Map& file, const std::vector<RoadDesign>& designs,
                                         const std::vector<network::Road>& roads) {
-  std::vector<JunctionWish> junctions;
+  std::vector<JunctionSpec> junctions;
   const config::List list = file.OptionalItems("junctions");
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Map item = list.At(i);
-    JunctionWish junction{{}, {}, {}, Control::kGiveWay, 8.0, 60.0, item, {}};
+    JunctionSpec junction{{}, {}, {}, Control::kGiveWay, 8.0, 60.0, item, {}};
     junction.id = item.Text("id");
     junction.name = item.Text("name", junction.id);
-    for (const JunctionWish& other : junctions) {
+    for (const JunctionSpec& other : junctions) {
       if (other.id == junction.id) item.Problem("id", fmt::format("there is a junction '{}' already", junction.id));
     }
     if (junction.id.find('/') != std::string::npos)
@@ -140,7 +140,7 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
     if (junction.control == Control::kLights && all_found)
       ReadLights(item, designs, junction);
     else if (junction.control == Control::kLights)
-      item.LeaveToOthers("lights");
+      item.IgnoreKey("lights");
     junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
     junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
     if (meetings.size() < 2)
@@ -152,9 +152,9 @@ std::vector<JunctionWish> ReadJunctions(const Map& file, const std::vector<RoadD
   return junctions;
 }
 
-void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs,
+void FitHeights(const std::vector<JunctionSpec>& junctions, std::vector<RoadDesign>& designs,
                 const std::vector<network::Road>& roads, std::vector<std::string>& warnings) {
-  for (const JunctionWish& junction : junctions) {
+  for (const JunctionSpec& junction : junctions) {
     const Meeting& first = junction.meetings[0];
     geometry::CubicPoint z = designs[first.road].spec.elevation.Evaluate(first.s_m);
     z.value -= EdgeDrop(roads[first.road], first.s_m);
@@ -167,7 +167,7 @@ void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesi
         if (!(before ? minor.before : minor.after)) continue;
         // As far as it is asked for, but not beyond the middle to the road's next junction, nor beyond the road.
         double fit = std::min(junction.fit_m, before ? minor.s_m : spec.length_m - minor.s_m);
-        for (const JunctionWish& other : junctions) {
+        for (const JunctionSpec& other : junctions) {
           for (const Meeting& meeting : other.meetings) {
             const double apart = before ? minor.s_m - meeting.s_m : meeting.s_m - minor.s_m;
             if (meeting.road == minor.road && apart > 0.0) fit = std::min(fit, 0.5 * apart);

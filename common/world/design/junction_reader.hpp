@@ -21,7 +21,7 @@ struct Meeting {
   bool after = true;   // and goes on to larger ones
 };
 
-struct JunctionWish {
+struct JunctionSpec {
   std::string id, name;
   std::vector<Meeting> meetings;  // the first one has priority
   Control control = Control::kGiveWay;
@@ -32,12 +32,12 @@ struct JunctionWish {
 };
 
 // Reads 'junctions' of a file. Roads must be built already (`roads`, beside the designs).
-std::vector<JunctionWish> ReadJunctions(const config::Map& file, const std::vector<RoadDesign>& designs,
+std::vector<JunctionSpec> ReadJunctions(const config::Map& file, const std::vector<RoadDesign>& designs,
                                         const std::vector<network::Road>& roads);
 
 // Changes the heights of minor roads, so that they meet the first one at the height of its edges, with the slope that
 // its axis has in their direction.
-void FitHeights(const std::vector<JunctionWish>& junctions, std::vector<RoadDesign>& designs,
+void FitHeights(const std::vector<JunctionSpec>& junctions, std::vector<RoadDesign>& designs,
                 const std::vector<network::Road>& roads, std::vector<std::string>& warnings);
 
 }  // namespace rodeira::design

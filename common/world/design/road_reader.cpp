@@ -89,7 +89,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   const std::optional<double> met = ReadPlacing(map, before, design.elements);
   const double length = PlanLength(design.elements);
   spec.length_m = length;
-  (void)config::SaysTwice(map, "vertical", "z_m");
+  (void)config::RejectConflictingKeys(map, "vertical", "z_m");
   if (map.Has("vertical")) {
     if (axis.elevation) map.Problem("vertical", "the points of this road have heights; without them 'vertical' counts");
     std::vector<geometry::GradePoint> grades = ReadGrades(map);

@@ -15,7 +15,7 @@ namespace {
 using config::Map;
 
 // On a road: its first lane and its beginning where nothing else is said.
-void PutStartOnNetwork(const Map& map, const design::StartWish& wish, const network::Network& network,
+void PutStartOnNetwork(const Map& map, const design::StartSpec& wish, const network::Network& network,
                        StartPose& start) {
   const auto& roads = network.roads();
   std::vector<std::string> ids;
@@ -36,7 +36,7 @@ void PutStartOnNetwork(const Map& map, const design::StartWish& wish, const netw
 }  // namespace
 
 WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said,
-                              const design::StartWish& wish) {
+                              const design::StartSpec& wish) {
   WorldReading reading;
   reading.problems = file.Problems();
   if (!reading.problems.empty()) return reading;

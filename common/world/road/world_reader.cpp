@@ -97,7 +97,7 @@ void ReadPlane(const Map& map, WorldSpec& spec) {
 // On a road: its index, lane and s, from which the rest follows once the road stands. Elsewhere: the pose itself.
 void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& start) {
   for (const char* place : {"x_m", "y_m"}) {
-    if (config::SaysTwice(map, "road", place) || config::SaysTwice(map, "s_m", place)) return;
+    if (config::RejectConflictingKeys(map, "road", place) || config::RejectConflictingKeys(map, "s_m", place)) return;
   }
   const auto radians = [](double degrees) { return geometry::WrapAngle(degrees * geometry::kPi / 180.0); };
   if (!map.Has("road") && (roads.empty() || map.Has("x_m") || map.Has("y_m"))) {
@@ -121,8 +121,8 @@ void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& st
 }
 
 // The same of a file of version 2: what stands on a road is found with the roads.
-design::StartWish ReadStartWish(const Map& map, StartPose& start) {
-  design::StartWish wish;
+design::StartSpec ReadStartWish(const Map& map, StartPose& start) {
+  design::StartSpec wish;
   if (map.Has("x_m") || map.Has("y_m")) {
     ReadStart(map, {}, start);
     return wish;
@@ -141,7 +141,7 @@ struct Keys {
   std::string elevation_place;  // "file:line" where it is named
   terrain::Registration registration = terrain::Registration::kUsual;
   bool second = false;  // version 2: the roads are read by common/world/design
-  design::StartWish start;
+  design::StartSpec start;
   std::vector<base::Error> missing;
 };
 

@@ -24,7 +24,7 @@ using lockstep::Snapshot;
 using lockstep::Step;
 
 // The parent's nodes at `at`: computed again from the snapshot before, each sample compared.
-base::Result<Recomputed> StatesAt(const replay::RecordedRun& parent, const BranchWish& wish, BranchOutcome& outcome) {
+base::Result<Recomputed> StatesAt(const replay::RecordedRun& parent, const BranchSpec& wish, BranchOutcome& outcome) {
   Recomputation again;
   again.from = wish.at;
   again.last_step = wish.at;
@@ -105,7 +105,7 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
       nodes[n]->Restore(in);
       if (in.Finish().ok()) continue;
     }
-    if (auto status = nodes[n]->TakeOver(snapshots[n].samples); !status) {
+    if (auto status = nodes[n]->InitialiseFrom(snapshots[n].samples); !status) {
       return base::Error{status.error().code, status.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
     }
     taken_over.push_back(roster.node(n).name);
@@ -166,7 +166,7 @@ std::vector<std::string> NamesOf(const launch::Launch& launch, const std::vector
   return names;
 }
 
-base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchWish& wish,
+base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, const BranchSpec& wish,
                                           const std::filesystem::path& own) {
   launch::Overrides changes = wish.changes;
   changes.insert(changes.end(), wish.libraries.begin(), wish.libraries.end());
@@ -180,7 +180,7 @@ base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, con
 }
 
 // As long as is wished, or as the changes say; otherwise as long as the parent.
-base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchWish& wish) {
+base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchSpec& wish) {
   const bool says = std::any_of(wish.changes.begin(), wish.changes.end(),
                                 [](const auto& change) { return change.first == "duration_s"; });
   const auto duration_s = changed.launch().duration_s();
@@ -196,7 +196,7 @@ base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchWish
 
 }  // namespace
 
-base::Result<BranchOutcome> Branch(const BranchWish& wish) {
+base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   BranchOutcome outcome;
   outcome.at = wish.at;
   auto parent = replay::RecordedRun::Open(wish.parent, wish.libraries);
@@ -289,7 +289,7 @@ base::Result<BranchOutcome> Branch(const BranchWish& wish) {
   return outcome;
 }
 
-base::Result<LiveDrivers> DrivenLive(const BranchWish& wish) {
+base::Result<LiveDrivers> DrivenLive(const BranchSpec& wish) {
   auto changed = replay::RecordedRun::Open(wish.parent, wish.changes);
   if (!changed) return changed.error();
   const launch::Launch& launch = changed.value().launch();

@@ -13,7 +13,7 @@
 
 namespace rodeira::cli {
 
-struct BranchWish {
+struct BranchSpec {
   std::string parent;                       // recording
   lockstep::Step at = 0;                    // base steps: where the branch leaves its parent
   launch::Overrides changes;                // of the launch file
@@ -41,17 +41,17 @@ struct BranchOutcome {
 // A run that is its parent up to a step and goes on with other settings from there (X4). The parent's nodes are
 // computed again from the snapshot before that step, every sample compared; then each node goes on with the changed
 // configuration from its state, or, where that does not fit another model, from what the parent had published
-// (Node::TakeOver). Samples valid up to the step are the parent's. A node that cannot save its state goes on itself,
-// where the changes name neither it nor the world; then it begins from what the parent had published. A node that takes
-// live input (a wheel, a keyboard) is driven by a person where the changes name it, `nodes.NAME.…`; otherwise by its
-// recorded samples. Wrong input: a step outside the run or between two activations of a node, changes that change the
-// roster, a view where there is none.
-base::Result<BranchOutcome> Branch(const BranchWish& wish);
+// (Node::InitialiseFrom). Samples valid up to the step are the parent's. A node that cannot save its state goes on
+// itself, where the changes name neither it nor the world; then it begins from what the parent had published. A node
+// that takes live input (a wheel, a keyboard) is driven by a person where the changes name it, `nodes.NAME.…`;
+// otherwise by its recorded samples. Wrong input: a step outside the run or between two activations of a node, changes
+// that change the roster, a view where there is none.
+base::Result<BranchOutcome> Branch(const BranchSpec& wish);
 struct LiveDrivers {
   std::vector<std::string> names;
   bool by_device = false;  // one of them by a wheel or a game pad
 };
 // The nodes that a person would drive, without computing anything.
-base::Result<LiveDrivers> DrivenLive(const BranchWish& wish);
+base::Result<LiveDrivers> DrivenLive(const BranchSpec& wish);
 
 }  // namespace rodeira::cli

@@ -11,6 +11,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch.hpp"
@@ -22,31 +23,8 @@ namespace {
 
 using lockstep::Step;
 
-bool IsFile(const std::string& text) {
-  std::error_code problem;
-  return std::filesystem::is_regular_file(text, problem);
-}
-
-std::string Absolute(const std::string& file) { return std::filesystem::absolute(file).lexically_normal().string(); }
-
-// A file is meant as seen from here, not from the recorded launch file; also within `{source: keyboard, keyboard:
-// FILE}`.
-std::string WithFilesFromHere(const std::string& value) {
-  if (IsFile(value)) return "\"" + Absolute(value) + "\"";
-  constexpr std::string_view kBetween = "{}[],: \"'";
-  std::string text;
-  for (std::size_t at = 0; at < value.size();) {
-    const std::size_t end = std::min(value.find_first_of(kBetween, at), value.size());
-    const std::string word = value.substr(at, end - at);
-    text += IsFile(word) ? Absolute(word) : word;
-    if (end < value.size()) text += value[end];
-    at = end + 1;
-  }
-  return text;
-}
-
 // `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
-base::Result<BranchWish> WishOf(const ReplayOptions& options, bool& needs_graphics) {
+base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphics) {
   if (!options.from_s)
     return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
   if (options.record.empty())
@@ -61,7 +39,7 @@ base::Result<BranchWish> WishOf(const ReplayOptions& options, bool& needs_graphi
                                         *options.from_s, 1.0 / steps_a_second),
                             options.file);
   }
-  BranchWish wish;
+  BranchSpec wish;
   wish.parent = options.file;
   wish.at = steps(*options.from_s);
   if (options.for_s) wish.last_step = wish.at + steps(*options.for_s);

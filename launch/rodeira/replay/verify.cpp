@@ -32,7 +32,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   if (!without_state) return without_state.error();
   // The recording ends with its last step; what is published ahead of it is there only where it is computed again.
   lockstep::Step ahead = 0;
-  for (const lockstep::NodeSpec& node : roster.nodes()) {
+  for (const lockstep::RosterNode& node : roster.nodes()) {
     if (!node.outputs.empty()) ahead = std::max(ahead, node.delay - node.period);
   }
   const auto at = run.SnapshotAtOrBefore(

@@ -14,6 +14,7 @@
 #include "common/core/base/installation.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
+#include "launch/rodeira/files_from_here.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
@@ -67,7 +68,7 @@ int Run(const RunOptions& given) {
   options.launch_file = std::move(file).value();
   if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)
     return base::PrintError("rodeira", pace.error());
-  launch::Overrides overrides = options.overrides;
+  launch::Overrides overrides = WithFilesFromHere(options.overrides, options.launch_file);
   if (options.seed) overrides.emplace_back("seed", std::to_string(*options.seed));
   RunOptions resolved = options;
   Placement placement;

@@ -72,7 +72,7 @@ TEST_F(LiveBranch, APersonTakesTheWheelAtTAndWhatTheyDoIsKept) {
                                                     "\"}\nsteering: {axis: 0, lock_deg: 450}\n" +
                                                     "throttle: {axis: 2, inverted: true}\n");
   const auto parent = ControlsOf(File("parent.mcap"));
-  BranchWish wish{File("parent.mcap"),
+  BranchSpec wish{File("parent.mcap"),
                   2000,
                   {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
                   4000,
@@ -115,7 +115,7 @@ TEST_F(LiveBranch, StoppedByCtrlCItKeepsWhatThePersonHasDriven) {
   VirtualWheel wheel;
   const auto file = folder_.Write("wheel.yaml", "rodeira: wheel/1\ndevices: {rim: \"" + wheel.guid() +
                                                     "\"}\nsteering: {axis: 0}\nthrottle: {axis: 2}\n");
-  BranchWish wish{File("parent.mcap"),
+  BranchSpec wish{File("parent.mcap"),
                   1000,
                   {{"nodes.driver.config", "{source: joystick, wheel: \"" + file.string() + "\"}"}},
                   100'000,

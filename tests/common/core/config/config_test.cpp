@@ -176,15 +176,15 @@ TEST(Config, WhatMayStandThereIsAmongTheNamesThatAreNear) {
 TEST(Config, WhatIsLeftToOthersIsNotUnknown) {
   const File file = Parsed("mine: 1\nyours: {x: 1}\n");
   (void)file.root().Number("mine");
-  file.root().LeaveToOthers("yours");
+  file.root().IgnoreKey("yours");
   EXPECT_TRUE(file.Finish().ok());
 }
 
 TEST(Config, PeekingAsksForNothing) {
   const File file = Parsed("yours: {x: {y: here}, z: 1}\nlist: [1]\n");
   const Map root = file.root();
-  root.LeaveToOthers("yours");
-  root.LeaveToOthers("list");
+  root.IgnoreKey("yours");
+  root.IgnoreKey("list");
   EXPECT_EQ(root.Peek({"yours", "x", "y"}), "here");
   EXPECT_EQ(root.Peek({"yours", "z"}), "1");
   EXPECT_FALSE(root.Peek({"yours", "x"}).has_value()) << "no text";

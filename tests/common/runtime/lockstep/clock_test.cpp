@@ -39,7 +39,7 @@ TEST_F(ClockTest, GrantsNothingBeforeEverybodyIsReady) {
 
 // A server has no steps of its own: that it died before says nothing, as long as the run gets on.
 TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
-  std::vector<NodeWish> wishes{
+  std::vector<NodeSpec> wishes{
       {"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
       {"recorder",
        "t",

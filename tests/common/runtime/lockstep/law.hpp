@@ -58,7 +58,7 @@ class Rememberer final : public Node {
     }
     return {};
   }
-  bool is_brief() const override { return index_ % 2 == 1; }
+  bool runs_inline() const override { return index_ % 2 == 1; }
   void Save(base::StateWriter& out) const override { out.Put("memory", memory_); }
   void Restore(base::StateReader& in) override { in.Get("memory", memory_); }
 
@@ -93,7 +93,7 @@ inline std::map<std::pair<SourceIndex, Step>, std::uint64_t> Reference(const Ros
   }
   for (Step k = 0; k <= last; ++k) {
     for (NodeIndex n = 0; n < roster.nodes().size(); ++n) {
-      const NodeSpec& node = roster.node(n);
+      const RosterNode& node = roster.node(n);
       if (k % node.period != 0 || node.is_sink()) continue;
       std::uint64_t h = base::RandomBits({memory[n], static_cast<std::uint64_t>(k)});
       for (std::size_t p = 0; p < node.inputs.size(); ++p) {
@@ -133,16 +133,16 @@ inline Made MakeNodes(const Roster& roster) {
 
 // A roster drawn from a seed: two to six nodes, any periods and delays, any wiring, state and event ports, a sink.
 struct Wishes {
-  std::vector<NodeWish> nodes;
+  std::vector<NodeSpec> nodes;
   Step window = 1;
 };
 inline Wishes RandomWishes(std::uint64_t seed) {
   std::uint64_t draws = 0;
   const auto draw = [&](std::uint64_t below) { return base::RandomBits({seed, draws++}) % below; };
   const std::size_t count = 2 + draw(5);
-  std::vector<NodeWish> wishes;
+  std::vector<NodeSpec> wishes;
   for (std::size_t n = 0; n < count; ++n) {
-    NodeWish wish;
+    NodeSpec wish;
     wish.name = "node" + std::to_string(n);
     wish.kind = "test";
     wish.period = 1 + static_cast<Step>(draw(7));
@@ -153,7 +153,7 @@ inline Wishes RandomWishes(std::uint64_t seed) {
   }
   for (std::size_t n = 0; n < count; ++n) {
     for (const char* topic : {"a", "b"}) {
-      PortWish port{topic, draw(2) == 0 && n + 1 != count ? PortKind::kState : PortKind::kEvent, {}};
+      PortSpec port{topic, draw(2) == 0 && n + 1 != count ? PortKind::kState : PortKind::kEvent, {}};
       for (std::size_t m = 0; m + 1 < count; ++m) {
         const bool publishes = wishes[m].outputs.size() == 2 || *topic == 'a';
         if (publishes && (draw(3) != 0 || n + 1 == count)) port.sources.push_back(wishes[m].name);

@@ -130,13 +130,13 @@ TEST(Law, ASlowConsumerOfEventsLosesNoneAndASinkClosesWithTheRest) {
 }
 
 TEST(Law, MutuallyPrimePeriodsAndLongDelays) {
-  std::vector<NodeWish> wishes;
+  std::vector<NodeSpec> wishes;
   const std::vector<std::pair<Step, Step>> rates{{2, 6}, {3, 3}, {5, 20}, {7, 14}, {11, 11}};
   for (std::size_t n = 0; n < rates.size(); ++n) {
     wishes.push_back({"n" + std::to_string(n), "test", Role::kStepped, rates[n].first, rates[n].second, 0, {"a"}, {}});
   }
   for (std::size_t n = 0; n < rates.size(); ++n) {
-    PortWish port{"a", n % 2 == 0 ? PortKind::kState : PortKind::kEvent, {}};
+    PortSpec port{"a", n % 2 == 0 ? PortKind::kState : PortKind::kEvent, {}};
     for (std::size_t m = 0; m < rates.size(); ++m) port.sources.push_back(wishes[m].name);
     wishes[n].inputs.push_back(port);
   }

@@ -64,16 +64,16 @@ class RecorderDouble final : public Node {
 Roster RecordedRoster(std::uint64_t seed) {
   law::Wishes wishes = law::RandomWishes(seed);
   Step every = 1;
-  for (const NodeWish& wish : wishes.nodes) {
+  for (const NodeSpec& wish : wishes.nodes) {
     if (!wish.outputs.empty()) every = std::lcm(every, wish.period);
   }
-  NodeWish recorder;
+  NodeSpec recorder;
   recorder.name = "recorder";
   recorder.kind = "test";
   recorder.period = 1 + static_cast<Step>(seed % 11);
-  PortWish snapshots{std::string(kSnapshotTopic), PortKind::kEvent, {}};
-  PortWish a{"a", PortKind::kEvent, {}}, b{"b", PortKind::kEvent, {}};
-  for (NodeWish& wish : wishes.nodes) {
+  PortSpec snapshots{std::string(kSnapshotTopic), PortKind::kEvent, {}};
+  PortSpec a{"a", PortKind::kEvent, {}}, b{"b", PortKind::kEvent, {}};
+  for (NodeSpec& wish : wishes.nodes) {
     if (wish.outputs.empty()) continue;
     wish.snapshot_every = every;
     snapshots.sources.push_back(wish.name);
@@ -160,7 +160,7 @@ class RecoveryOfOne : public ::testing::Test {
  protected:
   // A car each step, a recorder each 5, snapshots each 10; delays 1 and 5.
   static Roster Make(bool with_recorder) {
-    std::vector<NodeWish> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
+    std::vector<NodeSpec> wishes{{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, with_recorder ? 10 : 0}};
     if (with_recorder) {
       wishes.push_back({"recorder",
                         "t",

@@ -6,12 +6,12 @@
 namespace rodeira::lockstep {
 namespace {
 
-std::string Refusal(const std::vector<NodeWish>& wishes) {
+std::string Refusal(const std::vector<NodeSpec>& wishes) {
   const auto roster = Roster::Create(1'000'000, 20, wishes);
   return roster.ok() ? "" : roster.error().Text();
 }
 
-const NodeWish kCar{"car", "vehicle", Role::kStepped, 1, 0, 0, {"state"}, {}};
+const NodeSpec kCar{"car", "vehicle", Role::kStepped, 1, 0, 0, {"state"}, {}};
 
 TEST(Roster, NumbersSourcesInTheOrderOfTheLaunchFile) {
   const auto roster =

@@ -53,7 +53,7 @@ WheelGround Under(ground::Ground& ground, const Vector3d& hub_W, const Vector3d&
   WheelPlaces places;
   places.hubs_W.fill(hub_W);
   places.axles_W.fill(axle_W);
-  AskGround(ground, Enveloping::kRing, kRadius, places, {&all[0], &all[1], &all[2], &all[3]});
+  QueryGround(ground, Enveloping::kRing, kRadius, places, {&all[0], &all[1], &all[2], &all[3]});
   return all[kRearRight];
 }
 

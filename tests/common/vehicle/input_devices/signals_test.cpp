@@ -84,7 +84,7 @@ TEST(Signals, TheStateIsAllThereIs) {
   ASSERT_TRUE(in.Finish().ok());
   EXPECT_EQ(other.Step({}, 0.1).indicators, Indicators::kOff);
   SignalSwitch taken;
-  taken.TakeOver({Indicators::kRight, Headlights::kFull, true});
+  taken.InitialiseFrom({Indicators::kRight, Headlights::kFull, true});
   EXPECT_EQ(taken.signals(), (Signals{Indicators::kRight, Headlights::kFull, false})) << "nobody's hand is on the horn";
 }
 

@@ -268,7 +268,7 @@ TEST(Start, LiesOutsideOfJunctionsUnlessItIsSaid) {
     EXPECT_TRUE(file.ok());
     (void)file.value().root().Text("rodeira");
     const config::Map map = file.value().root().OptionalChild("start");
-    StartWish wish;
+    StartSpec wish;
     if (map.Has("s_m")) wish.s_m = map.Number("s_m");
     Design design = ReadDesign(file.value(), kFriction, "made", "", wish, map);
     return std::pair(std::move(design), file.value().Problems());

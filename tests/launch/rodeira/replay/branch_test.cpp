@@ -30,7 +30,7 @@ using BranchTest = ReplayTest;
 
 TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
   const std::string file = Drive();
-  BranchWish wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_FALSE(outcome.value().difference.has_value());
@@ -62,7 +62,7 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
 TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
   const std::string file = Drive();
   for (const lockstep::Step at : {0, 1500}) {
-    BranchWish wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+    BranchSpec wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
     bool is_branching =
         false;  // the parent has been computed up to there, and the operator is asked for the first time
     wish.next_command = [&] {
@@ -81,7 +81,7 @@ TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
 // What the parent's clock and operator said up to there, and the branch's own from there on.
 TEST_F(BranchTest, ABranchHasMarksAndWallTimesOfBothItsLives) {
   const std::string file = Drive();
-  BranchWish wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
   int asked = 0;
   std::string marked;
   wish.next_command = [&]() -> std::optional<lockstep::Asked> {
@@ -137,7 +137,7 @@ TEST_F(BranchTest, ABranchLastsAsLongAsItsChangesSayAndTellsWhatItsParentAnswers
 TEST_F(BranchTest, ABranchTouchesNoOtherFile) {
   const std::string file = Drive();
   const auto precious = folder_.Write("branch.mcap.part", "precious");
-  BranchWish wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
+  BranchSpec wish{file, 1500, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
   ASSERT_TRUE(Branch(wish).ok());
   EXPECT_EQ(base::ReadText(precious).value(), "precious");
 }
@@ -145,7 +145,7 @@ TEST_F(BranchTest, ABranchTouchesNoOtherFile) {
 TEST_F(BranchTest, ABranchHasItsParentsPastAndItsOwnFuture) {
   const std::string file = Drive();
   const auto script = folder_.Write("brake.csv", "time_s,steering_wheel_rad,throttle,brake\n0,0,0,1\n");
-  BranchWish wish{file,
+  BranchSpec wish{file,
                   2000,
                   {{"nodes.driver.config.script", "\"" + script.string() + "\""}},
                   4000,
@@ -178,7 +178,7 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
   const std::string file = Drive();
   const std::string first = (folder_.path() / "first.mcap").string(),
                     second = (folder_.path() / "second.mcap").string();
-  BranchWish wish{file, 0, {}, std::nullopt, first};
+  BranchSpec wish{file, 0, {}, std::nullopt, first};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(first);
@@ -210,13 +210,13 @@ TEST_F(BranchTest, ABranchMayLeaveAtTheFirstStepAndABranchsBranchBehindItsOwn) {
 TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   const std::string file = Drive(4.0);
   const std::string other = SourceDir() + "/configs/vehicles/prototype.yaml";
-  const BranchWish wish{
+  const BranchSpec wish{
       file, 3000, {{"nodes.ego.config.vehicle", "\"" + other + "\""}}, 4000, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   EXPECT_EQ(outcome.value().taken_over, std::vector<std::string>{"ego"});
   // A word does the same where the car's file names the other one.
-  const BranchWish by_word{
+  const BranchSpec by_word{
       file, 3000, {{"vehicle.model", "multibody"}}, 4000, (folder_.path() / "by_word.mcap").string()};
   const auto worded = Branch(by_word);
   ASSERT_TRUE(worded.ok()) << worded.error().Text();
@@ -241,7 +241,7 @@ TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
 TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
   const std::string file = Record("traffic.mcap", LaunchFile("demo.yaml"),
                                   {"--for", "4", "--headless", "--set", "nodes.view.config.frames=~"});
-  const BranchWish wish{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
+  const BranchSpec wish{file, 2000, {{"seed", "77"}}, 4000, (folder_.path() / "branch.mcap").string()};
   const auto outcome = Branch(wish);
   ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
   const auto branch = replay::RecordedRun::Open(wish.recording);
@@ -258,7 +258,7 @@ TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
       Record("without.mcap", LaunchFile("empty.yaml"),
              {"--for", "1.5", "--set", "nodes.c.config.saves=false", "--set", "nodes.c.delay_s=0.003"});
   for (const lockstep::Step at : {0, 700}) {
-    const BranchWish wish{
+    const BranchSpec wish{
         file, at, {}, std::nullopt, (folder_.path() / ("branch" + std::to_string(at) + ".mcap")).string()};
     const auto outcome = Branch(wish);
     ASSERT_TRUE(outcome.ok()) << outcome.error().Text();
