@@ -57,7 +57,7 @@ void CarArray::QueryGround(ground::Ground& ground) {
   std::size_t answer = 0;
   for (std::size_t i = 0; i < cars_.size(); ++i) {
     if (!present(i)) continue;
-    for (std::size_t k = 0; k < kWheels; ++k, ++answer) cars_[i].wheels[k].Take(queries_[answer], points_[answer]);
+    for (std::size_t k = 0; k < kWheels; ++k, ++answer) cars_[i].wheels[k].Update(queries_[answer], points_[answer]);
   }
 }
 
