@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// All message types of the IDL (namespace rodeira::msg), as fastddsgen makes them.
+/// @file
+/// All message types of Rodeira's IDL (namespace rodeira::msg), as fastddsgen makes them. docs/wire.md lists the types,
+/// the comments of the IDL files describe their members.
+
 #include "clock.h"
 #include "collisions.h"
 #include "controls.h"

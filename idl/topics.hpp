@@ -1,58 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+/// @file
+/// Names and types of Rodeira's topics.
+
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace rodeira::idl {
 
-// The topics of Rodeira (docs/wire.md). The first group are samples of the lockstep, which are always recorded.
+/// The topics of Rodeira (docs/wire.md), each with its type. The samples of kControls … kSnapshot belong to the
+/// lockstep and are always recorded.
 namespace topics {
-inline constexpr std::string_view kControls = "rodeira/controls";
-inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";
-inline constexpr std::string_view kCollisions = "rodeira/collisions";
-inline constexpr std::string_view kTrafficState = "rodeira/traffic_state";
-inline constexpr std::string_view kTrafficDetails = "rodeira/traffic_details";
-inline constexpr std::string_view kSignalsState = "rodeira/signals_state";
-inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";
-inline constexpr std::string_view kWeatherState = "rodeira/weather_state";
-inline constexpr std::string_view kPulse = "rodeira/pulse";
-inline constexpr std::string_view kSnapshot = "rodeira/snapshot";
-inline constexpr std::string_view kSampleBatches = "rodeira/sample_batches/";  // and the name of the consumer
-inline constexpr std::string_view kGrant = "rodeira/grant";
-inline constexpr std::string_view kNack = "rodeira/nack";
-inline constexpr std::string_view kRetransmissions = "rodeira/retransmissions";
-inline constexpr std::string_view kReport = "rodeira/report";
-inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";
-inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";
-inline constexpr std::string_view kWorldInfo = "rodeira/world_info";
-inline constexpr std::string_view kWindowKeys = "rodeira/window_keys";
-inline constexpr std::string_view kOperatorRequests = "rodeira/operator_requests";
-inline constexpr std::string_view kRunLog = "rodeira/run_log";
-inline constexpr std::string_view kTrigger = "rodeira/trigger";
-// Only in recordings: the contents of the run log.
-inline constexpr std::string_view kWallTime = "rodeira/wall_time";
-inline constexpr std::string_view kRemarks = "rodeira/remarks";
+inline constexpr std::string_view kControls = "rodeira/controls";           ///< Controls of a vehicle
+inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";  ///< VehicleState of a vehicle
+inline constexpr std::string_view kCollisions = "rodeira/collisions";       ///< Collisions of a vehicle
+inline constexpr std::string_view kTrafficState =
+    "rodeira/traffic_state";  ///< TrafficState: position and motion of all traffic
+inline constexpr std::string_view kTrafficDetails =
+    "rodeira/traffic_details";  ///< TrafficDetails: drivers and engines of all traffic
+inline constexpr std::string_view kSignalsState = "rodeira/signals_state";      ///< SignalsState: traffic lights
+inline constexpr std::string_view kScenarioEvents = "rodeira/scenario_events";  ///< ScenarioEvents
+inline constexpr std::string_view kWeatherState = "rodeira/weather_state";      ///< WeatherState
+inline constexpr std::string_view kPulse = "rodeira/pulse";                     ///< Pulse, of test nodes
+inline constexpr std::string_view kSnapshot = "rodeira/snapshot";  ///< Snapshot: states of nodes, for sinks
+inline constexpr std::string_view kSampleBatches =
+    "rodeira/sample_batches/";                               ///< SampleBatch; the name of the consumer follows
+inline constexpr std::string_view kGrant = "rodeira/grant";  ///< Grant, from the clock
+inline constexpr std::string_view kNack = "rodeira/nack";    ///< Nack: samples are missing
+inline constexpr std::string_view kRetransmissions =
+    "rodeira/retransmissions";                                 ///< SampleBatch: the samples that a Nack names
+inline constexpr std::string_view kReport = "rodeira/report";  ///< Report, to the clock
+inline constexpr std::string_view kGroundRequest = "rodeira/ground_request";  ///< GroundRequest, to the road server
+inline constexpr std::string_view kGroundReply = "rodeira/ground_reply";      ///< GroundReply, from the road server
+inline constexpr std::string_view kWorldInfo = "rodeira/world_info";          ///< WorldInfo, from the road server
+inline constexpr std::string_view kWindowKeys = "rodeira/window_keys";        ///< WindowKeys, from windows
+inline constexpr std::string_view kOperatorRequests = "rodeira/operator_requests";  ///< OperatorRequests, from windows
+inline constexpr std::string_view kRunLog = "rodeira/run_log";      ///< RunLog, from the clock to the recorder
+inline constexpr std::string_view kTrigger = "rodeira/trigger";     ///< Trigger, for external recorders
+inline constexpr std::string_view kWallTime = "rodeira/wall_time";  ///< WallTime, in recordings only
+inline constexpr std::string_view kRemarks = "rodeira/remarks";     ///< Remark, in recordings only
 }  // namespace topics
 
+/// A topic of Rodeira.
 struct TopicInfo {
-  std::string_view topic;
-  std::string_view type;     // "rodeira::msg::Controls", the name on the wire and of the schema in a recording
-  std::string_view subject;  // which IDL text
-  bool lockstep = false;     // its samples begin with the header
+  std::string_view topic;    ///< name of the topic
+  std::string_view type;     ///< "rodeira::msg::Controls", the name on the wire and of the schema in a recording
+  std::string_view subject;  ///< name of the IDL text with the type
+  bool lockstep = false;     ///< true: its samples begin with the sample header
 };
 
+/// Lists all topics.
+/// @return the topics; the list lives as long as the program
 const std::vector<TopicInfo>& Topics();
-// Null where there is no such topic.
+/// Finds a topic.
+/// @param topic name of the topic; of kSampleBatches with or without a consumer
+/// @return the topic; null if Rodeira has no such topic
 const TopicInfo* FindTopic(std::string_view topic);
 
+/// The text of an IDL file.
 struct IdlText {
-  std::string subject;
-  std::string text;  // self-contained, without preprocessor lines
+  std::string subject;  ///< name of the file without its extension
+  std::string text;     ///< the text with what it includes, without preprocessor lines
 };
+/// Lists the texts of Rodeira's IDL files.
+/// @return the texts; the list lives as long as the program
 const std::vector<IdlText>& IdlTexts();
-// The text of a subject; an unknown one is our mistake.
+/// Gives the text of a subject. An unknown subject is an assertion failure.
+/// @param subject name of the IDL file without its extension
+/// @return the text
 const std::string& IdlTextOf(std::string_view subject);
 
 }  // namespace rodeira::idl

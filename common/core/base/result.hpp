@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+/// @file
+/// Errors as values.
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,53 +13,82 @@
 #include "common/core/base/assert.hpp"
 #include "common/core/base/printable.hpp"
 
+/// Errors, bytes, digests, random numbers and snapshots: what every other module uses.
 namespace rodeira::base {
 
-// What went wrong outside of our code, for a person: the exit status follows from the code.
+/// The cause of an error. The exit status of a program follows from it.
 enum class ErrorCode {
-  kWrongInput,  // a file, option or message is wrong: exit status 2
-  kFailed,      // the world did not let us (disk full, peer dead, time-out): exit status 1
+  kWrongInput,  ///< a file, option or message is wrong: exit status 2
+  kFailed,      ///< the environment failed (disk full, peer lost, time-out): exit status 1
 };
 
+/// An error outside of the program's code, described for the reader.
 struct Error {
-  ErrorCode code = ErrorCode::kWrongInput;
-  std::string message;  // one sentence: what was found, what was expected, the nearest right name
-  std::string context;  // where: file:line, topic, step; may be empty
+  ErrorCode code = ErrorCode::kWrongInput;  ///< the cause
+  std::string message;                      ///< one sentence: what was found, what was expected, the nearest right name
+  std::string context;                      ///< the place: file:line, topic, step; may be empty
 
-  // "context: message", or the message alone where there is no context.
+  /// Joins context and message.
+  /// @return "context: message", or the message alone if there is no context
   std::string Text() const { return context.empty() ? message : context + ": " + message; }
+  /// Gives the exit status of a program that ends with this error.
+  /// @return 2 for kWrongInput, 1 for kFailed
   int exit_status() const { return code == ErrorCode::kWrongInput ? 2 : 1; }
 };
 
-// What others wrote may stand in both texts: they come out as one printable line.
+/// Makes an error of code kWrongInput. Both texts become one printable line each, so they may contain parts of files
+/// and messages.
+/// @param message one sentence: what was found, what was expected
+/// @param context the place (file:line, topic, step); may be empty
+/// @return the error
 inline Error WrongInput(std::string_view message, std::string_view context = {}) {
   return Error{ErrorCode::kWrongInput, Printable(message), Printable(context)};
 }
+/// Makes an error of code kFailed. Both texts become one printable line each.
+/// @param message one sentence: what was found, what was expected
+/// @param context the place (file, topic, step); may be empty
+/// @return the error
 inline Error Failed(std::string_view message, std::string_view context = {}) {
   return Error{ErrorCode::kFailed, Printable(message), Printable(context)};
 }
 
-// A T, or the Error that explains why there is none. Asking for the one that is not there is our mistake.
+/// A value, or the Error that explains why there is none. Access to the absent one is an assertion failure.
+/// @tparam T type of the value
 template <class T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit by design
+  /// Makes a result with a value. Implicit, so that a function can return its value.
+  /// @param value the value
+  Result(T value) : content_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit by design
+  /// Makes a result without a value. Implicit, so that a function can return an error.
+  /// @param error the reason
   Result(Error error) : content_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by design
 
+  /// Says whether there is a value.
+  /// @return true: value() is allowed; false: error() is allowed
   bool ok() const { return content_.index() == 0; }
+  /// Converts to ok().
   explicit operator bool() const { return ok(); }
+  /// Gives the value. Precondition: ok().
+  /// @return the value
   T& value() & {
     RODEIRA_ASSERT(ok());
     return std::get<0>(content_);
   }
+  /// Gives the value. Precondition: ok().
+  /// @return the value
   const T& value() const& {
     RODEIRA_ASSERT(ok());
     return std::get<0>(content_);
   }
+  /// Gives the value to move from. Precondition: ok().
+  /// @return the value
   T&& value() && {
     RODEIRA_ASSERT(ok());
     return std::get<0>(std::move(content_));
   }
+  /// Gives the error. Precondition: not ok().
+  /// @return the error
   const Error& error() const {
     RODEIRA_ASSERT(!ok());
     return std::get<1>(content_);
@@ -66,15 +98,23 @@ class [[nodiscard]] Result {
   std::variant<T, Error> content_;
 };
 
-// Done, or the Error that explains why not.
+/// Success, or the Error that explains the failure.
 template <>
 class [[nodiscard]] Result<void> {
  public:
+  /// Makes a success.
   Result() = default;
+  /// Makes a failure. Implicit, so that a function can return an error.
+  /// @param error the reason
   Result(Error error) : error_(std::move(error)) {}  // NOLINT: implicit by design
 
+  /// Says whether it is a success.
+  /// @return false: error() is allowed
   bool ok() const { return !error_; }
+  /// Converts to ok().
   explicit operator bool() const { return ok(); }
+  /// Gives the error. Precondition: not ok().
+  /// @return the error
   const Error& error() const {
     RODEIRA_ASSERT(error_.has_value());
     return *error_;
@@ -84,6 +124,7 @@ class [[nodiscard]] Result<void> {
   std::optional<Error> error_;
 };
 
+/// Success or an Error, for functions without a result.
 using Status = Result<void>;
 
 }  // namespace rodeira::base

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+/// @file
+/// The entry of an external node's program or shared object.
+
 #include "common/runtime/dds/run.hpp"
 #include "common/runtime/launch/node_library.hpp"
 
-// RODEIRA_NODE(MakeEyeTracker), once, at the end of a source: the whole of an external node's program, or the entry
-// points of its shared object. CMake's function rodeira_add_node builds either. MakeEyeTracker is a
-// launch::NodeFactory.
+/// Defines the entry of an external node: `main` of its program, or the entry points of its shared object if
+/// RODEIRA_NODE_LIBRARY is defined. Used once, at the end of a source outside of all namespaces:
+/// `RODEIRA_NODE(MakeEyeTracker);`. CMake's function rodeira_add_node builds either.
+/// @param make the function that makes the node, a rodeira::launch::NodeFactory
 #ifdef RODEIRA_NODE_LIBRARY
 #define RODEIRA_NODE(make)                                                                                          \
   extern "C" __attribute__((visibility("default"))) const char* rodeira_node_build() {                              \

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+/// @file
+/// The interface of a vehicle model.
+
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -19,100 +22,133 @@
 
 namespace rodeira::dynamics {
 
-// Where and how the car begins. z, pitch, roll, suspension and loads are found by Initialise, on the ground.
+/// The start of a car. Initialise finds z, pitch, roll, suspension and loads on the ground.
 struct InitialCondition {
-  double x_m = 0.0;  // of B's origin in W
-  double y_m = 0.0;
-  double z_hint_m = std::numeric_limits<double>::quiet_NaN();  // which of several layers; NaN: the top one
-  double heading_rad = 0.0;                                    // from east, counter-clockwise
-  double speed_mps = 0.0;                                      // along the car, negative backward
-  double lateral_speed_mps = 0.0;                              // to the left
-  double yaw_rate_radps = 0.0;                                 // counter-clockwise seen from above
+  double x_m = 0.0;                                            ///< position of B's origin in W, east
+  double y_m = 0.0;                                            ///< position of B's origin in W, north
+  double z_hint_m = std::numeric_limits<double>::quiet_NaN();  ///< height hint of the surface; NaN: the top surface
+  double heading_rad = 0.0;                                    ///< from east, counter-clockwise
+  double speed_mps = 0.0;                                      ///< along the car, negative backward
+  double lateral_speed_mps = 0.0;                              ///< to the left
+  double yaw_rate_radps = 0.0;                                 ///< counter-clockwise seen from above
 };
 
-// Of the height NaN says something; all else is a number.
+/// Tests the numbers of an initial condition.
+/// @param initial the initial condition
+/// @return true if all are finite; the height hint may be NaN
 bool IsFinite(const InitialCondition& initial);
-// What a moving car of another model, or of a recording, hands over.
+/// Makes the initial condition that continues the motion of a car of another model or of a recording.
+/// @param state state of that car
+/// @return the initial condition
 InitialCondition FromState(const VehicleState& state);
 
-// Fixed measures of the car, for those who draw it, drive it or keep away from it.
+/// Fixed lengths and mass of a car, for pictures, drivers and collisions.
 struct VehicleDimensions {
-  double wheelbase_m = 0.0;
-  double track_front_m = 0.0;
-  double track_rear_m = 0.0;
-  double wheel_radius_m = 0.0;  // unloaded
-  double wheel_width_m = 0.0;
-  double front_m = 0.0;  // from B's origin to the front bumper
-  double rear_m = 0.0;   // from B's origin to the rear bumper
-  double width_m = 0.0;  // without mirrors
-  double height_m = 0.0;
-  double mass_kg = 0.0;
-  double steering_ratio = 1.0;            // angle of the steering wheel for one of the front wheels
-  double steering_wheel_limit_rad = 0.0;  // stop, each side
-  int forward_gears = 0;
+  double wheelbase_m = 0.0;               ///< between the axles
+  double track_front_m = 0.0;             ///< between the middles of the front wheels
+  double track_rear_m = 0.0;              ///< between the middles of the rear wheels
+  double wheel_radius_m = 0.0;            ///< unloaded
+  double wheel_width_m = 0.0;             ///< width of a tyre
+  double front_m = 0.0;                   ///< from B's origin to the front bumper
+  double rear_m = 0.0;                    ///< from B's origin to the rear bumper
+  double width_m = 0.0;                   ///< without mirrors
+  double height_m = 0.0;                  ///< from the road to the roof
+  double mass_kg = 0.0;                   ///< mass of the car
+  double steering_ratio = 1.0;            ///< angle of the steering wheel divided by that of the front wheels
+  double steering_wheel_limit_rad = 0.0;  ///< stop of the steering wheel, to each side
+  int forward_gears = 0;                  ///< number of forward gears
 };
 
-// A force and its moment about B's origin, both in W: what the body takes from outside (a collision).
+/// A force from outside on the body (a collision), and its moment about B's origin. Both are expressed in W.
 struct Wrench {
-  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();      // N
-  Eigen::Vector3d moment_WB_W = Eigen::Vector3d::Zero();  // N m
+  Eigen::Vector3d force_W = Eigen::Vector3d::Zero();      ///< force, in N
+  Eigen::Vector3d moment_WB_W = Eigen::Vector3d::Zero();  ///< moment about B's origin, in N m
 
+  /// Says whether force or moment differ from zero.
+  /// @return true if one does
   bool any() const { return !force_W.isZero(0.0) || !moment_WB_W.isZero(0.0); }
 };
 
-// The longest step of a model (VehicleModel::Step).
+/// The longest step of a model (VehicleModel::Step).
 inline constexpr double kMaxStep_s = 0.1;
 
-// One vehicle. A value that is stepped (law L3): everything that later steps depend on is in Save and Restore, and the
-// same calls give the same bits.
+/// One vehicle: a value that is advanced step by step (law L3). Save and Restore hold everything that later steps
+/// depend on, and the same calls give the same bits. One thread at a time calls an object; a process holds several.
 class VehicleModel {
  public:
   virtual ~VehicleModel() = default;
 
-  // INI: places the car in equilibrium on the ground. The engine idles or turns with the wheels in a gear that suits
-  // the speed; counters are zero. May ask the ground several times. Refused where a wheel would stand outside the world
-  // or a number is not finite; the model is then as before.
+  /// Places the car in equilibrium on the ground (INI). The engine idles, or turns with the wheels in a gear that suits
+  /// the speed; counters are zero. It may query the ground several times.
+  /// @param initial position and motion
+  /// @param ground the ground
+  /// @return wrong input if a wheel would stand outside of the world or a number is not finite; the model is then
+  ///   unchanged
   virtual base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) = 0;
 
-  // CALCULO: advances by dt_s (over 0, at most kMaxStep_s) with the controls held. Asks the ground exactly once, one
-  // batch for four wheels (law L4). Outside of the world a wheel goes on upon the last plane that it knew.
+  /// Advances the model (CALCULO) with constant controls. It queries the ground exactly once, with one batch for four
+  /// wheels (law L4). A wheel outside of the world keeps its last plane.
+  /// @param controls the controls; any values, see Clamp
+  /// @param ground the ground
+  /// @param dt_s length of the step, over 0, at most kMaxStep_s
   virtual void Step(const Controls& controls, ground::Ground& ground, double dt_s) = 0;
 
-  // What the next Step holds against the body from outside; a second call replaces the first, and after the step it is
-  // gone: no part of the state. A model that cannot be pushed takes no notice.
-  virtual void SetPush(const Wrench& /*push*/) {}
+  /// Sets the force from outside on the body during the next Step. A second call replaces the first. The step consumes
+  /// it, so it is no part of the state. A model that cannot be pushed ignores it.
+  /// @param push force and moment
+  virtual void SetPush([[maybe_unused]] const Wrench& push) {}
+  /// Says whether the model uses SetPush.
+  /// @return true if it does
   virtual bool can_be_pushed() const { return false; }
 
+  /// Gives the state after the last Step or Initialise.
+  /// @return the state; the reference stays valid as long as the model
   virtual const VehicleState& state() const = 0;
+  /// Gives the dimensions, which never change.
+  /// @return the dimensions; the reference stays valid as long as the model
   virtual const VehicleDimensions& dimensions() const = 0;
 
-  // The whole state; Restore is meant for a model of the same file. Problems are the reader's (StateReader::Finish).
+  /// Writes the whole state.
+  /// @param writer receives the fields, always in the same order
   virtual void Save(base::StateWriter& writer) const = 0;
+  /// Reads the state of Save into a model of the same vehicle file. Errors stay in the reader
+  /// (base::StateReader::Finish), which the caller tests.
+  /// @param reader the fields of Save, in the same order
   virtual void Restore(base::StateReader& reader) = 0;
-  // False: the state cannot be read out. Save then writes what is known of it, Restore is never called, and a run with
-  // this car is computed again from its first step only.
+  /// Says whether the state can be read out. If not, Save writes the known part, Restore is never called, and a run
+  /// with this car is computed again from its first step only.
+  /// @return true if Save writes the whole state
   virtual bool can_save() const { return true; }
-  // What the car's file asks for beside the state (`outputs`: forces within a mechanism): names with their units, and
-  // the values now.
+  /// Names the additional outputs that the vehicle file requests (`outputs`: forces within a mechanism).
+  /// @return names with their units
   virtual std::vector<std::string> output_names() const { return {}; }
+  /// Gives the additional outputs.
+  /// @return the values after the last step, in the order of output_names
   virtual std::vector<double> Outputs() const { return {}; }
-  // Why the last Step was not made (a laboratory's own model has failed): the car stays where it is. Ok otherwise.
+  /// Explains a failed step: the car stays at its position. The run ends with this error.
+  /// @return an error if the model failed in the last Step
   virtual base::Status problem() const { return {}; }
 };
 
-// A kind of model that a vehicle file may name, and what makes one of it from the file's mapping. Problems of the file
-// are left in its collection (config::File); `make` may then return anything, even null. `complete`, where there is
-// one, is called when the file has no problems: what takes sound numbers to build, and what can be read only then.
+/// A kind of model that a vehicle file may name, and the functions that make one from the mapping of the file.
 struct ModelKind {
-  std::string name;
+  std::string name;  ///< value of the key `model`
+  /// Makes a model. Problems of the file stay in its collection (config::File); with problems it may return anything,
+  /// also null.
   std::function<std::unique_ptr<VehicleModel>(const config::Map& root)> make;
+  /// Finishes a model of a file without problems: work that needs correct numbers, and keys that depend on it. May be
+  /// null.
   std::function<base::Status(VehicleModel& model, const config::Map& root)> complete = nullptr;
 };
 
-// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`). `wanted`: another model than the file's own; the file
-// names the one in which that is, `models: {ode: FILE}`. Wrong input, with file:line, where it cannot be read, a key is
-// unknown or out of range, or the model's name is unknown (the nearest is given). `more`: kinds beyond this library's
-// own.
+/// Reads a vehicle file (`rodeira: vehicle/1`, `model: bicycle`).
+/// @param path path of the file
+/// @param wanted model to make if it is not the file's own; the file names the file of that model, `models: {ode:
+/// FILE}`
+/// @param more kinds of models beyond those of Rodeira
+/// @return the model; wrong input with file:line if the file cannot be read, or a key is unknown or out of range. For
+/// an
+///   unknown name of a model the message gives the nearest one.
 base::Result<std::unique_ptr<VehicleModel>> LoadVehicle(const std::filesystem::path& path, std::string_view wanted = {},
                                                         std::span<const ModelKind> more = {});
 

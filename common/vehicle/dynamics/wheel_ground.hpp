@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+/// @file
+/// The ground under the wheels.
+
 #include <Eigen/Core>
 #include <array>
 
@@ -10,33 +13,45 @@
 
 namespace rodeira::dynamics {
 
-// The ground under a wheel, as SUELO last told it: a plane through plane_W (m) with the unit normal normal_W.
+/// The ground under a wheel, as the last query answered it: a plane in the world frame W.
 struct WheelGround {
-  Eigen::Vector3d plane_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
-  double friction = 0.0;
-  ground::Surface surface = ground::Surface::kOutside;
-  bool inside = false;
+  Eigen::Vector3d plane_W = Eigen::Vector3d::Zero();    ///< a point of the plane, in m
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< normal of unit length, upward
+  double friction = 0.0;                                ///< coefficient of the dry surface, 1: dry asphalt
+  ground::Surface surface = ground::Surface::kOutside;  ///< material
+  bool inside = false;                                  ///< false: the wheel is outside of the world
 
-  // SUELO's answer to the question below the hub. Outside of the world the plane stays.
+  /// Takes the answer to the query below the hub. Outside of the world plane and friction stay as they are.
+  /// @param query the query
+  /// @param point its answer
   void Update(const ground::GroundQuery& query, const ground::GroundPoint& point);
 
+  /// Writes all values.
+  /// @param writer receives the fields
   void Save(base::StateWriter& writer) const;
+  /// Reads the values of Save.
+  /// @param reader the fields
   void Restore(base::StateReader& reader);
 };
 
-// Asks for the ground under the four hubs (m, in W), one batch (law L4). Outside of the world a wheel goes on upon the
-// plane that it knows.
+/// Queries the ground under the four hubs in one batch (law L4). The height of a hub is the query's height hint. A
+/// wheel outside of the world keeps its last plane.
+/// @param ground the ground
+/// @param hubs_W position of each hub in W, in m, in the order of WheelIndex
+/// @param wheels receive the answers, in the order of WheelIndex; not null
 void QueryGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWheels>& hubs_W,
                  const std::array<WheelGround*, kWheels>& wheels);
 
+/// A plane in the world frame W.
 struct Plane {
-  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d point_W = Eigen::Vector3d::Zero();    ///< a point of the plane, in m
+  Eigen::Vector3d normal_W = Eigen::Vector3d::UnitZ();  ///< normal of unit length
 };
 
-// The ground under the car for its body: through the middle of the ground under the wheels, parallel to both diagonals
-// of those points; level where they stand too steeply for a ground.
+/// Computes the ground under the car for its body: through the mean of the points under the wheels, parallel to both
+/// diagonals of those points.
+/// @param wheels ground under each wheel, in the order of WheelIndex; not null
+/// @return the plane; level if the points lie too steeply for a ground
 Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels);
 
 }  // namespace rodeira::dynamics
