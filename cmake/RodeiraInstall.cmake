@@ -94,6 +94,7 @@ function(rodeira_install_kit)
   write_basic_package_version_file(${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_BINARY_DIR}/RodeiraConfig.cmake ${CMAKE_BINARY_DIR}/RodeiraConfigVersion.cmake
           ${CMAKE_SOURCE_DIR}/cmake/RodeiraKit.cmake ${CMAKE_SOURCE_DIR}/cmake/quiet.cmake
+          ${CMAKE_SOURCE_DIR}/cmake/kit_headers.txt
           DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   install(EXPORT RodeiraTargets NAMESPACE rodeira:: DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   foreach(folder common/core common/world common/data common/runtime common/vehicle idl)
