@@ -12,7 +12,7 @@ void TrafficModel::EachDriving(const Tell& tell) {
       if (agents_[id].on_road) tell(static_cast<std::uint32_t>(id));
     }
   };
-  base::Share(crew_.get(), agents_.size(), some);
+  base::ParallelFor(pool_.get(), agents_.size(), some);
 }
 
 }  // namespace rodeira::traffic

@@ -112,7 +112,7 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
   controls.steering_wheel_rad = SteeringWheel(id, path, dt_s);
 }
 
-void FullCars::Step(double dt_s, base::Crew* crew) { cars_.Step(controls_, *ground_, dt_s, crew); }
+void FullCars::Step(double dt_s, base::ThreadPool* pool) { cars_.Step(controls_, *ground_, dt_s, pool); }
 
 Driving FullCars::DrivingOf(std::uint32_t id) const {
   const dynamics::Powertrain& powertrain = cars_.car(id).powertrain;

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "common/core/base/crew.hpp"
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
+#include "common/core/base/thread_pool.hpp"
 #include "common/driving/driver/pedals.hpp"
 #include "common/traffic/agent.hpp"
 #include "common/vehicle/dynamics/car_array.hpp"
@@ -38,8 +38,8 @@ class FullCars {
   void Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s);
   // The same by hands and feet of somebody else.
   void Hold(std::uint32_t id, const dynamics::Controls& controls) { controls_[id] = controls; }
-  // Every car by its controls; by how large a crew (none: alone) changes no bit.
-  void Step(double dt_s, base::Crew* crew);
+  // Every car by its controls; the number of threads changes no bit.
+  void Step(double dt_s, base::ThreadPool* pool);
 
   const dynamics::CarArray& cars() const { return cars_; }
   const dynamics::Controls& controls(std::uint32_t id) const { return controls_[id]; }

@@ -193,9 +193,9 @@ void TrafficModel::See(std::span<const driver::Footprint> others) {
     const double own = agent.granted_m - agent.o_m - 0.5 * traits_[id].length_m;
     FindStretches(id, std::max({SightOf(agent), own, agent.overtaking.active() ? settings_.overtaking.sight_m : 0.0,
                                 people_ ? StoppingWay(id) : 0.0}));
-    if (!crew_) BeSeen(id);
+    if (!pool_) BeSeen(id);
   });
-  for (std::uint32_t id = 0; crew_ && id < agents_.size(); ++id) {
+  for (std::uint32_t id = 0; pool_ && id < agents_.size(); ++id) {
     if (agents_[id].on_road) BeSeen(id);
   }
   occupants_.Sort();

@@ -29,7 +29,7 @@ TrafficModel::TrafficModel(const TrafficSettings& settings, std::shared_ptr<cons
   for (std::uint32_t id = 0; id < agents_.size(); ++id) traits_.push_back(TraitsOf(settings_, id));
   for (const AgentTraits& traits : traits_) longest_half_m_ = std::max(longest_half_m_, 0.5 * traits.length_m);
   if (!settings_.demand.flows.empty()) longest_half_m_ = 0.5 * LargestOf(settings_).length_m;
-  if (settings_.threads > 1) crew_ = std::make_shared<base::Crew>(settings_.threads);
+  if (settings_.threads > 1) pool_ = std::make_shared<base::ThreadPool>(settings_.threads);
   stretches_.resize(agents_.size());
   way_keys_.resize(agents_.size());
   below_.resize(agents_.size());
@@ -174,7 +174,7 @@ void TrafficModel::Step(double dt_s, std::span<const driver::Footprint> others) 
   See(bodies_);
   if (people_ || !motors_.empty()) LookAhead();  // else with what comes next, while an agent is in near memory
   Decide(dt_s);                                  // reads the old state …
-  if (full_) full_->Step(dt_s, crew_.get());
+  if (full_) full_->Step(dt_s, pool_.get());
   std::fill(is_moved_.begin(), is_moved_.end(), 0);
   std::fill(ends_.begin(), ends_.end(), 0);
   std::fill(missed_now_.begin(), missed_now_.end(), 0);

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "common/core/base/crew.hpp"
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
+#include "common/core/base/thread_pool.hpp"
 #include "common/driving/driver/footprint.hpp"
 #include "common/traffic/agent.hpp"
 #include "common/traffic/agent_detail.hpp"
@@ -362,7 +362,7 @@ class TrafficModel {
 
   TrafficSettings settings_;
   std::shared_ptr<const TrafficMap> map_;
-  std::shared_ptr<base::Crew> crew_;  // null: one thread
+  std::shared_ptr<base::ThreadPool> pool_;  // null: one thread
   std::vector<AgentTraits> traits_;
   std::vector<Agent> agents_;
   std::optional<FullCars> full_;      // none: planar

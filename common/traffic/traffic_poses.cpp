@@ -106,7 +106,7 @@ void TrafficModel::FindPoses() {
       agents_[ids[i]].grade = GradeOf(poses_[i].q_WB);
     }
   };
-  base::Share(crew_.get(), ids.size(), some);
+  base::ParallelFor(pool_.get(), ids.size(), some);
 }
 
 }  // namespace rodeira::traffic

@@ -49,8 +49,8 @@ class RecorderNode final : public lockstep::Node {
     record::WriterSettings settings;
     settings.profile = kProfile;
     settings.chunk_span_ns = kChunkSpanNs;
-    tell_safe_ = context.SafeTeller();
-    if (context.is_another_life() && std::filesystem::exists(file_)) {
+    tell_safe_ = context.RecordedStepReporter();
+    if (context.is_restarted() && std::filesystem::exists(file_)) {
       const auto gone_on = GoOn(context, settings);
       if (!gone_on) return gone_on.error();
       if (gone_on.value()) {
@@ -96,7 +96,7 @@ class RecorderNode final : public lockstep::Node {
       last_source_ = sample.source();
       return context.Remember(sample);
     };
-    const auto safe = context.SafeStep();
+    const auto safe = context.LastRecordedStep();
     if (!safe) return safe.error();
     auto writer =
         record::McapWriter::GoOn(file_, settings, {TailNs(), EndOfSafeNs(context.index(), safe.value()), take});

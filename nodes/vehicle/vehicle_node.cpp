@@ -204,7 +204,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   }
   if (!settings.own_heading) settings.initial.heading_rad = summary.value().start_heading_rad;
   context.set_world_hash(summary.value().content_hash);
-  const bool own_ground = !settings.asks && !context.ground_is_here();
+  const bool own_ground = !settings.asks && !context.has_local_ground();
   std::shared_ptr<const road::World> world;
   if (own_ground || (settings.hits == "all" && !context.launch().world().empty())) {
     auto made =

@@ -41,7 +41,7 @@ class ViewNode final : public lockstep::Node {
 
   // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must
   // be written.
-  base::Status Settle() override {
+  base::Status Flush() override {
     return stage_ == nullptr || settings_.frame_steps.empty() ? base::Status() : stage_->Drain();
   }
 

@@ -175,11 +175,11 @@ void Map::IgnoreKey(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].keys.emplace(key);
 }
 
-std::optional<std::string> Map::Peek(std::initializer_list<std::string_view> way) const {
+std::optional<std::string> Map::Peek(std::initializer_list<std::string_view> path) const {
   if (!node_->present) return std::nullopt;
   YAML::Node node;
   node.reset(node_->node);
-  for (const std::string_view key : way) node.reset(Find(node, key));
+  for (const std::string_view key : path) node.reset(Find(node, key));
   if (!node.IsDefined() || !node.IsScalar()) return std::nullopt;
   return node.Scalar();
 }

@@ -73,7 +73,7 @@ std::vector<GroundPoint> Ground::Layers(double x_m, double y_m) {
   GroundPoint next = At(x_m, y_m);
   while (next.inside && (layers.empty() || next.z_m < layers.back().z_m)) {
     layers.push_back(next);
-    next = At(x_m, y_m, next.z_m - kSameLayer_m - kHintAbove_m);
+    next = At(x_m, y_m, next.z_m - kSameLayer_m - kMaxAboveHint_m);
   }
   return layers;
 }

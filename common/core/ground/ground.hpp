@@ -32,10 +32,10 @@ enum class Surface : std::uint32_t {
 std::string_view SurfaceName(Surface surface);
 
 /// Greatest height of a surface above a query's height hint, in m.
-inline constexpr double kHintAbove_m = 0.5;
+inline constexpr double kMaxAboveHint_m = 0.5;
 
 /// One query: a point in the world frame W (x east, y north, z up). Where surfaces lie over one another the height hint
-/// selects the highest surface with z <= z_hint_m + kHintAbove_m.
+/// selects the highest surface with z <= z_hint_m + kMaxAboveHint_m.
 struct GroundQuery {
   double x_m = 0.0;                                            ///< east
   double y_m = 0.0;                                            ///< north

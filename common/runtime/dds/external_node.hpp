@@ -18,7 +18,7 @@
     return build.c_str();                                                                                           \
   }                                                                                                                 \
   extern "C" __attribute__((visibility("default"))) void rodeira_make_node(::rodeira::launch::NodeContext& context, \
-                                                                           ::rodeira::launch::MadeNode& made) {     \
+                                                                           ::rodeira::launch::NodeResult& made) {   \
     if (auto status = ::rodeira::launch::CheckCompiledTypes(context); !status) {                                    \
       made = status.error();                                                                                        \
       return;                                                                                                       \

@@ -30,7 +30,7 @@ struct DomainSettings {
   launch::Discovery discovery;
   bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
   bool meets_later = false;       // processes may be started again in the midst of the run
-  bool is_another_life = false;   // of a process that has died: takes none of its places in shared memory
+  bool is_restarted = false;      // of a process that has died: takes none of its places in shared memory
   idl::TopicTable topics = {};    // names and types of the topics
 };
 

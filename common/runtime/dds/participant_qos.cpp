@@ -134,7 +134,7 @@ void SetDiscovery(const DomainSettings& settings, fdds::DomainParticipantQos& qo
 fdds::DomainParticipantQos ParticipantQos(const DomainSettings& settings) {
   fdds::DomainParticipantQos qos;
   qos.name(settings.name.c_str());
-  if (settings.is_another_life && settings.transport == launch::Transport::kSharedMemory) {
+  if (settings.is_restarted && settings.transport == launch::Transport::kSharedMemory) {
     qos.wire_protocol().participant_id = UnusedParticipant(settings.domain);
   }
   SetTransport(settings, qos);

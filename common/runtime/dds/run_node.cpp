@@ -99,13 +99,13 @@ class ProcessContext final : public launch::NodeContext {
     RODEIRA_ASSERT(receiver.ok());
     return std::move(receiver).value();
   }
-  bool is_another_life() const override { return incarnation_ > 0; }
-  base::Result<lockstep::Step> SafeStep() override {
+  bool is_restarted() const override { return incarnation_ > 0; }
+  base::Result<lockstep::Step> LastRecordedStep() override {
     const auto grant = bus_.AwaitGrant(std::chrono::milliseconds(launch().watchdog().start_ms));
     if (!grant) return base::Failed("the clock says nothing to a node that is started again");
     return grant->safe;
   }
-  std::function<void(lockstep::Step)> SafeTeller() override {
+  std::function<void(lockstep::Step)> RecordedStepReporter() override {
     return [&bus = bus_](lockstep::Step through) { bus.SetSafe(through); };
   }
   base::Status Remember(const lockstep::Sample& sample) override { return bus_.Remember(sample); }

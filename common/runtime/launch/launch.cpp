@@ -39,20 +39,20 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
 }
 
 NodeSpec ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
-  NodeSpec wish;
-  wish.name = name;
-  wish.kind = kind.name;
-  wish.role = kind.role;
-  wish.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
-  if (kind.role == lockstep::Role::kService) return wish;
-  wish.period =
+  NodeSpec spec;
+  spec.name = name;
+  spec.kind = kind.name;
+  spec.role = kind.role;
+  spec.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
+  if (kind.role == lockstep::Role::kService) return spec;
+  spec.period =
       ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
   if (map.Has("delay_s") || kind.default_delay_s) {
     const double delay_s = map.Number("delay_s", config::Range::Positive(), kind.default_delay_s.value_or(1.0));
-    wish.delay = ToSteps(map, "delay_s", delay_s, base_step_ns);
+    spec.delay = ToSteps(map, "delay_s", delay_s, base_step_ns);
   }
-  wish.outputs = kind.outputs;
-  return wish;
+  spec.outputs = kind.outputs;
+  return spec;
 }
 
 // The kind of a node that stands in `map`; of an external node it is made from the manifest.
@@ -102,40 +102,40 @@ void AddToRecorders(const idl::TopicTable& topics, std::vector<LaunchNode>& node
 
 // Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`,
 // rounded up to a common multiple of their periods.
-void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeSpec>& wishes) {
+void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeSpec>& specs) {
   Step every =
       ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
-  const auto has_state = [](const NodeSpec& wish) {
-    return wish.role == lockstep::Role::kStepped && !wish.outputs.empty();
+  const auto has_state = [](const NodeSpec& spec) {
+    return spec.role == lockstep::Role::kStepped && !spec.outputs.empty();
   };
-  if (std::none_of(wishes.begin(), wishes.end(), [](const NodeSpec& wish) { return wish.kind == "recorder"; })) return;
+  if (std::none_of(specs.begin(), specs.end(), [](const NodeSpec& spec) { return spec.kind == "recorder"; })) return;
   Step common = 1;
-  for (const NodeSpec& wish : wishes) {
+  for (const NodeSpec& spec : specs) {
     // Recorders too: one that begins at a snapshot waits for none that lies before.
-    if (has_state(wish) || wish.kind == "recorder") common = std::lcm(common, wish.period);
+    if (has_state(spec) || spec.kind == "recorder") common = std::lcm(common, spec.period);
   }
   every = lockstep::CeilTo(every, common);
-  for (NodeSpec& wish : wishes) {
-    if (has_state(wish)) wish.snapshot_every = every;
+  for (NodeSpec& spec : specs) {
+    if (has_state(spec)) spec.snapshot_every = every;
   }
 }
 
 // Names of the other nodes that publish a topic.
-std::vector<std::string> Publishers(const std::vector<NodeSpec>& wishes, std::string_view topic,
+std::vector<std::string> Publishers(const std::vector<NodeSpec>& specs, std::string_view topic,
                                     const std::string& except) {
   std::vector<std::string> names;
-  for (const NodeSpec& wish : wishes) {
-    if (wish.name == except) continue;
-    if (topic == lockstep::kSnapshotTopic && wish.snapshot_every > 0) names.push_back(wish.name);
-    for (const std::string& output : wish.outputs) {
-      if (output == topic) names.push_back(wish.name);
+  for (const NodeSpec& spec : specs) {
+    if (spec.name == except) continue;
+    if (topic == lockstep::kSnapshotTopic && spec.snapshot_every > 0) names.push_back(spec.name);
+    for (const std::string& output : spec.outputs) {
+      if (output == topic) names.push_back(spec.name);
     }
   }
   return names;
 }
 
 // Wires a node's inputs: as `inputs` says, otherwise to everybody else who publishes the topic.
-void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSpec>& wishes, NodeSpec& wish) {
+void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSpec>& specs, NodeSpec& spec) {
   const config::Map inputs = map.OptionalChild("inputs");
   for (const KindPort& port : kind.inputs) {
     const std::string key = ShortName(port.topic);
@@ -144,18 +144,18 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSp
       const config::List names = inputs.OptionalItems(key);
       for (std::size_t i = 0; i < names.size(); ++i) out.sources.push_back(names.Text(i));
     } else {
-      out.sources = Publishers(wishes, port.topic, wish.name);
+      out.sources = Publishers(specs, port.topic, spec.name);
       if (!port.many && out.sources.size() > 1) {
         map.Problem("kind",
                     fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'",
-                                wish.name, key, out.sources.size(), fmt::join(out.sources, ", ")));
+                                spec.name, key, out.sources.size(), fmt::join(out.sources, ", ")));
       }
     }
     if (!port.many && out.sources.size() > 1) out.sources.resize(1);
     if (port.required && out.sources.empty()) {
-      map.Problem("kind", fmt::format("node '{}' needs '{}', but no node publishes it", wish.name, key));
+      map.Problem("kind", fmt::format("node '{}' needs '{}', but no node publishes it", spec.name, key));
     }
-    if (!out.sources.empty()) wish.inputs.push_back(std::move(out));
+    if (!out.sources.empty()) spec.inputs.push_back(std::move(out));
   }
 }
 
@@ -263,7 +263,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
 
   launch.recovery_ = ReadPolicy(root, "stop");
   const config::Map nodes = root.Child("nodes");
-  std::vector<NodeSpec> wishes;
+  std::vector<NodeSpec> specs;
   std::vector<config::Map> maps;
   std::vector<Manifest> manifests;
   for (const std::string& name : nodes.Keys()) {
@@ -275,12 +275,12 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
                     launch.recovery_};
     if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
     map.IgnoreKey("config");
-    wishes.push_back(ReadNode(map, name, *kind.value(), base_step_ns));
+    specs.push_back(ReadNode(map, name, *kind.value(), base_step_ns));
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
   AddToRecorders(launch.topics_, launch.nodes_);
-  SetSnapshots(root, base_step_ns, wishes);
+  SetSnapshots(root, base_step_ns, specs);
   ExceptLiveInput(maps, launch.nodes_);
   for (const Manifest& manifest : manifests) {
     const base::Status inputs = CheckInputs(manifest, launch.topics_);
@@ -290,10 +290,10 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     if (auto status = launch.file_->Finish(); !status) return status.error();
     return inputs.error();
   }
-  for (std::size_t n = 0; n < wishes.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, wishes, wishes[n]);
+  for (std::size_t n = 0; n < specs.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, specs, specs[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
-  if (wishes.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());
-  auto roster = lockstep::Roster::Create(base_step_ns, window, wishes);
+  if (specs.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());
+  auto roster = lockstep::Roster::Create(base_step_ns, window, specs);
   if (!roster) return base::WrongInput(roster.error().Text(), launch.path().string());
   launch.roster_ = std::make_shared<const lockstep::Roster>(std::move(roster).value());
   return launch;

@@ -63,7 +63,7 @@ class NodeContext {
   virtual ground::Ground& Ground() = 0;
   /// Says whether the ground is in this process.
   /// @return true: a query costs no round trip
-  virtual bool ground_is_here() const { return false; }
+  virtual bool has_local_ground() const { return false; }
   /// Gives the world of the run. Waits for the road server.
   /// @return the world; failed if the road server does not send it
   virtual base::Result<WorldSummary> World() = 0;
@@ -84,14 +84,15 @@ class NodeContext {
   virtual std::unique_ptr<RunLogReceiver> RunLog() { return nullptr; }
   /// Says whether this process continues the work of an earlier one that was lost (for recorders).
   /// @return true: the node was restarted and its file is continued
-  virtual bool is_another_life() const { return false; }
-  /// Asks the clock for the last step that an earlier process of this recorder has reported as written (SafeTeller).
+  virtual bool is_restarted() const { return false; }
+  /// Asks the clock for the last step that an earlier process of this recorder has reported as written
+  /// (RecordedStepReporter).
   /// @return the step; -1 if none was reported; failed if the clock does not answer
-  virtual base::Result<lockstep::Step> SafeStep() { return lockstep::Step{-1}; }
+  virtual base::Result<lockstep::Step> LastRecordedStep() { return lockstep::Step{-1}; }
   /// Gives a function by which a recorder reports that all samples valid through a step are in its file. Other nodes
   /// then need not keep them for a restart of the recorder.
   /// @return the function, which may outlive this context; null if the host does not need it
-  virtual std::function<void(lockstep::Step)> SafeTeller() { return nullptr; }
+  virtual std::function<void(lockstep::Step)> RecordedStepReporter() { return nullptr; }
   /// Hands over a sample that a continued file already holds, for other nodes that are lost meanwhile.
   /// @param sample the sample
   /// @return wrong input if it contradicts known samples

@@ -22,7 +22,7 @@ constexpr std::size_t Layout() {
        {sizeof(NodeContext), sizeof(Launch), sizeof(LaunchNode), sizeof(NodeKind), sizeof(config::Map),
         sizeof(lockstep::Roster), sizeof(lockstep::RosterNode), sizeof(lockstep::StepInfo), sizeof(lockstep::Inbox),
         sizeof(lockstep::Outbox), sizeof(lockstep::Sample), sizeof(lockstep::Node), sizeof(base::StateWriter),
-        sizeof(base::StateReader), sizeof(base::Error), sizeof(MadeNode), sizeof(idl::TopicTable)})
+        sizeof(base::StateReader), sizeof(base::Error), sizeof(NodeResult), sizeof(idl::TopicTable)})
     layout = layout * 1'000'003 + size;
   return layout;
 }
@@ -35,7 +35,7 @@ class NodeWithoutState final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     return node_->Step(step, inbox, outbox);
   }
-  base::Status Settle() override { return node_->Settle(); }
+  base::Status Flush() override { return node_->Flush(); }
   bool runs_inline() const override { return node_->runs_inline(); }
   void Save(base::StateWriter& out) const override { node_->Save(out); }
   void Restore(base::StateReader& in) override { node_->Restore(in); }
@@ -74,9 +74,9 @@ base::Status CheckCompiledTypes(const NodeContext& context) {
 base::Result<NodeFactory> LoadNodeLibrary(const std::filesystem::path& path) {
   const auto entry = base::LoadSharedObject(path, {kBuildEntry, kMakeEntry, "RODEIRA_NODE"}, NodeBuild());
   if (!entry) return entry.error();
-  const auto make = reinterpret_cast<void (*)(NodeContext&, MadeNode&)>(entry.value());
+  const auto make = reinterpret_cast<void (*)(NodeContext&, NodeResult&)>(entry.value());
   return NodeFactory([make](NodeContext& context) -> base::Result<std::unique_ptr<lockstep::Node>> {
-    MadeNode made;
+    NodeResult made;
     make(context, made);
     RODEIRA_ASSERT(made.has_value());
     return std::move(*made);

@@ -16,7 +16,7 @@ namespace rodeira::launch {
 // between them. Compiled into each of both.
 std::string NodeBuild();
 
-using MadeNode = std::optional<base::Result<std::unique_ptr<lockstep::Node>>>;
+using NodeResult = std::optional<base::Result<std::unique_ptr<lockstep::Node>>>;
 
 // The entry points of a shared object, written by RODEIRA_NODE.
 inline constexpr const char* kBuildEntry = "rodeira_node_build";

@@ -34,7 +34,7 @@ class Node {
   /// restarted node need not repeat it. Called after each activation, before its progress is reported. The deadline of
   /// a step does not apply.
   /// @return an error if the work failed
-  virtual base::Status Settle() { return {}; }
+  virtual base::Status Flush() { return {}; }
 
   /// Says whether the node's steps are short, use no ground server, and may run on any thread, one at a time. They then
   /// run on the thread that receives the last input, without a switch between threads.

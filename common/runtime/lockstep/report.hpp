@@ -23,7 +23,7 @@ enum class Phase : std::uint32_t {
   kLost = 6,      // its process died or was stopped, says who watched it
 };
 
-// kOutput: for what it has made, to be written (Node::Settle).
+// kOutput: for what it has made, to be written (Node::Flush).
 enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3, kOutput = 4 };
 
 // What a node tells the clock: its progress each quarter window, before it blocks on the grant, and as a heartbeat.

@@ -11,21 +11,21 @@
 namespace rodeira::lockstep {
 namespace {
 
-base::Status CheckNode(const NodeSpec& wish) {
-  const std::string where = fmt::format("node '{}'", wish.name);
-  if (wish.name.empty()) return base::WrongInput("a node has no name");
-  if (wish.role == Role::kService && (!wish.outputs.empty() || !wish.inputs.empty())) {
+base::Status CheckNode(const NodeSpec& spec) {
+  const std::string where = fmt::format("node '{}'", spec.name);
+  if (spec.name.empty()) return base::WrongInput("a node has no name");
+  if (spec.role == Role::kService && (!spec.outputs.empty() || !spec.inputs.empty())) {
     return base::WrongInput("a service has neither inputs nor outputs in the lockstep", where);
   }
-  if (wish.period < 1)
-    return base::WrongInput(fmt::format("period {} was found, at least 1 step was expected", wish.period), where);
-  if (wish.delay != 0 && (wish.delay < wish.period || wish.delay % wish.period != 0)) {
+  if (spec.period < 1)
+    return base::WrongInput(fmt::format("period {} was found, at least 1 step was expected", spec.period), where);
+  if (spec.delay != 0 && (spec.delay < spec.period || spec.delay % spec.period != 0)) {
     return base::WrongInput(
-        fmt::format("delay {} was found, a multiple of the period {} was expected", wish.delay, wish.period), where);
+        fmt::format("delay {} was found, a multiple of the period {} was expected", spec.delay, spec.period), where);
   }
-  if (wish.snapshot_every < 0 || wish.snapshot_every % wish.period != 0) {
+  if (spec.snapshot_every < 0 || spec.snapshot_every % spec.period != 0) {
     return base::WrongInput(fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected",
-                                        wish.snapshot_every, wish.period),
+                                        spec.snapshot_every, spec.period),
                             where);
   }
   return {};
@@ -55,20 +55,20 @@ base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<Ro
 
 }  // namespace
 
-base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& wishes) {
+base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& specs) {
   if (base_step_ns < 1)
     return base::WrongInput(fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
   if (window < 1) return base::WrongInput(fmt::format("window {} was found, at least 1 step was expected", window));
   Roster roster;
   roster.base_step_ns_ = base_step_ns;
   roster.window_ = window;
-  for (const NodeSpec& wish : wishes) {
-    if (auto status = CheckNode(wish); !status) return status.error();
-    if (roster.Find(wish.name) != roster.nodes_.size())
-      return base::WrongInput(fmt::format("two nodes are named '{}'", wish.name));
-    RosterNode node{wish.name,        wish.kind, wish.role, wish.period, wish.delay == 0 ? wish.period : wish.delay,
-                    wish.deadline_ms, {},        {},        {}};
-    for (const std::string& topic : wish.outputs) {
+  for (const NodeSpec& spec : specs) {
+    if (auto status = CheckNode(spec); !status) return status.error();
+    if (roster.Find(spec.name) != roster.nodes_.size())
+      return base::WrongInput(fmt::format("two nodes are named '{}'", spec.name));
+    RosterNode node{spec.name,        spec.kind, spec.role, spec.period, spec.delay == 0 ? spec.period : spec.delay,
+                    spec.deadline_ms, {},        {},        {}};
+    for (const std::string& topic : spec.outputs) {
       node.outputs.push_back(static_cast<SourceIndex>(roster.sources_.size()));
       roster.sources_.push_back({static_cast<NodeIndex>(roster.nodes_.size()), topic, node.period, node.delay});
     }
@@ -76,28 +76,28 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
   }
   // Behind all others, so that who keeps snapshots changes no other source's number.
   for (NodeIndex n = 0; n < roster.nodes_.size(); ++n) {
-    if (wishes[n].snapshot_every == 0) continue;
+    if (specs[n].snapshot_every == 0) continue;
     roster.nodes_[n].snapshots = static_cast<SourceIndex>(roster.sources_.size());
-    roster.sources_.push_back({n, std::string(kSnapshotTopic), wishes[n].snapshot_every, wishes[n].snapshot_every});
+    roster.sources_.push_back({n, std::string(kSnapshotTopic), specs[n].snapshot_every, specs[n].snapshot_every});
   }
-  for (std::size_t n = 0; n < wishes.size(); ++n) {
-    for (const PortSpec& wish : wishes[n].inputs) {
-      Port port{wish.topic, wish.kind, {}};
-      for (const std::string& name : wish.sources) {
+  for (std::size_t n = 0; n < specs.size(); ++n) {
+    for (const PortSpec& spec : specs[n].inputs) {
+      Port port{spec.topic, spec.kind, {}};
+      for (const std::string& name : spec.sources) {
         const NodeIndex from = roster.Find(name);
-        const std::string where = fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic);
+        const std::string where = fmt::format("node '{}', input '{}'", specs[n].name, spec.topic);
         if (from == roster.nodes_.size()) {
           return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
                                   where);
         }
-        if (wish.topic == kSnapshotTopic && roster.nodes_[from].snapshots) {
+        if (spec.topic == kSnapshotTopic && roster.nodes_[from].snapshots) {
           if (!roster.nodes_[n].is_sink()) return base::WrongInput("only a sink can be wired to snapshots", where);
           port.sources.push_back(*roster.nodes_[from].snapshots);
           continue;
         }
         const auto& outputs = roster.nodes_[from].outputs;
         const auto found = std::find_if(outputs.begin(), outputs.end(),
-                                        [&](SourceIndex s) { return roster.sources_[s].topic == wish.topic; });
+                                        [&](SourceIndex s) { return roster.sources_[s].topic == spec.topic; });
         if (found == outputs.end())
           return base::WrongInput(fmt::format("node '{}' does not publish this topic", name), where);
         port.sources.push_back(*found);
@@ -106,11 +106,11 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
       for (const Port& other : roster.nodes_[n].inputs) {
         if (other.topic == port.topic)
           return base::WrongInput("the topic is wired to two inputs",
-                                  fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
+                                  fmt::format("node '{}', input '{}'", specs[n].name, spec.topic));
       }
       if (std::adjacent_find(port.sources.begin(), port.sources.end()) != port.sources.end()) {
         return base::WrongInput("a source is wired twice",
-                                fmt::format("node '{}', input '{}'", wishes[n].name, wish.topic));
+                                fmt::format("node '{}', input '{}'", specs[n].name, spec.topic));
       }
       roster.nodes_[n].inputs.push_back(std::move(port));
     }

@@ -98,10 +98,10 @@ class Roster {
   /// Makes a roster from the nodes of a launch file.
   /// @param base_step_ns length of a base step in ns, at least 1
   /// @param window steps that the clock grants ahead of the slowest node, at least 1
-  /// @param wishes the nodes, in the order of the launch file
+  /// @param specs the nodes, in the order of the launch file
   /// @return the roster; wrong input if a name stands twice, a period is below 1, or a delay is no multiple of its
   ///   period. A source that does not exist or does not publish the topic is wrong input, too.
-  static base::Result<Roster> Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& wishes);
+  static base::Result<Roster> Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& specs);
 
   /// Gives the length of a base step.
   /// @return nanoseconds

@@ -133,10 +133,10 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
 
 // A step counts as progress only when the node's own threads have done what it gave to them: a restarted node begins
 // behind the progress that was told.
-base::Status Runner::SettleStep() {
+base::Status Runner::FlushStep() {
   if (settled_ == next_) return {};
   Note(Phase::kRunning, Waiting::kOutput);
-  if (auto status = node_.Settle(); !status) return status;
+  if (auto status = node_.Flush(); !status) return status;
   settled_ = next_;
   const std::lock_guard lock(report_mutex_);
   report_.progress = next_;
@@ -148,7 +148,7 @@ base::Status Runner::SettleStep() {
 Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   // Progress is told each quarter window, and before blocking on the grant (law L2): so the clock always knows enough
   // to grant the slowest node's next activation, and no more is ever said.
-  if (auto status = SettleStep(); !status) return Fail(status.error());
+  if (auto status = FlushStep(); !status) return Fail(status.error());
   const bool granted = mailbox_.IsGranted(next_);
   if (told_ < next_ && (!granted || next_ - told_ >= std::max<Step>(roster_.window() / 4, 1))) TellReport();
   switch (mailbox_.WaitForActivation(next_, limit)) {

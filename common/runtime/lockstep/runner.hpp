@@ -51,7 +51,7 @@ class Runner {
 
   Outcome Begin();
   Outcome AwaitInputs(std::chrono::milliseconds limit);
-  base::Status SettleStep();
+  base::Status FlushStep();
   Outcome Activate(std::chrono::milliseconds limit);
   Outcome End(std::chrono::milliseconds limit);
   Outcome Fail(const base::Error& error);

@@ -67,11 +67,11 @@ void CarArray::StepRange(std::span<const Controls> controls, double dt_s, std::s
   }
 }
 
-void CarArray::Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew) {
+void CarArray::Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::ThreadPool* pool) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   RODEIRA_ASSERT(controls.size() == cars_.size());
   QueryGround(ground);
-  base::Share(crew, cars_.size(), [&](std::size_t from, std::size_t to) { StepRange(controls, dt_s, from, to); });
+  base::ParallelFor(pool, cars_.size(), [&](std::size_t from, std::size_t to) { StepRange(controls, dt_s, from, to); });
 }
 
 void CarArray::Save(base::StateWriter& writer) const {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "common/core/base/crew.hpp"
 #include "common/core/base/result.hpp"
 #include "common/core/base/state.hpp"
+#include "common/core/base/thread_pool.hpp"
 #include "common/core/ground/ground.hpp"
 #include "common/vehicle/dynamics/bicycle_car.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
@@ -36,8 +36,8 @@ class CarArray {
 
   // Each car with its controls (of the array's size) held for dt_s, over 0 and at most 0.1 s. The ground is asked once,
   // one batch of all wheels in the order of the cars (law L4); then each car goes by itself, in substeps of at most 1
-  // ms on these planes. By how large a crew (none: alone) changes no bit.
-  void Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::Crew* crew = nullptr);
+  // ms on these planes. The number of threads changes no bit.
+  void Step(std::span<const Controls> controls, ground::Ground& ground, double dt_s, base::ThreadPool* pool = nullptr);
 
   std::size_t size() const { return cars_.size(); }
   const BicycleCar& car(std::size_t i) const { return cars_[i]; }

@@ -79,7 +79,7 @@ void MultibodyModel::FillTranslation(const Eigen::Vector3d& v_W, std::span<doubl
 // anchors have had: across by toe and camber and, where that does not hold the car (on a slope across), by load; along
 // what is missing, by the driven wheels. Returns what the anchors still had to hold, in N.
 double MultibodyModel::UpdateCruise(const InitialCondition& initial, Cruise& cruise) {
-  const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
+  const Plane under = GroundPlane({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
   const Eigen::Vector3d forward = X_WB().linear().col(0);
   const Eigen::Vector3d along = (forward - forward.dot(under.normal_W) * under.normal_W).normalized(),
                         across = under.normal_W.cross(along);

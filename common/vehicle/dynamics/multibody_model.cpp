@@ -106,7 +106,7 @@ void MultibodyModel::Step(const Controls& controls, ground::Ground& ground, doub
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   const Controls clamped = Clamp(controls);
   QueryGround(ground);
-  const Plane under = PlaneUnder({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
+  const Plane under = GroundPlane({&wheels_[0], &wheels_[1], &wheels_[2], &wheels_[3]});
   body_load_->SetGround(under.point_W, under.normal_W);
   body_load_->SetPush(push_);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));

@@ -88,7 +88,7 @@ void OdeModel::Step(const Controls& controls, ground::Ground& ground, double dt_
   car_->Give(now_.bodies);  // what a snapshot knows, and nothing else
   now_.bodies = car_->bodies();
   QueryGround(ground);
-  const Plane under = PlaneUnder({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
+  const Plane under = GroundPlane({&now_.wheels[0], &now_.wheels[1], &now_.wheels[2], &now_.wheels[3]});
   car_->SetGround(under.point_W, under.normal_W);
   const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s / settings_.longest_substep_s - 1e-6)));
   for (int i = 0; i < substeps; ++i) Substep(clamped, dt_s / substeps);

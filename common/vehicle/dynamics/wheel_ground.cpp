@@ -39,7 +39,7 @@ void QueryGround(ground::Ground& ground, const std::array<Eigen::Vector3d, kWhee
   for (std::size_t i = 0; i < kWheels; ++i) wheels[i]->Update(queries[i], points[i]);
 }
 
-Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels) {
+Plane GroundPlane(const std::array<const WheelGround*, kWheels>& wheels) {
   const Eigen::Vector3d rising = wheels[kFrontLeft]->plane_W - wheels[kRearRight]->plane_W;
   const Eigen::Vector3d falling = wheels[kFrontRight]->plane_W - wheels[kRearLeft]->plane_W;
   Eigen::Vector3d normal = falling.cross(rising);

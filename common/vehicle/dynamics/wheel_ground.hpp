@@ -52,6 +52,6 @@ struct Plane {
 /// diagonals of those points.
 /// @param wheels ground under each wheel, in the order of WheelIndex; not null
 /// @return the plane; level if the points lie too steeply for a ground
-Plane PlaneUnder(const std::array<const WheelGround*, kWheels>& wheels);
+Plane GroundPlane(const std::array<const WheelGround*, kWheels>& wheels);
 
 }  // namespace rodeira::dynamics

@@ -218,7 +218,7 @@ SurfacePoint BuiltGround::At(double x_m, double y_m, double z_hint_m) const {
   std::stable_sort(layers.begin(), layers.end(), [](const Layer& a, const Layer& b) { return a.z_m > b.z_m; });
   const Layer* chosen = &layers.back();
   for (const Layer& layer : layers) {
-    if (layer.z_m > z_hint_m + ground::kHintAbove_m) continue;  // NaN: the first
+    if (layer.z_m > z_hint_m + ground::kMaxAboveHint_m) continue;  // NaN: the first
     chosen = &layer;
     break;
   }

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <thread>
 
 #include "common/core/base/assert.hpp"
-#include "common/core/base/crew.hpp"
 #include "common/core/base/random.hpp"
+#include "common/core/base/thread_pool.hpp"
 #include "common/world/road/decks.hpp"
 
 namespace rodeira::road {
@@ -195,9 +194,8 @@ terrain::ElevationGrid MakeHills(const HillsSpec& spec, std::span<const AxisPoin
           static_cast<float>(z);
     }
   };
-  base::Crew crew(std::max(
-      1u, std::thread::hardware_concurrency()));  // each post by itself: the same bits by any number of threads
-  crew.Share(static_cast<std::size_t>(spec.columns), [&](std::size_t begin, std::size_t end) {
+  base::ThreadPool pool(0);  // each post by itself: the same bits by any number of threads
+  pool.ParallelFor(static_cast<std::size_t>(spec.columns), [&](std::size_t begin, std::size_t end) {
     for (std::size_t column = begin; column < end; ++column) fill(static_cast<int>(column));
   });
   const terrain::ElevationGrid::Frame frame{spec.columns,

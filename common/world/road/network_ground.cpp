@@ -85,7 +85,7 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
   network.Surfaces(p_W.x(), p_W.y(), surfaces);
   const network::JunctionGround* open = network.GroundAt(p_W);
   const double between_z = open == nullptr ? 0.0 : open->At(p_W).z_m;
-  const bool meant = open != nullptr && !(between_z > z_hint_m + ground::kHintAbove_m);
+  const bool meant = open != nullptr && !(between_z > z_hint_m + ground::kMaxAboveHint_m);
   thread_local std::vector<Layer> layers;
   std::size_t count;
   FindLayers(network, surfaces, open == nullptr, layers, count);  // where a road goes on over a gap, the junction lies
@@ -93,7 +93,7 @@ Answer Find(const Network& network, const NetworkLand& land, const Eigen::Vector
   for (const Layer& layer : std::span(layers).first(count)) {
     const bool its_own = open != nullptr && network.roads()[layer.named->place.lane.road].spec().ground.get() == open;
     if (meant && between_z > layer.z_m && !its_own) return {nullptr, open, {}};
-    if (!(layer.z_m > z_hint_m + ground::kHintAbove_m)) return {&layer, nullptr, {}};  // NaN: the first
+    if (!(layer.z_m > z_hint_m + ground::kMaxAboveHint_m)) return {&layer, nullptr, {}};  // NaN: the first
     lowest = &layer;
   }
   if (meant) return {nullptr, open, {}};

@@ -15,7 +15,7 @@ bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& g
   if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road, cluster.low_s_m, cluster.high_s_m)))
     return false;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (cluster.z_m[i] > queries[i].z_hint_m + ground::kHintAbove_m) return false;  // what is below is asked for
+    if (cluster.z_m[i] > queries[i].z_hint_m + ground::kMaxAboveHint_m) return false;  // what is below is asked for
     if (network.GroundAt({queries[i].x_m, queries[i].y_m}) != nullptr) return false;
   }
   ClusterNormals normals;

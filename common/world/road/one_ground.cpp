@@ -230,7 +230,7 @@ void FindLayers(const Network& network, std::span<const Surfacing> surfaces, boo
       const double below = top - left[i]->sample.p_W.z();
       const network::RoadSpec& spec = network.roads()[left[i]->place.lane.road].spec();
       const bool one =
-          below <= ground::kHintAbove_m ||
+          below <= ground::kMaxAboveHint_m ||
           (below < Network::kLevel_m && std::any_of(layer.roads.begin(), layer.roads.end(), [&](const Surfacing* road) {
              return AreOfOne(network.roads()[road->place.lane.road].spec(), spec);
            }));

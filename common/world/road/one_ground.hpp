@@ -43,8 +43,8 @@ struct Layer {
 };
 
 // From the highest to the lowest layer, of what Network::Surfaces found. Of one layer are roads of one junction, those
-// that lead into it too, within Network::kLevel_m of the highest; others within ground::kHintAbove_m, where no hint can
-// tell them apart. past_ends: whether the ground behind an end that is closed counts.
+// that lead into it too, within Network::kLevel_m of the highest; others within ground::kMaxAboveHint_m, where no hint
+// can tell them apart. past_ends: whether the ground behind an end that is closed counts.
 void FindLayers(const network::Network& network, std::span<const network::Surfacing> surfaces, bool past_ends,
                 std::vector<Layer>& layers, std::size_t& count);
 

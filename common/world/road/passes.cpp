@@ -62,7 +62,7 @@ std::vector<OpenTunnel> FindOpenTunnels(const network::Network& network, const B
           const Eigen::Vector3d p = road.Surface(s, t).p_W;
           const SurfacePoint ground = terrain.At(p.x(), p.y());
           const double hill_m = ground.z_m - p.z();
-          if (!ground.inside || !(hill_m > 0.0) || hill_m > ground::kHintAbove_m ||
+          if (!ground.inside || !(hill_m > 0.0) || hill_m > ground::kMaxAboveHint_m ||
               (lowest && lowest->hill_m <= hill_m))
             continue;
           lowest = OpenTunnel{index, structure.s_m, structure.s_m + structure.length_m, s, hill_m};

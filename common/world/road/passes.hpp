@@ -23,7 +23,7 @@ struct Pass {
 std::vector<Pass> FindPasses(const network::Network& network);
 
 // A tunnel over whose lanes the terrain, as it is without roads, lies by no more than the step that a car is taken to
-// climb (ground::kHintAbove_m): it would drive on the terrain. Where the terrain lies under the road the road itself
+// climb (ground::kMaxAboveHint_m): it would drive on the terrain. Where the terrain lies under the road the road itself
 // answers.
 struct OpenTunnel {
   std::uint32_t road = 0;

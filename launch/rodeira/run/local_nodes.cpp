@@ -21,7 +21,7 @@ class LocalContext final : public launch::NodeContext {
     RODEIRA_ASSERT(ground_ != nullptr);  // World() comes first and refuses
     return *ground_;
   }
-  bool ground_is_here() const override { return true; }
+  bool has_local_ground() const override { return true; }
   base::Result<launch::WorldSummary> World() override {
     if (world_ == nullptr)
       return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());

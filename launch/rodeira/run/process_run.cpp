@@ -19,8 +19,8 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
-#include "launch/rodeira/run/crew.hpp"
 #include "launch/rodeira/run/failure_report.hpp"
+#include "launch/rodeira/run/node_processes.hpp"
 #include "launch/rodeira/run/operator.hpp"
 #include "launch/rodeira/run/run_report.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
@@ -42,7 +42,7 @@ class ProcessRun {
       : options_(options),
         placement_(placement),
         launch_(launch),
-        crew_(options, placement, launch, std::move(overrides)) {
+        processes_(options, placement, launch, std::move(overrides)) {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
     if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
@@ -55,14 +55,14 @@ class ProcessRun {
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
-    base::Status status = crew_.StartClock();
-    if (status.ok() && placement_.has_clock()) status = crew_.StartNodes();
+    base::Status status = processes_.StartClock();
+    if (status.ok() && placement_.has_clock()) status = processes_.StartNodes();
     if (!status) {
-      crew_.EndAll(report_.ended, interrupted_at_);
+      processes_.EndAll(report_.ended, interrupted_at_);
       return base::PrintError("rodeira", status.error());
     }
     status = Watch();
-    crew_.EndAll(report_.ended, interrupted_at_);
+    processes_.EndAll(report_.ended, interrupted_at_);
     RemoveLeftOvers(before_);
     if (!status) return base::PrintError("rodeira", status.error());
     Close();
@@ -71,8 +71,8 @@ class ProcessRun {
 
  private:
   base::Status RestartClock(const std::string& reason) {
-    const Crew::ClocksPlace place{report_.clock_id, report_.begun_ns, report_.pace, report_.paused};
-    if (auto status = crew_.RestartClock(place); !status) return status;
+    const NodeProcesses::ClocksPlace place{report_.clock_id, report_.begun_ns, report_.pace, report_.paused};
+    if (auto status = processes_.RestartClock(place); !status) return status;
     pending_.clear();
     told_.clear();  // the old one may have died before it heard
     for (const auto& [number, answer] : answers_) answer("failed the clock was lost; ask again");
@@ -82,7 +82,7 @@ class ProcessRun {
     return {};
   }
   base::Status RestartNode(const RunReport::Restart& wish) {
-    const auto done = crew_.RestartNode(wish.node, wish.life);
+    const auto done = processes_.RestartNode(wish.node, wish.life);
     if (!done) return done.error();
     if (!done.value()) return {};
     told_.erase(wish.node);
@@ -95,8 +95,8 @@ class ProcessRun {
     while (true) {
       ReadClock(50);
       // Beside a clock elsewhere nothing begins before it is met: this PC may wait for the others as long as it likes.
-      if (report_.met && !crew_.has_nodes()) {
-        if (auto status = crew_.StartNodes(); !status) return status;
+      if (report_.met && !processes_.has_nodes()) {
+        if (auto status = processes_.StartNodes(); !status) return status;
       }
       for (const RunReport::Restart& wish : std::exchange(report_.wanted, {})) {
         if (auto status = RestartNode(wish); !status) return status;
@@ -106,8 +106,8 @@ class ProcessRun {
              "; the run waits: it goes on when the node does; `rodeira ctl restart NODE` or `rodeira ctl stop` decide "
              "otherwise");
       }
-      crew_.Poll();
-      Child& clock = crew_.clock();
+      processes_.Poll();
+      Child& clock = processes_.clock();
       if ((clock.ended() || clock.stopped()) && MayRestartClock()) {
         if (auto status = RestartClock(fmt::format("the clock {} at about step {}", clock.Fate(), report_.step));
             !status)
@@ -125,7 +125,7 @@ class ProcessRun {
         if (!report_.ended) Fault(fmt::format("the {} {} at about step {}", clock.name(), clock.Fate(), report_.step));
         return {};
       }
-      for (const Child& child : crew_.children()) {
+      for (const Child& child : processes_.children()) {
         if (&child == &clock) continue;
         if (Broken(child)) {
           TellClock(child);
@@ -146,7 +146,7 @@ class ProcessRun {
       // What would end a line or a text is no part of a command.
       std::replace_if(
           asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
-      crew_.clock().Send(fmt::format("do {} {}", ++asked_, asked->line));
+      processes_.clock().Send(fmt::format("do {} {}", ++asked_, asked->line));
       answers_[asked_] = std::move(asked->answer);
     }
   }
@@ -172,14 +172,14 @@ class ProcessRun {
     const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
     if (node.recovery == lockstep::Policy::kStop)
       Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
-    crew_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
+    processes_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
   }
   // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
   // number yet (0) is known to nobody: another one draws its own.
   bool MayRestartClock() {
     while (ReadClock(0)) {
     }
-    const Child& clock = crew_.clock();
+    const Child& clock = processes_.clock();
     const bool by_itself = clock.ended() && clock.exit_status() && *clock.exit_status() <= 2;
     if (by_itself || report_.ended || !fault_.empty() || g_interrupts > 0) return false;
     if (!placement_.has_clock() || launch_.recovery() != lockstep::Policy::kRestart) return false;
@@ -200,7 +200,7 @@ class ProcessRun {
 
   // Reads what the clock has said; false where there was nothing.
   bool ReadClock(int wait_ms) {
-    const int out = crew_.clock().out();
+    const int out = processes_.clock().out();
     pollfd waiting{out, POLLIN, 0};
     if (::poll(&waiting, 1, wait_ms) <= 0) return false;
     char buffer[4096];
@@ -227,7 +227,7 @@ class ProcessRun {
     if (options_.quiet || ::isatty(STDERR_FILENO) == 0 || WallClock::now() - start_ < 2s) return;
     if (!report_.ready) {
       fmt::print(stderr, "\r\033[Kwaiting for {}{}", report_.waiting_for,
-                 crew_.has_nodes() ? "" : " on " + placement_.ClocksPlace());
+                 processes_.has_nodes() ? "" : " on " + placement_.ClocksPlace());
     } else {
       const double simulated_s =
           static_cast<double>(report_.step) * static_cast<double>(launch_.roster().base_step_ns()) * 1e-9;
@@ -251,8 +251,8 @@ class ProcessRun {
   void LeaveReport() const {
     if (ExitStatus() != 1) return;
     std::vector<FailedPart> parts;
-    for (const Child& child : crew_.children())
-      parts.push_back({child.name(), child.Fate(), crew_.LogOf(child.name())});
+    for (const Child& child : processes_.children())
+      parts.push_back({child.name(), child.Fate(), processes_.LogOf(child.name())});
     const auto file = FailureFile(options_.record, launch_.name());
     const std::string fault = fault_.empty() ? "the run did not end in order" : fault_;
     const auto written = base::WriteWhole(file, FailureText(fault, launch_, parts));
@@ -264,7 +264,7 @@ class ProcessRun {
 
   int ExitStatus() const {
     if (report_.ok && fault_.empty()) return 0;
-    for (const Child& child : crew_.children()) {
+    for (const Child& child : processes_.children()) {
       if (child.exit_status() == 2) return 2;
     }
     return 1;
@@ -273,7 +273,7 @@ class ProcessRun {
   const RunOptions& options_;
   const Placement& placement_;
   const launch::Launch& launch_;
-  Crew crew_;
+  NodeProcesses processes_;
   std::set<std::string> before_;
   RunReport report_;
   std::string fault_;

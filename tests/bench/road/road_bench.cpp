@@ -177,7 +177,8 @@ void FilePatch(benchmark::State& state, const char* name, bool overlapping) {
     const double s = base::RandomUniform({i, 2}, network.Section(key).s_m, network.Section(key).end_s_m);
     const Eigen::Vector3d p = network.Centre(key, s);
     network.Surfaces(p.x(), p.y(), surfaces);
-    if (overlapping && !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < ground::kHintAbove_m))
+    if (overlapping &&
+        !(surfaces.size() > 1 && surfaces[0].place.z_m - surfaces[1].place.z_m < ground::kMaxAboveHint_m))
       continue;
     patches.push_back(
         {p.x(), p.y(), network.roads()[key.road].axis().Evaluate(s).heading_rad, 0.2, 0.18, 20, 20, p.z()});

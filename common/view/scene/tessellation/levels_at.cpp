@@ -67,7 +67,7 @@ void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t 
     const double z = levels.back().z_m;
     bool deeper = false;
     if (IsDeck(world, p_W, z)) {
-      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - ground::kHintAbove_m - kSameLevel_m);
+      const road::SurfacePoint below = world.At(p_W.x(), p_W.y(), z - ground::kMaxAboveHint_m - kSameLevel_m);
       if (!below.inside || !(below.z_m < z - kSameLevel_m)) break;
       levels.push_back(below);
       continue;

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <cmath>
 #include <set>
-#include <thread>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/thread_pool.hpp"
 #include "common/core/tessellation/noding.hpp"
 #include "common/view/scene/breaklines/laid_lines.hpp"
 #include "common/view/scene/breaklines/structure_lines.hpp"
@@ -89,7 +89,7 @@ Line3 BorderOf(const road::Extents& e) {
 
 void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& work,
                    const std::function<void(std::size_t)>& told) {
-  if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
+  base::ThreadPool pool(threads);
   std::atomic<std::size_t> next{0}, done{0};
   const auto run = [&](const std::function<void(std::size_t)>& tell) {
     for (std::size_t i = next++; i < count; i = next++) {
@@ -98,10 +98,8 @@ void ForEachAtOnce(std::size_t count, unsigned threads, const std::function<void
       if (tell && so_far < count) tell(so_far);
     }
   };
-  std::vector<std::thread> others;
-  for (unsigned i = 1; i < threads && i < count; ++i) others.emplace_back([&run] { run({}); });
-  run(told);
-  for (std::thread& other : others) other.join();
+  const std::function<void(std::size_t)> silent;
+  pool.ParallelFor(pool.threads(), [&](std::size_t first, std::size_t) { run(first == 0 ? told : silent); });
   if (told) told(count);
 }
 

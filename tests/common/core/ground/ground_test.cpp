@@ -47,7 +47,7 @@ class Floors final : public Ground {
     for (std::size_t i = 0; i < queries.size(); ++i) {
       points[i] = {};
       for (const double z : z_m_) {
-        if (!std::isnan(queries[i].z_hint_m) && z > queries[i].z_hint_m + kHintAbove_m) continue;
+        if (!std::isnan(queries[i].z_hint_m) && z > queries[i].z_hint_m + kMaxAboveHint_m) continue;
         points[i].z_m = z;
         points[i].inside = true;
         break;

@@ -56,10 +56,10 @@ struct Cars {
       EXPECT_TRUE(added.ok()) << (added.ok() ? "" : added.error().Text());
     }
   }
-  void Step(int step, base::Crew* crew = nullptr) {
+  void Step(int step, base::ThreadPool* pool = nullptr) {
     controls.clear();
     for (const std::size_t number : numbers) controls.push_back(Hands(number, step));
-    array.Step(controls, ground, kDecision_s, crew);
+    array.Step(controls, ground, kDecision_s, pool);
   }
   base::Bytes Of(std::size_t i) const {
     base::StateWriter writer;
@@ -107,7 +107,7 @@ TEST(CarArray, EachCarHasTheBitsOfItAlone) {
 
 TEST(CarArray, ThreadsAndCompanyChangeNoBit) {
   HillGround ground(5, {});
-  base::Crew pair(2), quartet(4), many(30);
+  base::ThreadPool pair(2), quartet(4), many(30);
   Cars one(All(), ground), two(All(), ground), four(All(), ground), some({13, 2, 7}, ground);
   for (int step = 0; step < 200; ++step) {
     one.Step(step);

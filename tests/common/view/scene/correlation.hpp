@@ -73,7 +73,7 @@ inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
   double nearest_m = 1e9;
   for (road::SurfacePoint at = world.At(p.x(), p.y()); at.inside;) {
     nearest_m = std::min(nearest_m, std::fabs(at.z_m - p.z()));
-    const road::SurfacePoint below = world.At(p.x(), p.y(), at.z_m - ground::kHintAbove_m - 1e-6);
+    const road::SurfacePoint below = world.At(p.x(), p.y(), at.z_m - ground::kMaxAboveHint_m - 1e-6);
     if (!(below.z_m < at.z_m)) break;
     at = below;
   }

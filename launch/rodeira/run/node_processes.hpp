@@ -18,11 +18,11 @@
 namespace rodeira::cli {
 
 // The processes of a run on this PC: the clock, or who follows it, and the nodes. Started, started again, ended.
-class Crew {
+class NodeProcesses {
  public:
   // All outlive it; options.run is the run's name.
-  Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
-       launch::Overrides overrides);
+  NodeProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+                launch::Overrides overrides);
 
   // The clock, or on the other PCs of a laboratory who follows it. First.
   base::Status StartClock();

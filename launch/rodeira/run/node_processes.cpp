@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "launch/rodeira/run/crew.hpp"
+#include "launch/rodeira/run/node_processes.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -30,15 +30,15 @@ base::Status MakeSureItIsDead(Child& child) {
 
 }  // namespace
 
-Crew::Crew(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
-           launch::Overrides overrides)
+NodeProcesses::NodeProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
+                             launch::Overrides overrides)
     : options_(options),
       placement_(placement),
       launch_(launch),
       overrides_(std::move(overrides)),
       domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(options.run) % 200))) {}
 
-std::vector<std::string> Crew::Command(const std::string& program) const {
+std::vector<std::string> NodeProcesses::Command(const std::string& program) const {
   std::vector<std::string> command{base::FindProgram(program).string(),
                                    "--launch",
                                    launch_.path().string(),
@@ -53,7 +53,7 @@ std::vector<std::string> Crew::Command(const std::string& program) const {
   return command;
 }
 
-std::vector<std::string> Crew::ClockCommand(const std::string& pace) const {
+std::vector<std::string> NodeProcesses::ClockCommand(const std::string& pace) const {
   std::vector<std::string> command = Command("rodeira-clock");
   if (!placement_.has_clock()) {
     command.insert(command.end(), {"--follow", placement_.host()});
@@ -65,7 +65,7 @@ std::vector<std::string> Crew::ClockCommand(const std::string& pace) const {
 }
 
 // Logs lie in logs/LAUNCH among the user's recordings.
-PartLog* Crew::MakeLog(const std::string& name) {
+PartLog* NodeProcesses::MakeLog(const std::string& name) {
   auto& log = logs_[name];
   if (!log) {
     const auto plain = [](std::string text) {
@@ -77,12 +77,12 @@ PartLog* Crew::MakeLog(const std::string& name) {
   return log.get();
 }
 
-const PartLog* Crew::LogOf(const std::string& name) const {
+const PartLog* NodeProcesses::LogOf(const std::string& name) const {
   const auto found = logs_.find(name);
   return found == logs_.end() ? nullptr : found->second.get();
 }
 
-base::Status Crew::StartClock() {
+base::Status NodeProcesses::StartClock() {
   const std::string name = placement_.has_clock() ? "clock" : "follower of the clock";
   auto child = Child::Start(name, ClockCommand(options_.pace), true, MakeLog(name));
   if (!child) return child.error();
@@ -90,7 +90,7 @@ base::Status Crew::StartClock() {
   return {};
 }
 
-base::Status Crew::RestartClock(const ClocksPlace& place) {
+base::Status NodeProcesses::RestartClock(const ClocksPlace& place) {
   if (auto status = MakeSureItIsDead(clock()); !status) return status;
   const std::string pace = place.begun_ns < 0 ? options_.pace
                            : place.pace > 0.0 ? fmt::format("{}", place.pace)
@@ -105,7 +105,7 @@ base::Status Crew::RestartClock(const ClocksPlace& place) {
   return {};
 }
 
-base::Status Crew::StartNodes() {
+base::Status NodeProcesses::StartNodes() {
   has_nodes_ = true;
   for (const launch::LaunchNode& node : launch_.nodes()) {
     if (!placement_.Has(node)) continue;
@@ -118,7 +118,7 @@ base::Status Crew::StartNodes() {
   return {};
 }
 
-base::Result<bool> Crew::RestartNode(const std::string& name, std::uint32_t life) {
+base::Result<bool> NodeProcesses::RestartNode(const std::string& name, std::uint32_t life) {
   const auto child =
       std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
   if (child == children_.end()) return false;
@@ -131,11 +131,11 @@ base::Result<bool> Crew::RestartNode(const std::string& name, std::uint32_t life
   return true;
 }
 
-void Crew::Poll() {
+void NodeProcesses::Poll() {
   for (Child& child : children_) child.Poll();
 }
 
-void Crew::EndAll(bool orderly, std::optional<WallClock::time_point> interrupted_at) {
+void NodeProcesses::EndAll(bool orderly, std::optional<WallClock::time_point> interrupted_at) {
   for (Child& child : children_) {
     child.Poll();
     if (!orderly) child.Signal(SIGTERM);

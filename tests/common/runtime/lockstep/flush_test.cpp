@@ -23,7 +23,7 @@ class NoBus final : public Bus {
 class Writer final : public Node {
  public:
   base::Status Initialise(Outbox&) override { return {}; }
-  base::Status Settle() override {
+  base::Status Flush() override {
     seen.push_back(runner->report());
     if (answer.ok()) settled_through = next;
     return answer;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/core/base/crew.hpp"
+#include "common/core/base/thread_pool.hpp"
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
 #include <thread>
 #include <vector>
 
-#include "common/core/base/assert.hpp"
-
 namespace rodeira::base {
 
-struct Crew::Parts {
+struct ThreadPool::Parts {
   std::mutex mutex;
   std::condition_variable begins, ends;
   std::uint64_t round = 0;
@@ -40,14 +39,14 @@ struct Crew::Parts {
   }
 };
 
-Crew::Crew(unsigned threads) : parts_(std::make_unique<Parts>()) {
-  RODEIRA_ASSERT(threads >= 1);
-  const std::scoped_lock lock(parts_->mutex);  // nobody looks at `others` before it is whole
+ThreadPool::ThreadPool(unsigned threads) : parts_(std::make_unique<Parts>()) {
+  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  const std::scoped_lock lock(parts_->mutex);  // no thread reads `others` before it is whole
   for (std::size_t part = 1; part < threads; ++part)
     parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
 }
 
-Crew::~Crew() {
+ThreadPool::~ThreadPool() {
   {
     const std::scoped_lock lock(parts_->mutex);
     parts_->over = true;
@@ -55,9 +54,9 @@ Crew::~Crew() {
   parts_->begins.notify_all();
 }
 
-unsigned Crew::threads() const { return static_cast<unsigned>(parts_->others.size() + 1); }
+unsigned ThreadPool::threads() const { return static_cast<unsigned>(parts_->others.size() + 1); }
 
-void Crew::Share(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+void ThreadPool::ParallelFor(std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
   {
     const std::scoped_lock lock(parts_->mutex);
     parts_->work = &work;
@@ -71,9 +70,9 @@ void Crew::Share(std::size_t count, const std::function<void(std::size_t, std::s
   parts_->ends.wait(lock, [&] { return parts_->busy == 0; });
 }
 
-void Share(Crew* crew, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
-  if (crew != nullptr)
-    crew->Share(count, work);
+void ParallelFor(ThreadPool* pool, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {
+  if (pool != nullptr)
+    pool->ParallelFor(count, work);
   else
     work(0, count);
 }
