@@ -49,6 +49,9 @@ include(RodeiraInstall)
 include(RodeiraLayers)
 include(RodeiraSpeed)
 
+# The groups whose numbers change no type unseen. tools/clang compiles them by clang (target rodeira_strict).
+set(RODEIRA_STRICT_WARNINGS -Wconversion -Wsign-conversion)
+
 # rodeira_library(base SOURCES a.cpp … PUBLIC fmt::fmt … PRIVATE …): the library of the current folder.
 function(rodeira_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
@@ -59,6 +62,13 @@ function(rodeira_library name)
   target_include_directories(rodeira_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
                              $<INSTALL_INTERFACE:include/rodeira>)
   target_compile_options(rodeira_${name} PRIVATE ${RODEIRA_WARNINGS})
+  file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(folder MATCHES "^common/(core|world|data|runtime)/")
+    set_property(GLOBAL APPEND PROPERTY RODEIRA_STRICT rodeira_${name})
+    if(RODEIRA_WARNINGS)
+      target_compile_options(rodeira_${name} PRIVATE ${RODEIRA_STRICT_WARNINGS})
+    endif()
+  endif()
   target_link_libraries(rodeira_${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   rodeira_install_library(${name})
 endfunction()

@@ -141,8 +141,8 @@ std::vector<ClothoidPanel> CutClothoid(const PlanPoint& start, double rate_1pm2,
     // f(u) = exp(i (k u + k' u^2 / 2)) solves f' = i (k + k' u) f, which gives its power series term by term.
     std::complex<double> before = 0.0;
     std::complex<double> term = std::polar(1.0, panel.heading_rad);
-    for (int n = 0; n < ClothoidPanel::kTerms; ++n) {
-      panel.series_W[n] = Eigen::Vector2d(term.real(), term.imag()) / (n + 1);
+    for (std::size_t n = 0; n < ClothoidPanel::kTerms; ++n) {
+      panel.series_W[n] = Eigen::Vector2d(term.real(), term.imag()) / static_cast<double>(n + 1);
       const std::complex<double> next = std::complex<double>(0.0, 1.0) *
                                         (panel.curvature_1pm * term + rate_1pm2 * before) / static_cast<double>(n + 1);
       before = term;
@@ -162,11 +162,11 @@ void ClothoidPanel::Point(double u_m, Eigen::Vector2d& p_W, Eigen::Vector2d& tan
   double y = series_W[kTerms - 1].y();
   double dx = kTerms * x;
   double dy = kTerms * y;
-  for (int n = kTerms - 2; n >= 0; --n) {
+  for (std::size_t n = kTerms - 1; n-- > 0;) {
     x = x * u_m + series_W[n].x();
     y = y * u_m + series_W[n].y();
-    dx = dx * u_m + (n + 1) * series_W[n].x();
-    dy = dy * u_m + (n + 1) * series_W[n].y();
+    dx = dx * u_m + static_cast<double>(n + 1) * series_W[n].x();
+    dy = dy * u_m + static_cast<double>(n + 1) * series_W[n].y();
   }
   p_W = {middle_W.x() + x * u_m, middle_W.y() + y * u_m};
   tangent_W = {dx, dy};

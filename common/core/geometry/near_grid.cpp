@@ -50,7 +50,7 @@ NearGrid::NearGrid(std::span<const Chord> chords, double reach_m) {
     return nearest[near.cell] <= reach_m + r + bulge && near.distance_m <= nearest[near.cell] + 2.0 * r + 2.0 * bulge;
   };
   first_.assign(cells + 1, 0);
-  for (const Near& near : pairs) first_[near.cell + 1] += chosen(near) ? 1 : 0;
+  for (const Near& near : pairs) first_[near.cell + 1] += chosen(near) ? 1U : 0U;
   for (std::size_t cell = 0; cell < cells; ++cell) first_[cell + 1] += first_[cell];
   pieces_.resize(first_[cells]);
   std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);

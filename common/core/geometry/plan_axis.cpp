@@ -120,7 +120,7 @@ void PlanAxis::CubicPanel::Point(double q, Eigen::Vector2d& p_W, Eigen::Vector2d
 
 double PlanAxis::CubicPanel::UAt(double q) const {
   double sum = length_m[kTerms - 1];
-  for (int n = kTerms - 2; n >= 0; --n) sum = sum * q + length_m[n];
+  for (std::size_t n = kTerms - 1; n-- > 0;) sum = sum * q + length_m[n];
   return offset_m + sum * q;
 }
 
@@ -129,7 +129,7 @@ double PlanAxis::CubicPanel::QAt(double u_m) const {
   double q = wanted / length_m[0];
   for (int iteration = 0; iteration < 30; ++iteration) {
     double value = length_m[kTerms - 1], slope = 0.0;
-    for (int n = kTerms - 2; n >= 0; --n) {
+    for (std::size_t n = kTerms - 1; n-- > 0;) {
       slope = slope * q + value;
       value = value * q + length_m[n];
     }

@@ -30,7 +30,7 @@ double Speed(const PlanElement& element, double p) {
 double Rule(const PlanElement& element, double from, double to) {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = kGauss5Weights[0] * Speed(element, middle);
-  for (int i = 1; i < 3; ++i)
+  for (std::size_t i = 1; i < 3; ++i)
     sum += kGauss5Weights[i] *
            (Speed(element, middle - half * kGauss5Nodes[i]) + Speed(element, middle + half * kGauss5Nodes[i]));
   return half * sum;
@@ -134,17 +134,18 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
     const double p = 0.5 * (from + to), half = 0.5 * (to - from);
     CubicPanel cubic{};
     std::array<std::array<double, 4>, 2> local{};  // Taylor's series about p
-    for (int axis = 0; axis < 2; ++axis) {
+    for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::array<double, 4>& a = axis == 0 ? element.u : element.v;
       local[axis] = {a[0] + p * (a[1] + p * (a[2] + p * a[3])), a[1] + p * (2.0 * a[2] + 3.0 * p * a[3]),
                      a[2] + 3.0 * p * a[3], a[3]};
     }
-    for (int n = 0; n < 4; ++n) cubic.position_W[n] = local[0][n] * ahead + local[1][n] * left;
+    for (std::size_t n = 0; n < 4; ++n) cubic.position_W[n] = local[0][n] * ahead + local[1][n] * left;
     cubic.position_W[0] += element.start_W;
     std::array<double, CubicPanel::kTerms> squared{};
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        squared[i + j] += (i + 1) * (j + 1) * (local[0][i + 1] * local[0][j + 1] + local[1][i + 1] * local[1][j + 1]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < 3; ++j) {
+        squared[i + j] += static_cast<double>((i + 1) * (j + 1)) *
+                          (local[0][i + 1] * local[0][j + 1] + local[1][i + 1] * local[1][j + 1]);
       }
     }
     std::array<double, CubicPanel::kTerms> speed{};
@@ -154,12 +155,13 @@ bool PlanAxis::CutCubicElement(const PlanElement& element) {
     const bool moving = speed[0] > still && Speed(element, from) > still && Speed(element, to) > still;
     double series_length = 0.0;
     if (moving) {
-      for (int n = 1; n < CubicPanel::kTerms; ++n) {
+      for (std::size_t n = 1; n < CubicPanel::kTerms; ++n) {
         double sum = squared[n];
-        for (int i = 1; i < n; ++i) sum -= speed[i] * speed[n - i];
+        for (std::size_t i = 1; i < n; ++i) sum -= speed[i] * speed[n - i];
         speed[n] = sum / (2.0 * speed[0]);
       }
-      for (int n = 0; n < CubicPanel::kTerms; ++n) cubic.length_m[n] = stretch * speed[n] / (n + 1);
+      for (std::size_t n = 0; n < CubicPanel::kTerms; ++n)
+        cubic.length_m[n] = stretch * speed[n] / static_cast<double>(n + 1);
       cubic.half_q = half;
       series_length = cubic.UAt(half) - cubic.UAt(-half);
     }

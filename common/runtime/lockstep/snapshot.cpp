@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "common/core/base/assert.hpp"
 
 namespace rodeira::lockstep {
@@ -67,7 +69,7 @@ Sample Snapshot::ToSample(const Roster& roster, std::uint32_t incarnation) const
   RODEIRA_ASSERT(spec.snapshots.has_value());
   const base::Bytes content = Encode();
   base::ByteWriter out;
-  for (const unsigned char byte : {0, 1, 0, 0}) out.Put(byte);  // little-endian CDR
+  for (const unsigned char byte : std::array<unsigned char, 4>{0, 1, 0, 0}) out.Put(byte);  // little-endian CDR
   out.PutRaw(base::Bytes(SampleHeader::kSize));
   out.Put(static_cast<std::uint32_t>(content.size()));
   out.PutRaw(content);

@@ -294,7 +294,7 @@ SampleStream RecordedRun::Samples(Step from) const {
 base::Result<std::vector<lockstep::NodeIndex>> RecordedRun::WithoutState() const {
   std::vector<lockstep::NodeIndex> without;
   std::size_t missing = 0;  // first snapshots that have not been seen
-  for (const lockstep::RosterNode& node : roster().nodes()) missing += node.snapshots.has_value() ? 1 : 0;
+  for (const lockstep::RosterNode& node : roster().nodes()) missing += node.snapshots.has_value() ? 1U : 0U;
   if (missing == 0) return without;
   std::vector<bool> seen(roster().nodes().size(), false);
   SampleStream samples = Samples(branched_at_);

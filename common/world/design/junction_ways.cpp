@@ -64,7 +64,7 @@ void FitToSurface(const JunctionSurface& surface, const geometry::PlanAxis& axis
     const JunctionHeight at = height(s, 0.0);
     values.emplace_back(at.z_m, axis.Evaluate(s).tangent_W.dot(Eigen::Vector2d(at.slope_x, at.slope_y)));
   }
-  for (int i = 0; i < steps; ++i) {
+  for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
     const double h = stations[i + 1] - stations[i], mean = (values[i + 1].first - values[i].first) / h;
     const double g0 = values[i].second, g1 = values[i + 1].second;
     z.push_back({stations[i], values[i].first, g0, (3.0 * mean - 2.0 * g0 - g1) / h, (g0 + g1 - 2.0 * mean) / (h * h)});
@@ -87,11 +87,12 @@ void FitToSurface(const JunctionSurface& surface, const geometry::PlanAxis& axis
       for (const double s : stations) {
         const double axis_z = height(s, 0.0).z_m, from = inner.Value(s), to = outer.Value(s);
         std::array<double, 4> z_at;
-        for (int k = 0; k < 4; ++k) z_at[k] = height(s, from + (to - from) * k / 3.0).z_m - axis_z;
+        for (std::size_t k = 0; k < 4; ++k)
+          z_at[k] = height(s, from + (to - from) * static_cast<double>(k) / 3.0).z_m - axis_z;
         const std::array<double, 4> powers = CubicThrough(z_at, std::fabs(to - from));
-        for (int n = 0; n < 4; ++n) across[n].push_back(powers[n]);
+        for (std::size_t n = 0; n < 4; ++n) across[n].push_back(powers[n]);
       }
-      for (int n = 0; n < 4; ++n) strip.coefficients[n] = Followed(stations, across[n]);
+      for (std::size_t n = 0; n < 4; ++n) strip.coefficients[n] = Followed(stations, across[n]);
       (left ? spec.lateral.surface.left : spec.lateral.surface.right).push_back(std::move(strip));
     }
   }

@@ -77,7 +77,7 @@ bool EvaluateStrip(const SurfaceStrip& strip, const Cluster& cluster, const Numb
   std::fill_n(heights.z.begin(), count, 0.0);
   std::fill_n(heights.by_s.begin(), count, 0.0);
   std::fill_n(heights.by_t.begin(), count, 0.0);
-  const auto add = [&](int n, const auto& power, const auto& power_slope) {
+  const auto add = [&](std::size_t n, const auto& power, const auto& power_slope) {
     if (strip.coefficients[n].empty()) return true;
     const InForce record(strip.coefficients[n], cluster);
     record.Evaluate(cluster, value, slope);

@@ -132,10 +132,11 @@ GroundHeight JunctionGrid::At(const Eigen::Vector2d& p_W) const {
   const double x_moves = Hold(x), y_moves = Hold(y);
 
   std::array<Pair, 2> z, by_row, by_left, by_both;  // [row][left], a spacing
-  for (int n = 0; n < 2; ++n) {
-    Tangents(row, left + n, true, by_row[0][n], by_row[1][n]);
-    Tangents(row + n, left, false, by_left[n][0], by_left[n][1]);
-    for (int m = 0; m < 2; ++m) z[m][n] = *HeightAt(row + m, left + n);
+  for (const int n : {0, 1}) {
+    const auto at = static_cast<std::size_t>(n);
+    Tangents(row, left + n, true, by_row[0][at], by_row[1][at]);
+    Tangents(row + n, left, false, by_left[at][0], by_left[at][1]);
+    for (const int m : {0, 1}) z[static_cast<std::size_t>(m)][at] = *HeightAt(row + m, left + n);
   }
   bool all = true;
   for (int m = -1; m <= 2; ++m) {
@@ -143,7 +144,7 @@ GroundHeight JunctionGrid::At(const Eigen::Vector2d& p_W) const {
   }
   Pair before{}, behind{};  // slopes along the lines beside the square
   if (all) Tangents(row, left - 1, true, before[0], before[1]), Tangents(row, left + 2, true, behind[0], behind[1]);
-  for (int m = 0; m < 2; ++m) {
+  for (std::size_t m = 0; m < 2; ++m) {
     const double twist = by_row[m][1] - by_row[m][0];
     by_both[m] = all ? CubicSlopes(before[m], by_row[m][0], by_row[m][1], behind[m]) : Pair{twist, twist};
   }
@@ -151,8 +152,8 @@ GroundHeight JunctionGrid::At(const Eigen::Vector2d& p_W) const {
   const Hermite along(x), across(y);
   GroundHeight height;
   double z_row = 0.0, z_left = 0.0;
-  for (int m = 0; m < 2; ++m) {
-    for (int n = 0; n < 2; ++n) {
+  for (std::size_t m = 0; m < 2; ++m) {
+    for (std::size_t n = 0; n < 2; ++n) {
       const double by_value = z[m][n] * across.value[n] + by_left[m][n] * across.slope[n];
       const double by_slope = by_row[m][n] * across.value[n] + by_both[m][n] * across.slope[n];
       height.z_m += along.value[m] * by_value + along.slope[m] * by_slope;

@@ -34,7 +34,7 @@ LateralPoint OnShapes(const std::vector<Shape>& shapes, double s_m, double t_m) 
 // Height of a strip at u outward, and its derivatives by s (at fixed u) and by u. Most strips have a slope alone.
 LateralPoint OnStrip(const SurfaceStrip& strip, double s_m, double u_m) {
   LateralPoint point;
-  const auto add = [&](int n, double power, double power_slope) {
+  const auto add = [&](std::size_t n, double power, double power_slope) {
     if (strip.coefficients[n].empty()) return;
     const geometry::CubicPoint c = strip.coefficients[n].Evaluate(s_m);
     point.z_m += c.value * power;

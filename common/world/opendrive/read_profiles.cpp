@@ -56,7 +56,7 @@ void ReadCrossSectionSurface(const Node& profile, network::CrossSectionSurface& 
     strip.relative = element.Text("mode", "independent") == "relative";
     strip.has_width = static_cast<bool>(element.Child("width"));
     strip.width = Coefficients(element.Child("width"));
-    int power = 0;
+    std::size_t power = 0;
     for (const char* name : {"constant", "linear", "quadratic", "cubic"})
       strip.coefficients[power++] = Coefficients(element.Child(name));
     if (id == 0 || !strips.emplace(id, strip).second)

@@ -34,7 +34,10 @@ struct View {
     return {extents.west_m + (extents.east_m - extents.west_m) * column / columns,
             extents.south_m + (extents.north_m - extents.south_m) * row / rows};
   }
-  double Height(int column, int row) const { return heights[static_cast<std::size_t>(row) * (columns + 1) + column]; }
+  double Height(int column, int row) const {
+    return heights[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns + 1) +
+                   static_cast<std::size_t>(column)];
+  }
 };
 
 // A plane has no edge: the picture then shows the roads, or 100 m about the start.
@@ -131,13 +134,13 @@ std::string Contours(const View& view, double step) {
         const std::array<std::array<int, 2>, 3> corners = {
             {{column + half, row + half}, {column + 1, row}, {column, row + 1}}};
         std::array<double, 3> z{};
-        for (int i = 0; i < 3; ++i) z[i] = view.Height(corners[i][0], corners[i][1]);
+        for (std::size_t i = 0; i < 3; ++i) z[i] = view.Height(corners[i][0], corners[i][1]);
         const auto [low, high] = std::minmax_element(z.begin(), z.end());
         if (std::isnan(z[0] + z[1] + z[2])) continue;
         for (double level = std::ceil(*low / step) * step; level < *high; level += step) {
           bool first = true;
-          for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
+          for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
             if ((z[i] < level) == (z[j] < level)) continue;
             const double u = (level - z[i]) / (z[j] - z[i]);
             const Eigen::Vector2d p =

@@ -37,7 +37,10 @@ class ElevationGrid {
   const Frame& frame() const { return frame_; }
   double spacing_x_m() const { return spacing_x_m_; }
   double spacing_y_m() const { return spacing_y_m_; }
-  float Post(int column, int row) const { return heights_m_[static_cast<std::size_t>(column) * frame_.rows + row]; }
+  float Post(int column, int row) const {
+    return heights_m_[static_cast<std::size_t>(column) * static_cast<std::size_t>(frame_.rows) +
+                      static_cast<std::size_t>(row)];
+  }
   std::span<const float> heights_m() const { return heights_m_; }
   const std::string& projection_wkt() const { return projection_wkt_; }
 
