@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "nodes/editor/panels.hpp"
 
@@ -148,10 +149,7 @@ int RunEditor(const std::filesystem::path& file) {
   window::Settings settings;
   settings.title = "Rodeira";
   auto opened = window::Window::Open(settings);
-  if (!opened) {
-    fmt::print(stderr, "rodeira: {}\n", opened.error().Text());
-    return opened.error().exit_status();
-  }
+  if (!opened) return base::PrintError("rodeira", opened.error());
   Desk desk(*opened.value(), file, base::UserDataFolder() / "editor");
   while (desk.Frame(desk.wait_ms())) {
   }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/base/log.hpp"
 #include "common/vehicle/input_devices/device_access.hpp"
 #include "common/vehicle/input_devices/game_pad.hpp"
 #include "common/vehicle/input_devices/joysticks.hpp"
@@ -26,7 +27,7 @@ struct Search {
   std::vector<input_devices::JoystickInfo> connected;
   std::optional<input_devices::JoystickInfo> broken;  // the first device whose file cannot be used
 
-  void Say(const std::string& sentence) const { fmt::print(stderr, "rodeira: node '{}': {}\n", node, sentence); }
+  void Say(const std::string& sentence) const { base::Log(base::LogLevel::kInfo, node, sentence); }
 };
 
 // Null: none of them was set up, or not well.

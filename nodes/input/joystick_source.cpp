@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/core/base/log.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/vehicle/input_devices/force_device.hpp"
 #include "common/vehicle/input_devices/joysticks.hpp"
@@ -77,9 +78,10 @@ class JoystickSource final : public Source {
   void Tell(std::size_t place, bool there) {
     if (there_[place] == there) return;
     there_[place] = there;
-    fmt::print(stderr, "rodeira: node '{}': {} '{}' ({}) {}\n", node_, settings_.devices[place].name,
-               joysticks_->name(place), settings_.devices[place].guid,
-               there ? "is there again" : "was unplugged: pedals released, steering held");
+    base::Log(there ? base::LogLevel::kInfo : base::LogLevel::kWarning, node_,
+              fmt::format("{} '{}' ({}) {}", settings_.devices[place].name, joysticks_->name(place),
+                          settings_.devices[place].guid,
+                          there ? "is there again" : "was unplugged: pedals released, steering held"));
   }
 
   std::string node_;

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "common/core/base/log.hpp"
 #include "common/vehicle/input_devices/joysticks.hpp"
 #include "nodes/input/car_seen.hpp"
 
@@ -41,8 +42,9 @@ class PadSource final : public Source {
   void Tell(bool there) {
     if (there_ == there) return;
     there_ = there;
-    fmt::print(stderr, "rodeira: node '{}': game pad '{}' {}\n", node_, pad_->name(),
-               there ? "is there" : "was unplugged: pedals released, steering held");
+    base::Log(there ? base::LogLevel::kInfo : base::LogLevel::kWarning, node_,
+              fmt::format("game pad '{}' {}", pad_->name(),
+                          there ? "is there" : "was unplugged: pedals released, steering held"));
   }
 
   std::string node_;

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/core/base/log.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/driving/scenario/request.hpp"
 #include "common/driving/scenario/scenario_file.hpp"
@@ -223,7 +224,7 @@ class ScenarioNode final : public lockstep::Node {
       if (sound)
         Add(event.value(), valid, events);
       else
-        fmt::print(stderr, "rodeira: node '{}': a request is refused: {}\n", name_, sound.error().Text());
+        base::Log(base::LogLevel::kWarning, name_, fmt::format("a request is refused: {}", sound.error().Text()));
     }
   }
 

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/core/base/log.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/traffic/map_lights.hpp"
 #include "common/traffic/place_orders.hpp"
@@ -207,16 +208,16 @@ class TrafficNode final : public lockstep::Node {
     if (told.value())
       told_to_appear_.emplace_back(choice.value().id, where);
     else
-      fmt::print(stderr, "rodeira: node '{}': {}: agent {} is on the road already, or waits to be; nothing happens\n",
-                 name_, where, choice.value().id);
+      base::Log(base::LogLevel::kWarning, name_,
+                fmt::format("{}: agent {} is on the road already, or waits to be; nothing happens", where,
+                            choice.value().id));
     return {};
   }
   void TellWhoWaits() {
     for (const auto& [id, where] : told_to_appear_) {
       if (model_.IsAppearing(id))
-        fmt::print(stderr,
-                   "rodeira: node '{}': {}: there is no room for agent {} yet; it appears as soon as there is\n", name_,
-                   where, id);
+        base::Log(base::LogLevel::kWarning, name_,
+                  fmt::format("{}: there is no room for agent {} yet; it appears as soon as there is", where, id));
     }
     told_to_appear_.clear();
   }
@@ -262,8 +263,8 @@ class TrafficNode final : public lockstep::Node {
         if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front()))
           agents.push_back(*ahead);
         else
-          fmt::print(stderr, "rodeira: node '{}': {}: nobody is ahead of the driver's car, nothing happens\n", name_,
-                     where);
+          base::Log(base::LogLevel::kWarning, name_,
+                    fmt::format("{}: no vehicle is ahead of the driver's car; nothing happens", where));
         break;
       case scenario::AgentChoice::Kind::kNext:
         break;
@@ -321,10 +322,10 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
     if (auto status = traffic::CheckLightsOfMap(map); !status) return status.error();
     const auto companion = traffic_map::LoadHeightsOf(map);
     if (companion && !companion.value().flows.empty() && settings.demand.flows.empty()) {
-      fmt::print(stderr,
-                 "rodeira: node '{}': warning: {}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in "
-                 "a run the traffic's own 'flows' say who comes\n",
-                 context.spec().name, map.string());
+      base::Log(base::LogLevel::kWarning, context.spec().name,
+                fmt::format("{}.yaml: 'flows_vehph' are for 'rodeira traffic run' and the editor; in a run the "
+                            "traffic's own 'flows' count",
+                            map.string()));
     }
   }
   const driver::Footprint clear = traffic::KeptClear(*world.value());
@@ -332,8 +333,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   if (!model) return model.error();
   if (auto status = CheckScenarios(context, model.value()); !status) return status.error();
   for (const traffic::TightBend& bend : traffic::TightBendsOf(model.value().graph(), settings)) {
-    fmt::print(stderr, "rodeira: node '{}': warning: {}\n", context.spec().name,
-               traffic::Text(bend, model.value().graph()));
+    base::Log(base::LogLevel::kWarning, context.spec().name, traffic::Text(bend, model.value().graph()));
   }
   lockstep::SourceIndex stream = 0;
   for (const lockstep::SourceIndex output : context.spec().outputs) {

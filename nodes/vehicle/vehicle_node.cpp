@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/core/base/constants.hpp"
+#include "common/core/base/log.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/world/road/world.hpp"
@@ -110,7 +111,8 @@ class VehicleNode final : public lockstep::Node {
     if (place.z_m) there.z_hint_m = *place.z_m;
     there.heading_rad = heading_deg * base::kPi / 180.0;
     const base::Status placed = model_->Initialise(there, ground_);
-    if (!placed) fmt::print(stderr, "rodeira: node '{}': it stays where it is: {}\n", name_, placed.error().Text());
+    if (!placed)
+      base::Log(base::LogLevel::kWarning, name_, fmt::format("it stays where it is: {}", placed.error().Text()));
   }
   void Publish(lockstep::Outbox& outbox, const msg::Controls& controls, const msg::Collisions& touched) const {
     msg::VehicleState state = ToWire(model_->state(), model_->dimensions());
@@ -178,10 +180,10 @@ std::optional<Collisions> CollisionsOf(const std::string& hits, const dynamics::
                                        const road::World* world, const std::string& node) {
   if (hits == "none") return std::nullopt;
   if (!model.can_be_pushed()) {
-    fmt::print(stderr,
-               "rodeira: node '{}': its model takes no forces of collisions (an FMU: inputs push_x_N … "
-               "push_moment_z_Nm): collisions are recorded, but do not move the car\n",
-               node);
+    base::Log(
+        base::LogLevel::kWarning, node,
+        "the vehicle model takes no forces of collisions (an FMU: inputs push_x_N … push_moment_z_Nm); collisions "
+        "are recorded, but do not move the car");
   }
   const dynamics::VehicleDimensions& dimensions = model.dimensions();
   ObstacleMap map = hits == "all" && world != nullptr ? ObstacleMap(*world, dynamics::BoxOf(dimensions, {}).reach_m())

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "common/core/base/log.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
@@ -63,10 +64,10 @@ class ViewNode final : public lockstep::Node {
     }
     const auto missed = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), last_step);
     if (complete && missed != settings_.frame_steps.end()) {
-      fmt::print(stderr,
-                 "rodeira: node '{}': the run ended at step {}, before {} of the frames asked for (the first of them "
-                 "is of step {})\n",
-                 name_, last_step, settings_.frame_steps.end() - missed, *missed);
+      base::Log(base::LogLevel::kWarning, name_,
+                fmt::format("the run ended at step {}, before {} of the frames asked for (the first of them is of "
+                            "step {})",
+                            last_step, settings_.frame_steps.end() - missed, *missed));
     }
     return {};
   }
@@ -159,7 +160,7 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
     if (!world) return world.error();
     if (!context.launch().world().empty()) context.set_world_hash(world.value()->content_hash());
     nodes::FoundBuilt built = nodes::FindBuilt(context.launch().world(), *world.value());
-    if (!built.remark.empty()) fmt::print(stderr, "rodeira: node '{}': {}\n", context.spec().name, built.remark);
+    if (!built.remark.empty()) base::Log(base::LogLevel::kInfo, context.spec().name, built.remark);
     return nodes::ReadWorld{std::move(world).value(), std::move(built.folder)};
   };
   auto stage = nodes::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,

@@ -77,7 +77,8 @@ class Noise {
     const int column = static_cast<int>(across), row = static_cast<int>(along);
     const double u = across - column, v = along - row;
     const auto corner = [&](int i, int j) {
-      const Gradient& g = gradients_[static_cast<std::size_t>(row + j) * columns_ + column + i];
+      const Gradient& g = gradients_[static_cast<std::size_t>(row + j) * static_cast<std::size_t>(columns_) +
+                                     static_cast<std::size_t>(column + i)];
       return g.x * (u - i) + g.y * (v - j);
     };
     const double fu = Fade(u), fv = Fade(v);

@@ -96,9 +96,12 @@ std::string Raster(const CrgSurface& surface, double top) {
   const double u0 = shape.line.begin_u_m(), v0 = shape.v_m.front(), width = shape.v_m.back() - v0;
   std::array<std::array<CrgPoint, kColumns>, kRows> points;
   ValueRange z;
+  const auto point_at = [&](int row, int column) -> CrgPoint& {
+    return points[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+  };
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {
-      CrgPoint& point = points[row][column];
+      CrgPoint& point = point_at(row, column);
       point = surface.At(u0 + surface.length_m() * (column + 0.5) / kColumns, v0 + width * (row + 0.5) / kRows);
       if (point.inside) z.Add(point.z_m);
     }
@@ -112,7 +115,8 @@ std::string Raster(const CrgSurface& surface, double top) {
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns;) {
       const auto colour = [&](int c) {
-        return points[row][c].inside ? Colour((points[row][c].z_m - z.low) / Size(z)) : std::string("#ffffff");
+        const CrgPoint& point = point_at(row, c);
+        return point.inside ? Colour((point.z_m - z.low) / Size(z)) : std::string("#ffffff");
       };
       const std::string now = colour(column);
       int end = column + 1;

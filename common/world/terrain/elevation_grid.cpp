@@ -32,7 +32,8 @@ GridSample ElevationGrid::At(double x_m, double y_m) const {
   const int row = std::min(static_cast<int>(along), frame_.rows - 2);
   const double u = across - column;
   const double v = along - row;
-  const float* west = heights_m_.data() + static_cast<std::size_t>(column) * frame_.rows + row;
+  const float* west =
+      heights_m_.data() + static_cast<std::size_t>(column) * static_cast<std::size_t>(frame_.rows) + row;
   const float* east = west + frame_.rows;
   const bool south_west = u + v <= 1.0;  // of the diagonal from the south-east to the north-west corner
   const float corner_post = south_west ? west[0] : east[1];

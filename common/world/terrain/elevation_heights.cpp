@@ -78,16 +78,18 @@ base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::op
   const auto no_data = static_cast<float>(band->GetNoDataValue(&has_void));
   const bool as_they_are = metres.value().scale == 1.0 && metres.value().offset == 0.0;
   std::vector<float> heights(by_row.size());
+  const auto at = [](int line, int length, int place) {
+    return static_cast<std::size_t>(line) * static_cast<std::size_t>(length) + static_cast<std::size_t>(place);
+  };
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const float found = by_row[static_cast<std::size_t>(rows - 1 - row) * columns + column];
+      const float found = by_row[at(rows - 1 - row, columns, column)];
       const bool is_void =
           !std::isfinite(found) || found == ElevationGrid::kVoid || (has_void != 0 && found == no_data);
       const float scaled =
           as_they_are ? found
                       : static_cast<float>(metres.value().offset + static_cast<double>(found) * metres.value().scale);
-      heights[static_cast<std::size_t>(column) * rows + row] =
-          is_void || !std::isfinite(scaled) ? ElevationGrid::kVoid : scaled;
+      heights[at(column, rows, row)] = is_void || !std::isfinite(scaled) ? ElevationGrid::kVoid : scaled;
     }
   }
   return heights;

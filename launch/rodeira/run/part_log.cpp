@@ -19,6 +19,7 @@ constexpr std::size_t kMaxLineBytes = 64u << 10;  // longer lines are cut in pie
 spdlog::level::level_enum LevelOf(const std::string& line) {
   if (line.find("crash:") != std::string::npos) return spdlog::level::critical;
   if (line.find("warning:") != std::string::npos) return spdlog::level::warn;
+  if (line.find("info:") != std::string::npos) return spdlog::level::info;
   return line.starts_with("rodeira") ? spdlog::level::err : spdlog::level::info;
 }
 

@@ -16,6 +16,7 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/random.hpp"
 #include "common/view/scene/vehicles/car_lights.hpp"
 #include "nodes/view/materials/face_texture.hpp"
@@ -151,7 +152,8 @@ osg::ref_ptr<osg::StateSet> Look::StateOfPicture(const std::string& file, bool r
   if (state) return state;
   const auto picture = MakePictureTexture(file, repeats);
   if (!picture) {
-    fmt::print(stderr, "rodeira: the ground is drawn without its picture: {}\n", picture.error().Text());
+    base::Log(base::LogLevel::kWarning, "",
+              fmt::format("the ground is drawn without its picture: {}", picture.error().Text()));
     return state = StateOf(scene::Material::kGround);
   }
   picture.value()->setMaxAnisotropy(quality_.slanted);

@@ -19,6 +19,7 @@
 #include <set>
 #include <thread>
 
+#include "common/core/base/log.hpp"
 #include "common/view/scene/terrain/far_plane.hpp"
 #include "nodes/view/dynamic_objects/cabin_node.hpp"
 #include "nodes/view/dynamic_objects/car_node.hpp"
@@ -325,7 +326,8 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
   const auto is_there = [&](const std::string& file) {
     const base::Status read = ReadModel(file);
     if (!read && told.insert(file).second)
-      fmt::print(stderr, "rodeira: {}; what it is of is drawn without it\n", read.error().Text());
+      base::Log(base::LogLevel::kWarning, "",
+                fmt::format("{}; what it is of is drawn without it", read.error().Text()));
     return read.ok();
   };
   if (world.network() != nullptr && world.roads().empty()) return Painter::Make(surface, world, is_there, repeats);

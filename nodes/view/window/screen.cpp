@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/core/base/constants.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/user_folders.hpp"
 #include "common/runtime/launch/live_keys.hpp"
 #include "common/vehicle/input_devices/key_names.hpp"
@@ -98,7 +99,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
   screen->painter_ = std::move(painter).value();
   if (!settings.car_model.empty()) {
     if (auto status = screen->painter_->WearCarModel(settings.car_model); !status)
-      fmt::print(stderr, "rodeira: {}; the car is drawn without it\n", status.error().Text());
+      base::Log(base::LogLevel::kWarning, "", fmt::format("{}; the car is drawn without it", status.error().Text()));
   }
   if (built >= 1.0) loading.Show(kGroundShare, "the first picture is drawn");
   screen->painter_->DrawWhole(FirstPicture(world, settings), ground);
@@ -116,7 +117,7 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
     if (speaker)
       screen->speaker_ = std::move(speaker).value();
     else
-      fmt::print(stderr, "rodeira: no sound: {}\n", speaker.error().Text());
+      base::Log(base::LogLevel::kWarning, "", fmt::format("no sound: {}", speaker.error().Text()));
   }
   screen->has_sound_ = settings.sound;
   screen->volume_ = settings.sound ? settings.volume : 0.0;
@@ -132,8 +133,10 @@ base::Result<std::unique_ptr<Screen>> Screen::Open(std::unique_ptr<Surface> surf
 void Screen::OpenHeadset(const ViewSettings& settings) {
   auto headset = Headset::Open(surface_->quality());
   if (!headset)
-    return fmt::print(stderr, "rodeira: no headset: {}; {}\n", headset.error().Text(),
-                      settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone");
+    return base::Log(
+        base::LogLevel::kWarning, "",
+        fmt::format("no headset: {}; {}", headset.error().Text(),
+                    settings.window == WindowWish::kNever ? "nothing is shown" : "shown in the window alone"));
   headset_ = std::move(headset).value();
   surface_->NeverWait();  // the headset says when
 }
@@ -142,7 +145,7 @@ bool Screen::WaitForHeadset() {
   if (headset_ == nullptr) return false;
   headset_waits_ = headset_->Begin();
   if (!headset_->gone().empty()) {
-    fmt::print(stderr, "rodeira: {}\n", headset_->gone());
+    base::Log(base::LogLevel::kWarning, "", headset_->gone());
     Note(headset_->gone());
     headset_.reset();
     headset_waits_ = false;

@@ -205,7 +205,8 @@ TEST_F(FoundSource, AGamePadMayComeAndGo) {
     ASSERT_EQ(told.drive.controls.at(step).steering_wheel_rad(), held) << step;
   }
   EXPECT_EQ(told.drive.controls.at(800).throttle(), 1.0);
-  EXPECT_THAT(told.said, HasSubstr("node 'driver': game pad 'A pad' was unplugged: pedals released, steering held"));
+  EXPECT_THAT(told.said,
+              HasSubstr("node 'driver': warning: game pad 'A pad' was unplugged: pedals released, steering held"));
   EXPECT_THAT(told.said, HasSubstr("game pad 'A pad' is there"));
   pad.Detach();
   EXPECT_THAT(Drive("{source: gamepad}", 10, nullptr).refused,

@@ -188,10 +188,10 @@ TEST_F(Requests, WhereThereIsNoGroundTheCarStaysAndThatIsSaid) {
                        after.position_w_m().y() - before.position_w_m().y()),
             0.1);
   EXPECT_EQ(after.inside_world(), 1u);
-  EXPECT_NE(said.find("node 'ego': it stays where it is: "), std::string::npos) << said;
-  EXPECT_NE(
-      said.find("node 'story': a request is refused: no vehicle 'egon' is wired to this scenario; did you mean 'ego'?"),
-      std::string::npos)
+  EXPECT_NE(said.find("node 'ego': warning: it stays where it is: "), std::string::npos) << said;
+  EXPECT_NE(said.find("node 'story': warning: a request is refused: no vehicle 'egon' is wired to this scenario; did "
+                      "you mean 'ego'?"),
+            std::string::npos)
       << said;
   EXPECT_NE(said.find("is no place; "), std::string::npos) << said;
   EXPECT_NE(said.find("'fly' was asked for; place or weather was expected"), std::string::npos) << said;

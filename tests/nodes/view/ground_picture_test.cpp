@@ -171,7 +171,8 @@ TEST_F(GroundPicture, WithoutTheFileTheViewGoesOnAndSaysSo) {
   testing::internal::CaptureStderr();
   const auto p = See(*world, Fields(28.0, 8.0, 24.0));
   const std::string said = testing::internal::GetCapturedStderr();
-  EXPECT_TRUE(said.starts_with("rodeira: the ground is drawn without its picture: there is no texture file '")) << said;
+  EXPECT_TRUE(said.starts_with("rodeira: warning: the ground is drawn without its picture: there is no texture file '"))
+      << said;
   EXPECT_TRUE(said.ends_with("fuor.bmp'; did you mean 'four.bmp'?\n")) << said;
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
   for (const Probe& probe : p) EXPECT_TRUE(probe.IsGrown()) << probe;

@@ -162,7 +162,8 @@ TEST_F(ViewNode, FramesBeyondTheEndAreToldOf) {
   testing::internal::CaptureStderr();
   Drive("[0.02, 0.5, 0.6]", folder_, 100);
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "rodeira: node 'picture': the run ended at step 100, before 2 of the frames asked for (the first of them "
+            "rodeira: node 'picture': warning: the run ended at step 100, before 2 of the frames asked for (the first "
+            "of them "
             "is of step 500)\n");
   EXPECT_EQ(Files(), std::set<std::string>{"step_000000020.png"});
 }
