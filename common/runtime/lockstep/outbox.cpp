@@ -19,7 +19,7 @@ void Outbox::Put(std::string_view topic, base::Bytes payload) {
     payloads_[i] = std::move(payload);
     return;
   }
-  RODEIRA_ASSERT(!"a node publishes a topic that the roster does not know of it");
+  RODEIRA_ASSERT(false && "a node publishes a topic that the roster does not know of it");
 }
 
 std::vector<Sample> Outbox::Take(Step valid, std::uint32_t incarnation, base::Digest state_digest) {

@@ -52,7 +52,7 @@ Runner::Outcome Runner::Advance(std::chrono::milliseconds limit) {
     case Stage::kOver:
       break;
   }
-  RODEIRA_ASSERT(!"a node is advanced after its end");
+  RODEIRA_ASSERT(false && "a node is advanced after its end");
 }
 
 Runner::Outcome Runner::Begin() {

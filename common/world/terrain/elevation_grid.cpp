@@ -38,7 +38,8 @@ GridSample ElevationGrid::At(double x_m, double y_m) const {
   const bool south_west = u + v <= 1.0;  // of the diagonal from the south-east to the north-west corner
   const float corner_post = south_west ? west[0] : east[1];
   if (has_voids_ && (corner_post == kVoid || east[0] == kVoid || west[1] == kVoid)) return sample;
-  const double corner = corner_post, south_east = east[0], north_west = west[1];
+  const auto corner = static_cast<double>(corner_post), south_east = static_cast<double>(east[0]),
+             north_west = static_cast<double>(west[1]);
   // Height differences over one whole cell, eastward and northward.
   const double eastward = south_west ? south_east - corner : corner - north_west;
   const double northward = south_west ? north_west - corner : corner - south_east;

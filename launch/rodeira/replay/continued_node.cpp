@@ -15,7 +15,9 @@ void ContinuedNode::Follow(lockstep::Node& node, std::vector<lockstep::Sample> p
   published_ = std::move(published);
 }
 
-base::Status ContinuedNode::Initialise(lockstep::Outbox&) { RODEIRA_ASSERT(!"a node goes on behind its beginning"); }
+base::Status ContinuedNode::Initialise(lockstep::Outbox&) {
+  RODEIRA_ASSERT(false && "a node goes on behind its beginning");
+}
 
 base::Status ContinuedNode::Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox,
                                  lockstep::Outbox& outbox) {
@@ -26,6 +28,6 @@ base::Status ContinuedNode::Step(const lockstep::StepInfo& step, const lockstep:
 }
 
 void ContinuedNode::Save(base::StateWriter& out) const { node_->Save(out); }
-void ContinuedNode::Restore(base::StateReader&) { RODEIRA_ASSERT(!"its state cannot be saved"); }
+void ContinuedNode::Restore(base::StateReader&) { RODEIRA_ASSERT(false && "its state cannot be saved"); }
 
 }  // namespace rodeira::cli
