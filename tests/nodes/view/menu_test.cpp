@@ -6,6 +6,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -44,9 +46,18 @@ class MenuTest : public ::testing::Test {
     }
     return Shown(*screen_, moment_);
   }
-  // Several, until panels have their size.
+  // Pictures that are not read: until panels have their size, and until a click has its effect.
+  void ShowThree() {
+    for (int i = 0; i < 3; ++i) {
+      moment_.time_ns += 20'000'000;
+      if (recorded_)
+        screen_->Show(moment_, 1.0, Timeline());
+      else
+        screen_->Show(moment_, 1.0);
+    }
+  }
   Image Settled() {
-    for (int i = 0; i < 3; ++i) (void)Frame();
+    ShowThree();
     return Frame();
   }
   static SDL_Event MotionTo(int x_px, int y_px) {
@@ -57,40 +68,44 @@ class MenuTest : public ::testing::Test {
     return event;
   }
   bool MoveTo(int x_px, int y_px) { return screen_->TakeMouse(MotionTo(x_px, y_px)); }
-  // Where this entry is: another menu of the same size is gone over by the mouse until it is on it. The left upper
-  // corner where there is none.
-  Eigen::Vector2d PlaceOf(const std::string& entry) const {
-    Menu menu;
-    menu.Toggle();
+  // Where this entry is: the mouse goes over another menu of the same size until it is on it. What it has met before is
+  // known. The left upper corner where there is no such entry.
+  Eigen::Vector2d PlaceOf(const std::string& entry) {
     MenuSight sight;
     sight.live = !recorded_;
-    const auto draw = [&] { (void)menu.Draw(sight, kWidth, kHeight); };
-    for (int i = 0; i < 3; ++i) draw();
+    const auto draw = [&] { (void)other_->Draw(sight, kWidth, kHeight); };
+    if (other_ == nullptr) {
+      other_ = std::make_unique<Menu>();
+      other_->Toggle();
+      for (int i = 0; i < 3; ++i) draw();
+    }
+    draw();  // its panels are ImGui's current ones then
     const ImGuiID wanted = ImGui::FindWindowByName("menu")->GetID(entry.c_str());
-    for (int y = 4; y < kHeight; y += 4) {
+    for (; !places_.contains(wanted) && next_y_px_ < kHeight; next_y_px_ += 4) {
       for (const int x : {kWidth - 230, kWidth - 180, kWidth - 110, kWidth - 60}) {
-        if (!menu.Take(MotionTo(x, y))) continue;
+        if (!other_->Take(MotionTo(x, next_y_px_))) continue;
         draw();
-        if (ImGui::GetCurrentContext()->HoveredId == wanted) return {x, y};
+        places_.try_emplace(ImGui::GetCurrentContext()->HoveredId, x, next_y_px_);
       }
     }
-    return {0.0, 0.0};
+    const auto found = places_.find(wanted);
+    return found == places_.end() ? Eigen::Vector2d(0.0, 0.0) : found->second;
   }
   // False where there is no such entry. Down and up come before the next picture, as a fast click does; then the mouse
   // goes away.
   bool Click(const std::string& entry) {
     const Eigen::Vector2d at = PlaceOf(entry);
     if (at.x() == 0.0) return false;
-    (void)Settled();
+    ShowThree();
     EXPECT_TRUE(screen_->TakeMouse(MotionTo(static_cast<int>(at.x()), static_cast<int>(at.y()))));
     EXPECT_TRUE(nodes::Click(*screen_, at)) << "a click on the menu is the menu's";
-    for (int i = 0; i < 3; ++i) (void)Frame();
+    ShowThree();
     (void)MoveTo(kWidth / 4, kHeight / 2);
     return true;
   }
   void Open() {
     ASSERT_TRUE(screen_->TakeKey(SDLK_F1, true));
-    (void)Settled();
+    ShowThree();
   }
   // What is seen now, for people, where they ask for it.
   void Keep(const char* name) {
@@ -103,6 +118,9 @@ class MenuTest : public ::testing::Test {
   scene::Moment moment_;
   bool recorded_ = false;
   std::unique_ptr<Screen> screen_;
+  std::unique_ptr<Menu> other_;                // for PlaceOf
+  std::map<ImGuiID, Eigen::Vector2d> places_;  // entries that the mouse has met on it
+  int next_y_px_ = 4;
 };
 
 TEST_F(MenuTest, ItComesAndGoesByItsKeyAndLeavesThePictureAsItWas) {
