@@ -97,7 +97,7 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   const network::Road& road = world->network()->roads()[0];
   const auto draw = [&](const fs::path& built, bool repeats = true) {
     std::vector<Image> images;
-    const auto surface = Surface::Open(SurfaceKind::kOffscreen, 640, 360, "test");
+    const auto surface = Surface::Open(SurfaceKind::kOffscreen, BriefOrLong(320, 640), BriefOrLong(180, 360), "test");
     const auto painter = PainterOf(*surface.value(), *world, built, repeats);
     EXPECT_TRUE(painter.ok()) << painter.error().Text();
     for (const double s : {25.0, 70.0, 140.0}) {  // near the rail, before the signs; other tiles are near and far
@@ -154,11 +154,11 @@ TEST_P(Left, WhatTheEyeHasLeftIsGivenBack) {
   EXPECT_LE(away, tiles) << "the coarsest level of each at most";
   EXPECT_EQ(far, 0u) << "beyond the farthest that is drawn";
   // Back and forth again and again, it never holds more than the first time.
-  for (int i = 0; i < BriefOrLong(3, 10); ++i) {
+  for (int i = 0; i < BriefOrLong(1, 10); ++i) {
     EXPECT_LE(held_at(0.0), first) << i;
     EXPECT_LE(held_at(3'000.0), away) << i;
   }
-  held_at(0.0);
+  EXPECT_LE(held_at(0.0), first);
   EXPECT_EQ(painter.value()->Read().rgb, before.rgb);
 }
 

@@ -13,6 +13,12 @@ namespace {
 class FlickerStill : public DriverStill {
  protected:
   FlickerStill() : DriverStill("n222.yaml", 1280, 720) {}
+  void SetUp() override {
+    DriverStill::SetUp();
+    if (painter_ == nullptr) return;
+    // Everything is built before the first picture: ground that is made while the eye moves costs more pictures.
+    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+  }
   // Whether the ground stands in the way.
   bool IsHidden(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& p_W) const {
     for (double share = 0.1; share < 0.95; share += 0.05) {
@@ -32,7 +38,7 @@ TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
   double least = 1e9;
   for (const double begin_m :
        BriefOrLong<std::vector<double>>({27.0, 3277.0}, {27.0, 1677.0, 3277.0})) {  // between posts
-    for (int k = 0; k < BriefOrLong(8, 12); ++k) {
+    for (int k = 0; k < BriefOrLong(6, 12); ++k) {
       Car() = CarOn(road, begin_m + 0.07 * k, -1.45);
       const scene::Camera camera = scene::DriverCamera(Car());
       const Image image = Drawn();

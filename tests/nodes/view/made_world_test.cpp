@@ -46,11 +46,12 @@ class MadeWorld : public testing::Test {
 
 // The oracle builds everything before the first picture, and has no pager.
 TEST_F(MadeWorld, IsSeenAsTheWholeScene) {
+  const scene::WorldScene scene = scene::BuildWorldScene(*world_);
   for (const Quality quality : {Quality::kLow, Quality::kMedium}) {
     std::vector<Image> whole;
     {
       const auto surface = Open(quality);
-      Painter painter(*surface, *world_, scene::BuildWorldScene(*world_));
+      Painter painter(*surface, *world_, scene);
       for (const Picture& picture : Tour()) painter.DrawWhole(picture), whole.push_back(painter.Read());
       EXPECT_EQ(painter.HeldLevels(), 0u);
     }
@@ -80,7 +81,9 @@ TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
   };
   const Image alone = film({});
   EXPECT_EQ(film({On(140.0, scene::CameraKind::kTop), On(25.0, scene::CameraKind::kDriver)}).rgb, alone.rgb);
-  EXPECT_EQ(film(Tour()).rgb, alone.rgb);
+  if (IsLongForm()) {
+    EXPECT_EQ(film(Tour()).rgb, alone.rgb);
+  }
 }
 
 // Who stands and looks at nothing but the sky still has ground about him when he turns round.

@@ -101,35 +101,37 @@ TEST(NetworkStill, LightsShineAsTheMomentSays) {
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarAt({10.0, -1.75, 0.0}, 0.0));
   const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
+  const auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
+  ASSERT_TRUE(surface.ok()) << surface.error().Text();
+  const auto painter = PainterOf(*surface.value(), *world, {});
+  ASSERT_TRUE(painter.ok()) << painter.error().Text();
   // How bright the three are, from below.
   const auto seen = [&](std::optional<LightColour> colour) {
     picture.moment.lights.clear();
     if (colour) picture.moment.lights.push_back({0, *colour});
-    const auto image = RenderStill(*world, picture, kWidth, kHeight);
-    EXPECT_TRUE(image.ok()) << image.error().Text();
+    painter.value()->DrawWhole(picture);
+    const Image image = painter.value()->Read();
     std::array<Probe, 3> probes;
     for (std::size_t which = 0; which < 3; ++which) {
       const Eigen::Vector3d at =
           heads[0].stand.ToWorld({0.17 * 1.2, 0.0, 1.2 * (static_cast<double>(which) + 0.5) / 3.0});
-      probes[which] = ProbeAt(image.value(), camera, at);
+      probes[which] = ProbeAt(image, camera, at);
     }
     return probes;
   };
   const auto bright = [](const Probe& p) { return std::max({p.red, p.green, p.blue}) > 200.0; };
-  const auto is_lit = [&](std::optional<LightColour> colour) {
-    const auto probes = seen(colour);
+  const auto are_lit = [&](const std::array<Probe, 3>& probes) {
     return std::array<bool, 3>{bright(probes[0]), bright(probes[1]), bright(probes[2])};
   };
-  EXPECT_EQ(is_lit(std::nullopt), (std::array<bool, 3>{false, false, false}));
-  EXPECT_EQ(is_lit(LightColour::kGreen), (std::array<bool, 3>{true, false, false}));
-  EXPECT_EQ(is_lit(LightColour::kAmber), (std::array<bool, 3>{false, true, false}));
-  EXPECT_EQ(is_lit(LightColour::kRed), (std::array<bool, 3>{false, false, true}));
-  EXPECT_EQ(is_lit(LightColour::kRedAmber), (std::array<bool, 3>{false, true, true}));
-  const auto red = seen(LightColour::kRed)[2], green = seen(LightColour::kGreen)[0],
-             amber = seen(LightColour::kAmber)[1];
-  EXPECT_TRUE(red.IsRed()) << red;
-  EXPECT_TRUE(amber.IsYellow()) << amber;
-  EXPECT_GT(green.green, 1.5 * green.red) << green;
+  EXPECT_EQ(are_lit(seen(std::nullopt)), (std::array<bool, 3>{false, false, false}));
+  const auto green = seen(LightColour::kGreen), amber = seen(LightColour::kAmber), red = seen(LightColour::kRed);
+  EXPECT_EQ(are_lit(green), (std::array<bool, 3>{true, false, false}));
+  EXPECT_EQ(are_lit(amber), (std::array<bool, 3>{false, true, false}));
+  EXPECT_EQ(are_lit(red), (std::array<bool, 3>{false, false, true}));
+  EXPECT_EQ(are_lit(seen(LightColour::kRedAmber)), (std::array<bool, 3>{false, true, true}));
+  EXPECT_TRUE(red[2].IsRed()) << red[2];
+  EXPECT_TRUE(amber[1].IsYellow()) << amber[1];
+  EXPECT_GT(green[0].green, 1.5 * green[0].red) << green[0];
 }
 
 }  // namespace

@@ -87,6 +87,7 @@ TEST(SunShadow, ThereIsNoneWithoutTheSunNorAtLowQuality) {
 // Nothing of the world is left away: each of the places that are asked has its colour, at any quality.
 TEST(Quality, RoadLinesLandSkyAndCarAreThereAtEachOfThem) {
   RODEIRA_NEEDS_PICTURES();
+  constexpr int kWide = 3 * kWidth / 2, kHigh = 3 * kHeight / 2;
   const auto world = World("n222.yaml");
   const road::Road& road = N222Road();
   Picture picture;
@@ -95,13 +96,13 @@ TEST(Quality, RoadLinesLandSkyAndCarAreThereAtEachOfThem) {
   const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
   std::vector<Image> images;
   for (const Quality quality : {Quality::kLow, Quality::kMedium, Quality::kHigh}) {
-    const auto image = RenderStill(*world, picture, 2 * kWidth, 2 * kHeight, {}, quality);
+    const auto image = RenderStill(*world, picture, kWide, kHigh, {}, quality);
     ASSERT_TRUE(image.ok());
     const auto probe = [&](double t_m) { return ProbeAt(image.value(), camera, road.Position(67.0, t_m), 0); };
     EXPECT_TRUE(probe(2.0).IsAsphalt()) << probe(2.0);
     EXPECT_TRUE(probe(2.96).IsWhite()) << probe(2.96);
     EXPECT_TRUE(probe(6.5).IsGrown()) << probe(6.5);
-    EXPECT_TRUE(ProbeAt(image.value(), kWidth, 10).IsSky());
+    EXPECT_TRUE(ProbeAt(image.value(), kWide / 2, 10).IsSky());
     EXPECT_TRUE(ProbeAt(image.value(), camera,
                         picture.moment.cars[0].p_WB_W + picture.moment.cars[0].q_WB * Eigen::Vector3d(-1.8, 0.0, 0.80))
                     .IsRed());

@@ -6,13 +6,14 @@
 #include <cstdlib>
 
 #include "nodes/view/materials/plain_geometry.hpp"
+#include "tests/long_form.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
-constexpr int kWidth = 960, kHeight = 540;
+const int kWidth = BriefOrLong(640, 960), kHeight = BriefOrLong(360, 540);
 
 class RepeatedStill : public ::testing::Test {
  protected:

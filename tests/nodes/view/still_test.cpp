@@ -26,6 +26,22 @@ Image Still(const road::World& world, const Picture& picture) {
   return image.value();
 }
 
+// Several pictures of a world, with one surface and one painter, as the node has them.
+class Stills {
+ public:
+  explicit Stills(const road::World& world)
+      : surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test").value()),
+        painter_(PainterOf(*surface_, world, {}).value()) {}
+  Image Of(const Picture& picture) {
+    painter_->DrawWhole(picture);
+    return painter_->Read();
+  }
+
+ private:
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Painter> painter_;
+};
+
 struct Tally {
   int asked = 0;
   int right = 0;
@@ -90,7 +106,7 @@ TEST(Still, OnN222) {
   const scene::WorldScene standing = scene::BuildWorldScene(*world);
   Painter painter(*surface.value(), *world, standing);
   Tally edges, middles, asphalt, green, sky;
-  for (double s = 60.0; s < road.length_m() - 80.0; s += BriefOrLong(400.0, 115.0)) {
+  for (double s = 60.0; s < road.length_m() - 80.0; s += BriefOrLong(500.0, 115.0)) {
     Picture picture;
     picture.show_instruments = false;
     picture.moment.cars.push_back(CarOn(road, s, -1.45));
@@ -141,9 +157,10 @@ TEST(Still, ThreeScreensAreOnePicture) {
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarOn(N222Road(), 40.0, -1.45));
   const double width = 0.708, distance = 0.7, angle = 2.0 * std::atan(0.5 * width / distance);
+  Stills stills(*world);
   const auto seen = [&](double angle_rad) {
     picture.screen = scene::ScreenPlane{width, 0.398, distance, angle_rad, 0.22, 0.0};
-    return Still(*world, picture);
+    return stills.Of(picture);
   };
   const Image left = seen(angle), centre = seen(0.0), right = seen(-angle);
   // How far the rows of two columns differ, one of them drawn down by `shift`.
@@ -194,9 +211,10 @@ TEST(Still, TrafficIsWhereItIs) {
   agent.colour = scene::Colour::Of(0x1040e0);
   agent.p_WB_W = ahead.p_WB_W;
   agent.q_WB = ahead.q_WB;
-  const Image without = Still(*world, picture);
+  Stills stills(*world);
+  const Image without = stills.Of(picture);
   picture.moment.agents.push_back(agent);
-  const Image with = Still(*world, picture);
+  const Image with = stills.Of(picture);
   const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
   const Eigen::Vector3d tailgate = agent.p_WB_W + agent.q_WB * Eigen::Vector3d(-2.0, 0.0, 0.82);
   EXPECT_FALSE(ProbeAt(without, camera, tailgate).IsBlue());
