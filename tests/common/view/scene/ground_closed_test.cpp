@@ -156,7 +156,7 @@ Flaws FlawsOf(const GroundTile& tile, std::size_t level) {
 // also not where a deck begins: the ground below it stops at an abutment, up to the deck's underside, and aprons at its
 // sides meet the underside.
 TEST(Ground, OfTheProjectsWorldsIsClosed) {
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 60) / 3;  // each of them at all levels
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 30) / 3;  // each of them at all levels
   for (const std::string name : {"haste", "motorway", "n222", "flat", "ring", "lights", "example/world"}) {
     const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds" / (name + ".yaml"));
     ASSERT_TRUE(world.ok()) << world.error().Text();
@@ -314,7 +314,7 @@ TEST(Ground, NeighboursFitOnATerrain) {
   EXPECT_GE(ExpectNeighboursFit(*parsed.value(), "slopes", 1), 40);
 }
 
-// The project's worlds and real files, the first RODEIRA_NEIGHBOUR_WORLDS (4) of them: those first on which neighbours
+// The project's worlds and real files, the first RODEIRA_NEIGHBOUR_WORLDS (2) of them: those first on which neighbours
 // did not fit.
 TEST(Ground, NeighboursFitInTheProjectsWorldsAndRealFiles) {
   const auto worlds = std::filesystem::path(SourceDir()) / "configs/worlds";
@@ -331,7 +331,7 @@ TEST(Ground, NeighboursFitInTheProjectsWorldsAndRealFiles) {
   for (const auto& file : files) {
     if (std::find(all.begin(), all.end(), file) == all.end()) all.push_back(file);
   }
-  all.resize(std::min<std::size_t>(all.size(), Setting("RODEIRA_NEIGHBOUR_WORLDS", 4)));
+  all.resize(std::min<std::size_t>(all.size(), Setting("RODEIRA_NEIGHBOUR_WORLDS", 2)));
   int looked_at = 0;
   for (const auto& path : all) {
     if (!std::filesystem::exists(path)) continue;

@@ -17,6 +17,7 @@
 #include "tests/common/view/scene/ground_tiles.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
 #include "tests/common/world/surface/made_crg.hpp"
+#include "tests/long_form.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
@@ -219,7 +220,7 @@ TEST(Ground, OfTheProjectsWorldsIsWhereTheTyresAre) {
 // plane: points of the whole land hardly meet these strips.
 TEST(Ground, CutsAndFillsBesideVergesAreWhereTheTyresAre) {
   constexpr double kBeside_m = 2.0;
-  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20) / 2;
+  const std::uint64_t at_most = Setting("RODEIRA_GROUND_TILES", 20) / 4;
   const std::string raised =
       "rodeira: world/2\nname: raised\nground: {kind: plane, surface: grass}\nroads:\n  - id: a\n    start: {x_m: "
       "-200, y_m: 30, heading_deg: 10}\n"
@@ -378,12 +379,21 @@ TEST(Ground, LosesNothingFarAway) {
   const double far_m = 20'000.0 * kTile_m;
   const auto here = OpenDriveWorld(BendUnderBridge()), there = OpenDriveWorld(BendUnderBridge(far_m, -far_m));
   ASSERT_TRUE(here != nullptr && there != nullptr);
-  const Correlation found = Correlate(*there, BuildAll(*there), Points(), 3);
-  EXPECT_LT(found.worst_m, 0.005);
   const GroundPlan near_plan(*here), far_plan(*there);
+  std::vector<GroundTile> far;
+  for (const TileKey& key : far_plan.tiles()) {
+    if (far_plan.PiecesIn(key) > 0) far.push_back(far_plan.Build(key));  // only roads are compared
+  }
+  const Correlation found = Correlate(*there, far, Points(), 3);
+  EXPECT_EQ(found.asked, Points());
+  EXPECT_LT(found.worst_m, 0.005);
   EXPECT_EQ(near_plan.tiles().size(), far_plan.tiles().size());
   for (const TileKey key : {TileKey{0, 0}, TileKey{0, -1}}) {
-    const GroundTile a = near_plan.Build(key), b = far_plan.Build({key.column + 20'000, key.row - 20'000});
+    const GroundTile a = near_plan.Build(key);
+    const auto other = std::find_if(far.begin(), far.end(), [&](const GroundTile& tile) {
+      return tile.key == TileKey{key.column + 20'000, key.row - 20'000};
+    });
+    const GroundTile b = other != far.end() ? *other : far_plan.Build({key.column + 20'000, key.row - 20'000});
     ASSERT_EQ(a.levels[0].ground.size(), b.levels[0].ground.size());
     for (std::size_t m = 0; m < a.levels[0].ground.size(); ++m) {
       const Mesh &p = a.levels[0].ground[m], &q = b.levels[0].ground[m];
@@ -433,7 +443,9 @@ TEST(Ground, ALevelAloneIsThatOfTheWholeTile) {
   std::size_t alike = 0;
   for (const auto& world : {OpenDriveWorld(BendUnderBridge()), land.value(), lights.value()}) {
     const GroundPlan plan(*world);
+    int without_lines = 0;
     for (const TileKey& key : plan.tiles()) {
+      if (!IsLongForm() && plan.PiecesIn(key) == 0 && without_lines++ % 4 != 0) continue;
       const GroundTile whole = plan.Build(key);
       for (int level = kGroundLevels - 1; level >= 0; --level) {  // in another order than the tile has
         ExpectSame(plan.BuildLevel(key, level), whole.levels[static_cast<std::size_t>(level)]);
