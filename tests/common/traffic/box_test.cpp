@@ -57,7 +57,7 @@ TEST(Box, IsNotBlockedByAQueue) {
       std::vector<double> stands_s(c.vehicles, 0.0);
       double longest_s = 0.0;
       std::string where;
-      for (int i = 0; i < 8000; ++i) {
+      for (int i = 0; i < BriefOrLong(5000, 8000); ++i) {
         model.Step(kStep_s, {});
         for (const AgentPose& pose : model.poses()) {
           double& stands = stands_s[pose.id];

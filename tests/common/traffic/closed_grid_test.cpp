@@ -111,7 +111,7 @@ TEST(ClosedGrid, TheFullerTheSlower) {
   std::vector<PlotCurve> curves;
   double before = 1e9;
   for (const auto& [vehicles_pkm, colour] : towns) {
-    const auto minutes = BriefOrLong<std::size_t>(8, 30);
+    const auto minutes = BriefOrLong<std::size_t>(6, 30);
     const Town town = Drive(3, vehicles_pkm, 1, 60.0 * static_cast<double>(minutes));
     ASSERT_EQ(town.kmh.size(), minutes);
     double mean = 0.0;

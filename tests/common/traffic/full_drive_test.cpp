@@ -161,12 +161,14 @@ void DriveAFile(const std::string& name, const std::vector<RealDrive>& runs) {
   if (files.empty()) GTEST_SKIP() << "no real .xodr files beside the project";
   const auto file = std::find_if(files.begin(), files.end(), [&](const auto& path) { return path.stem() == name; });
   ASSERT_NE(file, files.end()) << name;
+  const auto world = road::World::Load(*file);
+  ASSERT_TRUE(world.ok()) << world.error().Text();
   for (const RealDrive& run : runs) {
     StudySettings settings;
     settings.traffic = Full(run.vehicles);
     settings.traffic.seed = run.seed;
     settings.duration_s = run.duration_s;
-    const StudyResult r = RunStudy(settings, road::World::Load(*file).value()).value();
+    const StudyResult r = RunStudy(settings, world.value()).value();
     const std::string what = fmt::format("{} cars, seed {}", run.vehicles, run.seed);
     EXPECT_EQ(r.collisions, 0) << what;
     EXPECT_EQ(r.off_lane, 0) << what;

@@ -119,7 +119,7 @@ TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
     TrafficModel model = TrafficModel::Make(settings, Ring(600.0), {}).value();
     ASSERT_EQ(model.on_road(), 10u);
     model.CapSpeed(0, speed_mps);  // the leader of the nine others
-    for (int i = 0; i < (speed_mps > 10.0 ? BriefOrLong(30000, 50000) : 15000); ++i)
+    for (int i = 0; i < (speed_mps > 10.0 ? BriefOrLong(30000, 50000) : BriefOrLong(10000, 15000)); ++i)
       model.Step(kStep_s, {});  // near the limit who is behind comes up slowly
     int compared = 0;
     for (std::uint32_t id = 1; id < 10; ++id) {

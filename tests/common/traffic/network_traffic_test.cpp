@@ -191,7 +191,7 @@ TEST(NetworkTraffic, AFullTownGoesOn) {
   StudySettings settings;
   settings.traffic.vehicles = 150;
   settings.traffic.seed = 4;
-  settings.duration_s = BriefOrLong(500.0, 1200.0);
+  settings.duration_s = BriefOrLong(320.0, 1200.0);
   settings.step_s = 0.02;
   std::int64_t at_half = 0;
   const StudyResult r = RunStudy(settings, lanes::MapNetwork("town"), [&](const StudyMoment& moment) {

@@ -157,7 +157,7 @@ double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
 
 // Clear of the boundary that was measured (docs/traffic.md) on both sides.
 TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
-  const double for_s = BriefOrLong(150.0, 400.0);
+  const double for_s = BriefOrLong(80.0, 400.0);
   EXPECT_GT(SpreadThroughThePowertrain(0.5, for_s), 0.25);
   EXPECT_LT(SpreadThroughThePowertrain(3.0, for_s), 0.05);
 }
