@@ -55,7 +55,7 @@ TEST(Fuzz, MutatedFilesNeitherCrashNorLie) {
   const std::set<Copied> known(messages.begin(), messages.end());
   std::size_t opened = 0;
   const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
-  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 100'000);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 30'000);
   property::SayWhereItDies();
   for (std::size_t file = first; file < first + count; ++file) {
     property::NowTrying("file", file);

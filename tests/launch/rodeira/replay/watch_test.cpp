@@ -19,6 +19,7 @@
 #include "tests/common/runtime/replay/made_recording.hpp"
 #include "tests/launch/rodeira/replay/copied_recording.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/long_form.hpp"
 #include "tests/system/command.hpp"
 #include "tests/tree.hpp"
 
@@ -374,15 +375,24 @@ TEST_F(WatchTest, TheMarksAreReadBesideTheWindow) {
 
 TEST_F(WatchTest, TheDemosFramesComeOutOfItsRecordingPixelByPixel) {
   if (!nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 64, 64, "test").ok()) GTEST_SKIP() << "no OpenGL here";
-  const auto run =
-      RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"), "--in-process",
-                  "--record", Path("demo.mcap"), "--set", "nodes.view.config.frames.folder=" + Path("live"), "--set",
-                  "nodes.view.config.frames.times_s=[5, 12, 12.013, 20, 30]"});  // and one between two activations
+  // One of them between two activations, the last at the run's end.
+  const std::string until = BriefOrLong<std::string>("8", "30"),
+                    times = BriefOrLong<std::string>("[5, 6, 6.013, 8]", "[5, 6, 6.013, 8, 12, 20, 30]");
+  const auto run = RunCommand({"DISPLAY=", "WAYLAND_DISPLAY=", Bin("rodeira"), "run", LaunchFile("demo.yaml"),
+                               "--in-process", "--for", until, "--record", Path("demo.mcap"), "--set",
+                               "nodes.view.config.frames.folder=" + Path("live"), "--set",
+                               "nodes.view.config.frames.times_s=" + times});
   ASSERT_EQ(run.status, 0) << run.out;
-  const auto replay = Replay({Path("demo.mcap"), "--frames", Path("again"), "--at", "30", "5", "12.013", "12", "20"});
+  std::vector<std::string> wanted{Path("demo.mcap"), "--frames", Path("again"), "--at", "8", "5", "6.013", "6"};
+  std::vector<Step> steps{5'000, 6'000, 6'013, 8'000};
+  if (IsLongForm()) {
+    wanted.insert(wanted.end(), {"30", "12", "20"});
+    steps.insert(steps.end(), {12'000, 20'000, 30'000});
+  }
+  const auto replay = Replay(wanted);
   ASSERT_EQ(replay.status, 0) << replay.out;
   EXPECT_EQ(replay.out, "");
-  for (const Step step : {5'000, 12'000, 12'013, 20'000, 30'000}) {
+  for (const Step step : steps) {
     const auto live = base::ReadBytes(folder_.path() / "live" / nodes::FrameName(step)),
                again = base::ReadBytes(folder_.path() / "again" / nodes::FrameName(step));
     ASSERT_TRUE(live.ok() && again.ok()) << step;
