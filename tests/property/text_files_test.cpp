@@ -13,10 +13,12 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/config/config.hpp"
+#include "common/data/decode/type_text.hpp"
 #include "common/driving/driver/autopilot.hpp"
 #include "common/driving/scenario/scenario_file.hpp"
 #include "common/runtime/launch/lab.hpp"
 #include "common/runtime/launch/launch.hpp"
+#include "common/runtime/launch/manifest.hpp"
 #include "common/vehicle/dynamics/tir_file.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
@@ -27,6 +29,7 @@
 #include "common/world/traffic_map/companion_text.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/map_plot.hpp"
+#include "idl/idl_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "tests/common/vehicle/dynamics/test_ground.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
@@ -55,9 +58,9 @@ class OnDisk {
   ~OnDisk() { fs::remove_all(folder_); }
   OnDisk(const OnDisk&) = delete;
   OnDisk& operator=(const OnDisk&) = delete;
-  fs::path Put(const std::string& text) const {
-    std::ofstream(folder_ / "file.yaml", std::ios::binary | std::ios::trunc) << text;
-    return folder_ / "file.yaml";
+  fs::path Put(const std::string& text, const char* name = "file.yaml") const {
+    std::ofstream(folder_ / name, std::ios::binary | std::ios::trunc) << text;
+    return folder_ / name;
   }
 
  private:
@@ -113,6 +116,47 @@ TEST(TextFiles, LaunchFiles) {
          EXPECT_EQ(roster.nodes().size(), launch.value().nodes().size());
          EXPECT_GT(roster.base_step_ns(), 0);
          for (const auto& node : roster.nodes()) EXPECT_EQ(node.delay % node.period, 0);
+         return std::nullopt;
+       });
+}
+
+// Of external nodes: the manifest, and the IDL file that it names.
+TEST(TextFiles, Manifests) {
+  const OnDisk disk;
+  disk.Put(GoodFile("examples/own_node/gaze.idl"), "gaze.idl");
+  Fuzz("manifest", {GoodFile("examples/own_node/eye.yaml"), GoodFile("examples/own_node/monitor.yaml")},
+       [&](const std::string& text) -> std::optional<base::Error> {
+         const auto manifest = launch::ReadManifest(disk.Put(text));
+         if (!manifest) return manifest.error();
+         const launch::Manifest& read = manifest.value();
+         EXPECT_GT(read.kind.default_period_s, 0.0);
+         EXPECT_EQ(read.topics.size(), read.topic_places.size());
+         EXPECT_EQ(read.kind.inputs.size(), read.input_places.size());
+         idl::TopicTable table;
+         for (const idl::AddedTopic& topic : read.topics) EXPECT_TRUE(table.Add(topic).ok());
+         if (const auto status = launch::CheckInputs(read, table); !status) ExpectSentence(status.error());
+         return std::nullopt;
+       });
+}
+
+TEST(TextFiles, IdlOfExternalNodes) {
+  const std::string header = GoodFile("idl/sample_header.idl");
+  const std::string nested =
+      "#include \"sample_header.idl\"\nmodule lab {\n  enum Eye { kLeft, kRight };\n  @final struct Point { double "
+      "x_m; "
+      "float y_m[3]; };\n  @final struct Gaze {\n    rodeira::msg::SampleHeader header;\n    sequence<Point> points;\n"
+      "    string name;  // a comment\n    Eye eye;\n  };\n};\n";
+  Fuzz("idl", {GoodFile("examples/own_node/gaze.idl"), nested},
+       [&](const std::string& text) -> std::optional<base::Error> {
+         const auto source = idl::IdlSource::Read("gaze.idl", [&](const fs::path& file) -> base::Result<std::string> {
+           if (file == "gaze.idl") return text;
+           if (file.filename() == "sample_header.idl") return header;
+           return base::WrongInput("no such file", file.string());
+         });
+         if (!source) return source.error();
+         const auto type = source.value().Find("lab::Gaze");
+         if (!type) return type.error();
+         EXPECT_FALSE(decode::CanonicalIdl(*type.value()).empty());
          return std::nullopt;
        });
 }

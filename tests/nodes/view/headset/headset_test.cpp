@@ -212,7 +212,8 @@ TEST_F(InTheHeadset, ItIsTakenOffAndTheWindowGoesOn) {
     Fake().takes_off = true;
     testing::internal::CaptureStderr();
     EXPECT_FALSE(screen->WaitForHeadset());
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "rodeira: the headset was asked to show something else\n");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "rodeira: warning: the headset was asked to show something else\n");
     EXPECT_FALSE(screen->has_headset());
     screen->Show(moment_, 1.0);
     EXPECT_EQ(Fake().frames, 1);
@@ -229,7 +230,7 @@ TEST_F(InTheHeadset, ALostOneIsNamed) {
   testing::internal::CaptureStderr();
   EXPECT_FALSE(screen->WaitForHeadset());
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "rodeira: the headset shows nothing more (xrWaitFrame: XR_ERROR_SESSION_LOST)\n");
+            "rodeira: warning: the headset shows nothing more (xrWaitFrame: XR_ERROR_SESSION_LOST)\n");
   screen->Show(moment_, 1.0);
   EXPECT_EQ(Fake().living, 0);
 }
