@@ -86,7 +86,8 @@ endfunction()
 
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.
 # PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). Of a program whose tests run alone
-# BESIDE_OTHERS lists the tests, as --gtest_filter does, that may run beside others.
+# BESIDE_OTHERS lists the tests, as --gtest_filter does, that may run beside others. They mostly wait, and begin first
+# (COST), so that shorter tests fill the other processors.
 function(rodeira_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;BESIDE_OTHERS" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
@@ -99,7 +100,7 @@ function(rodeira_test name)
   if(ARG_BESIDE_OTHERS)
     list(JOIN ARG_BESIDE_OTHERS ":" together)
     gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${together}"
-      TEST_LIST ${name}_together PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL FALSE)
+      TEST_LIST ${name}_together PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL FALSE COST 60)
     set(alone TEST_FILTER "-${together}")
   endif()
   gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 ${alone}
