@@ -9,6 +9,7 @@
 #include "common/data/decode/idl_reader.hpp"
 #include "common/data/decode/type_text.hpp"
 #include "idl/aliases.hpp"
+#include "idl/topic_table.hpp"
 #include "idl/topics.hpp"
 
 namespace rodeira::idl {
@@ -49,15 +50,7 @@ base::Digest TypeHash(std::string_view topic) {
   return decode::TypeHash(*type);
 }
 
-std::vector<TopicText> TextsOf(const TopicSet& topics) {
-  std::vector<TopicText> texts;
-  for (const std::string& topic : topics) {
-    const decode::TypePtr type = TypeOf(topic);
-    RODEIRA_ASSERT(type != nullptr);
-    texts.push_back({topic, type->name, decode::CanonicalIdl(*type)});
-  }
-  return texts;
-}
+std::vector<TopicText> TextsOf(const TopicSet& topics) { return TopicTable().TextsOf(topics); }
 
 base::Digest ProtocolHash(std::span<const TopicText> topics) {
   base::Digest digest = 2;  // grows if the meaning of a message changes and its type does not

@@ -10,7 +10,6 @@
 #include <chrono>
 #include <filesystem>
 #include <set>
-#include <thread>
 
 #include "common/core/base/files.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
@@ -69,6 +68,16 @@ class OwnNode : public ::testing::Test {
     const bool has_report = ended.out.find("rodeira: report of the failure: ") != std::string::npos;
     EXPECT_EQ(std::ranges::count(ended.out, '\n'), has_report ? 2 : 1) << "one sentence was expected:\n" << ended.out;
     return ended.out;
+  }
+  // Until so much of a recording is on the disk: the run is under way then.
+  static void WaitForBytes(const std::string& recording, std::uintmax_t bytes) {
+    const auto until = std::chrono::steady_clock::now() + 30s;
+    std::error_code missing;
+    for (std::uintmax_t size = 0; size < bytes && std::chrono::steady_clock::now() < until; ::usleep(5000)) {
+      size = fs::file_size(recording, missing);
+      if (missing) size = 0;
+    }
+    ASSERT_GE(fs::file_size(recording, missing), bytes);
   }
   // A program that does this in place of the eye tracker.
   std::string Script(const std::string& text) const {
@@ -195,7 +204,7 @@ TEST_F(OwnNode, KilledItIsStartedAgainAndNothingIsLost) {
   for (const char* node : {"eye", "monitor"}) {
     Started run(Command("killed.mcap", {"--for", "6", "--pace", "2", "--set", "recovery=restart"}));
     ASSERT_TRUE(Runs(Name()));
-    std::this_thread::sleep_for(1200ms);
+    WaitForBytes(File("killed.mcap"), 100'000);
     const auto victim = ProcessesWith("--run " + Name(), std::string("--node ") + node);
     ASSERT_EQ(victim.size(), 1u);
     ::kill(victim.front(), SIGKILL);
