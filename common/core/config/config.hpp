@@ -141,7 +141,7 @@ class Map {
   /// @param way names of the keys, from this mapping downward
   /// @return the text, or nothing if there is none
   std::optional<std::string> Peek(std::initializer_list<std::string_view> way) const;
-  /// Lists all keys and marks them as known, for mappings whose keys are names (nodes, materials).
+  /// Lists all keys and marks them as known, for mappings with names as keys (nodes, materials).
   /// @return the keys in the order of the file
   std::vector<std::string> Keys() const;
 
@@ -153,7 +153,7 @@ class Map {
   /// @return "file:line" of the key
   std::string Place(std::string_view key) const;
   /// Adds a problem that the caller found, such as values that do not fit together.
-  /// @param key the key whose line is named
+  /// @param key the key to locate
   /// @param message one sentence: what was found, what was expected
   void Problem(std::string_view key, std::string message) const;
 
@@ -200,7 +200,7 @@ class List {
   /// @return "file:line" of the item; the file alone if there is no such item
   std::string Place(std::size_t index) const;
   /// Adds a problem that the caller found. The index may be any number.
-  /// @param index index of the item whose line is named
+  /// @param index index of the item to locate
   /// @param message one sentence: what was found, what was expected
   void Problem(std::size_t index, std::string message) const;
 

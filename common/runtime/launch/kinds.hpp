@@ -36,7 +36,7 @@ struct NodeKind {
 // A node of this kind is not there: `--set nodes.view.kind=none` leaves it out.
 inline constexpr std::string_view kNoKind = "none";
 
-// A node whose program and manifest the launch file names.
+// A node outside Rodeira: the launch file names its program and its manifest.
 inline constexpr std::string_view kExternalKind = "external";
 
 // The kinds that Rodeira brings.

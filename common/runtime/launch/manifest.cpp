@@ -17,7 +17,7 @@ namespace {
 constexpr std::string_view kOwnPrefix = "rodeira/";
 constexpr std::string_view kHeaderType = "rodeira::msg::SampleHeader";
 
-// Topics whose samples pass between nodes.
+// Topics with samples for nodes.
 bool IsPort(const idl::TopicInfo& info) { return info.lockstep && info.topic != lockstep::kSnapshotTopic; }
 
 std::vector<std::string> PortTopics(const idl::TopicTable& topics) {

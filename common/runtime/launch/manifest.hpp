@@ -22,11 +22,12 @@ struct Manifest {
 
 // Reads a manifest and the IDL that it names. Wrong input is one sentence with FILE:LINE: a key that is missing or
 // unknown, another version, a topic that cannot be published, IDL that cannot be read, a type that is not in it, a type
-// whose first member is not the sample header. Topics of the inputs are not looked up here: another manifest may add
-// them (CheckInputs).
+// without the sample header as its first member. CheckInputs looks up the topics of the inputs, since another manifest
+// may add them.
 base::Result<Manifest> ReadManifest(const std::filesystem::path& path);
 
-// Wrong input, with the nearest name, for an input whose topic neither Rodeira nor a manifest of the launch has.
+// Wrong input, with the nearest name, for an input with an unknown topic: Rodeira and the manifests of the launch lack
+// it.
 base::Status CheckInputs(const Manifest& manifest, const idl::TopicTable& topics);
 
 }  // namespace rodeira::launch

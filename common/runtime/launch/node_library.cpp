@@ -27,7 +27,7 @@ constexpr std::size_t Layout() {
   return layout;
 }
 
-// A node whose manifest says that it cannot save its state.
+// A node that cannot save its state, by its manifest.
 class NodeWithoutState final : public lockstep::Node {
  public:
   explicit NodeWithoutState(std::unique_ptr<lockstep::Node> node) : node_(std::move(node)) {}

@@ -69,8 +69,9 @@ class RecordedRun {
   std::vector<record::ChannelId> ChannelsOf(std::string_view topic) const;
   // Wrong input where this process would compute other bits than the one that recorded (law L7).
   base::Status CheckMathematics() const;
-  // Its samples are taken from the recording where the run is computed again: live input, and external nodes but those
-  // whose shared object `extra` of Open names (nodes.NAME.library). What a recording itself names is never loaded.
+  // Its samples are taken from the recording where the run is computed again: live input, and external nodes without a
+  // shared object. `extra` of Open names shared objects (nodes.NAME.library); one that a recording names is never
+  // loaded.
   bool is_substituted(lockstep::NodeIndex node) const;
   // Where this run left its parent; 0 where it has none. What lies before was computed by the parent's nodes.
   lockstep::Step branched_at() const { return branched_at_; }
