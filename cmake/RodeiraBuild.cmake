@@ -85,25 +85,26 @@ function(rodeira_program name)
 endfunction()
 
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.
-# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). Of a program whose tests run alone
-# BESIDE_OTHERS lists the tests, as --gtest_filter does, that may run beside others. They mostly wait, and begin first
-# (COST), so that shorter tests fill the other processors.
+# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). ALONE lists the tests, as --gtest_filter
+# does, that run while no other test does. The others of such a program mostly wait, and begin first (COST), so that
+# shorter tests fill the processors meanwhile.
 function(rodeira_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;BESIDE_OTHERS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;ALONE" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})
   rodeira_precompile(${name}_test rodeira_pch_test)
   target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
     GTest::gtest_main)
-  set(alone)
-  if(ARG_BESIDE_OTHERS)
-    list(JOIN ARG_BESIDE_OTHERS ":" together)
-    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${together}"
-      TEST_LIST ${name}_together PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL FALSE COST 60)
-    set(alone TEST_FILTER "-${together}")
+  set(others)
+  if(ARG_ALONE)
+    list(JOIN ARG_ALONE ":" alone)
+    gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 TEST_FILTER "${alone}"
+      TEST_LIST ${name}_alone PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES} RUN_SERIAL TRUE)
+    set(others TEST_FILTER "-${alone}")
+    list(APPEND ARG_PROPERTIES COST 60)
   endif()
-  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 ${alone}
+  gtest_discover_tests(${name}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60 ${others}
     PROPERTIES TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()
 

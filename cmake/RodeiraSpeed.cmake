@@ -3,12 +3,12 @@
 # compiled in batches. docs/performance.md has the times; tests/rebuilt builds without both and compares digests.
 
 option(RODEIRA_UNITY "Compile the sources of a module in batches" ON)
-option(RODEIRA_PCH "Precompile the headers that nearly every source reads (GCC only)" ON)
+option(RODEIRA_PCH "Precompile the headers that nearly every source reads" ON)
 
 # Sources a batch, at most. A changed source compiles its batch again. A change in these two groups compiles much of
 # what lies above them, too: their batches are smaller, so that a test of the changed source runs sooner.
-set(RODEIRA_BATCH 16)
-set(RODEIRA_SMALL_BATCH 10)
+set(RODEIRA_BATCH 16 CACHE STRING "Sources a batch, at most")
+set(RODEIRA_SMALL_BATCH 10 CACHE STRING "The same in common/core and common/world")
 set(RODEIRA_SMALL_BATCH_GROUPS "^${CMAKE_SOURCE_DIR}/common/(core|world)/")
 
 # GCC collects garbage only beyond this many kilobytes: 4 % less processor time, 130 MB more memory a compiler.
@@ -22,13 +22,21 @@ function(rodeira_add_pch name)
   file(GENERATE OUTPUT ${CMAKE_BINARY_DIR}/pch/${name}.cpp CONTENT "")
   add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/pch/${name}.cpp)
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
-  target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS} -Wno-array-bounds -Wno-stringop-overflow
-                         -Wno-stringop-overread -Wno-restrict)
+  target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS} ${RODEIRA_PCH_WARNINGS})
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-if(RODEIRA_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT RODEIRA_FUZZ)
-  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+# Of a precompiled header GCC 12 no longer knows that its parts are the system's, so that its false alarms about
+# std::string in them (its bug 105329) would be errors.
+set(RODEIRA_PCH_WARNINGS)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(RODEIRA_PCH_WARNINGS -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+endif()
+
+if(RODEIRA_PCH AND NOT RODEIRA_FUZZ)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
   set(headers <algorithm> <array> <chrono> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional> <set>
       <span> <string> <string_view> <tuple> <unordered_map> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry>
       <fmt/format.h>)
@@ -39,12 +47,11 @@ if(RODEIRA_PCH AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT RODEIRA_FUZZ)
   endif()
 endif()
 
-# The target reads the precompiled header `pch`, where there is one. Of a precompiled header GCC 12 no longer knows that
-# its parts are the system's, so that its false alarms about std::string in them (its bug 105329) would be errors.
+# The target reads the precompiled header `pch`, where there is one.
 function(rodeira_precompile target pch)
   if(TARGET ${pch})
     target_precompile_headers(${target} REUSE_FROM ${pch})
-    target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-restrict)
+    target_compile_options(${target} PRIVATE ${RODEIRA_PCH_WARNINGS})
   endif()
 endfunction()
 

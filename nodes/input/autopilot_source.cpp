@@ -12,25 +12,12 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "nodes/messages/vehicle_state.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 namespace topics = idl::topics;
-
-// What the autopilot reads of a published state: pose and motion.
-dynamics::VehicleState StateFromWire(const msg::VehicleState& in) {
-  dynamics::VehicleState out;
-  out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
-  out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
-  out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
-  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(),
-                in.angular_velocity_b_radps().z()};
-  out.a_WB_W = {in.acceleration_w_mps2().x(), in.acceleration_w_mps2().y(), in.acceleration_w_mps2().z()};
-  out.steering_wheel_rad = in.steering_wheel_rad();
-  out.gear = in.gear();
-  return out;
-}
 
 // What others take up. Somebody who walks across is given the way that he goes in the next seconds, so that he is seen
 // in time.
@@ -75,7 +62,7 @@ class AutopilotSource final : public Source {
       for (const msg::TrafficAgent& agent : traffic.value().agents()) others_.push_back(FootprintOf(agent));
     }
     if (auto status = SeeLights(inbox); !status) return status.error();
-    const dynamics::VehicleState state = StateFromWire(own.value());
+    const dynamics::VehicleState state = FromMessage(own.value());
     return autopilot_.Step({state, dimensions_, others_, lights_}, step.dt_s);
   }
 

@@ -14,39 +14,19 @@
 #include "nodes/input/parked_source.hpp"
 #include "nodes/input/script_source.hpp"
 #include "nodes/input/source.hpp"
+#include "nodes/messages/controls.hpp"
 
 namespace rodeira::nodes {
 namespace {
 
 namespace topics = idl::topics;
 
-msg::Controls ToWire(const dynamics::Controls& in, const input_devices::Signals& signals) {
-  msg::Controls out;
-  out.steering_wheel_rad(in.steering_wheel_rad);
-  out.throttle(in.throttle);
-  out.brake(in.brake);
-  out.clutch(in.clutch);
-  out.handbrake(in.handbrake);
-  out.gear(in.gear);
-  out.gearbox_mode(static_cast<std::uint32_t>(in.gearbox));
-  out.starter(in.starter ? 1 : 0);
+msg::Controls MessageOf(const dynamics::Controls& controls, const input_devices::Signals& signals) {
+  msg::Controls out = ToMessage(controls);
   out.indicators(static_cast<std::uint32_t>(signals.indicators));
   out.headlights(static_cast<std::uint32_t>(signals.headlights));
   out.horn(signals.horn ? 1 : 0);
   return out;
-}
-
-dynamics::Controls ControlsFromWire(const msg::Controls& in) {
-  dynamics::Controls out;
-  out.steering_wheel_rad = in.steering_wheel_rad();
-  out.throttle = in.throttle();
-  out.brake = in.brake();
-  out.clutch = in.clutch();
-  out.handbrake = in.handbrake();
-  out.gear = in.gear();
-  out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
-  out.starter = in.starter() != 0;
-  return dynamics::Clamp(out);
 }
 
 input_devices::Signals SignalsOf(const msg::Controls& in) {
@@ -61,20 +41,20 @@ class InputNode final : public lockstep::Node {
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
     const dynamics::Controls first = source_->First();
-    outbox.Put(topics::kControls, idl::Encode(ToWire(first, source_->signals())));
+    outbox.Put(topics::kControls, idl::Encode(MessageOf(first, source_->signals())));
     return {};
   }
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     const auto controls = source_->Step(step, step.output_valid * base_step_ns_, inbox);
     if (!controls) return controls.error();
-    outbox.Put(topics::kControls, idl::Encode(ToWire(controls.value(), source_->signals())));
+    outbox.Put(topics::kControls, idl::Encode(MessageOf(controls.value(), source_->signals())));
     return {};
   }
   base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
     if (published.empty()) return base::WrongInput("no published controls were found");
     const auto last = idl::Decode<msg::Controls>(*published.back().payload);
     if (!last) return last.error();
-    source_->InitialiseFrom(ControlsFromWire(last.value()), SignalsOf(last.value()));
+    source_->InitialiseFrom(FromMessage(last.value()), SignalsOf(last.value()));
     return {};
   }
   bool runs_inline() const override { return source_->runs_inline(); }

@@ -8,7 +8,7 @@
 
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
-#include "nodes/vehicle/vehicle_wire.hpp"
+#include "nodes/messages/vehicle_state.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -18,7 +18,7 @@ constexpr std::uint32_t kInWorld = 0,
 
 // The same of another node's car, which turns as well.
 dynamics::Obstacle BoxOf(const msg::VehicleState& wire, double late_s) {
-  const dynamics::VehicleState car = FromWire(wire);
+  const dynamics::VehicleState car = FromMessage(wire);
   dynamics::VehicleDimensions dimensions;
   dimensions.front_m = static_cast<double>(wire.front_m());
   dimensions.rear_m = static_cast<double>(wire.length_m()) - dimensions.front_m;

@@ -16,9 +16,10 @@
 #include "common/world/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
+#include "nodes/messages/controls.hpp"
+#include "nodes/messages/vehicle_state.hpp"
 #include "nodes/vehicle/collisions.hpp"
 #include "nodes/vehicle/obstacle_map.hpp"
-#include "nodes/vehicle/vehicle_wire.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -61,7 +62,7 @@ class VehicleNode final : public lockstep::Node {
       if (!weather) return weather.error();
       ground_.set_wetness(weather.value().wetness());
     }
-    model_->Step(FromWire(controls.value()), ground_, step.dt_s);  // CALCULO
+    model_->Step(FromMessage(controls.value()), ground_, step.dt_s);  // CALCULO
     if (auto problem = model_->problem(); !problem) return problem;
     Publish(outbox, controls.value(), touched);
     return {};
@@ -73,7 +74,7 @@ class VehicleNode final : public lockstep::Node {
     if (newest == published.rend()) return base::WrongInput("no published state of the car was found");
     const auto state = idl::Decode<msg::VehicleState>(*newest->payload);
     if (!state) return state.error();
-    return model_->Initialise(dynamics::FromState(FromWire(state.value())), ground_);
+    return model_->Initialise(dynamics::FromState(FromMessage(state.value())), ground_);
   }
 
   void Save(base::StateWriter& out) const override {
@@ -115,7 +116,7 @@ class VehicleNode final : public lockstep::Node {
       base::Log(base::LogLevel::kWarning, name_, fmt::format("it stays where it is: {}", placed.error().Text()));
   }
   void Publish(lockstep::Outbox& outbox, const msg::Controls& controls, const msg::Collisions& touched) const {
-    msg::VehicleState state = ToWire(model_->state(), model_->dimensions());
+    msg::VehicleState state = ToMessage(model_->state(), model_->dimensions());
     state.lights(LightsOf(controls, state.gear()));
     state.horn(controls.horn() != 0 ? 1 : 0);
     outbox.Put(topics::kVehicleState, idl::Encode(state));

@@ -275,19 +275,36 @@ void Painter::DrawOnce(const Picture& picture, const PictureTarget& target, bool
 }
 
 void Painter::DrawWhole(const Picture& picture, const scene::Progress& progress) {
-  DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
+  const PictureTarget target{0, surface_.width_px(), surface_.height_px()};
+  DrawInto(picture, target);
+  if (!parts_->paged.root) return;
   osgDB::DatabasePager* const pager = parts_->viewer.getDatabasePager();
   double share = 0.0;
+  bool has_pixels = true;
   // Each level of a tile is asked for when the one before it is there.
-  while (parts_->paged.root && pager->getRequestsInProgress()) {
+  while (!has_pixels || pager->getRequestsInProgress()) {
+    if (!pager->getRequestsInProgress()) {
+      DrawInto(picture, target);
+      has_pixels = true;
+      continue;
+    }
     while (IsReading(*pager)) {
       const double there = static_cast<double>(HeldLevels() + pager->getDataToMergeListSize());
       share = std::max(share, there / (there + 1.0 + static_cast<double>(pager->getFileRequestListSize())));
       if (progress) progress(share);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    DrawInto(picture, {0, surface_.width_px(), surface_.height_px()});
+    has_pixels = RequestVisible(picture, target);
   }
+}
+
+bool Painter::RequestVisible(const Picture& picture, const PictureTarget& target) {
+  const unsigned context = parts_->viewer.getCamera()->getGraphicsContext()->getState()->getContextID();
+  const bool discards = osg::isGLExtensionOrVersionSupported(context, "GL_EXT_transform_feedback", 3.0F);
+  if (discards) glEnable(GL_RASTERIZER_DISCARD);
+  DrawInto(picture, target);
+  if (discards) glDisable(GL_RASTERIZER_DISCARD);
+  return !discards;
 }
 
 std::size_t Painter::HeldLevels() const { return nodes::HeldLevels(parts_->paged); }

@@ -62,6 +62,9 @@ class Painter {
   void Lay(PagedWorld paged);
   void SetUp();
   void DrawOnce(const Picture& picture, const PictureTarget& target, bool whole);  // `whole`: every mirror
+  // Requests the ground that such a picture shows. Draws its pixels too where OpenGL cannot leave them out, and says
+  // so.
+  bool RequestVisible(const Picture& picture, const PictureTarget& target);
   Surface& surface_;
   const road::World& world_;
   std::unique_ptr<Parts> parts_;

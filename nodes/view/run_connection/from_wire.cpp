@@ -10,6 +10,7 @@
 #include "common/core/base/constants.hpp"
 #include "idl/codec.hpp"
 #include "idl/topics.hpp"
+#include "nodes/messages/vectors.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -21,11 +22,9 @@ constexpr std::uint64_t kIdBits = 0xffffffU;  // of an agent's own number within
 constexpr double kPetrol_kgpl = 0.745;        // as gauges count it
 
 double Double(float value) { return static_cast<double>(value); }
-Eigen::Vector3d ToVector(const msg::Vector3& v) { return {v.x(), v.y(), v.z()}; }
-Eigen::Vector3d ToVector(const msg::Vector3f& v) { return {Double(v.x()), Double(v.y()), Double(v.z())}; }
 
 // What lies outside of what can be (a recording from elsewhere) is cut to it.
-weather::Weather WeatherFromWire(const msg::WeatherState& message) {
+weather::Weather WeatherOf(const msg::WeatherState& message) {
   const auto cut = [](double value, double low, double high) { return value >= low ? std::min(value, high) : low; };
   return {cut(message.wetness(), 0.0, 1.0), cut(message.rain_mmph(), 0.0, 200.0),
           cut(message.visibility_m(), 10.0, weather::kClear_m), cut(message.clouds(), 0.0, 1.0),
@@ -33,7 +32,7 @@ weather::Weather WeatherFromWire(const msg::WeatherState& message) {
 }
 
 // Of an agent that stood there, heading so, when it was said.
-scene::AgentDetail DetailFromWire(const msg::TrafficDetail& message, const Eigen::Vector2d& at_W, double heading_rad) {
+scene::AgentDetail DetailOf(const msg::TrafficDetail& message, const Eigen::Vector2d& at_W, double heading_rad) {
   scene::AgentDetail detail;
   detail.throttle = std::clamp(Double(message.throttle()), 0.0, 1.0);
   detail.brake = std::clamp(Double(message.brake()), 0.0, 1.0);
@@ -62,7 +61,7 @@ void AddDetails(const lockstep::Roster& roster, lockstep::NodeIndex node, const 
     if (found == by_id.end()) continue;
     const Eigen::Vector3d ahead_W = agent.q_WB * Eigen::Vector3d::UnitX();
     const Eigen::Vector2d at_W = (agent.p_WB_W - age_s * agent.speed_mps * ahead_W).head<2>();
-    agent.detail = DetailFromWire(*found->second, at_W, std::atan2(ahead_W.y(), ahead_W.x()));
+    agent.detail = DetailOf(*found->second, at_W, std::atan2(ahead_W.y(), ahead_W.x()));
   }
 }
 
@@ -78,7 +77,7 @@ double Sliding(const msg::VehicleState& message) {
   for (const msg::WheelState& wheel : message.wheels()) {
     if (wheel.in_contact() == 0) continue;
     const double slip = std::hypot(Double(wheel.slip()), Double(wheel.slip_angle_tan())),
-                 moving = std::fabs(Double(wheel.spin_radps())) * 0.3 + ToVector(message.velocity_w_mps()).norm();
+                 moving = std::fabs(Double(wheel.spin_radps())) * 0.3 + FromMessage(message.velocity_w_mps()).norm();
     most = std::max(most, std::clamp((slip - 0.12) / 0.3, 0.0, 1.0) * std::clamp(moving / 5.0 - 0.2, 0.0, 1.0));
   }
   return most;
@@ -92,19 +91,18 @@ double Blow(const msg::VehicleState& message) {
 
 }  // namespace
 
-scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order) {
+scene::CarPose CarPoseOf(const msg::VehicleState& message, std::uint32_t source, std::size_t order) {
   scene::CarPose car;
   car.id = source;
   car.colour = kPaints[order % kPaints.size()];
-  car.p_WB_W = ToVector(message.position_w_m());
-  const msg::Quaternion& q = message.attitude_wb();
-  car.q_WB = Eigen::Quaterniond(q.w(), q.x(), q.y(), q.z()).normalized();
+  car.p_WB_W = FromMessage(message.position_w_m());
+  car.q_WB = FromMessage(message.attitude_wb()).normalized();
   for (std::size_t i = 0; i < car.wheels.size(); ++i) {
     const msg::WheelState& wheel = message.wheels()[i];
-    car.wheels[i] = {ToVector(wheel.hub_b_m()), Double(wheel.steer_rad()), Double(wheel.spin_rad()),
+    car.wheels[i] = {FromMessage(wheel.hub_b_m()), Double(wheel.steer_rad()), Double(wheel.spin_rad()),
                      Double(wheel.spin_radps())};
   }
-  car.speed_mps = (car.q_WB.conjugate() * ToVector(message.velocity_w_mps())).x();
+  car.speed_mps = (car.q_WB.conjugate() * FromMessage(message.velocity_w_mps())).x();
   car.brake = Double(message.brake());
   car.lights = LightsOf(message.lights());
   car.gear = message.gear();
@@ -182,7 +180,7 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
     if (roster.source(source).topic == idl::topics::kVehicleState) {
       const auto message = idl::Decode<msg::VehicleState>(*payload);
       if (!message) return message.error();
-      moment.cars.push_back(FromWire(message.value(), source, moment.cars.size()));
+      moment.cars.push_back(CarPoseOf(message.value(), source, moment.cars.size()));
     } else if (roster.source(source).topic == idl::topics::kSignalsState) {
       const auto message = idl::Decode<msg::SignalsState>(*payload);
       if (!message) return message.error();
@@ -190,7 +188,7 @@ base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep:
     } else if (roster.source(source).topic == idl::topics::kWeatherState) {
       const auto message = idl::Decode<msg::WeatherState>(*payload);
       if (!message) return message.error();
-      moment.weather = WeatherFromWire(message.value());
+      moment.weather = WeatherOf(message.value());
     } else if (roster.source(source).topic == idl::topics::kTrafficDetails) {
       auto message = idl::Decode<msg::TrafficDetails>(*payload);
       if (!message) return message.error();

@@ -15,7 +15,7 @@ namespace rodeira::nodes {
 
 // A car's pose from its message; `source` is the number of its stream, `order` its place among the cars (for its
 // paint).
-scene::CarPose FromWire(const msg::VehicleState& message, std::uint32_t source, std::size_t order);
+scene::CarPose CarPoseOf(const msg::VehicleState& message, std::uint32_t source, std::size_t order);
 // Adds the agents of one source's message, in ascending ids.
 void AppendAgents(const msg::TrafficState& message, std::uint32_t source, std::vector<scene::AgentPose>& agents);
 

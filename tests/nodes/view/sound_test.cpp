@@ -74,19 +74,19 @@ TEST(Heard, WhatSlidesAndWhatStrikesIsReadFromTheState) {
   message.attitude_wb().w(1.0);
   message.velocity_w_mps().x(15.0);
   for (auto& wheel : message.wheels()) wheel.in_contact(1);
-  EXPECT_EQ(FromWire(message, 1, 0).sliding, 0.0);
+  EXPECT_EQ(CarPoseOf(message, 1, 0).sliding, 0.0);
   message.wheels()[2].slip(-1.0F);
-  EXPECT_EQ(FromWire(message, 1, 0).sliding, 1.0);
+  EXPECT_EQ(CarPoseOf(message, 1, 0).sliding, 1.0);
   message.wheels()[2].in_contact(0);
-  EXPECT_EQ(FromWire(message, 1, 0).sliding, 0.0) << "in the air";
+  EXPECT_EQ(CarPoseOf(message, 1, 0).sliding, 0.0) << "in the air";
   message.wheels()[2].in_contact(1);
   message.velocity_w_mps().x(0.0);
-  EXPECT_EQ(FromWire(message, 1, 0).sliding, 0.0) << "at rest";
-  EXPECT_EQ(FromWire(message, 1, 0).blow, 0.0);
+  EXPECT_EQ(CarPoseOf(message, 1, 0).sliding, 0.0) << "at rest";
+  EXPECT_EQ(CarPoseOf(message, 1, 0).blow, 0.0);
   message.acceleration_w_mps2().x(-10.0F);
-  EXPECT_EQ(FromWire(message, 1, 0).blow, 0.0) << "braking";
+  EXPECT_EQ(CarPoseOf(message, 1, 0).blow, 0.0) << "braking";
   message.acceleration_w_mps2().x(-200.0F);
-  EXPECT_GT(FromWire(message, 1, 0).blow, 0.9);
+  EXPECT_GT(CarPoseOf(message, 1, 0).blow, 0.9);
 }
 
 TEST(Speaker, PlaysWhereThereIsADeviceAndSaysWhereThereIsNone) {

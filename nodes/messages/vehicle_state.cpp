@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/vehicle/vehicle_wire.hpp"
+#include "nodes/messages/vehicle_state.hpp"
 
 #include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "nodes/messages/vectors.hpp"
+
 namespace rodeira::nodes {
 namespace {
-
-msg::Vector3 Vector(const Eigen::Vector3d& v) {
-  msg::Vector3 out;
-  out.x(v.x());
-  out.y(v.y());
-  out.z(v.z());
-  return out;
-}
 
 float Single(double value) { return static_cast<float>(value); }
 
@@ -63,26 +57,13 @@ msg::WheelState Wheel(const dynamics::WheelState& in, const dynamics::VehicleSta
 
 }  // namespace
 
-dynamics::Controls FromWire(const msg::Controls& in) {
-  dynamics::Controls out;
-  out.steering_wheel_rad = in.steering_wheel_rad();
-  out.throttle = in.throttle();
-  out.brake = in.brake();
-  out.clutch = in.clutch();
-  out.handbrake = in.handbrake();
-  out.gear = in.gear();
-  out.gearbox = in.gearbox_mode() == 1 ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
-  out.starter = in.starter() != 0;
-  return dynamics::Clamp(out);
-}
-
-dynamics::VehicleState FromWire(const msg::VehicleState& in) {
+dynamics::VehicleState FromMessage(const msg::VehicleState& in) {
   dynamics::VehicleState out;
-  out.p_WB_W = {in.position_w_m().x(), in.position_w_m().y(), in.position_w_m().z()};
-  out.q_WB = {in.attitude_wb().w(), in.attitude_wb().x(), in.attitude_wb().y(), in.attitude_wb().z()};
-  out.v_WB_W = {in.velocity_w_mps().x(), in.velocity_w_mps().y(), in.velocity_w_mps().z()};
-  out.w_WB_B = {in.angular_velocity_b_radps().x(), in.angular_velocity_b_radps().y(),
-                in.angular_velocity_b_radps().z()};
+  out.p_WB_W = FromMessage(in.position_w_m());
+  out.q_WB = FromMessage(in.attitude_wb());
+  out.v_WB_W = FromMessage(in.velocity_w_mps());
+  out.w_WB_B = FromMessage(in.angular_velocity_b_radps());
+  out.a_WB_W = FromMessage(in.acceleration_w_mps2());
   out.steering_wheel_rad = in.steering_wheel_rad();
   out.engine_speed_radps = in.engine_speed_radps();
   out.gear = in.gear();
@@ -102,15 +83,12 @@ std::uint32_t LightsOf(const msg::Controls& controls, int gear) {
   return lights;
 }
 
-msg::VehicleState ToWire(const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions) {
+msg::VehicleState ToMessage(const dynamics::VehicleState& state, const dynamics::VehicleDimensions& dimensions) {
   msg::VehicleState out;
-  out.position_w_m(Vector(state.p_WB_W));
-  out.attitude_wb().w(state.q_WB.w());
-  out.attitude_wb().x(state.q_WB.x());
-  out.attitude_wb().y(state.q_WB.y());
-  out.attitude_wb().z(state.q_WB.z());
-  out.velocity_w_mps(Vector(state.v_WB_W));
-  out.angular_velocity_b_radps(Vector(state.w_WB_B));
+  out.position_w_m(ToMessage(state.p_WB_W));
+  out.attitude_wb(ToMessage(state.q_WB));
+  out.velocity_w_mps(ToMessage(state.v_WB_W));
+  out.angular_velocity_b_radps(ToMessage(state.w_WB_B));
   out.acceleration_w_mps2(Measured(state.a_WB_W));
   out.angular_acceleration_b_radps2(Measured(state.alpha_WB_B));
   for (std::size_t i = 0; i < dynamics::kWheels; ++i) out.wheels()[i] = Wheel(state.wheels[i], state);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nodes/vehicle/vehicle_wire.hpp"
+#include "nodes/messages/vehicle_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 // What instruments read is right to 2^-16 and has no noise in its last bits; what a run goes on from is there to the
 // bit.
-TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
+TEST(VehicleMessage, RoundsWhatIsReadAndNotWhatGoesOn) {
   for (std::uint64_t n = 0; n < 2000; ++n) {
     dynamics::VehicleState state;
     const auto drawn = [n](std::uint64_t which) {
@@ -24,7 +24,7 @@ TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
     state.a_WB_W = {drawn(4), drawn(5), drawn(6)};
     state.wheels[1].lateral_N = drawn(7);
     state.wheels[2].spin_rad = drawn(8);
-    const msg::VehicleState said = ToWire(state, {});
+    const msg::VehicleState said = ToMessage(state, {});
     EXPECT_EQ(said.position_w_m().x(), state.p_WB_W.x());
     EXPECT_EQ(said.engine_speed_radps(), state.engine_speed_radps);
     EXPECT_EQ(said.wheels()[2].spin_rad(), static_cast<float>(state.wheels[2].spin_rad))
@@ -37,11 +37,11 @@ TEST(VehicleWire, RoundsWhatIsReadAndNotWhatGoesOn) {
   }
   dynamics::VehicleState infinite;
   infinite.drag_N = INFINITY;
-  EXPECT_EQ(ToWire(infinite, {}).drag_n(), INFINITY);
+  EXPECT_EQ(ToMessage(infinite, {}).drag_n(), INFINITY);
 }
 
 // By the bits of vehicle.idl.
-TEST(VehicleWire, LightsFollowTheControls) {
+TEST(VehicleMessage, LightsFollowTheControls) {
   msg::Controls controls;
   EXPECT_EQ(LightsOf(controls, 1), 0u);
   controls.brake(0.005);
