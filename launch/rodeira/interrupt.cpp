@@ -17,6 +17,7 @@ void SetInterrupted(int) { g_interrupted = true; }
 void CatchInterrupts() {
   ::signal(SIGINT, SetInterrupted);
   ::signal(SIGTERM, SetInterrupted);
+  ::signal(SIGHUP, SetInterrupted);
   ::signal(SIGXFSZ, SIG_IGN);
 }
 

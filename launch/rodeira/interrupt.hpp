@@ -4,8 +4,8 @@
 // Ctrl-C and SIGTERM as a wish that long work asks about, so that it ends in order and removes what it unpacked.
 namespace rodeira::cli {
 
-// From here on SIGINT and SIGTERM do nothing but make Interrupted() true, and a limit on the size of files is an error
-// of writing to report, like a full disk.
+// From here on SIGINT, SIGTERM and SIGHUP do nothing but make Interrupted() true, and a limit on the size of files is
+// an error of writing to report, like a full disk.
 void CatchInterrupts();
 bool Interrupted();
 

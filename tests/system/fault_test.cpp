@@ -83,11 +83,19 @@ TEST(Fault, ASecondClockIsRefused) {
   EXPECT_EQ(run.Wait(10s).status, 0) << "and the first run did not mind";
 }
 
+// Tests that run at the same time have runs of their own.
+std::string RefusedRun() { return "refused-" + std::to_string(::getpid()); }
+
 // A process of another build, machine or launch file is refused, with both values.
 void ExpectRefused(const std::string& environment, const std::vector<std::string>& more, const std::string& what) {
-  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "refused"});
-  std::vector<std::string> command{
-      Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"};
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", RefusedRun()});
+  std::vector<std::string> command{Bin(environment.empty() ? "rodeira-empty" : "rodeira-test-pretends"),
+                                   "--launch",
+                                   LaunchFile("empty.yaml"),
+                                   "--run",
+                                   RefusedRun(),
+                                   "--node",
+                                   "a"};
   if (!environment.empty()) command.insert(command.begin(), environment);
   command.insert(command.end(), more.begin(), more.end());
   Started node(command);
@@ -98,9 +106,9 @@ void ExpectRefused(const std::string& environment, const std::vector<std::string
 }
 
 TEST(Fault, AnotherTypeOfAUsedTopicIsRefused) {
-  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "refused"});
-  Started node({"RODEIRA_PRETEND_TYPE=rodeira/pulse|unsigned long long value|double value", Bin("rodeira-empty"),
-                "--launch", LaunchFile("empty.yaml"), "--run", "refused", "--node", "a"});
+  Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", RefusedRun()});
+  Started node({"PRETEND_TYPE=rodeira/pulse|unsigned long long value|double value", Bin("rodeira-test-pretends"),
+                "--launch", LaunchFile("empty.yaml"), "--run", RefusedRun(), "--node", "a"});
   const Ended ended = clock.Wait(20s);
   EXPECT_EQ(ended.status, 2) << ended.out;
   EXPECT_NE(ended.out.find("node 'a' (process "), std::string::npos) << ended.out;
@@ -114,7 +122,7 @@ TEST(Fault, ANodeWhoseUnusedTopicDiffersTakesPart) {
   std::vector<std::unique_ptr<Started>> nodes;
   for (const char* node : {"a", "b", "c", "d"}) {
     nodes.push_back(std::make_unique<Started>(std::vector<std::string>{
-        "RODEIRA_PRETEND_TYPE=rodeira/controls|double throttle|float throttle", Bin("rodeira-empty"), "--launch",
+        "PRETEND_TYPE=rodeira/controls|double throttle|float throttle", Bin("rodeira-test-pretends"), "--launch",
         LaunchFile("empty.yaml"), "--run", "unused", "--node", node}));
   }
   Started clock({Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "unused", "--for", "0.5"});
@@ -123,7 +131,7 @@ TEST(Fault, ANodeWhoseUnusedTopicDiffersTakesPart) {
   for (const auto& node : nodes) EXPECT_EQ(node->Wait(5s).status, 0);
 }
 
-TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("RODEIRA_PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
+TEST(Fault, OtherMathematicsAreRefused) { ExpectRefused("PRETEND_MATHEMATICS=9", {}, "mathematics hash"); }
 TEST(Fault, AnotherRosterIsRefused) { ExpectRefused("", {"--set", "nodes.b.period_s=0.002"}, "roster hash"); }
 
 // Two PCs with the same launch file and other world files: the road server and the traffic each load their own.

@@ -248,8 +248,8 @@ TEST_F(OwnNode, AProgramThatNeverTakesPartEndsTheRun) {
 }
 
 TEST_F(OwnNode, AProgramOfAnotherBuildIsRefused) {
-  const std::string program = Bin("rodeira-test-eye-tracker");
-  const std::string pretend = "RODEIRA_PRETEND_TYPE='rodeira/vehicle_state|double odometer_m|float odometer_m' exec ";
+  const std::string program = Bin("rodeira-test-eye-tracker-pretends");
+  const std::string pretend = "PRETEND_TYPE='rodeira/vehicle_state|double odometer_m|float odometer_m' exec ";
   EXPECT_THAT(Failure(2, {"--set", Script(pretend + program + " \"$@\"")}),
               HasSubstr("its type of topic rodeira/vehicle_state differs from the clock's"));
   std::string text = base::ReadText(folder_.path() / "gaze.idl").value();

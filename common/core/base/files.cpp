@@ -57,6 +57,16 @@ Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_byt
   return buffer;
 }
 
+// The name of a renamed file is on the disk once its folder is. A folder that cannot be opened or synced keeps the name
+// all the same as soon as the system writes it.
+void SyncName(const std::filesystem::path& path) {
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  (void)::fsync(opened);
+  ::close(opened);
+}
+
 }  // namespace
 
 Result<std::string> ReadText(const std::filesystem::path& path, std::size_t limit_bytes) {
@@ -67,7 +77,7 @@ Result<Bytes> ReadBytes(const std::filesystem::path& path, std::size_t limit_byt
   return ReadInto<Bytes>(path, limit_bytes);
 }
 
-Status WriteWhole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+Status WriteWhole(const std::filesystem::path& path, std::span<const std::byte> bytes, Durable durable) {
   std::error_code problem;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
   const std::filesystem::path beside = path.string() + fmt::format(".{}.part", ::getpid());
@@ -88,9 +98,26 @@ Status WriteWhole(const std::filesystem::path& path, std::span<const std::byte> 
     }
     done += static_cast<std::size_t>(wrote);
   }
+  // Some file systems cannot sync (EINVAL, EROFS): they promise nothing, and that is no error of the file.
+  if (durable == Durable::kNow && ::fsync(file) != 0 && errno != EINVAL && errno != EROFS) {
+    const int error = errno;
+    ::close(file);
+    errno = error;
+    return fail("written");
+  }
   if (::close(file) != 0) return fail("closed");
   if (::rename(beside.c_str(), path.c_str()) != 0) return fail("put in its place");
+  if (durable == Durable::kNow) SyncName(path);
   return {};
+}
+
+Status SyncFolder(const std::filesystem::path& folder) {
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  const bool done = opened >= 0 && ::syncfs(opened) == 0;
+  const int error = errno;
+  if (opened >= 0) ::close(opened);
+  if (done) return {};
+  return Failed(fmt::format("the folder cannot be written to the disk: {}", std::strerror(error)), folder.string());
 }
 
 Status WriteWhole(const std::filesystem::path& path, std::string_view text) {

@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <condition_variable>
 #include <cstdint>
+#include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace rodeira::base {
@@ -17,12 +20,19 @@ struct ThreadPool::Parts {
   std::size_t count = 0, busy = 0;
   bool over = false;
   const std::function<void(std::size_t, std::size_t)>* work = nullptr;
+  std::exception_ptr thrown;
   std::vector<std::jthread> others;  // last: they end before what they use
 
-  void Do(std::size_t part) const {
+  void Do(std::size_t part) {
     const std::size_t parts = others.size() + 1;
     const std::size_t begin = count * part / parts, end = count * (part + 1) / parts;
-    if (begin < end) (*work)(begin, end);
+    if (begin >= end) return;
+    try {
+      (*work)(begin, end);
+    } catch (...) {
+      const std::scoped_lock lock(mutex);
+      if (!thrown) thrown = std::current_exception();
+    }
   }
   void Wait(std::size_t part) {
     std::uint64_t done = 0;
@@ -41,9 +51,15 @@ struct ThreadPool::Parts {
 
 ThreadPool::ThreadPool(unsigned threads) : parts_(std::make_unique<Parts>()) {
   if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+  parts_->others.reserve(threads - 1);
   const std::scoped_lock lock(parts_->mutex);  // no thread reads `others` before it is whole
-  for (std::size_t part = 1; part < threads; ++part)
-    parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
+  for (std::size_t part = 1; part < threads; ++part) {
+    try {
+      parts_->others.emplace_back([parts = parts_.get(), part] { parts->Wait(part); });
+    } catch (const std::system_error&) {
+      return;  // the limit of threads is reached
+    }
+  }
 }
 
 ThreadPool::~ThreadPool() {
@@ -68,6 +84,7 @@ void ThreadPool::ParallelFor(std::size_t count, const std::function<void(std::si
   parts_->Do(0);
   std::unique_lock lock(parts_->mutex);
   parts_->ends.wait(lock, [&] { return parts_->busy == 0; });
+  if (const std::exception_ptr thrown = std::exchange(parts_->thrown, nullptr)) std::rethrow_exception(thrown);
 }
 
 void ParallelFor(ThreadPool* pool, std::size_t count, const std::function<void(std::size_t, std::size_t)>& work) {

@@ -34,7 +34,7 @@ void ClockGate::Take(NamedReport& named) {
   if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
   if (named.report.incarnation < run_.clock.life(node)) return;    // of a life that is over
   if (named.report.phase == lockstep::Phase::kLost) {
-    lost_.push_back(named.node + " " + named.report.message);
+    lost_.push_back({named.node, named.report.incarnation, named.report.message});
     return;
   }
   named.report.node = node;
@@ -72,6 +72,6 @@ base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& n
                   named.node, known.pid, known.host, now.pid, now.host));
 }
 
-std::vector<std::string> ClockGate::TakeLost() { return std::exchange(lost_, {}); }
+std::vector<LostNode> ClockGate::TakeLost() { return std::exchange(lost_, {}); }
 
 }  // namespace rodeira::dds

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/dds/wire.hpp"
 
 namespace rodeira::dds {
@@ -20,8 +21,8 @@ class ClockGate {
   void Take(const base::Bytes& payload);
   // A sentence where somebody must not take part: the run ends by it, status 2. Empty: nobody is refused.
   const std::string& refusal() const { return refusal_; }
-  // "NODE TEXT" of processes whose loss another PC has said, each once.
-  std::vector<std::string> TakeLost();
+  // Nodes that were lost by their own word or by that of another PC, each once.
+  std::vector<LostNode> TakeLost();
   // Another process will say that it is this node.
   void ExpectNextLife(lockstep::NodeIndex node) { who_[node] = {}; }
 
@@ -41,7 +42,7 @@ class ClockGate {
   std::uint64_t clock_id_;
   std::vector<Who> who_;  // by node
   std::string refusal_;
-  std::vector<std::string> lost_;
+  std::vector<LostNode> lost_;
 };
 
 }  // namespace rodeira::dds

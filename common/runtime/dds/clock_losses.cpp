@@ -3,28 +3,23 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "common/core/base/suggest.hpp"
 #include "common/runtime/dds/statements.hpp"
+#include "common/runtime/lockstep/life.hpp"
 
 namespace rodeira::dds {
 
 using lockstep::Phase;
 
-std::optional<RunsEnd> ClockLosses::TakeLost(const std::string& lost) {
-  const auto space = std::min(lost.find(' '), lost.size());
-  const lockstep::NodeIndex node = run_.roster.Find(lost.substr(0, space));
-  if (node == run_.roster.nodes().size()) return std::nullopt;
-  const std::string what = space < lost.size() ? lost.substr(space + 1) : "was lost";
-  return Lose(node,
-              fmt::format("node '{}' {} at about step {}", run_.roster.node(node).name, what, run_.clock.reached(node)),
-              1);
+std::optional<RunsEnd> ClockLosses::TakeLost(const LostNode& lost) {
+  const lockstep::NodeIndex node = run_.roster.Find(lost.node);
+  if (node == run_.roster.nodes().size() || lost.incarnation < run_.clock.life(node)) return std::nullopt;
+  return Lose(node, fmt::format("node '{}' {} at about step {}", lost.node, lost.text, run_.clock.reached(node)), 1);
 }
 
 // Who failed by its own word would fail again; who has not been ready in time would not be the next time either.
 std::optional<RunsEnd> ClockLosses::Watch() {
-  const auto fault = run_.watchdog.Check(run_.NowMs());
+  const auto fault = run_.watchdog.Check(run_.NowMs(), run_.clock.grant());
   if (!fault) return std::nullopt;
   const lockstep::Report& report = run_.clock.report(fault->node);
   const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
@@ -34,7 +29,10 @@ std::optional<RunsEnd> ClockLosses::Watch() {
 
 // Names the fault and does what the node's policy says; an end where that is the end of the run.
 std::optional<RunsEnd> ClockLosses::Lose(lockstep::NodeIndex node, const std::string& reason, int status) {
-  if (run_.clock.grant().abort || run_.clock.report(node).phase == Phase::kFinished) return std::nullopt;
+  const lockstep::Grant& grant = run_.clock.grant();
+  const Phase phase = run_.clock.report(node).phase;
+  const bool ended_in_order = phase == Phase::kFinished && !lockstep::EndedEarly(phase, grant);
+  if (grant.abort || ended_in_order || run_.missed.Has(node)) return std::nullopt;
   const auto decision = run_.clock.Lose(node);
   switch (decision.policy) {
     case lockstep::Policy::kStop:

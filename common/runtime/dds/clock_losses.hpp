@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 
 namespace rodeira::dds {
 
@@ -22,8 +23,9 @@ class ClockLosses {
   ClockLosses(LedRun& run, std::function<void(lockstep::NodeIndex)> on_next_life)
       : run_(run), on_next_life_(std::move(on_next_life)) {}
 
-  // "NODE TEXT" of a process that died or was stopped, as `rodeira run` saw it. An end where the run cannot go on.
-  std::optional<RunsEnd> TakeLost(const std::string& lost);
+  // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
+  // another incarnation has taken its place.
+  std::optional<RunsEnd> TakeLost(const LostNode& lost);
   // Whom the watchdog names, if anybody.
   std::optional<RunsEnd> Watch();
   // By the operator's word: a sentence of what is done, or why it cannot be.

@@ -2,7 +2,7 @@
 #include "common/runtime/dds/node_bus.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <csignal>
@@ -16,11 +16,14 @@ namespace rodeira::dds {
 
 namespace {
 
+constexpr std::chrono::milliseconds kTimeToEnd{500};
+
 volatile std::sig_atomic_t g_terminated = 0;
 
 void OnTerminate(int) {
   g_terminated = 1;
-  ::alarm(1);  // whose default ends the process, should it hang
+  const itimerval limit{{0, 0}, {1, 700'000}};
+  ::setitimer(ITIMER_REAL, &limit, nullptr);  // SIGALRM ends a process that hangs
 }
 
 }  // namespace
@@ -32,6 +35,7 @@ void NodeBus::HandleSignals() {
 }
 
 namespace topics = idl::topics;
+using lockstep::LifeEvent;
 
 NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings)
     : roster_(roster),
@@ -169,13 +173,13 @@ void NodeBus::OnAsk(const base::Bytes& payload) {
 void NodeBus::OnParcel(const base::Bytes& payload) {
   if (!listens_) return;
   auto opened = DecodeParcel(payload);
-  if (!opened) return Abort(opened.error().Text());
+  if (!opened) return EndEarly(LifeEvent::kFailed, opened.error().Text());
   for (base::Bytes& sample : opened.value().samples) OnSample({}, std::move(sample));
 }
 
 void NodeBus::OnAnswer(const base::Bytes& payload) {
   auto opened = DecodeParcel(payload);
-  if (!opened) return Abort(opened.error().Text());
+  if (!opened) return EndEarly(LifeEvent::kFailed, opened.error().Text());
   if (opened.value().to != settings_.node) return;
   for (base::Bytes& sample : opened.value().samples) {
     TakeSnapshot(sample);
@@ -252,19 +256,16 @@ void NodeBus::SetWorldHash(base::Digest hash) {
   settings_.hello.world = hash;
 }
 
-std::string NodeBus::fault() const {
-  const std::lock_guard lock(mutex_);
-  return fault_;
-}
-
 void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
   if (!listens_) return;
   if (!lockstep::SampleHeader::HasHeader(payload))
-    return Abort(fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
+    return EndEarly(LifeEvent::kFailed,
+                    fmt::format("topic {}: a sample of {} bytes has no header", topic, payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
   if (header.source >= roster_.sources().size() || (!topic.empty() && roster_.source(header.source).topic != topic)) {
-    return Abort(fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic,
-                             header.source));
+    return EndEarly(LifeEvent::kFailed,
+                    fmt::format("topic {}: a sample of source number {} was found, which does not publish it", topic,
+                                header.source));
   }
   lockstep::Sample sample{header, std::make_shared<const base::Bytes>(std::move(payload))};
   if (auto status = Remember(sample); !status) return AbortBy(status.error(), sample);
@@ -274,9 +275,9 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
 void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
   auto kept = answers_->Kept(came.source(), came.valid());
   if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
-  Abort(kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came)
-            ? launch::ContradictionText(roster_, settings_.topics, *kept, came)
-            : error.Text());
+  EndEarly(LifeEvent::kFailed, kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came)
+                                   ? launch::ContradictionText(roster_, settings_.topics, *kept, came)
+                                   : error.Text());
 }
 
 void NodeBus::OnGrant(base::Bytes&& payload) {
@@ -288,28 +289,32 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
     heard_ = grant.value().grant;
     clock_heard_ = WallClock::now();
-    if (grant.value().grant.abort && fault_.empty()) fault_ = grant.value().grant.reason;
   }
   const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
   if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation)
-    return Abort("another process has taken its place");
+    return EndEarly(LifeEvent::kLost, "was replaced by another process");
   mailbox_.DeliverGrant(grant.value().grant);
   answers_->Granted(grant.value().grant);
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
 }
 
-void NodeBus::Abort(std::string reason) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (fault_.empty()) fault_ = reason;
-    last_.phase = lockstep::Phase::kFailed;
-    last_.message = reason;
-  }
-  lockstep::Grant grant = mailbox_.grant();
-  grant.abort = true;
-  grant.reason = std::move(reason);
-  mailbox_.DeliverGrant(grant);
+void NodeBus::EndEarly(LifeEvent event, std::string reason) {
+  mailbox_.EndEarly({event, std::move(reason)});
   woken_.notify_all();
+}
+
+// Where the node stands. A node that has to end and does not come to it, because it loads, computes or hangs, is
+// reported as ended after a while: its process has a second.
+lockstep::Report NodeBus::ReportNow() {
+  const std::lock_guard lock(mutex_);
+  lockstep::Report report = runner_ != nullptr ? runner_->report() : last_;
+  const auto end = mailbox_.early_end();
+  if (!end || lockstep::IsTerminal(report.phase)) return report;
+  if (!ends_since_) ends_since_ = WallClock::now();
+  if (runner_ != nullptr && WallClock::now() - *ends_since_ < kTimeToEnd) return report;
+  report.phase = lockstep::NextPhase(report.phase, end->event);
+  report.message = end->reason;
+  return report;
 }
 
 void NodeBus::Heartbeat() {
@@ -319,16 +324,16 @@ void NodeBus::Heartbeat() {
     const auto gap = WallClock::now() - looked;
     looked += gap;
     if (gap > settings_.clock_silence / 10) clock_heard_ += gap;  // this process itself was stopped, as by a debugger
-    const lockstep::Runner* runner = runner_;
-    lockstep::Report report = last_;
-    const bool silent = clock_id_ != 0 && fault_.empty() && WallClock::now() - clock_heard_ > settings_.clock_silence;
+    const bool silent = clock_id_ != 0 && WallClock::now() - clock_heard_ > settings_.clock_silence;
     lock.unlock();
-    if (runner != nullptr && report.phase < lockstep::Phase::kFailed) report = runner->report();
-    if (silent && !mailbox_.grant().over)
-      Abort(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                        static_cast<double>(settings_.clock_silence.count()) / 1e3));
-    if (g_terminated != 0 && !mailbox_.grant().over) Abort("the process was told to end by SIGTERM");
-    Tell(report);
+    const lockstep::Grant grant = mailbox_.grant();
+    if (silent && !grant.over && !grant.abort)
+      EndEarly(LifeEvent::kFailed,
+               fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                           static_cast<double>(settings_.clock_silence.count()) / 1e3));
+    if (g_terminated != 0 && !grant.over)
+      EndEarly(LifeEvent::kLost, fmt::format("was told to end by signal {} (Terminated)", SIGTERM));
+    Tell(ReportNow());
     lock.lock();
     woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });
   }

@@ -63,11 +63,9 @@ class NodeBus final : public lockstep::Bus {
   base::Status Remember(const lockstep::Sample& sample);
   // The node's last word, repeated until the clock says that all is over, at most for `limit`.
   void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
-  // Ctrl-C is left to the clock, which stops everybody at the same step. SIGTERM (the parent has died) aborts this
-  // node, which then has a second to close what it has open. Call it once, early.
+  // Ctrl-C is left to the clock, which stops all nodes at the same step. SIGTERM, also by the death of the parent, ends
+  // this node as lost: it has 1.7 s to close what it has open. Call it once, early.
   static void HandleSignals();
-  // Why the run was aborted by this bus or the clock; empty where it was not.
-  std::string fault() const;
 
  private:
   NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
@@ -82,7 +80,8 @@ class NodeBus final : public lockstep::Bus {
   void OnGrant(base::Bytes&& payload);
   void OnAsk(const base::Bytes& payload);
   Writer& WriterOf(lockstep::SourceIndex output);
-  void Abort(std::string reason);
+  void EndEarly(lockstep::LifeEvent event, std::string reason);
+  lockstep::Report ReportNow();
   // A sample was refused: where it contradicts one that is here, the reason is the node that said both.
   void AbortBy(const base::Error& error, const lockstep::Sample& came);
   void Heartbeat();
@@ -110,7 +109,7 @@ class NodeBus final : public lockstep::Bus {
   lockstep::Report last_;
   std::uint64_t clock_id_ = 0;
   std::chrono::steady_clock::time_point clock_heard_;
-  std::string fault_;
+  std::optional<std::chrono::steady_clock::time_point> ends_since_;  // it has to end, and has not yet
   std::optional<lockstep::Grant> heard_;
   std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
   std::optional<lockstep::Snapshot> snapshot_;

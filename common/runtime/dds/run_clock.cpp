@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,12 +23,12 @@
 #include "common/runtime/dds/clock_words.hpp"
 #include "common/runtime/dds/led_run.hpp"
 #include "common/runtime/dds/options.hpp"
-#include "common/runtime/dds/parents_word.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_log.hpp"
 #include "common/runtime/dds/run.hpp"
 #include "common/runtime/dds/statements.hpp"
 #include "common/runtime/dds/stop_signals.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/dds/triggers.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "idl/topics.hpp"
@@ -64,7 +66,10 @@ class ClockProcess {
     if (auto status = Connect(*participant_); !status) return Complain(status.error());
     Say("clock id={} life={}", clock_id_, options_.incarnation);
     Say("starting {} nodes", run_.roster.nodes().size());
-    if (options_.listen) parents_.Listen([this] { woken_.notify_one(); });
+    if (options_.listen) {
+      if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { woken_.notify_one(); }); !status)
+        return Complain(status.error());
+    }
     run_.start = WallClock::now();
     if (options_.incarnation > 0) GoOn();
     return Loop();
@@ -134,7 +139,7 @@ class ClockProcess {
         Say("ready");
       }
       const lockstep::Grant before = run_.clock.grant();
-      desk_.Do(parents_.TakeAsked());
+      desk_.Do(supervisor_.TakeCommands());
       if (run_.clock.grant().abort) return Abort({run_.clock.grant().reason, 1});
       if (desk_.stop_asked() && !run_.missed.empty())
         return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
@@ -156,20 +161,24 @@ class ClockProcess {
 
   // Who is lost, as this PC, another one, or the watchdog says; and a signal to this process.
   std::optional<RunsEnd> LookAfterLosses() {
-    std::vector<std::string> lost = gate_.TakeLost();
-    for (std::string& one : parents_.TakeLost()) lost.push_back(std::move(one));
-    for (const std::string& one : lost) {
+    std::vector<LostNode> lost = gate_.TakeLost();
+    for (LostNode& one : supervisor_.TakeLost()) lost.push_back(std::move(one));
+    for (const LostNode& one : lost) {
       if (auto end = losses_.TakeLost(one)) return end;
     }
     const auto now = WallClock::now();
     if (now - checked_ < 20ms) return std::nullopt;
     checked_ = now;
     if (auto end = losses_.Watch()) return end;
-    if (const int signals = StopSignals(); signals > 0) {
-      if (signals > 2 || run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
-      desk_.StopBySignal();
-    }
+    const int signals = StopSignals();
+    if (signals > 2 || supervisor_.must_abort()) return RunsEnd{"stopped by a signal" + NotFinished(), 1};
+    if (signals > 0 && run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
+    if (signals > 0) desk_.StopBySignal();
     return std::nullopt;
+  }
+  std::string NotFinished() const {
+    const auto names = run_.clock.Missing(lockstep::Phase::kFinished);
+    return names.empty() ? "" : fmt::format(" before these nodes had finished: '{}'", fmt::join(names, "', '"));
   }
   void OnNextLife(lockstep::NodeIndex node) {
     gate_.ExpectNextLife(node);
@@ -188,7 +197,7 @@ class ClockProcess {
     std::unique_lock lock(mutex_);
     const auto due = std::chrono::nanoseconds(run_.conductor.NextDueIn(run_.Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
-    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || parents_.is_waiting(); });
+    woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || supervisor_.is_waiting(); });
   }
 
   void SayGrant(const lockstep::Grant& grant) { (void)grants_->Write(EncodeGrant({clock_id_, ++serial_, grant})); }
@@ -252,7 +261,7 @@ class ClockProcess {
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;
-  ParentsWord parents_;
+  SupervisorPipe supervisor_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> grants_;
   std::unique_ptr<LogSpeaker> log_;

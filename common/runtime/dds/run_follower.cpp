@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,11 +12,11 @@
 #include <sstream>
 
 #include "common/runtime/dds/options.hpp"
-#include "common/runtime/dds/parents_word.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/run.hpp"
 #include "common/runtime/dds/statements.hpp"
 #include "common/runtime/dds/stop_signals.hpp"
+#include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "idl/topics.hpp"
@@ -44,7 +45,8 @@ class Follower {
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(); !status) return Complain(status.error());
-    parents_.Listen([this] { woken_.notify_one(); });
+    if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { woken_.notify_one(); }); !status)
+      return Complain(status.error());
     return Loop();
   }
 
@@ -155,18 +157,17 @@ class Follower {
   // Said again until the clock has stopped time or has called for another life of the node.
   void TellFaults(const Now& now) {
     if (now.grant.abort) return;
-    for (const std::string& word : parents_.TakeLost()) {
-      const auto space = std::min(word.find(' '), word.size());
-      const NodeIndex node = roster_.Find(word.substr(0, space));
+    for (const LostNode& lost : supervisor_.TakeLost()) {
+      const NodeIndex node = roster_.Find(lost.node);
       if (node == roster_.nodes().size()) continue;
-      lost_.push_back(
-          {node, LifeOf(now, node),
-           fmt::format("{} (host '{}')", space < word.size() ? word.substr(space + 1) : "was lost", options_.follow)});
+      lost_.push_back({node, lost.incarnation, fmt::format("{} (host '{}')", lost.text, options_.follow)});
     }
     std::erase_if(lost_, [&](const Lost& lost) { return LifeOf(now, lost.node) > lost.life; });
     for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
     if (StopSignals() > 0)
-      TellFault(now, {AnyOwnNode(), 0, fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
+      TellFault(now,
+                {AnyOwnNode(), LifeOf(now, AnyOwnNode()),
+                 fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
                 Phase::kFailed);
   }
   struct Lost {
@@ -180,7 +181,7 @@ class Follower {
     report.clock_id = now.clock_id;
     report.hello = OwnHello(launch_, lost.node);
     if (now.reports[lost.node]) report.report = *now.reports[lost.node];
-    report.report.incarnation = LifeOf(now, lost.node);
+    report.report.incarnation = lost.life;
     report.report.phase = phase;
     report.report.message = lost.text;
     (void)reports_out_->Write(EncodeReport(report));
@@ -244,7 +245,7 @@ class Follower {
   const launch::Launch& launch_;
   const lockstep::Roster& roster_;
   const ProcessOptions& options_;
-  ParentsWord parents_;
+  SupervisorPipe supervisor_;
   bool met_ = false;
   std::optional<WallClock::time_point> began_;
   WallClock::time_point shown_{};

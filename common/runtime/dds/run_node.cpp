@@ -147,10 +147,12 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
     lockstep::Report report;
     report.node = context.index();
     report.incarnation = options.incarnation;
-    report.phase = error.exit_status() == 2 ? lockstep::Phase::kRefused : lockstep::Phase::kFailed;
-    report.message = error.Text();
+    const auto end = mailbox.early_end().value_or(lockstep::EarlyEnd{
+        error.exit_status() == 2 ? lockstep::LifeEvent::kRefused : lockstep::LifeEvent::kFailed, error.Text()});
+    report.phase = lockstep::NextPhase(report.phase, end.event);
+    report.message = end.reason;
     bus.Linger(report, 1000ms);
-    return error.exit_status();
+    return report.phase == lockstep::Phase::kRefused ? 2 : 1;
   };
   auto node = factory(context);
   if (!node) return fail(node.error());
@@ -170,7 +172,8 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   const auto outcome = brief ? lockstep::RunInline(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
   bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
-  return outcome == lockstep::Runner::Outcome::kFinished ? 0 : 1;
+  if (outcome == lockstep::Runner::Outcome::kFinished) return 0;
+  return runner.report().phase == lockstep::Phase::kRefused ? 2 : 1;
 }
 
 }  // namespace

@@ -90,6 +90,12 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   bus.value()->Tell(report);
   for (;;) {
     const lockstep::Grant grant = mailbox.grant();
+    if (const auto end = mailbox.early_end()) {
+      report.phase = lockstep::NextPhase(report.phase, end->event);
+      report.message = end->reason;
+      bus.value()->Linger(report, 300ms);
+      return 1;
+    }
     if (grant.over || grant.abort) return grant.abort ? 1 : 0;
     // The run's end is known once everybody else has finished; a server is finished whenever they are.
     if (grant.final && report.phase != lockstep::Phase::kFinished) {

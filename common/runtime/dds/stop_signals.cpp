@@ -15,6 +15,7 @@ void OnStopSignal(int) { ++g_stop_signals; }
 void CountStopSignals() {
   std::signal(SIGINT, OnStopSignal);
   std::signal(SIGTERM, OnStopSignal);
+  std::signal(SIGHUP, OnStopSignal);
 }
 
 int StopSignals() { return g_stop_signals; }

@@ -3,9 +3,9 @@
 
 namespace rodeira::dds {
 
-// From now on SIGINT and SIGTERM are counted and do not end the process.
+// From now on SIGINT, SIGTERM and SIGHUP are counted and do not end the process.
 void CountStopSignals();
-// How many of both have arrived since the process began to count them. Any thread.
+// How many of them have arrived since the process began to count them. Any thread.
 int StopSignals();
 
 }  // namespace rodeira::dds

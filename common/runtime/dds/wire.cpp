@@ -5,13 +5,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
 #include <span>
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/data/decode/type_text.hpp"
+#include "common/runtime/dds/hello_change.hpp"
 #include "common/runtime/launch/agreement.hpp"
 #include "common/runtime/launch/used_topics.hpp"
 #include "idl/codec.hpp"
@@ -31,19 +31,6 @@ base::Status Compare(std::string_view what, base::Digest own, base::Digest other
   if (own == other) return {};
   return base::WrongInput(
       fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
-}
-
-// "TOPIC|OLD|NEW": this process pretends that the text of the topic's type has NEW where it has OLD.
-void Pretend(std::string_view what, std::vector<idl::TopicText>& topics) {
-  const std::size_t first = what.find('|');
-  const std::size_t second = what.find('|', first + 1);
-  RODEIRA_ASSERT(second != std::string_view::npos);
-  const std::string_view before = what.substr(first + 1, second - first - 1);
-  for (idl::TopicText& text : topics) {
-    const std::size_t at = text.idl.find(before);
-    if (text.topic == what.substr(0, first) && at != std::string::npos)
-      text.idl.replace(at, before.size(), what.substr(second + 1));
-  }
 }
 
 // What an external node's program was compiled with counts, not what its manifest names today.
@@ -105,10 +92,16 @@ base::Digest FirstMember(const base::Bytes& payload) {
 
 }  // namespace
 
+HelloChange& ChangeOfHellos() {
+  static HelloChange change;
+  return change;
+}
+
 Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
   std::vector<idl::TopicText> topics = launch.topics().TextsOf(launch::UsedTopics(launch, node));
   UseCompiledTypes(launch.topics(), topics);
-  if (const char* pretend = std::getenv("RODEIRA_PRETEND_TYPE")) Pretend(pretend, topics);
+  const HelloChange& change = ChangeOfHellos();
+  if (change.type) change.type(topics);
   Hello hello;
   hello.report = base::Hash(FindText(topics, idl::topics::kReport)->idl);
   hello.protocol = idl::ProtocolHash(topics);
@@ -117,7 +110,7 @@ Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
   hello.host = HostName();
   hello.pid = static_cast<std::uint32_t>(::getpid());
   hello.topics = std::make_shared<const std::vector<idl::TopicText>>(std::move(topics));
-  if (const char* pretend = std::getenv("RODEIRA_PRETEND_MATHEMATICS")) hello.mathematics = base::Hash(pretend);
+  if (change.mathematics != 0) hello.mathematics = change.mathematics;
   return hello;
 }
 
@@ -190,7 +183,7 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return Unreadable(decoded.error());
   msg::Report& in = decoded.value();
-  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kLost) ||
+  if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kAborted) ||
       in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
     return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }

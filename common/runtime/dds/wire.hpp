@@ -29,8 +29,7 @@ struct Hello {
   std::shared_ptr<const std::vector<idl::TopicText>> topics;  // behind `protocol`; null: the report does not say
 };
 
-// This process, of this build, as this node of the launch. RODEIRA_PRETEND_TYPE and RODEIRA_PRETEND_MATHEMATICS change
-// it, for tests of the refusal.
+// This process, of this build, as this node of the launch.
 Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node);
 // Wrong input that names what differs, with both values. Worlds are compared if both have one.
 base::Status CheckHello(const Hello& own, const Hello& other);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/runtime/lockstep/life.hpp"
+
 namespace rodeira::lockstep {
 
 Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_step, std::vector<Policy> policies)
@@ -36,7 +38,7 @@ base::Status Clock::Take(const Report& report) {
   }
   if (heard_[report.node] && report.incarnation == known.incarnation) {
     if (report.progress < known.progress) return {};  // overtaken on its way, nothing new
-    if (report.phase < known.phase) return {};
+    if (!MayFollow(known.phase, report.phase)) return {};
   }
   if (report.progress < 0 || report.progress % spec.period != 0) {
     return refuse(

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/runtime/lockstep/in_process_parts.hpp"
+#include "common/runtime/lockstep/life.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
 #include "common/runtime/lockstep/pump.hpp"
 
@@ -36,6 +37,7 @@ class ThreadedRun {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
+      if (!settings.resume.empty()) mailboxes_.back()->StartAt(settings.first_step);
       buses_.push_back(nodes[n] == nullptr ? nullptr : std::make_unique<ThreadBus>(*this));
     }
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
@@ -107,7 +109,7 @@ class ThreadedRun {
   }
   void Hear(const Report& report) {
     const std::lock_guard lock(mutex_);
-    if (report.phase == Phase::kFailed && fault_.empty()) {
+    if (IsFault(report.phase) && fault_.empty()) {
       fault_ = fmt::format("node '{}' failed at step {}: {}", roster_.node(report.node).name, report.progress,
                            report.message);
       conductor_.Abort(fault_, ReadWall());

@@ -33,9 +33,11 @@ struct InProcessSettings {
   std::function<void(const Sample&)> on_sample;      // every sample published; one call at a time
   std::function<void(const Snapshot&)> on_snapshot;  // one call at a time
   double loss = 0.0;  // RunShuffled: the share of samples and questions that never arrive
-  // RunShuffled: nodes die, with everything that they kept, and are made again (recovery.hpp).
+  // RunShuffled: nodes die, with everything that they kept, or are told to end and close what they have open. They are
+  // made again where their policy says so (recovery.hpp); otherwise the run ends with the reason as its fault.
   struct Deaths {
-    double share = 0.0;            // of the turns at which somebody dies
+    double share = 0.0;            // of the turns at which a node dies …
+    double terminated = 0.0;       // … and of these deaths, of those that are told to end
     std::vector<Policy> policies;  // as Recovery
     // A node of another life; for a recorder also what its file holds: all samples through `has_through`, of which the
     // archive is told those in `tail`.

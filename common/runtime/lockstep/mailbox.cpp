@@ -66,11 +66,10 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   }
   if (step < track->first) return {};  // an old one said again
   const auto at = static_cast<std::size_t>((step - track->first) / track->period);
-  // Nobody may run further ahead than the window, the longest period and its own delay allow.
-  constexpr std::size_t kFarthest = 1u << 20;
-  if (at >= kFarthest) {
-    return base::WrongInput(fmt::format("a sample valid at {} was found while {} was expected", step, track->first),
-                            roster_.SourceName(sample.source()));
+  if (const Step farthest = Farthest(*track); step > farthest) {
+    return base::WrongInput(
+        fmt::format("a sample valid at {} was found; steps from {} to {} were expected", step, track->first, farthest),
+        roster_.SourceName(sample.source()));
   }
   if (at >= track->slots.size()) track->slots.resize(at + 1);
   if (track->slots[at]) {
@@ -81,6 +80,14 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   track->slots[at] = std::move(sample);
   wake = want_.what != Want::What::kNothing && IsOver(want_);
   return {};
+}
+
+// No source runs further ahead than the window beyond the slowest node, which is at most an activation before this one,
+// and publishes its delay ahead. A node that is started again is behind the grant.
+Step Mailbox::Farthest(const Track& track) const {
+  const RosterNode& producer = roster_.node(roster_.source(track.source).node);
+  return std::max(track.first + track.period + spec_.period, grant_.through) + roster_.window() +
+         std::max(producer.delay, producer.period) + track.period;
 }
 
 std::optional<Sample> Mailbox::Kept(SourceIndex source, Step step) const {
@@ -99,6 +106,22 @@ void Mailbox::DeliverGrant(const Grant& grant) {
     wake = want_.what != Want::What::kNothing && IsOver(want_);
   }
   if (wake) Wake();
+}
+
+void Mailbox::EndEarly(EarlyEnd end) {
+  bool wake = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (early_end_) return;
+    early_end_ = std::move(end);
+    wake = want_.what != Want::What::kNothing;
+  }
+  if (wake) Wake();
+}
+
+std::optional<EarlyEnd> Mailbox::early_end() const {
+  const std::lock_guard lock(mutex_);
+  return early_end_;
 }
 
 bool Mailbox::IsNews(const Grant& grant) const {
@@ -143,8 +166,8 @@ bool Mailbox::Satisfied(const Want& want) const {
 }
 
 bool Mailbox::IsOver(const Want& want) const {
-  return grant_.abort || (want.what == Want::What::kActivation && grant_.final && want.step > grant_.through) ||
-         Satisfied(want);
+  return grant_.abort || early_end_ ||
+         (want.what == Want::What::kActivation && grant_.final && want.step > grant_.through) || Satisfied(want);
 }
 
 Mailbox::Woken Mailbox::Wait(const Want& want, std::chrono::milliseconds limit) {
@@ -153,7 +176,7 @@ Mailbox::Woken Mailbox::Wait(const Want& want, std::chrono::milliseconds limit) 
   if (!IsOver(want) && !(limit.count() > 0 && woken_.wait_for(lock, limit, [&] { return IsOver(want); })))
     return Woken::kTimeout;
   want_ = {};
-  if (grant_.abort) return Woken::kAborted;
+  if (grant_.abort || early_end_) return Woken::kAborted;
   return Satisfied(want) ? Woken::kReady : Woken::kFinal;
 }
 
@@ -173,7 +196,12 @@ bool Mailbox::IsGranted(Step step) const {
 }
 Grant Mailbox::grant() const {
   const std::lock_guard lock(mutex_);
-  return grant_;
+  Grant grant = grant_;
+  if (early_end_ && !grant.abort) {
+    grant.abort = true;
+    grant.reason = early_end_->reason;
+  }
+  return grant;
 }
 std::vector<Gap> Mailbox::MissingInputs(Step step) const {
   const std::lock_guard lock(mutex_);

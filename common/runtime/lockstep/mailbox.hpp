@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/runtime/lockstep/inbox.hpp"
+#include "common/runtime/lockstep/life.hpp"
 #include "common/runtime/lockstep/report.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/sample.hpp"
@@ -34,6 +35,10 @@ class Mailbox {
   // that is no multiple of the source's period, two contents for one step) is refused: the sentence says why.
   base::Status Deliver(Sample sample);
   void DeliverGrant(const Grant& grant);
+  // The node ends whatever the clock says: every wait ends with kAborted, and grant() aborts from now on. The first
+  // reason counts.
+  void EndEarly(EarlyEnd end);
+  std::optional<EarlyEnd> early_end() const;
 
   enum class Woken { kReady, kTimeout, kFinal, kAborted };
   // The start, at 0 or at a snapshot: waits until every source has delivered its sample that is the newest at `step`,
@@ -86,6 +91,7 @@ class Mailbox {
     Step step = 0;
   };
 
+  Step Farthest(const Track& track) const;            // the last step of which a sample can be there
   static void DropBefore(Track& track, Step oldest);  // `oldest` is a multiple of the track's period
   base::Status Keep(Sample sample, bool& wake);
   bool IsOver(const Want& want) const;  // satisfied, or it never will be
@@ -106,6 +112,7 @@ class Mailbox {
   std::condition_variable woken_;
   std::vector<Track> tracks_;
   Grant grant_;
+  std::optional<EarlyEnd> early_end_;
   Want want_;  // of the last wait, until it was satisfied
   std::shared_ptr<const std::function<void()>> on_ready_;
 };

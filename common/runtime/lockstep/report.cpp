@@ -19,6 +19,8 @@ std::string_view PhaseName(Phase phase) {
       return "refused";
     case Phase::kLost:
       return "lost";
+    case Phase::kAborted:
+      return "aborted";
   }
   return "unknown";
 }

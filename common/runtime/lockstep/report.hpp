@@ -12,7 +12,7 @@
 
 namespace rodeira::lockstep {
 
-// Where a node stands in its life; it only ever goes forward, but for the last three, which end any phase.
+// Where a node stands in its life (life.hpp says which events lead from one to the next).
 enum class Phase : std::uint32_t {
   kStarting = 0,  // alive, its model is being made
   kReady = 1,     // published its first samples and has everybody else's
@@ -20,7 +20,8 @@ enum class Phase : std::uint32_t {
   kFinished = 3,  // ran to the final step, everything is closed
   kFailed = 4,    // message says why
   kRefused = 5,   // the same, and what a person gave is wrong: exit status 2
-  kLost = 6,      // its process died or was stopped, says who watched it
+  kLost = 6,      // its process was told to end, died or was stopped: message says how
+  kAborted = 7,   // the clock aborted the run, everything is closed
 };
 
 // kOutput: for what it has made, to be written (Node::Flush).

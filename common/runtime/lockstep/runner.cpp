@@ -118,7 +118,7 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
       const std::lock_guard lock(report_mutex_);
       report_.progress = settled_ = next_;
     }
-      Note(Phase::kReady, Waiting::kGrant);
+      Note(LifeEvent::kInputsComplete, Waiting::kGrant);
       TellReport();
       stage_ = Stage::kStepping;
       return Outcome::kWorking;
@@ -135,7 +135,7 @@ Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
 // behind the progress that was told.
 base::Status Runner::FlushStep() {
   if (settled_ == next_) return {};
-  Note(Phase::kRunning, Waiting::kOutput);
+  Note(LifeEvent::kActivated, Waiting::kOutput);
   if (auto status = node_.Flush(); !status) return status;
   settled_ = next_;
   const std::lock_guard lock(report_mutex_);
@@ -163,13 +163,13 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
       NoteWaiting(next_);
       return Outcome::kBlocked;
   }
-  Note(Phase::kRunning, Waiting::kOutput);
+  Note(LifeEvent::kActivated, Waiting::kOutput);
   if (auto status = TakeSnapshotIfDue(next_); !status) return Fail(status.error());
   const Inbox inbox = mailbox_.Open(next_);
   const StepInfo info{next_, next_ * roster_.base_step_ns(), spec_.period,
                       static_cast<double>(spec_.period) * static_cast<double>(roster_.base_step_ns()) * 1e-9,
                       next_ + spec_.delay};
-  Note(Phase::kRunning, Waiting::kNothing);
+  Note(LifeEvent::kActivated, Waiting::kNothing);
   const auto begin = WallClock::now();
   if (begun_step_) intervals_.Add(std::chrono::nanoseconds(begin - *begun_step_).count());
   begun_step_ = begin;
@@ -206,32 +206,43 @@ Runner::Outcome Runner::End(std::chrono::milliseconds limit) {
   }
   const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(next_ - spec_.period, last) : Inbox();
   if (auto status = node_.Finish(rest, last, true); !status) return Fail(status.error());
-  NoteFinished();
-  TellReport();
-  stage_ = Stage::kOver;
-  return Outcome::kFinished;
+  return EndWith(LifeEvent::kEndReached, {});
 }
 
+// By the clock's word, or because of an end of its own: a sink closes what it has open either way. A sink that may be
+// started again keeps nothing beyond the grant: it goes on behind what it has, and no node is ahead of the grant.
 Runner::Outcome Runner::FinishAborted() {
+  const std::optional<EarlyEnd> early_end = mailbox_.early_end();
   const Step after = next_ - spec_.period;
-  const Step last = mailbox_.CompleteThrough(after);
+  const Step complete = mailbox_.CompleteThrough(after);
+  const Step last = early_end ? std::max(after, std::min(complete, mailbox_.grant().through)) : complete;
   const Inbox rest = spec_.is_sink() ? mailbox_.OpenEvents(after, last) : Inbox();
-  if (auto status = node_.Finish(rest, last, false); !status) return Fail(status.error());
-  NoteFinished();
-  TellReport();
-  stage_ = Stage::kOver;
-  return Outcome::kAborted;
+  const base::Status status = node_.Finish(rest, last, false);
+  if (early_end) {
+    return EndWith(early_end->event,
+                   status.ok() ? early_end->reason : early_end->reason + "; " + status.error().Text());
+  }
+  return status.ok() ? EndWith(LifeEvent::kRunAborted, {}) : Fail(status.error());
 }
 
 Runner::Outcome Runner::Fail(const base::Error& error) {
+  return EndWith(error.exit_status() == 2 ? LifeEvent::kRefused : LifeEvent::kFailed, error.Text());
+}
+
+Runner::Outcome Runner::EndWith(LifeEvent event, std::string reason) {
+  Note(event, Waiting::kNothing);
+  Phase phase;
   {
     const std::lock_guard lock(report_mutex_);
-    report_.phase = Phase::kFailed;
-    report_.message = error.Text();
+    report_.message = std::move(reason);
+    report_.median_interval_ns = intervals_.Quantile(0.5);
+    report_.p99_interval_ns = intervals_.Quantile(0.99);
+    phase = report_.phase;
   }
   TellReport();
   stage_ = Stage::kOver;
-  return Outcome::kFailed;
+  if (phase == Phase::kFinished) return Outcome::kFinished;
+  return phase == Phase::kAborted ? Outcome::kAborted : Outcome::kFailed;
 }
 
 base::Status Runner::PublishAll(std::vector<Sample> samples) {
@@ -304,18 +315,11 @@ base::Digest Runner::StateDigest() {
   return state_without_names_.digest();
 }
 
-void Runner::Note(Phase phase, Waiting waiting) {
+void Runner::Note(LifeEvent event, Waiting waiting) {
   const std::lock_guard lock(report_mutex_);
-  report_.phase = phase;
+  report_.phase = NextPhase(report_.phase, event);
   if (report_.waiting != waiting || waiting == Waiting::kNothing) since_ = WallClock::now();
   report_.waiting = waiting;
-}
-
-void Runner::NoteFinished() {
-  Note(Phase::kFinished, Waiting::kNothing);
-  const std::lock_guard lock(report_mutex_);
-  report_.median_interval_ns = intervals_.Quantile(0.5);
-  report_.p99_interval_ns = intervals_.Quantile(0.99);
 }
 
 void Runner::NoteWaiting(Step step) {

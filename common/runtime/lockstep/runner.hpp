@@ -28,6 +28,7 @@ class Runner {
     std::chrono::milliseconds patience{2};       // how long a sample may be missing before it is asked for again …
     std::chrono::milliseconds most_patience{8};  // … doubled after each question up to this
   };
+  // kFailed: refused and lost too; report().phase says which.
   enum class Outcome { kWorking, kBlocked, kFinished, kAborted, kFailed };
 
   Runner(const Roster& roster, NodeIndex index, Node& node, Bus& bus, Mailbox& mailbox, Settings settings);
@@ -56,15 +57,15 @@ class Runner {
   Outcome End(std::chrono::milliseconds limit);
   Outcome Fail(const base::Error& error);
   Outcome FinishAborted();
+  Outcome EndWith(LifeEvent event, std::string reason);
   base::Status PublishAll(std::vector<Sample> samples);
   Snapshot SnapshotAt(Step step) const;
   base::Status PublishSnapshot(const Snapshot& snapshot);
   base::Status TakeSnapshotIfDue(Step step);
   void ForgetOwnSamples(Step step);
   base::Digest StateDigest();
-  void Note(Phase phase, Waiting waiting);
+  void Note(LifeEvent event, Waiting waiting);
   void NoteWaiting(Step step);
-  void NoteFinished();
   void TellReport();
 
   const Roster& roster_;

@@ -29,6 +29,7 @@ class ShuffledRun {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
       mailboxes_.push_back(std::make_unique<Mailbox>(roster, n));
+      if (!settings.resume.empty()) mailboxes_.back()->StartAt(settings.first_step);
       buses_.push_back(std::make_unique<ShuffleBus>(*this, n));
       runners_.push_back(nodes[n] == nullptr ? nullptr
                                              : std::make_unique<Runner>(roster, n, *nodes[n], *buses_[n],
@@ -161,7 +162,8 @@ class ShuffledRun {
   }
   void Hear(const Report& report) {
     if (report.incarnation < clock_.life(report.node)) return;
-    if (report.phase == Phase::kFailed)
+    if (report.phase == Phase::kLost) return Replace(report.node, report.message);
+    if (report.phase == Phase::kFailed || report.phase == Phase::kRefused)
       fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
     if (auto status = clock_.Take(report); !status) fault_ = status.error().Text();
     const Step before = clock_.grant().through;
@@ -174,12 +176,20 @@ class ShuffledRun {
   void KillOne() {
     const auto n = static_cast<NodeIndex>(Draw(runners_.size()));
     if (runners_[n] == nullptr || over_[n] || clock_.report(n).phase == Phase::kFinished) return;
+    if (base::RandomUniform({seed_, draws_++}) < settings_.deaths.terminated) {
+      mailboxes_[n]->EndEarly({LifeEvent::kLost, "was told to end"});
+    } else {
+      Replace(n, "was killed");
+    }
+  }
+  void Replace(NodeIndex n, const std::string& reason) {
     const auto decision = clock_.Lose(n);
     if (decision.policy != Policy::kRestart) {
-      if (!decision.why.empty()) fault_ = decision.why;
+      fault_ = decision.why.empty() ? fmt::format("node '{}' {}", roster_.node(n).name, reason) : decision.why;
       return;
     }
     ++deaths_;
+    over_[n] = false;
     runners_[n].reset();
     buses_[n] = std::make_unique<ShuffleBus>(*this, n);
     mailboxes_[n] = std::make_unique<Mailbox>(roster_, n);

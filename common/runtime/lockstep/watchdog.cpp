@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "common/runtime/lockstep/life.hpp"
+
 namespace rodeira::lockstep {
 
 Watchdog::Watchdog(const Roster& roster, const Settings& settings)
@@ -14,8 +16,9 @@ void Watchdog::Heard(const Report& report, std::int64_t now_ms) {
   if (report.node >= lives_.size()) return;
   Life& life = lives_[report.node];
   if (report.incarnation < life.report.incarnation) return;
-  // Who failed stays so, whatever overtakes the news.
-  if (life.heard && report.incarnation == life.report.incarnation && life.report.phase >= Phase::kFailed) return;
+  if (life.heard && report.incarnation == life.report.incarnation && IsTerminal(life.report.phase) &&
+      !MayFollow(life.report.phase, report.phase))
+    return;
   const bool computes_still = life.excused && report.incarnation == life.report.incarnation &&
                               report.progress == life.report.progress && report.phase == Phase::kRunning &&
                               report.waiting == Waiting::kNothing;
@@ -33,7 +36,7 @@ void Watchdog::ExpectNextLife(NodeIndex node, std::int64_t now_ms) {
 
 void Watchdog::Excuse(NodeIndex node) { lives_[node].excused = true; }
 
-std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
+std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant& grant) {
   if (!first_ms_) first_ms_ = checked_ms_ = now_ms;
   const std::int64_t own_gap_ms = now_ms - checked_ms_;
   checked_ms_ = now_ms;
@@ -43,11 +46,18 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   }
   for (NodeIndex n = 0; n < lives_.size(); ++n) {
     const Life& life = lives_[n];
-    if (life.heard && !life.excused && life.report.phase >= Phase::kFailed) {
+    if (life.heard && !life.excused && IsFault(life.report.phase)) {
       return Fault{n,
                    fmt::format("node '{}' failed at step {}: {}", roster_.node(n).name, life.report.progress,
                                life.report.message),
                    life.report.phase == Phase::kRefused ? 2 : 1};
+    }
+  }
+  for (NodeIndex n = 0; n < lives_.size(); ++n) {
+    const Life& life = lives_[n];
+    if (life.heard && !life.excused && EndedEarly(life.report.phase, grant)) {
+      return Fault{n, fmt::format("node '{}' ended at step {} although the run goes on", roster_.node(n).name,
+                                  life.report.progress)};
     }
   }
   std::string missing;
@@ -66,7 +76,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms) {
   for (NodeIndex n = 0; n < lives_.size() && !recovering_; ++n) {
     const Life& life = lives_[n];
     const RosterNode& spec = roster_.node(n);
-    if (!life.heard || life.excused || life.report.phase == Phase::kFinished) continue;
+    if (!life.heard || life.excused || IsTerminal(life.report.phase)) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
     if (silence_ms > (life.held_up ? kHeldUp : 1) * settings_.silence_ms) {
       return Fault{n,

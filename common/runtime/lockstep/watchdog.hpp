@@ -32,7 +32,8 @@ class Watchdog {
   void Heard(const Report& report, std::int64_t now_ms);
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
   // calls (the clock itself was stopped) is nobody's silence and is forgiven.
-  std::optional<Fault> Check(std::int64_t now_ms);
+  // `grant`: what the clock says. A node that has ended though the run goes on is a fault, too.
+  std::optional<Fault> Check(std::int64_t now_ms, const Grant& grant);
   // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or
   // slowness counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A
   // process that dies meanwhile is seen by who has started it. Who was held up may be so still when the new life is

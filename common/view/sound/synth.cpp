@@ -102,7 +102,8 @@ void Synth::Render(const Heard& heard, std::span<float> stereo) {
     crash_low_ += kCrashPole * (Noise() - crash_low_);
     const double drops = 0.10 * Between(last_.rain, heard.rain, share) * (Noise() - rain_);
     const double everywhere =
-        0.55 * std::min(fast * fast, 2.0) * wind_ * heard.own.gain + drops + 2.2 * crash_ * crash_low_;
+        0.55 * std::min(fast * fast, 2.0) * wind_ * Between(own_.last.gain, heard.own.gain, share) + drops +
+        2.2 * crash_ * crash_low_;
     crash_ *= kCrashFall;
     const double volume = Between(last_.volume, heard.volume, share);
     stereo[2 * i] = static_cast<float>(std::tanh(volume * (left + everywhere)));

@@ -51,7 +51,6 @@ int ConnectTo(const std::filesystem::path& socket) {
   const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (file < 0) return -1;
   if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return file;
-  if (errno == ECONNREFUSED) ::unlink(path.c_str());
   ::close(file);
   return -1;
 }

@@ -28,21 +28,24 @@ void ControlServer::Connection::Say(const std::string& line) const {
 }
 
 base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::filesystem::path& socket) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  const std::string path = socket.string();
-  if (path.size() >= sizeof(address.sun_path)) return base::Failed("the path is too long for a socket", path);
-  std::memcpy(address.sun_path, path.c_str(), path.size());
   if (const int living = ConnectTo(socket); living >= 0) {
     ::close(living);
-    return base::Failed("a run of this name is controlled there already", path);
+    return base::Failed("a run of this name is controlled there already", socket.string());
   }
+  // Bound beside its name and renamed when it listens: no client finds a socket that refuses.
+  const std::string path = socket.string() + fmt::format(".{}", ::getpid());
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.size() >= sizeof(address.sun_path)) return base::Failed("the path is too long for a socket", path);
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  ::unlink(path.c_str());
   const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (file < 0 || ::bind(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      ::listen(file, 8) != 0) {
+      ::listen(file, 8) != 0 || ::rename(path.c_str(), socket.c_str()) != 0) {
     const int error = errno;
     if (file >= 0) ::close(file);
-    return base::Failed(fmt::format("no control socket can be made: {}", std::strerror(error)), path);
+    ::unlink(path.c_str());
+    return base::Failed(fmt::format("cannot create a control socket: {}", std::strerror(error)), socket.string());
   }
   return std::unique_ptr<ControlServer>(new ControlServer(file, socket));
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -67,7 +68,9 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const RunReport report = ReportOf(outcome, roster, wall_s);
   if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);
   if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
-  return outcome.ok ? 0 : 1;
+  const bool is_refused = std::ranges::any_of(
+      outcome.reports, [](const lockstep::Report& one) { return one.phase == lockstep::Phase::kRefused; });
+  return outcome.ok ? 0 : is_refused ? 2 : 1;
 }
 
 }  // namespace rodeira::cli

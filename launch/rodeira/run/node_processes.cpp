@@ -128,7 +128,13 @@ base::Result<bool> NodeProcesses::RestartNode(const std::string& name, std::uint
   auto started = Child::Start(name, command, false, MakeLog(name));
   if (!started) return started.error();
   *child = std::move(started).value();
+  lives_[name] = life;
   return true;
+}
+
+std::uint32_t NodeProcesses::life(const std::string& name) const {
+  const auto found = lives_.find(name);
+  return found == lives_.end() ? 0 : found->second;
 }
 
 void NodeProcesses::Poll() {

@@ -45,6 +45,9 @@ class NodeProcesses {
   // Ctrl-C.
   void EndAll(bool orderly, std::optional<std::chrono::steady_clock::time_point> interrupted_at);
 
+  // The incarnation of a node that this PC runs.
+  std::uint32_t life(const std::string& name) const;
+
   void Poll();
   Child& clock() { return children_.front(); }
   const std::vector<Child>& children() const { return children_; }  // the clock first
@@ -63,6 +66,7 @@ class NodeProcesses {
   std::uint32_t domain_;
   std::uint32_t clocks_life_ = 0;
   bool has_nodes_ = false;
+  std::map<std::string, std::uint32_t> lives_;            // of nodes that were started again
   std::map<std::string, std::unique_ptr<PartLog>> logs_;  // by the child's name; outlive the children
   std::vector<Child> children_;
 };

@@ -31,6 +31,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
+// After the first SIGINT, SIGTERM or SIGHUP a run has two seconds: an orderly stop, an abort by the clock, force.
+constexpr auto kOrderlyStop = 1100ms, kAbortedStop = 1600ms;
+
 std::atomic<int> g_interrupts = 0;
 void CountInterrupt(int) { ++g_interrupts; }
 
@@ -54,6 +57,7 @@ class ProcessRun {
     action.sa_handler = CountInterrupt;
     ::sigaction(SIGINT, &action, nullptr);
     ::sigaction(SIGTERM, &action, nullptr);
+    ::sigaction(SIGHUP, &action, nullptr);
     ::signal(SIGPIPE, SIG_IGN);
     base::Status status = processes_.StartClock();
     if (status.ok() && placement_.has_clock()) status = processes_.StartNodes();
@@ -136,13 +140,26 @@ class ProcessRun {
       const int interrupts = g_interrupts;
       if (interrupts > 0 && !interrupted_at_) interrupted_at_ = WallClock::now();
       for (; passed_on_ < interrupts; ++passed_on_) clock.Signal(SIGINT);
+      if (interrupted_at_ && !report_.ended) {
+        const auto passed = WallClock::now() - *interrupted_at_;
+        if (passed > kOrderlyStop && !std::exchange(told_to_abort_, true)) clock.Send("abort");
+        if (passed > kAbortedStop) {
+          Fault(fmt::format("stopped by a signal: the {} did not end the run within {:.1f} s", clock.name(),
+                            std::chrono::duration<double>(kAbortedStop).count()));
+          return {};
+        }
+      }
       AskClock();
       ShowProgress();
     }
   }
   // What the operator asks for goes to the clock; its answer comes among its other words.
   void AskClock() {
-    while (auto asked = desk_ ? desk_->Next() : std::nullopt) {
+    // A client that floods waits: the processes are looked after in between.
+    constexpr int kMaxAtATime = 16;
+    for (int i = 0; i < kMaxAtATime; ++i) {
+      auto asked = desk_ ? desk_->Next() : std::nullopt;
+      if (!asked) return;
       // What would end a line or a text is no part of a command.
       std::replace_if(
           asked->line.begin(), asked->line.end(), [](unsigned char c) { return c < 0x20; }, ' ');
@@ -172,7 +189,7 @@ class ProcessRun {
     const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
     if (node.recovery == lockstep::Policy::kStop)
       Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
-    processes_.clock().Send(fmt::format("lost {} {}", broken.name(), broken.Fate()));
+    processes_.clock().Send(fmt::format("lost {} {} {}", broken.name(), processes_.life(broken.name()), broken.Fate()));
   }
   // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
   // number yet (0) is known to nobody: another one draws its own.
@@ -283,6 +300,7 @@ class ProcessRun {
   std::map<std::size_t, std::function<void(const std::string&)>> answers_;
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
+  bool told_to_abort_ = false;
   std::set<std::string> told_;          // nodes of which the clock was told that they are lost
   std::int64_t clocks_last_step_ = -1;  // where it was lost …
   int clocks_losses_ = 0;               // … so often

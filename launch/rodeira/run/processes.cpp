@@ -13,34 +13,52 @@
 #include <utility>
 
 namespace rodeira::cli {
+namespace {
+
+// Both ends are closed with it, but for those that were taken away.
+struct Pipe {
+  Pipe() = default;
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+  ~Pipe() {
+    if (out >= 0) ::close(out);
+    if (in >= 0) ::close(in);
+  }
+  bool Open() {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) return false;
+    out = ends[0], in = ends[1];
+    return true;
+  }
+  int out = -1;  // to read from
+  int in = -1;   // to write to
+};
+
+}  // namespace
 
 base::Result<Child> Child::Start(const std::string& name, const std::vector<std::string>& command, bool with_pipes,
                                  PartLog* log) {
-  int to_child[2] = {-1, -1};
-  int from_child[2] = {-1, -1};
-  int errors[2] = {-1, -1};
-  if ((with_pipes && (::pipe2(to_child, O_CLOEXEC) != 0 || ::pipe2(from_child, O_CLOEXEC) != 0)) ||
-      (log != nullptr && ::pipe2(errors, O_CLOEXEC) != 0)) {
-    return base::Failed(fmt::format("no pipe can be made: {}", std::strerror(errno)), name);
-  }
+  Pipe to_child, from_child, errors;
+  if ((with_pipes && !(to_child.Open() && from_child.Open())) || (log != nullptr && !errors.Open()))
+    return base::Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)), name);
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid < 0) return base::Failed(fmt::format("no process can be made: {}", std::strerror(errno)), name);
+  if (pid < 0) return base::Failed(fmt::format("cannot create a process: {}", std::strerror(errno)), name);
   if (pid == 0) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) ::_exit(1);  // it died in between
     if (with_pipes) {
-      ::dup2(to_child[0], STDIN_FILENO);
-      ::dup2(from_child[1], STDOUT_FILENO);
+      ::dup2(to_child.out, STDIN_FILENO);
+      ::dup2(from_child.in, STDOUT_FILENO);
     } else {
       const int nothing = ::open("/dev/null", O_RDONLY);
       ::dup2(nothing, STDIN_FILENO);
     }
-    if (log != nullptr) ::dup2(errors[1], STDERR_FILENO);
+    if (log != nullptr) ::dup2(errors.in, STDERR_FILENO);
     ::execv(arguments[0], arguments.data());
     ::_exit(127);
   }
@@ -48,15 +66,12 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
   child.name_ = name;
   child.pid_ = pid;
   if (with_pipes) {
-    ::close(to_child[0]);
-    ::close(from_child[1]);
-    child.in_ = to_child[1];
-    child.out_ = from_child[0];
+    child.in_ = std::exchange(to_child.in, -1);
+    child.out_ = std::exchange(from_child.out, -1);
   }
   if (log != nullptr) {
-    ::close(errors[1]);
-    ::fcntl(errors[0], F_SETFL, O_NONBLOCK);
-    child.error_ = errors[0];
+    ::fcntl(errors.out, F_SETFL, O_NONBLOCK);
+    child.error_ = std::exchange(errors.out, -1);
     child.log_ = log;
   }
   return child;

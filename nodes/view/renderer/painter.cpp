@@ -339,10 +339,10 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
                                                  const std::filesystem::path& built, bool repeats,
                                                  const scene::Progress& progress) {
   if (!built.empty()) return Painter::Make(surface, world, built, repeats);
-  std::set<std::string> told;
-  const auto is_there = [&](const std::string& file) {
+  // The ground is made later, too: what it asks outlives this function.
+  const auto is_there = [told = std::make_shared<std::set<std::string>>()](const std::string& file) {
     const base::Status read = ReadModel(file);
-    if (!read && told.insert(file).second)
+    if (!read && told->insert(file).second)
       base::Log(base::LogLevel::kWarning, "",
                 fmt::format("{}; what it is of is drawn without it", read.error().Text()));
     return read.ok();

@@ -16,6 +16,7 @@
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <span>
 #include <sstream>
 #include <vector>
 
@@ -162,7 +163,9 @@ base::Result<Pictures> WritePictures(const road::World& world, const fs::path& f
     const std::string name = kPictureFolder + base::Hex(hash) + ExtensionOf(picture.file);
     std::error_code problem;
     fs::create_directories(folder / kPictureFolder, problem);
-    if (auto written = base::WriteWhole(folder / name, bytes.value()); !written) return written.error();
+    if (auto written = base::WriteWhole(folder / name, std::as_bytes(std::span(bytes.value())), base::Durable::kLater);
+        !written)
+      return written.error();
     pictures[picture.file] = name;
     after[name] = {hash, hash};
   }
@@ -182,7 +185,9 @@ base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, c
     if (!bytes) return bytes.error();
     const std::string& name = names.levels[level].file;
     files[name] = {base::Hash(bytes.value()), source};
-    if (auto written = base::WriteWhole(folder / name, bytes.value()); !written) return written.error();
+    if (auto written = base::WriteWhole(folder / name, std::as_bytes(std::span(bytes.value())), base::Durable::kLater);
+        !written)
+      return written.error();
   }
   return files;
 }
@@ -247,6 +252,7 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
       base::Hex(base::Hash(root.value())), base::Hex(world.content_hash()));
   for (const auto& [name, known] : after)
     manifest += fmt::format("{} {} {}\n", base::Hex(known.hash), base::Hex(known.source), name);
+  if (auto synced = base::SyncFolder(options.folder); !synced) return synced.error();  // the tiles before their list
   if (auto written = base::WriteWhole(options.folder / road::kVisualManifest, manifest); !written)
     return written.error();
   for (const auto& [name, known] : before) {

@@ -154,11 +154,19 @@ void Stage::Loop(Hand& hand) {
     } else {
       changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000),
                         [&] { return quit_ || !orders_.empty(); });
-      if (window_) window_ = ReadKeys(hand);
+      if (window_) {
+        lock.unlock();
+        const bool open = ReadKeys(hand);
+        lock.lock();
+        window_ = window_ && open;
+      }
     }
     if (hand.asker != nullptr) {
-      hand.asker->See(std::exchange(told_, {}));
+      const std::vector<scenario::Event> told = std::exchange(told_, {});
+      lock.unlock();  // it writes to the bus, for which the run's thread must not wait
+      hand.asker->See(told);
       hand.asker->Tell(launch::WallSeconds());
+      lock.lock();
     }
   }
 }

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace rodeira::base {
@@ -23,6 +26,29 @@ TEST(ThreadPool, DoesEachPartOnceAndWaitsForAll) {
         ASSERT_EQ(done, std::vector<int>(count, round)) << threads << " threads, " << count;
       }
     }
+  }
+}
+
+TEST(ThreadPool, AnExceptionReachesTheCallerAndThePoolGoesOn) {
+  ThreadPool pool(4);
+  for (std::size_t at = 0; at < 8; ++at) {
+    std::atomic<int> others = 0;
+    const auto work = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (i == at) throw std::runtime_error("part " + std::to_string(at));
+        ++others;
+      }
+    };
+    try {
+      pool.ParallelFor(8, work);
+      FAIL() << at;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()), "part " + std::to_string(at));
+    }
+    EXPECT_GE(others, 6) << "the other parts are done when it is thrown";
+    std::atomic<int> done = 0;
+    pool.ParallelFor(8, [&](std::size_t begin, std::size_t end) { done += static_cast<int>(end - begin); });
+    EXPECT_EQ(done, 8);
   }
 }
 

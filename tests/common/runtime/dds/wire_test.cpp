@@ -2,7 +2,9 @@
 #include "common/runtime/dds/wire.hpp"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
+
+#include "common/runtime/dds/hello_change.hpp"
+#include "tests/system/change_type.hpp"
 
 namespace rodeira::dds {
 namespace {
@@ -16,9 +18,9 @@ const launch::Launch& Empty() {
 
 // Node 'a' of a program that has another type of a topic.
 Hello Pretended(const char* change) {
-  ::setenv("RODEIRA_PRETEND_TYPE", change, 1);
+  ChangeOfHellos().type = [change](std::vector<idl::TopicText>& topics) { system_test::ChangeType(change, topics); };
   const Hello hello = OwnHello(Empty(), 0);
-  ::unsetenv("RODEIRA_PRETEND_TYPE");
+  ChangeOfHellos() = {};
   return hello;
 }
 

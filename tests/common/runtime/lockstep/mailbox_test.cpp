@@ -115,6 +115,34 @@ TEST_F(MailboxTest, AStepThatCannotBeIsRefused) {
   EXPECT_TRUE(mailbox_.Deliver(Make(99, 2, 7)).ok()) << "a source that this node is not wired to is nothing to it";
 }
 
+// Window, delay and periods bound how far ahead a source can be: nothing is kept for a step beyond.
+TEST_F(MailboxTest, AStepThatNoSourceCanHaveReachedIsRefused) {
+  EXPECT_TRUE(mailbox_.Deliver(Make(1, 30, 1)).ok()) << "window and delay";
+  const auto far = mailbox_.Deliver(Make(1, 1000, 1));
+  ASSERT_FALSE(far.ok());
+  EXPECT_NE(far.error().Text().find("a sample valid at 1000 was found; steps from 0 to"), std::string::npos)
+      << far.error().Text();
+  mailbox_.DeliverGrant(Through(990));
+  EXPECT_TRUE(mailbox_.Deliver(Make(1, 1000, 1)).ok()) << "this node was started again, far behind the others";
+}
+
+TEST_F(MailboxTest, AnEarlyEndIsForGoodWhateverTheClockSays) {
+  EXPECT_FALSE(mailbox_.early_end());
+  std::thread ends([&] {
+    std::this_thread::sleep_for(10ms);
+    mailbox_.EndEarly({LifeEvent::kLost, "was told to end"});
+    mailbox_.EndEarly({LifeEvent::kFailed, "a later reason"});
+  });
+  EXPECT_EQ(mailbox_.WaitForActivation(0, 10s), Mailbox::Woken::kAborted);
+  ends.join();
+  mailbox_.DeliverGrant(Through(100, true));
+  EXPECT_EQ(mailbox_.WaitForActivation(0, 0s), Mailbox::Woken::kAborted);
+  ASSERT_TRUE(mailbox_.early_end());
+  EXPECT_EQ(mailbox_.early_end()->event, LifeEvent::kLost);
+  EXPECT_TRUE(mailbox_.grant().abort);
+  EXPECT_EQ(mailbox_.grant().reason, "was told to end");
+}
+
 TEST_F(MailboxTest, WakesTheWaitingThreadForTheEndAndForAnAbort) {
   std::thread later([this] {
     std::this_thread::sleep_for(20ms);

@@ -112,6 +112,7 @@ TEST(Recovery, DeathsAtAnyMomentChangeNoBitAndNoRecord) {
     settings.last_step = last;
     settings.loss = seed % 2 == 0 ? 0.0 : 0.1;
     settings.deaths.share = 0.003;
+    settings.deaths.terminated = 0.5;
     settings.deaths.policies.assign(roster.nodes().size(), Policy::kRestart);
     settings.deaths.safe = [&](NodeIndex) { return disk.safe(); };
     settings.deaths.remake = [&](NodeIndex n) {
@@ -142,6 +143,37 @@ TEST(Recovery, DeathsAtAnyMomentChangeNoBitAndNoRecord) {
     RC_ASSERT(recorded == reference);
   }));
   EXPECT_GT(deaths, 100);
+}
+
+// Whatever the order of messages: a node that is told to end is a loss, never an end that was meant.
+TEST(Recovery, ANodeThatIsToldToEndEndsARunWithoutRestarts) {
+  int deaths = 0;
+  EXPECT_TRUE(rc::check("the run ends with the reason or ran to its end", [&](std::uint64_t seed) {
+    const Roster roster = RecordedRoster(seed);
+    Disk disk;
+    disk.seed = seed;
+    std::vector<std::unique_ptr<Node>> alive;
+    std::vector<Node*> nodes;
+    for (NodeIndex n = 0; n + 1 < roster.nodes().size(); ++n)
+      nodes.push_back(alive.emplace_back(std::make_unique<law::Rememberer>(roster, n)).get());
+    nodes.push_back(alive.emplace_back(std::make_unique<RecorderDouble>(disk)).get());
+    InProcessSettings settings;
+    settings.last_step = 80 + static_cast<Step>(seed % 170);
+    settings.loss = seed % 2 == 0 ? 0.0 : 0.1;
+    settings.deaths.share = 0.002;
+    settings.deaths.terminated = 1.0;
+    const Policy policy = seed % 3 == 0 ? Policy::kPause : Policy::kStop;
+    settings.deaths.policies.assign(roster.nodes().size(), policy);
+    settings.deaths.safe = [&](NodeIndex) { return disk.safe(); };
+    const RunOutcome outcome = RunShuffled(roster, nodes, settings, seed + 1);
+    if (outcome.ok) {
+      for (const Report& report : outcome.reports) RC_ASSERT(report.phase == Phase::kFinished);
+      return;
+    }
+    ++deaths;
+    RC_ASSERT(outcome.fault.ends_with("' was told to end"));
+  }));
+  EXPECT_GT(deaths, 20);
 }
 
 TEST(Recovery, WhoDiesAgainAndAgainAtOnePlaceEndsTheRun) {

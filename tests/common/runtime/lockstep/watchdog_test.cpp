@@ -23,6 +23,7 @@ class WatchdogTest : public ::testing::Test {
                                         {{"car", "t", Role::kStepped, 1, 0, 300, {"x"}, {}},
                                          {"view", "t", Role::kStepped, 4, 0, 0, {}, {}}})
                              .value();
+  Grant grant_;
   Watchdog dog_{roster_, {600, 2000, 5000}};
 };
 
@@ -30,7 +31,7 @@ TEST_F(WatchdogTest, NamesWhoIsSilent) {
   for (std::int64_t now = 0; now <= 1000; now += 50) {
     if (now <= 300) Hear(0, now);
     Hear(1, now);
-    const auto fault = dog_.Check(now);
+    const auto fault = dog_.Check(now, grant_);
     if (now <= 900) {
       EXPECT_FALSE(fault) << now;
     } else {
@@ -43,47 +44,59 @@ TEST_F(WatchdogTest, NamesWhoIsSilent) {
   }
 }
 
+TEST_F(WatchdogTest, ANodeThatEndsBeforeTheRunDoesIsNamed) {
+  Hear(0, 0);
+  Hear(1, 0, Phase::kFinished);
+  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'view' ended at step 7 although the run goes on");
+  grant_.final = true;
+  EXPECT_FALSE(dog_.Check(0, grant_));
+  Hear(0, 0, Phase::kAborted);
+  EXPECT_EQ(dog_.Check(0, grant_)->node, 0u);
+  grant_.abort = true;
+  EXPECT_FALSE(dog_.Check(0, grant_));
+}
+
 TEST_F(WatchdogTest, NamesWhoHangsByItsOwnDeadlineButNotWhoWaits) {
   Hear(0, 0, Phase::kRunning, Waiting::kInputs, 60000);
   Hear(1, 0, Phase::kRunning, Waiting::kNothing, 1999);
-  EXPECT_FALSE(dog_.Check(0)) << "waiting for others and working within the deadline are no faults";
+  EXPECT_FALSE(dog_.Check(0, grant_)) << "waiting for others and working within the deadline are no faults";
   Hear(0, 0, Phase::kRunning, Waiting::kServer, 60000);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kNothing, 301);
-  EXPECT_EQ(dog_.Check(0)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
 }
 
 TEST_F(WatchdogTest, WhoWritesWhatItMadeHasAsLongAsAtTheStart) {
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5001);
-  EXPECT_EQ(dog_.Check(0)->reason, "node 'car' has been writing what it made before step 7 for 5 s");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been writing what it made before step 7 for 5 s");
 }
 
 TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
   Hear(0, 0, Phase::kRunning, Waiting::kNothing, 9000);
   Hear(1, 0, Phase::kFailed);
-  EXPECT_EQ(dog_.Check(0)->reason, "node 'view' failed at step 7: no such file");
+  EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'view' failed at step 7: no such file");
 }
 
 TEST_F(WatchdogTest, WhoFailedStaysSoAndWhoRefusedItsInputIsStatusTwo) {
   Hear(0, 0, Phase::kRunning);
   Hear(1, 0, Phase::kFailed);
   Hear(1, 0, Phase::kRunning);
-  ASSERT_TRUE(dog_.Check(0)) << "a report overtaken on its way is no recovery";
-  EXPECT_EQ(dog_.Check(0)->status, 1);
+  ASSERT_TRUE(dog_.Check(0, grant_)) << "a report overtaken on its way is no recovery";
+  EXPECT_EQ(dog_.Check(0, grant_)->status, 1);
   Hear(0, 0, Phase::kRefused);
-  EXPECT_EQ(dog_.Check(0)->status, 2);
+  EXPECT_EQ(dog_.Check(0, grant_)->status, 2);
 }
 
 TEST_F(WatchdogTest, ForgivesTheClocksOwnAbsence) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
-  EXPECT_FALSE(dog_.Check(5000)) << "the clock itself stood still";
-  for (std::int64_t now = 5050; now <= 5500; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  EXPECT_FALSE(dog_.Check(0, grant_));
+  EXPECT_FALSE(dog_.Check(5000, grant_)) << "the clock itself stood still";
+  for (std::int64_t now = 5050; now <= 5500; now += 50) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   std::optional<Watchdog::Fault> fault;
-  for (std::int64_t now = 5550; now <= 6000 && !fault; now += 50) fault = dog_.Check(now);
+  for (std::int64_t now = 5550; now <= 6000 && !fault; now += 50) fault = dog_.Check(now, grant_);
   EXPECT_TRUE(fault) << "but not for ever";
 }
 
@@ -91,7 +104,7 @@ TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
   std::optional<Watchdog::Fault> fault;
   for (std::int64_t now = 0; now <= 5200 && !fault; now += 100) {
     Hear(0, now, Phase::kReady, Waiting::kGrant);
-    fault = dog_.Check(now);
+    fault = dog_.Check(now, grant_);
   }
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
@@ -99,29 +112,30 @@ TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
 }
 
 TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
+  grant_.final = true;
   Hear(0, 0, Phase::kFinished);
   for (std::int64_t now = 0; now <= 2000; now += 100) {
     Hear(1, now);
-    EXPECT_FALSE(dog_.Check(now));
+    EXPECT_FALSE(dog_.Check(now, grant_));
   }
 }
 
 TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   dog_.ExpectNextLife(0, 0);
-  for (std::int64_t now = 50; now <= 3000; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
+  for (std::int64_t now = 50; now <= 3000; now += 50) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   Report back;
   back.node = 0;
   back.incarnation = 1;
   back.phase = Phase::kRunning;
   back.waiting = Waiting::kGrant;
   dog_.Heard(back, 3000);
-  EXPECT_FALSE(dog_.Check(3000));
+  EXPECT_FALSE(dog_.Check(3000, grant_));
   dog_.Heard(back, 3050);
-  for (std::int64_t now = 3050; now <= 3650; now += 50) EXPECT_FALSE(dog_.Check(now)) << now;
-  const auto fault = dog_.Check(3700);
+  for (std::int64_t now = 3050; now <= 3650; now += 50) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
+  const auto fault = dog_.Check(3700, grant_);
   ASSERT_TRUE(fault) << "from then on it counts anew";
   EXPECT_EQ(fault->node, 0u);
 }
@@ -131,7 +145,7 @@ TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
 TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   dog_.ExpectNextLife(1, 0);
   Report back;
   back.node = 1;
@@ -140,22 +154,22 @@ TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
   back.waiting = Waiting::kGrant;
   for (std::int64_t now = 50; now <= 2000; now += 50) {
     if (now >= 500) dog_.Heard(back, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
   Hear(0, 2050);
   for (std::int64_t now = 2050; now <= 2650; now += 50) {
     dog_.Heard(back, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
   dog_.Heard(back, 2700);
-  ASSERT_TRUE(dog_.Check(2700)) << "once it has spoken, its silence is like anybody's";
-  EXPECT_EQ(dog_.Check(2700)->node, 0u);
+  ASSERT_TRUE(dog_.Check(2700, grant_)) << "once it has spoken, its silence is like anybody's";
+  EXPECT_EQ(dog_.Check(2700, grant_)->node, 0u);
 }
 
 TEST_F(WatchdogTest, WhoNeverSpeaksAgainIsNamedAtLast) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   dog_.ExpectNextLife(1, 0);
   Report back;
   back.node = 1;
@@ -164,24 +178,24 @@ TEST_F(WatchdogTest, WhoNeverSpeaksAgainIsNamedAtLast) {
   std::int64_t now = 500;
   for (; now <= 500 + 5 * 600; now += 50) {
     dog_.Heard(back, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
   dog_.Heard(back, now);
-  ASSERT_TRUE(dog_.Check(now));
-  EXPECT_EQ(dog_.Check(now)->reason,
+  ASSERT_TRUE(dog_.Check(now, grant_));
+  EXPECT_EQ(dog_.Check(now, grant_)->reason,
             "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
 }
 
 TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   dog_.ExpectNextLife(1, 1000);
   for (std::int64_t now = 50; now <= 6000; now += 50) {
     Hear(0, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
-  const auto fault = dog_.Check(6050);
+  const auto fault = dog_.Check(6050, grant_);
   ASSERT_TRUE(fault);
   EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
 }
@@ -189,19 +203,19 @@ TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
 TEST_F(WatchdogTest, WhoIsExcusedIsNotNamedUntilItGoesOn) {
   Hear(0, 0);
   Hear(1, 0);
-  EXPECT_FALSE(dog_.Check(0));
+  EXPECT_FALSE(dog_.Check(0, grant_));
   dog_.Excuse(0);
   for (std::int64_t now = 50; now <= 20000; now += 50) {
     Hear(1, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
   Hear(0, 20000);
   for (std::int64_t now = 20050; now <= 20600; now += 50) {
     Hear(1, now);
-    EXPECT_FALSE(dog_.Check(now)) << now;
+    EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   }
   Hear(1, 20650);
-  EXPECT_TRUE(dog_.Check(20650));
+  EXPECT_TRUE(dog_.Check(20650, grant_));
 }
 
 }  // namespace

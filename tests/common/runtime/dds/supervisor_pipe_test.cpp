@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/runtime/dds/supervisor_pipe.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace rodeira::dds {
+namespace {
+
+class SupervisorPipeTest : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(::pipe(ends_), 0); }
+  void TearDown() override {
+    for (const int end : ends_) ::close(end);
+  }
+  void Write(const std::string& text) const {
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t wrote = ::write(ends_[1], text.data() + done, text.size() - done);
+      ASSERT_GT(wrote, 0);
+      done += static_cast<std::size_t>(wrote);
+    }
+  }
+  // What was read of `text` in all, once the last line, a command, is there.
+  static std::vector<std::string> CommandsThrough(SupervisorPipe& pipe, const std::string& last) {
+    std::vector<std::string> commands;
+    for (int i = 0; i < 5000 && (commands.empty() || commands.back() != last); ++i) {
+      for (std::string& command : pipe.TakeCommands()) commands.push_back(std::move(command));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return commands;
+  }
+  int ends_[2] = {-1, -1};
+};
+
+TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
+  SupervisorPipe pipe;
+  std::atomic<int> calls = 0;
+  ASSERT_TRUE(pipe.Listen(ends_[0], [&] { ++calls; }).ok());
+  EXPECT_FALSE(pipe.is_waiting());
+  const std::string text =
+      "do 1 pause\nlost ego 3 was killed by signal 9 (Killed)\nnonsense\nlost\nlost x\nlost x y z\nlost road 0\n\n"
+      "do 2 mark a b  c\n";
+  for (const char one : text) Write(std::string(1, one));
+  EXPECT_EQ(CommandsThrough(pipe, "2 mark a b  c"), (std::vector<std::string>{"1 pause", "2 mark a b  c"}));
+  const std::vector<LostNode> lost = pipe.TakeLost();
+  ASSERT_EQ(lost.size(), 2u);
+  EXPECT_EQ(lost[0].node, "ego");
+  EXPECT_EQ(lost[0].incarnation, 3u);
+  EXPECT_EQ(lost[0].text, "was killed by signal 9 (Killed)");
+  EXPECT_EQ(lost[1].text, "was lost");
+  EXPECT_FALSE(pipe.must_abort());
+  EXPECT_GE(calls, 1);
+  Write("abort\ndo 3 stop\n");
+  (void)CommandsThrough(pipe, "3 stop");
+  EXPECT_TRUE(pipe.must_abort());
+}
+
+TEST_F(SupervisorPipeTest, ALineWithoutAnEndIsDroppedAndTheNextOneCounts) {
+  SupervisorPipe pipe;
+  ASSERT_TRUE(pipe.Listen(ends_[0], [] {}).ok());
+  for (int i = 0; i < 400; ++i) Write(std::string(4096, 'x'));
+  Write("\ndo 1 stop\n");
+  EXPECT_EQ(CommandsThrough(pipe, "1 stop").back(), "1 stop");
+}
+
+// The thread has ended when the pipe is gone, whatever it was about to call.
+TEST_F(SupervisorPipeTest, EndsItsThreadWhileLinesCome) {
+  for (int i = 0; i < 200; ++i) {
+    auto calls = std::make_unique<std::atomic<int>>(0);
+    {
+      SupervisorPipe pipe;
+      ASSERT_TRUE(pipe.Listen(ends_[0], [&calls] { ++*calls; }).ok());
+      Write("do 1 pause\n");
+    }
+    calls.reset();
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::dds

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// SIGTERM to a part of a run (kill, systemd, a PC that shuts down), and signals to `rodeira run` in every state.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <thread>
+
+#include "tests/launch/rodeira/temporary_folder.hpp"
+#include "tests/system/command.hpp"
+#include "tests/system/recording.hpp"
+#include "tests/tree.hpp"
+
+namespace rodeira::system_test {
+namespace {
+
+using namespace std::chrono_literals;
+
+class Terminated : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::string Name() const { return fmt::format("terminated-{}", ::getpid()); }
+  std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
+  std::vector<std::string> Command(std::vector<std::string> more) const {
+    std::vector<std::string> command{Bin("rodeira"), "run",           LaunchFile("first_drive.yaml"), "--run", Name(),
+                                     "--record",     File("run.mcap")};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+  pid_t Part(const std::string& node) const {
+    const auto found = ProcessesWith("--run " + Name(), node == "clock" ? "/rodeira-clock" : "--node " + node);
+    return found.size() == 1 ? found.front() : -1;
+  }
+  // The last step of the closing table is the last one in the file.
+  void ExpectTheFileHoldsWhatTheTableSays(const std::string& table) const {
+    const Ended info = RunCommand({Bin("rodeira"), "info", File("run.mcap")});
+    EXPECT_EQ(info.status, 0) << info.out;
+    EXPECT_EQ(info.out.find("incomplete"), std::string::npos) << info.out;
+    if (table.find("audit   lossless") == std::string::npos) return;
+    EXPECT_EQ(RunCommand({Bin("rodeira"), "replay", File("run.mcap"), "--verify"}).status, 0) << table;
+  }
+  const cli::TemporaryFolder folder_;
+};
+
+class EveryPart : public Terminated {};
+
+TEST_P(EveryPart, IsNamedWithinASecondAndTheRunEnds) {
+  const std::string part = GetParam();
+  Started run(Command({"--pace", "real", "--for", "100"}));
+  ASSERT_TRUE(Runs(Name()));
+  std::this_thread::sleep_for(300ms);
+  ::kill(Part(part), SIGTERM);
+  const auto took = run.WaitFor("node '" + part + "' was told to end by signal 15 (Terminated) at about step ", 10s);
+  EXPECT_GE(took, 0ms);
+  EXPECT_LE(took, 1000ms);
+  const Ended ended = run.Wait(10s);
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run " + Name()).empty());
+  ExpectTheFileHoldsWhatTheTableSays(ended.out);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfFirstDrive, EveryPart, ::testing::Values("road", "driver", "ego", "recorder"),
+                         [](const auto& one) { return std::string(one.param); });
+
+class FrontDoor : public ::testing::TestWithParam<int> {
+ protected:
+  std::string Name() const { return fmt::format("door-{}", ::getpid()); }
+  void ExpectItsEnd(Started& run) const {
+    ::kill(run.pid(), GetParam());
+    const auto begin = std::chrono::steady_clock::now();
+    ended_ = run.Wait(20s);
+    EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended_.out;
+    EXPECT_TRUE(ProcessesWith("--run " + Name()).empty());
+  }
+  mutable Ended ended_;
+};
+
+TEST_P(FrontDoor, ARunThatDrivesEndsInOrder) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "100",
+               "--run", Name()});
+  ASSERT_TRUE(Runs(Name()));
+  ExpectItsEnd(run);
+  EXPECT_EQ(ended_.status, 0) << ended_.out;
+}
+
+TEST_P(FrontDoor, ARunWithANodeThatHangsEndsWithItsName) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "100",
+               "--run", Name(), "--set", "nodes.b.config.hang_at_step=200", "--set", "nodes.b.deadline_s=60"});
+  ASSERT_TRUE(Runs(Name()));
+  std::this_thread::sleep_for(600ms);
+  ExpectItsEnd(run);
+  EXPECT_EQ(ended_.status, 1) << ended_.out;
+  EXPECT_NE(ended_.out.find("stopped by a signal before these nodes had finished: 'a', 'b', 'c', 'd'"),
+            std::string::npos)
+      << ended_.out;
+}
+
+TEST_P(FrontDoor, ARunThatStartsEnds) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "100", "--run", Name()});
+  for (int i = 0; i < 400 && ProcessesWith("--run " + Name(), "/rodeira-").empty(); ++i) ::usleep(5000);
+  ExpectItsEnd(run);
+  EXPECT_NE(ended_.status, 2) << ended_.out;
+}
+
+TEST_P(FrontDoor, ARunOfOneProcessEnds) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "100",
+               "--in-process", "--set", "seed=7"});
+  std::this_thread::sleep_for(800ms);
+  ::kill(run.pid(), GetParam());
+  const auto begin = std::chrono::steady_clock::now();
+  const Ended ended = run.Wait(20s);
+  EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended.out;
+  EXPECT_EQ(ended.status, 0) << ended.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(ByASignal, FrontDoor, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
+                         [](const auto& one) { return std::string(::sigabbrev_np(one.param)); });
+
+// Found while the node reads its input: wrong input as any other.
+TEST(WrongInputAtTheStart, IsStatusTwo) {
+  for (const char* process : {"--quiet", "--in-process"}) {
+    const Ended ended = RunCommand({Bin("rodeira"), "run", LaunchFile("first_drive.yaml"), "--no-record", "--for", "1",
+                                    process, "--set", "world=" + SourceDir() + "/configs/worlds/n222.yaml", "--set",
+                                    "nodes.ego.config.start={x_m: 0, y_m: 1e6}"});
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_NE(ended.out.find("outside of the world"), std::string::npos) << ended.out;
+  }
+}
+
+}  // namespace
+}  // namespace rodeira::system_test
