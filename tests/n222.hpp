@@ -7,6 +7,7 @@
 
 #include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
+#include "tests/version1_road.hpp"
 
 namespace rodeira {
 
@@ -26,6 +27,9 @@ inline std::shared_ptr<const road::World> N222OfVersion1() {
 
 // Where N222's road lies, by the formulas of version 1, which share none with the network that drives, draws and
 // answers (N222.LiesWhereItDidInVersion1): an oracle.
-inline const road::Road& N222Road() { return N222OfVersion1()->roads()[0]; }
+inline const Version1Road& N222Road() {
+  static const auto road = Version1Road::Load(SourceDir() + "/tests/data/n222_version1.yaml");
+  return road;
+}
 
 }  // namespace rodeira

@@ -95,8 +95,7 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
         std::pair("info", "what the world is"), std::pair("map", "draw the plan as SVG"),
         std::pair("export", "write the roads as OpenDRIVE"), std::pair("query", "SUELO: the ground at X Y"),
         std::pair("build",
-                  "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb; not "
-                  "of version 1)")}) {
+                  "write a world's files: its roads (.xodr), generated terrain (.bt), what it looks like (.osgb)")}) {
     CLI::App* command = world->add_subcommand(name, text);
     command
         ->add_option("WORLD", options.world_file, "world file (.yaml), or OpenDRIVE (.xodr), or a world's name (n222)")

@@ -28,10 +28,9 @@ namespace topics = idl::topics;
 
 constexpr double kNowhere = std::numeric_limits<double>::quiet_NaN();
 
-// A road with stations: as a world file of version 1 says it, or a network's chain of roads.
+// A road with stations: a chain of the network's roads.
 class Stations {
  public:
-  explicit Stations(const road::Road& road) : id_(road.id()), length_m_(road.length_m()), road_(&road) {}
   Stations(const network::Network& network, road::RoadChain chain)
       : length_m_(chain.length_m), network_(&network), chain_(std::move(chain)) {
     const std::string& first = network.roads()[chain_.parts.front().road].id();
@@ -44,10 +43,6 @@ class Stations {
   // Where the car is along the road: kNowhere where it is not on this one. In a junction, on a way that is another
   // road's, nothing new is known: `before_m` again.
   double At(const Eigen::Vector3d& p_W, double before_m) const {
-    if (road_ != nullptr) {
-      const auto place = road_->Locate(p_W.x(), p_W.y());
-      return place ? place->s_m : kNowhere;
-    }
     const auto place = network_->Locate(p_W.x(), p_W.y(), p_W.z());
     if (!place) return kNowhere;
     for (const road::RoadChain::Part& part : chain_.parts) {
@@ -59,15 +54,13 @@ class Stations {
  private:
   std::string id_;
   double length_m_;
-  const road::Road* road_ = nullptr;  // or
-  const network::Network* network_ = nullptr;
+  const network::Network* network_;
   road::RoadChain chain_;
 };
 
 std::vector<Stations> StationsOf(const road::World& world) {
   std::vector<Stations> all;
-  for (const road::Road& road : world.roads()) all.emplace_back(road);
-  if (all.empty() && world.network() != nullptr) {
+  if (world.network() != nullptr) {
     for (road::RoadChain& chain : road::ChainsOf(*world.network()))
       all.emplace_back(*world.network(), std::move(chain));
   }

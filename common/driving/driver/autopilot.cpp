@@ -14,9 +14,6 @@ constexpr double kStopHere_mps2 = -4.0;  // with nothing to drive on
 
 }  // namespace
 
-Autopilot::Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id)
-    : Autopilot(settings, std::make_unique<LanePath>(road, lane_id)) {}
-
 Autopilot::Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way)
     : settings_(settings), path_(std::move(way)), plan_(*path_, settings.speed) {}
 

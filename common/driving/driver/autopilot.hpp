@@ -11,12 +11,12 @@
 #include "common/core/config/config.hpp"
 #include "common/driving/driver/footprint.hpp"
 #include "common/driving/driver/idm.hpp"
-#include "common/driving/driver/lane_path.hpp"
 #include "common/driving/driver/leader.hpp"
 #include "common/driving/driver/lights_ahead.hpp"
 #include "common/driving/driver/pedals.hpp"
 #include "common/driving/driver/speed_plan.hpp"
 #include "common/driving/driver/steering.hpp"
+#include "common/driving/driver/way.hpp"
 #include "common/vehicle/dynamics/controls.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 
@@ -68,8 +68,6 @@ struct Aim {
 // behind a leader by the IDM, to a stop before what blocks the lane, at lights, and before the road's end.
 class Autopilot {
  public:
-  // Drives this lane of the road, which must outlive the autopilot.
-  Autopilot(const AutopilotSettings& settings, const road::Road& road, int lane_id);
   // Follows this way.
   Autopilot(const AutopilotSettings& settings, std::unique_ptr<const Way> way);
 

@@ -19,8 +19,8 @@ struct WayAndLights {
   std::vector<LightLine> lines;
 };
 
-// The lane in which the world's start lies, or another one of that road; in a network 20 km straight on from there.
-// Wrong input where there is no such lane; `place`: who asks, for the sentence.
+// The lane in which the world's start lies, or another lane of the same road, from its beginning 20 km straight on.
+// Wrong input where there is no such lane; `place`: what names it, for the sentence.
 base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<int> lane_wish,
                                         const std::string& place);
 

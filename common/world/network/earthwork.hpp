@@ -5,8 +5,10 @@ namespace rodeira::network {
 
 // How the ground beside a road passes into the terrain, outward from the outermost lanes' edges (the verges').
 struct Earthwork {
-  // > 0: over this width the verge, going on in its slope, passes into the terrain by the weight 3 u^2 - 2 u^3.
-  // 0: slopes up to daylight instead.
+  // 0: slopes up to daylight, by the values below. > 0: over this width, beside the road and beyond its ends, the
+  // road's surface, going on in its slopes, passes into the terrain by the weight 3 u^2 - 2 u^3. Only in a network of
+  // one road, which has no superelevation: a world file of version 1. Version 2 has no key for it, since the blends of
+  // two roads do not meet.
   double blend_m = 0.0;
   // Run over rise: a cut of 1.5 rises by 1 m in 1.5 m, a fill of 2 falls by 1 m in 2 m.
   double cut = 1.5;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/core/base/assert.hpp"
 #include "common/core/geometry/plane.hpp"
 #include "common/world/road/built_ground.hpp"
 
@@ -42,10 +43,16 @@ Earthworks::Earthworks(std::shared_ptr<const network::Network> network,
   for (std::uint32_t road = 0; road < network_->roads().size(); ++road) {
     if (network_->roads()[road].spec().earthwork) AddReaches(road);
   }
+  const auto with_blend = [](const network::Road& road) {
+    return road.spec().earthwork && road.spec().earthwork->blend_m > 0.0;
+  };
+  blends_ = std::any_of(network_->roads().begin(), network_->roads().end(), with_blend);
+  RODEIRA_ASSERT(!blends_ || (network_->roads().size() == 1 && junctions_.empty() && !network_->roads()[0].rolled()));
   std::vector<SquareLists::Strip> strips;
-  for (const Reach& reach : reaches_)
-    strips.push_back(
-        {reach.from_W, reach.to_W, reach.beside_m + network_->roads()[reach.road].spec().earthwork->reach_m});
+  for (const Reach& reach : reaches_) {
+    const network::Earthwork& earthwork = *network_->roads()[reach.road].spec().earthwork;
+    strips.push_back({reach.from_W, reach.to_W, reach.beside_m + (blends_ ? earthwork.blend_m : earthwork.reach_m)});
+  }
   for (const auto& junction : junctions_) {
     const Eigen::Vector2d middle_W = 0.5 * (junction->low_W() + junction->high_W());
     strips.push_back({middle_W, middle_W, (junction->high_W() - middle_W).norm() + network::Earthwork().reach_m});
@@ -180,9 +187,54 @@ void Earthworks::FromJunction(std::size_t index, const Eigen::Vector2d& p_W, Bou
   }
 }
 
+void Earthworks::Blend(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
+  const network::Road& road = network_->roads().front();
+  const std::vector<geometry::AxisPanel>& panels = road.axis().panels();
+  // The nearest point of the axis; of equally near ones that of the smallest station.
+  const geometry::AxisPanel* panel = nullptr;
+  geometry::AxisFoot foot;
+  double nearest_m2 = std::numeric_limits<double>::infinity();
+  for (const std::uint32_t reach : near) {
+    const geometry::AxisPanel& candidate = panels[reaches_[reach].panel];
+    const geometry::AxisFoot there = road.axis().Foot(candidate, p_W);
+    const double distance_m2 = there.t_m * there.t_m + there.beyond_m * there.beyond_m;
+    if (distance_m2 < nearest_m2) panel = &candidate, foot = there, nearest_m2 = distance_m2;
+  }
+  if (panel == nullptr) return;
+  const bool past_end =
+      (foot.beyond_m < 0.0 && panel == &panels.front()) || (foot.beyond_m > 0.0 && panel == &panels.back());
+  const double beyond = past_end ? foot.beyond_m : 0.0;  // between two panels it is rounding
+  const double s = std::clamp(panel->middle_s_m + foot.u_m, 0.0, road.length_m());
+  const network::LaneSection& section = road.SectionAt(s);
+  const geometry::CubicPoint centre = road.CentreAt(s);
+  double outside;
+  const network::LaneSpan span = section.At(foot.t_m, centre, s, outside);
+  const double aside = foot.t_m > centre.value ? outside : -outside;
+  const double excess = std::sqrt(aside * aside + beyond * beyond);  // distance from the verges' outline
+  const double blend = road.spec().earthwork->blend_m;
+  if (excess >= blend) return;
+
+  // The road's own surface, going on in its slopes. Past an end s stands still and the straight distance counts.
+  const network::SurfaceSample sample = road.Surface(foot.at, s, foot.t_m, section, span);
+  const Eigen::Vector2d along_W = foot.at.tangent_W, left_W = foot.at.left_W();
+  const double pace = past_end ? 1.0 : 1.0 - foot.at.curvature_1pm * foot.t_m;
+  const double z = sample.p_W.z() + sample.ds_W.z() * beyond;
+  const Eigen::Vector2d slope = sample.ds_W.z() / pace * along_W + sample.dt_W.z() * left_W;
+  const double u = excess / blend;
+  const double weight = u * u * (3.0 - 2.0 * u);
+  const double weight_slope = 6.0 * u * (1.0 - u) / blend;
+  const Eigen::Vector2d outward_W =
+      excess > 0.0 ? Eigen::Vector2d((aside * left_W + beyond * along_W) / excess) : Eigen::Vector2d::Zero();
+  const double step = ground.z_m - z;
+  ground.slope_x = slope.x() + weight * (ground.slope_x - slope.x()) + weight_slope * step * outward_W.x();
+  ground.slope_y = slope.y() + weight * (ground.slope_y - slope.y()) + weight_slope * step * outward_W.y();
+  ground.z_m = z + weight * step;
+}
+
 void Earthworks::Shape(const Eigen::Vector2d& p_W, SurfacePoint& ground) const {
   const std::span<const std::uint32_t> near = near_.At(p_W);
   if (near.empty()) return;
+  if (blends_) return Blend(near, p_W, ground);
   const auto junction = std::lower_bound(near.begin(), near.end(), reaches_.size());
   Bounds bounds;
   FromRoads({near.begin(), junction}, p_W, bounds);

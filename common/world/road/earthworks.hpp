@@ -19,7 +19,8 @@ namespace rodeira::road {
 // z(q) - d / fill and z(q) + d / cut; the terrain is clamped between the greatest lower and the least upper of these
 // bounds. So ground and road meet without a gap, and slopes end where they meet the terrain. Where a lower bound lies
 // above an upper one (a high and a low road side by side) the ground goes from the one to the other by the distances
-// from both.
+// from both. A road with a blend (network::Earthwork) is alone in its network: the ground within the blend's width is
+// its surface, which goes on in its slopes, and the terrain, weighted by the distance from the verges' outline.
 class Earthworks {
  public:
   Earthworks(std::shared_ptr<const network::Network> network,
@@ -55,6 +56,7 @@ class Earthworks {
     }
   };
   void AddReaches(std::uint32_t road);
+  void Blend(std::span<const std::uint32_t> near, const Eigen::Vector2d& p_W, SurfacePoint& ground) const;
   // Whether an edge with these heights, at least so far away, may hold the ground more tightly than the bounds do
   // already.
   static bool MayTighten(const network::Earthwork& earthwork, const Heights& heights, double distance_m,
@@ -66,6 +68,7 @@ class Earthworks {
 
   std::shared_ptr<const network::Network> network_;
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions_;
+  bool blends_ = false;                             // the network's one road has a blend
   std::vector<Reach> reaches_;                      // of all panels of roads with slopes
   std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
   std::vector<Heights> junction_heights_;           // of all of its edges

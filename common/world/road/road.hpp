@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,12 +23,6 @@ struct RoadFrame {
   double vertical_curvature_1pm = 0.0;  // d2z/ds2, positive in a sag
 };
 
-// s along the axis in plan, t across it, positive to the left.
-struct RoadCoordinate {
-  double s_m = 0.0;
-  double t_m = 0.0;
-};
-
 enum class MarkColour : std::uint32_t { kWhite = 0, kYellow = 1 };
 
 // A line painted on the road, following it at a constant t.
@@ -45,12 +38,6 @@ struct Mark {
   bool dashed() const { return gap_m > 0.0; }
 };
 
-// One painted piece of a mark.
-struct Stroke {
-  double from_s_m = 0.0;
-  double to_s_m = 0.0;
-};
-
 // What a Road is made from.
 struct RoadSpec {
   std::string id;
@@ -62,7 +49,8 @@ struct RoadSpec {
   std::vector<Mark> marks;
 };
 
-// A road: an axis in plan, its heights, a cross-section, marks. Immutable; every answer depends on the road alone.
+// A road as a world file of version 1 says it: an axis in plan, its heights, a cross-section, marks. Reading converts
+// it to a road of version 2 (road_network.hpp), which answers all questions afterwards. Immutable.
 class Road {
  public:
   explicit Road(RoadSpec spec);
@@ -79,30 +67,13 @@ class Road {
   RoadFrame Evaluate(double s_m) const;
   // The point of the road's surface at (s, t), crossfall included; beyond the verge the verge's slope goes on.
   Eigen::Vector3d Position(double s_m, double t_m) const;
-  // The exact projection of (x, y) onto the axis: the nearest point, of equally near ones that of the smallest s.
-  // Nothing where the nearest point is an end and (x, y) lies beyond it (by more than 1e-9 m). Position(s, t) leads
-  // back to (x, y) within 1e-9 m. The height hint will choose between roads over one another; there are none yet.
-  std::optional<RoadCoordinate> Locate(double x_m, double y_m, std::optional<double> z_hint_m = std::nullopt) const;
-  // t of the lane's middle at s. The lane must be one of this road's.
-  double LaneCentre(int lane_id, double s_m) const;
-  // The lane at (s, t), or null beside the lanes. On a line between two lanes: the one farther left.
-  const Lane* LaneAt(double s_m, double t_m) const;
-  // The painted pieces of one of the marks, in ascending s. The dashes are equally long on the line itself, also where
-  // it runs on the inner or outer side of a bend.
-  std::vector<Stroke> Strokes(const Mark& mark) const;
-  // Whether (s, t) is painted; heading_rad is the axis' unwrapped heading at s.
-  bool IsPainted(double s_m, double t_m, double heading_rad) const;
 
  private:
-  double AlongMark(const Mark& mark, double s_m, double heading_rad) const;
-
   std::string id_;
   geometry::PlanCurve plan_;
   geometry::VerticalProfile profile_;
   Section section_;
   std::vector<Mark> marks_;
-  std::vector<double> mark_begin_m_;  // AlongMark at each mark's beginning
-  double start_heading_rad_;
 };
 
 }  // namespace rodeira::road

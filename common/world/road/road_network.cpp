@@ -31,10 +31,13 @@ std::vector<geometry::PlanElement> Elements(const Road& road) {
   return elements;
 }
 
+// The outermost strips go on over the blend: on the right that needs a record which begins at its outer edge.
 network::LateralProfile LateralProfileOf(const Road& road) {
   std::vector<Cubic> records;
   for (const Band& band : road.section().bands())
     records.push_back({band.from_t_m, band.from_z_m, band.slope, 0.0, 0.0});
+  const double blend_m = road.section().spec().blend_m;
+  records.front().from -= blend_m, records.front().a -= records.front().b * blend_m;
   network::LateralProfile lateral;
   lateral.shapes.push_back({0.0, CubicTable(std::move(records))});
   return lateral;
@@ -87,7 +90,8 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
                                [](const Lane& lane) { return lane.direction == (lane.id > 0 ? 1 : -1); });
   spec.elevation = design::Elevation(road.profile(), road.length_m());
   spec.lateral = LateralProfileOf(road);
-  spec.earthwork = network::Earthwork{road.section().spec().blend_m};
+  spec.earthwork.emplace();
+  spec.earthwork->blend_m = spec.earthwork->reach_m = road.section().spec().blend_m;
   network::LaneSection section;
   section.left = Side(road.section(), true, spec.left_hand, friction);
   section.right = Side(road.section(), false, spec.left_hand, friction);
@@ -103,12 +107,12 @@ network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction) {
   return network::Road(std::move(spec), std::move(*axis));
 }
 
-std::shared_ptr<const network::Network> AsNetwork(const WorldSpec& spec, const std::vector<Road>& roads) {
-  RODEIRA_ASSERT(!roads.empty());
+std::shared_ptr<const network::Network> AsNetwork(std::string name, std::string geo_reference,
+                                                  std::span<const Road> roads, const FrictionTable& friction) {
+  if (roads.empty()) return nullptr;
   network::NetworkSpec network;
-  network.name = spec.name;
-  if (spec.grid != nullptr) network.geo_reference = spec.grid->projection_wkt();
-  for (const Road& road : roads) network.roads.push_back(AsNetworkRoad(road, spec.friction));
+  network.name = std::move(name), network.geo_reference = std::move(geo_reference);
+  for (const Road& road : roads) network.roads.push_back(AsNetworkRoad(road, friction));
   return std::make_shared<const network::Network>(std::move(network));
 }
 

@@ -2,17 +2,21 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <string>
 
 #include "common/world/network/network.hpp"
-#include "common/world/road/world_spec.hpp"
+#include "common/world/road/road.hpp"
+#include "common/world/road/surface_point.hpp"
 
 namespace rodeira::road {
 
-// A road of constant cross-section as a road of a network: the same surface from verge to verge, lanes with shoulders
-// (type shoulder) and verges (type none) outside of them, materials, limits, and the painted lines.
+// A road of version 1 as version 2 has it: the same surface from verge to verge, lanes with shoulders (type shoulder)
+// and verges (type none) outside of them, materials, limits, the painted lines, and the blend into the terrain.
 network::Road AsNetworkRoad(const Road& road, const FrictionTable& friction);
 
-// All roads of a world file of version 1, in their order. There is at least one.
-std::shared_ptr<const network::Network> AsNetwork(const WorldSpec& spec, const std::vector<Road>& roads);
+// The network of a world file of version 1, which has one road at most; null without a road.
+std::shared_ptr<const network::Network> AsNetwork(std::string name, std::string geo_reference,
+                                                  std::span<const Road> roads, const FrictionTable& friction);
 
 }  // namespace rodeira::road

@@ -10,7 +10,6 @@
 #include "common/world/network/cluster.hpp"
 #include "common/world/road/built_ground.hpp"
 #include "common/world/road/network_ground.hpp"
-#include "common/world/road/road_network.hpp"
 #include "common/world/road/surface_detail.hpp"
 #include "common/world/road/world_hash.hpp"
 #include "common/world/terrain/heights_ahead.hpp"
@@ -81,10 +80,7 @@ World::World(WorldSpec spec)
       content_hash_(ContentHash(spec)) {
   RODEIRA_ASSERT(grid() == nullptr || !plane());
   RODEIRA_ASSERT(grid() != nullptr || plane() || network_ != nullptr);
-  for (const RoadSpec& road : spec.roads) roads_.emplace_back(road);
-  if (!roads_.empty()) {
-    network_ = AsNetwork(spec, roads_);
-  } else if (open_drive()) {
+  if (open_drive()) {
     grounds_ = LaneGrounds(*network_, friction_);
     paint_ = std::make_shared<const MarkPaint>(network_);
     land_ = std::make_shared<const NetworkLand>(network_);
@@ -141,46 +137,7 @@ SurfacePoint World::At(double x_m, double y_m, double z_hint_m) const {
   if (open_drive())
     return NetworkGround(*network_, grounds_, *land_, friction_, x_m, y_m, z_hint_m, paint_.get(), detail_.get());
   if (built_ != nullptr) return built_->At(x_m, y_m, z_hint_m);
-  SurfacePoint point = TerrainAt(x_m, y_m);
-  for (const Road& road : roads_) {
-    if (road.plan().MayReach(x_m, y_m)) LayRoad(road, x_m, y_m, point);
-  }
-  return point;
-}
-
-void World::LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const {
-  const geometry::Foot foot = road.plan().Project(x_m, y_m);
-  const Section& section = road.section();
-  const double aside = foot.t_m - std::clamp(foot.t_m, section.verge_right_m(), section.verge_left_m());
-  const double excess = std::sqrt(aside * aside + foot.beyond_m * foot.beyond_m);  // distance from the verges' outline
-  const double blend = section.spec().blend_m;
-  if (excess >= blend) return;
-
-  // The road's own surface, going on in its slopes beyond the verge and beyond the ends.
-  const geometry::ProfilePoint profile = road.profile().Evaluate(foot.s_m);
-  const Band& band = section.BandAt(foot.t_m);
-  const Eigen::Vector2d& along_W = foot.at.tangent_W;
-  const Eigen::Vector2d left_W = foot.at.left_W();
-  // Along the axis s grows by 1 / (1 - k t) a metre; past an end it stands still and the straight distance counts.
-  const double stretch = foot.beyond_m == 0.0 ? 1.0 / (1.0 - foot.at.curvature_1pm * foot.t_m) : 1.0;
-  const double z =
-      profile.z_m + profile.grade * foot.beyond_m + band.from_z_m + band.slope * (foot.t_m - band.from_t_m);
-  const Eigen::Vector2d slope = profile.grade * stretch * along_W + band.slope * left_W;
-  if (excess == 0.0) {
-    const bool painted = road.IsPainted(foot.s_m, foot.t_m, foot.at.heading_rad);
-    const ground::Surface surface = painted ? ground::Surface::kRoadMark : band.surface;
-    point = {z, slope.x(), slope.y(), Friction(surface), surface, true};
-    return;
-  }
-  if (!point.inside) return;
-  const double u = excess / blend;
-  const double weight = u * u * (3.0 - 2.0 * u);
-  const double weight_slope = 6.0 * u * (1.0 - u) / blend;
-  const Eigen::Vector2d outward_W = (aside * left_W + foot.beyond_m * along_W) / excess;
-  const double step = point.z_m - z;
-  point.slope_x = slope.x() + weight * (point.slope_x - slope.x()) + weight_slope * step * outward_W.x();
-  point.slope_y = slope.y() + weight * (point.slope_y - slope.y()) + weight_slope * step * outward_W.y();
-  point.z_m = z + weight * step;
+  return TerrainAt(x_m, y_m);
 }
 
 }  // namespace rodeira::road

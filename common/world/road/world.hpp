@@ -16,7 +16,6 @@
 #include "common/core/ground/ground.hpp"
 #include "common/world/road/bare_terrain.hpp"
 #include "common/world/road/lane_grounds.hpp"
-#include "common/world/road/road.hpp"
 #include "common/world/road/world_spec.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
 
@@ -48,10 +47,8 @@ class World : public std::enable_shared_from_this<World> {
   static std::shared_ptr<const World> Make(WorldSpec spec);
 
   const std::string& name() const { return name_; }
-  // The roads: a network whoever wrote them down, null where the world has none. Its outermost lanes are the verges.
+  // The roads, of every kind of file; null where the world has none. The outermost lanes are the verges.
   const network::Network* network() const { return network_.get(); }
-  // The same roads as a world file of version 1 says them; no others are here.
-  std::span<const Road> roads() const { return roads_; }
   // The elevation grid under the roads, for meshes, or null for a plane. Near a road the ground is not the grid's:
   // ask MakeGround() for heights.
   const terrain::ElevationGrid* grid() const { return terrain_.grid.get(); }
@@ -76,11 +73,9 @@ class World : public std::enable_shared_from_this<World> {
   double Friction(ground::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
-  // another, the height hint chooses; a world file of version 1 has one surface everywhere.
+  // another, the height hint chooses.
   std::unique_ptr<ground::Ground> MakeGround() const;
-  // One of its answers: the road within its verges, and beside it the terrain, cut and filled to meet it (BuiltGround).
-  // Beside a road of version 1, over its blend, both, weighted by 3 u^2 - 2 u^3 of the distance from the verge over the
-  // blend's width.
+  // One of its answers: the road within its verges, and beside it the terrain, which Earthworks shapes to meet it.
   SurfacePoint At(double x_m, double y_m, double z_hint_m = std::numeric_limits<double>::quiet_NaN()) const;
   // The world as it is drawn: its roads without what is too fine for a picture, made roughness and the short waves of
   // measured surfaces. This world itself where it has neither; the same network, hash and everything else.
@@ -95,15 +90,13 @@ class World : public std::enable_shared_from_this<World> {
  private:
   explicit World(WorldSpec spec);
   World(const World&) = default;
-  void LayRoad(const Road& road, double x_m, double y_m, SurfacePoint& point) const;
 
   std::string name_;
-  std::vector<Road> roads_;
   BareTerrain terrain_;
   std::shared_ptr<const network::Network> network_;
   std::shared_ptr<const network::Standing> standing_;
   std::shared_ptr<const SurfaceDetail> detail_;
-  std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain that is no road of version 1
+  std::shared_ptr<const BuiltGround> built_;  // of a network in a terrain or on a plane
   std::optional<terrain::LaidPicture> ground_picture_;
   FrictionTable friction_;
   LaneGrounds grounds_;                      // of an OpenDRIVE file

@@ -14,7 +14,6 @@ class CanonicalWorldWriter {
   void Put(int value) { out_.Put(static_cast<std::int64_t>(value)); }
   void Put(std::size_t value) { out_.Put(static_cast<std::uint64_t>(value)); }
   void Put(ground::Surface value) { out_.Put(static_cast<std::uint64_t>(value)); }
-  void Put(MarkColour value) { out_.Put(static_cast<std::uint64_t>(value)); }
   template <class... Values>
   void PutAll(Values... values) {
     (Put(values), ...);
@@ -24,30 +23,6 @@ class CanonicalWorldWriter {
  private:
   base::ByteWriter out_;
 };
-
-void PutSection(CanonicalWorldWriter& canonical, const SectionSpec& section) {
-  canonical.Put(section.lanes.size());
-  for (const Lane& lane : section.lanes) canonical.PutAll(lane.id, lane.direction, lane.width_m, lane.speed_limit_mps);
-  canonical.PutAll(section.fall_left, section.fall_right, section.surface);
-  for (const Shoulder* shoulder : {&section.left, &section.right}) {
-    canonical.PutAll(shoulder->width_m, shoulder->fall, shoulder->surface);
-  }
-  canonical.PutAll(section.verge.width_m, section.verge.fall, section.verge.surface, section.blend_m);
-}
-
-void PutRoadSpec(CanonicalWorldWriter& canonical, const RoadSpec& road) {
-  canonical.PutAll(road.start_W.x(), road.start_W.y(), road.heading_rad, road.pieces.size());
-  for (const geometry::PlanPiece& piece : road.pieces) {
-    canonical.PutAll(piece.length_m, piece.curvature_start_1pm, piece.curvature_end_1pm);
-  }
-  canonical.Put(road.grade_points.size());
-  for (const geometry::GradePoint& point : road.grade_points) canonical.PutAll(point.s_m, point.z_m, point.parabola_m);
-  PutSection(canonical, road.section);
-  canonical.Put(road.marks.size());
-  for (const Mark& mark : road.marks) {
-    canonical.PutAll(mark.t_m, mark.width_m, mark.from_s_m, mark.to_s_m, mark.stroke_m, mark.gap_m, mark.colour);
-  }
-}
 
 // What is run into is part of a world.
 void PutStanding(CanonicalWorldWriter& canonical, const network::Standing& standing) {
@@ -69,8 +44,7 @@ void PutStanding(CanonicalWorldWriter& canonical, const network::Standing& stand
 base::Digest ContentHash(const WorldSpec& spec) {
   CanonicalWorldWriter canonical;
   canonical.out().PutString("rodeira world/1");
-  canonical.Put(spec.roads.size());
-  for (const RoadSpec& road : spec.roads) PutRoadSpec(canonical, road);
+  canonical.Put(std::size_t{0});  // the number of roads that were not in the network
   if (spec.grid != nullptr) {
     const terrain::ElevationGrid::Frame& frame = spec.grid->frame();
     canonical.PutAll(1, frame.columns, frame.rows, frame.west_m, frame.south_m, frame.east_m, frame.north_m);

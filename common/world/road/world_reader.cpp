@@ -13,6 +13,7 @@
 #include "common/world/road/named_network.hpp"
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/picture_reader.hpp"
+#include "common/world/road/road_network.hpp"
 #include "common/world/road/road_reader.hpp"
 #include "common/world/road/surface_detail.hpp"
 #include "common/world/road/world_fit.hpp"
@@ -136,6 +137,7 @@ design::StartSpec ReadStartWish(const Map& map, StartPose& start) {
 // All keys of the file. What needs other files or the finished roads comes afterwards.
 struct Keys {
   WorldSpec spec;
+  std::vector<RoadSpec> roads;  // of version 1
   std::optional<HillsSpec> hills;
   std::optional<std::filesystem::path> elevation_file, network_file;
   std::string elevation_place;  // "file:line" where it is named
@@ -189,10 +191,10 @@ Keys ReadKeys(const Map& root) {
     return keys;
   }
   const List roads = root.OptionalItems("roads");
-  for (std::size_t i = 0; i < roads.size(); ++i) keys.spec.roads.push_back(ReadRoad(roads.At(i)));
+  for (std::size_t i = 0; i < roads.size(); ++i) keys.roads.push_back(ReadRoad(roads.At(i)));
   if (roads.size() > 1)
     roads.Problem(1, "a second road; version 1 has one road a world, several need 'rodeira: world/2'");
-  if (root.Has("start")) ReadStart(root.Child("start"), keys.spec.roads, keys.spec.start);
+  if (root.Has("start")) ReadStart(root.Child("start"), keys.roads, keys.spec.start);
   return keys;
 }
 
@@ -329,14 +331,17 @@ WorldReading ReadWorld(const config::File& file) {
   if (!reading.problems.empty()) return reading;
 
   std::vector<Road> roads;
-  for (const RoadSpec& road : keys.spec.roads) roads.emplace_back(road);
+  for (const RoadSpec& road : keys.roads) roads.emplace_back(road);
   if (!PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
   PutStart(root, roads, keys.spec, keys.spec.start);
   for (std::size_t i = 0; i < roads.size(); ++i)
     CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
   reading.problems = file.Problems();
   reading.hills = std::move(keys.hills);
-  if (reading.problems.empty()) reading.spec = std::move(keys.spec);
+  if (!reading.problems.empty()) return reading;
+  const std::string projection = keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt() : "";
+  keys.spec.network = AsNetwork(keys.spec.name, projection, roads, keys.spec.friction);
+  reading.spec = std::move(keys.spec);
   return reading;
 }
 

@@ -23,74 +23,7 @@ namespace {
 
 double Degrees(double angle_rad) { return angle_rad * 180.0 / geometry::kPi; }
 
-constexpr const char* kVersion1IsNotWritten =
-    "its road is of version 1, of which 'rodeira world build' writes no tiles of what is seen; of version 2 it does";
-
-// How much the terrain is cut or filled to meet the road's verges, and the steepest slope of the blend.
-struct Earthwork {
-  double cut_m = 0.0;
-  double fill_m = 0.0;
-  double steepest = 0.0;
-};
-
-Earthwork EarthworkOf(const World& world, const Road& road) {
-  Earthwork work;
-  const Section& section = road.section();
-  for (double s = 0.0; s < road.length_m(); s += 5.0) {
-    for (const double side : {1.0, -1.0}) {
-      const double verge = side > 0.0 ? section.verge_left_m() : section.verge_right_m();
-      const Eigen::Vector3d edge = road.Position(s, verge);
-      const SurfacePoint terrain = world.TerrainAt(edge.x(), edge.y());
-      if (terrain.inside) {
-        work.cut_m = std::max(work.cut_m, terrain.z_m - edge.z());
-        work.fill_m = std::max(work.fill_m, edge.z() - terrain.z_m);
-      }
-      for (double out = 0.5; out < section.spec().blend_m; out += 0.5) {
-        const Eigen::Vector3d p = road.Position(s, verge + side * out);
-        const SurfacePoint at = world.At(p.x(), p.y());
-        if (at.inside) work.steepest = std::max(work.steepest, std::hypot(at.slope_x, at.slope_y));
-      }
-    }
-  }
-  return work;
-}
-
-std::string DescribeRoad(const World& world, const Road& road) {
-  double sharpest = 0.0, steepest_up = 0.0, steepest_down = 0.0, turned = 0.0;
-  int bends = 0, side = 0;
-  for (const geometry::PlanPiece& piece : road.plan().pieces()) {
-    sharpest = std::max({sharpest, std::fabs(piece.curvature_start_1pm), std::fabs(piece.curvature_end_1pm)});
-    turned += 0.5 * std::fabs(piece.curvature_start_1pm + piece.curvature_end_1pm) * piece.length_m;
-    const double curvature = piece.curvature_start_1pm + piece.curvature_end_1pm;
-    const int now = curvature > 0.0 ? 1 : (curvature < 0.0 ? -1 : 0);
-    if (now != 0 && now != side) ++bends;
-    side = now;
-  }
-  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
-  for (double s = 0.0; s <= road.length_m(); s += 1.0) {
-    const geometry::ProfilePoint at = road.profile().Evaluate(s);
-    lowest = std::min(lowest, at.z_m);
-    highest = std::max(highest, at.z_m);
-    steepest_up = std::max(steepest_up, at.grade);
-    steepest_down = std::min(steepest_down, at.grade);
-  }
-  const Earthwork work = EarthworkOf(world, road);
-  std::string text = fmt::format("road {}\n", road.id());
-  text += fmt::format("  length_m: {:.3f}\n  bends: {} ({:.1f} a km, {:.0f} degrees turned a km)\n", road.length_m(),
-                      bends, 1000.0 * bends / road.length_m(), Degrees(turned) * 1000.0 / road.length_m());
-  if (sharpest > 0.0) text += fmt::format("  smallest_radius_m: {:.6g}\n", 1.0 / sharpest);
-  text += fmt::format("  heights_m: {:.2f} to {:.2f}\n  grades: {:.2f} % to {:.2f} %\n", lowest, highest,
-                      100.0 * steepest_down, 100.0 * steepest_up);
-  for (const Lane& lane : road.lanes()) {
-    text += fmt::format("  lane {}: {} s, width_m {:.2f}, speed limit {:.0f} km/h\n", lane.id,
-                        lane.direction > 0 ? "along" : "against", lane.width_m, lane.speed_limit_mps * 3.6);
-  }
-  text += fmt::format("  marks: {}\n  earthwork: cut {:.2f} m and fill {:.2f} m at most, steepest slope {:.2f}\n",
-                      road.marks().size(), work.cut_m, work.fill_m, work.steepest);
-  return text;
-}
-
-// The roads of a file of version 2, each with its parts put together again.
+// The roads of a world file, each with its parts put together again.
 std::string DescribeChains(const network::Network& network) {
   std::string text =
       fmt::format("network: {} roads with {} junctions\n", ChainsOf(network).size(), network.junctions().size());
@@ -153,12 +86,9 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   const auto file = config::File::Load(world_yaml);
   if (!file) return {};
   WorldReading reading = ReadWorld(file.value());
-  if (reading.spec && !reading.spec->roads.empty())
-    reading.warnings.push_back(fmt::format("{}: {}", world_yaml.string(), kVersion1IsNotWritten));
-  // A road of version 1 is one alone.
   if (const std::filesystem::path named = OpenDriveOf(world_yaml); !named.empty()) {
     for (std::string& warning : CheckNetwork(named, false).warnings) reading.warnings.push_back(std::move(warning));
-  } else if (reading.spec && reading.spec->roads.empty() && reading.spec->network != nullptr) {
+  } else if (reading.spec && reading.spec->network != nullptr) {
     const WorldSpec& spec = *reading.spec;
     const BareTerrain terrain{spec.grid, spec.plane};
     for (const auto& said : {DescribeOverlaps(*spec.network, true), DescribePasses(*spec.network, terrain)}) {
@@ -172,8 +102,6 @@ std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml) 
   }
   return std::move(reading.warnings);
 }
-
-std::string WhyNoTiles(const World& world) { return world.roads().empty() ? "" : kVersion1IsNotWritten; }
 
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml) {
   if (const auto other = WhatWorldsName(world_yaml)) return {*other};
@@ -213,9 +141,7 @@ std::string DescribeWorld(const World& world) {
     text += fmt::format("ground: a plane, z_m = {} + {} x + {} y\n", world.plane()->z_m, world.plane()->slope_x,
                         world.plane()->slope_y);
   }
-  for (const Road& road : world.roads()) text += DescribeRoad(world, road);
-  if (world.network() != nullptr && world.roads().empty() && !world.open_drive())
-    text += DescribeChains(*world.network());
+  if (world.network() != nullptr && !world.open_drive()) text += DescribeChains(*world.network());
   const StartPose& start = world.start();
   text += fmt::format("start: x_m {:.3f}, y_m {:.3f}, heading {:.2f} degrees", start.x_m, start.y_m,
                       Degrees(start.heading_rad));
@@ -238,15 +164,7 @@ std::string DescribePoint(const World& world, double x_m, double y_m, std::optio
   const Eigen::Vector3d normal = at.normal_W + Eigen::Vector3d::Zero();  // -0 is 0
   text += fmt::format("inside: true\nz_m: {:.7f}\nnormal: [{:.9f}, {:.9f}, {:.9f}]\nfriction: {}\nsurface: {}\n",
                       at.z_m, normal.x(), normal.y(), normal.z(), at.friction, SurfaceName(at.surface));
-  if (world.roads().empty() && world.network() != nullptr)
-    text += DescribePlace(*world.network(), AnsweredFrom(world, x_m, y_m, z_hint_m));
-  for (const Road& road : world.roads()) {
-    const auto place = road.Locate(x_m, y_m, z_hint_m);
-    if (!place || std::fabs(place->t_m) > road.section().reach_m()) continue;
-    const Lane* lane = road.LaneAt(place->s_m, place->t_m);
-    text += fmt::format("road: {}\ns_m: {:.6f}\nt_m: {:.6f}\nlane: {}\n", road.id(), place->s_m, place->t_m,
-                        lane == nullptr ? "none" : std::to_string(lane->id));
-  }
+  if (world.network() != nullptr) text += DescribePlace(*world.network(), AnsweredFrom(world, x_m, y_m, z_hint_m));
   return text;
 }
 

@@ -15,14 +15,10 @@ namespace rodeira::road {
 
 // Every problem of a world file, in the order of its lines; none where World::Load would succeed.
 std::vector<base::Error> WorldProblems(const std::filesystem::path& world_yaml);
-// What is not wrong but worth a look: curvature that jumps, gaps that are closed, steep approaches to junctions, and
-// that a world of version 1 is not written as it is seen.
+// What is not wrong but worth a look: curvature that jumps, gaps that are closed, steep approaches to junctions.
 std::vector<std::string> WorldWarnings(const std::filesystem::path& world_yaml);
 
-// Why `rodeira world build` writes no tiles of what is seen of a world, a sentence; empty where it does.
-std::string WhyNoTiles(const World& world);
-
-// Name, content hash, extents, start; each road's length, bends, grades, lanes, marks, earthwork.
+// Name, content hash, extents, start; each road's length, junctions, smallest radius, heights, grades.
 std::string DescribeWorld(const World& world);
 
 // SUELO's answer at (x, y), where a road is near the place on it, and the longitude and latitude where the world has a

@@ -11,7 +11,6 @@
 #include "common/world/design/junction_surface.hpp"
 #include "common/world/network/network.hpp"
 #include "common/world/network/standing.hpp"
-#include "common/world/road/road.hpp"
 #include "common/world/road/surface_point.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
 #include "common/world/terrain/picture_file.hpp"
@@ -41,10 +40,9 @@ struct PlaneSpec {
 // What a World is made from: the world file, understood and checked.
 struct WorldSpec {
   std::string name;
-  std::vector<RoadSpec> roads;
   std::shared_ptr<const terrain::ElevationGrid> grid;  // one of these two, or an OpenDRIVE file
   std::optional<PlaneSpec> plane;
-  std::shared_ptr<const network::Network> network;  // null: made of `roads`, where there are any
+  std::shared_ptr<const network::Network> network;  // null: no roads
   base::Digest network_hash = 0;  // of the bytes of an OpenDRIVE file, or of a traffic map and what stands beside it
   std::vector<std::shared_ptr<const design::JunctionSurface>> junctions;  // of a network that is built into the terrain
   std::shared_ptr<const network::Standing> standing;                      // what stands at no road; null: nothing

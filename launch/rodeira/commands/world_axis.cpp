@@ -35,10 +35,6 @@ base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m) {
   const auto world = road::World::Load(name.file);
   if (!world) return world.error();
   std::vector<std::string> ids;
-  for (const road::Road& road : world.value()->roads()) {
-    ids.push_back(road.id());
-    if (road.id() == name.road) return Sampled(road.length_m(), step_m, [&](double s) { return road.Evaluate(s).p_W; });
-  }
   if (const network::Network* network = world.value()->network()) {
     const auto on = [](const network::Road& road, double s) {
       const Eigen::Vector2d at = road.axis().Evaluate(s).p_W;

@@ -162,7 +162,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
   return 0;
 }
 
-// What is seen, where the roads are not of version 1; the roads as OpenDRIVE; the world file with all that it names;
+// What is seen; the roads as OpenDRIVE; the world file with all that it names;
 // and a list of all these but what is seen.
 int Build(const WorldOptions& options) {
   const auto loaded = road::World::Load(options.world_file);
@@ -173,10 +173,7 @@ int Build(const WorldOptions& options) {
   if (!road::IsOpenDrive(options.world_file)) {
     if (const int status = WriteWorldFile(options, world, files); status != 0) return status;
   }
-  if (const std::string why = road::WhyNoTiles(world); !why.empty())
-    fmt::print(stderr, "rodeira: warning: {}: {}\n", options.world_file, why);
-  else if (const int status = BuildDatabase(options, world); status != 0)
-    return status;
+  if (const int status = BuildDatabase(options, world); status != 0) return status;
   if (world.network() != nullptr && !world.network()->roads().empty()) {
     std::error_code problem;
     std::filesystem::create_directories(out, problem);

@@ -5,7 +5,6 @@
 
 #include <utility>
 
-#include "common/core/base/assert.hpp"
 #include "common/view/scene/visual_world/ground_digest.hpp"
 #include "common/view/scene/visual_world/world_scene.hpp"
 
@@ -106,7 +105,6 @@ class TerrainTiles final : public DatabaseTiles {
 }  // namespace
 
 std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there) {
-  RODEIRA_ASSERT(world.roads().empty());
   if (world.network() == nullptr) return std::make_unique<TerrainTiles>(world);
   return std::make_unique<NetworkTiles>(world, threads, std::move(is_there));
 }

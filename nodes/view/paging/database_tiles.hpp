@@ -42,8 +42,7 @@ class DatabaseTiles {
 };
 
 // Those of a network, or of a terrain or a plane without any road; the world must outlive them. threads: 0 for as many
-// as the machine has. Not for roads of version 1, which are drawn in another way. `is_there`: which models from files
-// stand there; without it all.
+// as the machine has. `is_there`: which models from files stand there; without it all.
 std::unique_ptr<DatabaseTiles> TilesOf(const road::World& world, unsigned threads, scene::ModelIsThere is_there = {});
 
 }  // namespace rodeira::nodes

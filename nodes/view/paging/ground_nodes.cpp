@@ -3,19 +3,10 @@
 
 #include <osg/LOD>
 
-#include <Eigen/Geometry>
-
 #include "nodes/view/materials/model_file.hpp"
 #include "nodes/view/materials/to_osg.hpp"
 
 namespace rodeira::nodes {
-namespace {
-
-constexpr float kMarksSeen_m = 650.0F;
-constexpr float kTreesSeen_m = 1'100.0F;
-constexpr double kHighestTree_m = 12.0;
-
-}  // namespace
 
 PlacedNode TerrainNode(Look& look, const scene::TerrainTile& tile) {
   osg::ref_ptr<osg::LOD> lod = new osg::LOD;
@@ -61,30 +52,6 @@ PlacedNode GroundNode(Look& look, const scene::GroundTile& tile) {
     from = scene::kGroundSeen_m[level];
   }
   return {tile.ball.centre_W.head<2>(), lod};
-}
-
-void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group) {
-  std::vector<const scene::Mesh*> ground;
-  for (const scene::Mesh& mesh : tile.ground) ground.push_back(&mesh);
-  if (!ground.empty()) group.addChild(look.Placed(ground));
-  if (tile.marks.triangles.empty()) return;
-  const scene::Mesh* marks = &tile.marks;
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->addChild(look.Placed({&marks, 1}), 0.0F, kMarksSeen_m);
-  group.addChild(lod);
-}
-
-PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees) {
-  Eigen::AlignedBox3d feet_W;
-  for (const scene::Repeated& kind : trees) {
-    for (const scene::StandingPlace& place : kind.places) feet_W.extend(place.stand.foot_W);
-  }
-  osg::ref_ptr<osg::LOD> lod = new osg::LOD;
-  lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
-  lod->setCenter(ToOsg(feet_W.center()));
-  lod->setRadius(0.5 * feet_W.diagonal().norm() + kHighestTree_m);
-  lod->addChild(look.Placed(trees), 0.0F, kTreesSeen_m);
-  return {feet_W.center().head<2>(), lod};
 }
 
 }  // namespace rodeira::nodes

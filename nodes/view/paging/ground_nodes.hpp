@@ -6,8 +6,6 @@
 
 #include <vector>
 
-#include "common/view/scene/mesh/repeated.hpp"
-#include "common/view/scene/terrain/ribbon.hpp"
 #include "common/view/scene/terrain/terrain_mesh.hpp"
 #include "common/view/scene/visual_world/ground_tile.hpp"
 #include "nodes/view/materials/look.hpp"
@@ -22,11 +20,7 @@ namespace rodeira::nodes {
 osg::ref_ptr<osg::Group> LevelNode(Look& look, const scene::GroundLevel& level);
 // All of its levels, each shown at its distances.
 PlacedNode GroundNode(Look& look, const scene::GroundTile& tile);
-// Land of a world without roads, or beside roads of version 1.
+// Land of a world without roads.
 PlacedNode TerrainNode(Look& look, const scene::TerrainTile& tile);
-// Trees of a square, seen from so far as it is from the middle of their feet: however they are drawn.
-PlacedNode TreesNode(Look& look, const std::vector<scene::Repeated>& trees);
-// A piece of a road of version 1.
-void AddRoadTile(Look& look, const scene::RoadTile& tile, osg::Group& group);
 
 }  // namespace rodeira::nodes

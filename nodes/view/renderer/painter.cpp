@@ -120,18 +120,15 @@ Painter::Painter(Surface& surface, const road::World& world, const scene::WorldS
     : Painter(surface, world, repeats) {
   Look& look = parts_->look;
   osg::Group& group = *parts_->scene;
-  std::vector<PlacedNode> land, trees;
+  std::vector<PlacedNode> land;
   std::vector<scene::TileKey> tiles;
   for (const scene::GroundTile& tile : standing.ground) {
     land.push_back(GroundNode(look, tile));
     tiles.push_back(tile.key);
   }
   for (const scene::TerrainTile& tile : standing.terrain) land.push_back(TerrainNode(look, tile));
-  for (const std::vector<scene::Repeated>& square : standing.trees) trees.push_back(TreesNode(look, square));
   group.addChild(TileTree(land));
   AddFarPlane(look, world, tiles, group);
-  for (const scene::RoadTile& tile : standing.roads) AddRoadTile(look, tile, group);
-  group.addChild(TileTree(trees));
   SetUp();
 }
 
@@ -347,9 +344,8 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
                 fmt::format("{}; what it is of is drawn without it", read.error().Text()));
     return read.ok();
   };
-  if (world.network() != nullptr && world.roads().empty()) return Painter::Make(surface, world, is_there, repeats);
-  const scene::WorldScene standing =
-      scene::BuildWorldScene(world, {}, is_there, progress);  // the painter has its own copy
+  if (world.network() != nullptr) return Painter::Make(surface, world, is_there, repeats);
+  const scene::WorldScene standing = scene::BuildWorldScene(world, is_there, progress);  // the painter has its own copy
   return std::make_unique<Painter>(surface, world, standing, repeats);
 }
 

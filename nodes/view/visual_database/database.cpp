@@ -195,12 +195,6 @@ base::Result<Manifest> WriteTile(const DatabaseTiles& tiles, std::size_t tile, c
 }  // namespace
 
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options) {
-  if (!world.roads().empty()) {
-    return base::WrongInput(
-        "only an OpenDRIVE world, the roads of a world file of version 2, or land without roads can be written as they "
-        "are seen",
-        world.name());
-  }
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
   if (!fs::is_directory(options.folder / "tiles", problem))

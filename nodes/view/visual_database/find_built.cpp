@@ -27,7 +27,7 @@ std::string FirstChanged(const fs::path& folder, const road::VisualContents& con
 
 FoundBuilt FindBuilt(const fs::path& world_file, const road::World& world) {
   FoundBuilt found;
-  if (world_file.empty() || !world.roads().empty()) return found;
+  if (world_file.empty()) return found;
   std::string seen;
   for (const fs::path& folder : {world_file.parent_path(), world_file.parent_path() / world_file.stem()}) {
     std::error_code problem;

@@ -237,25 +237,6 @@ void N222FourWheels(benchmark::State& state) {
 }
 BENCHMARK(N222FourWheels);
 
-// Of a road of version 1.
-void LocateFarAway(benchmark::State& state) {
-  const auto world = N222OfVersion1();
-  std::uint64_t i = 0;
-  for (auto _ : state) {
-    ++i;
-    benchmark::DoNotOptimize(world->roads()[0].Locate(base::RandomUniform({i, 1}, -2560.0, 2560.0),
-                                                      base::RandomUniform({i, 2}, -2560.0, 2560.0)));
-  }
-}
-BENCHMARK(LocateFarAway);
-
-void EvaluateAxis(benchmark::State& state) {
-  const auto world = N222OfVersion1();
-  std::uint64_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(world->roads()[0].Evaluate(base::RandomUniform({++i}, 0.0, 5400.0)));
-}
-BENCHMARK(EvaluateAxis);
-
 void ClothoidEnd(benchmark::State& state) {
   double length = 30.0;
   for (auto _ : state) {

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/driving/driver/lane_path.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/identical.hpp"
+#include "tests/lane_path.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -30,8 +30,10 @@ struct Discharged {
 // at most. Coarse steps are compared with the finest one only.
 Discharged Discharge(double time_gap_s, double step_s = 0.01) {
   constexpr double kLimit_mps = 50.0 / 3.6, kLine_m = 800.0;
-  const auto world = driver::StraightWorld(2000.0, kLimit_mps);
-  const driver::LanePath path(world->roads()[0], -1);
+  const road::RoadSpec spec = driver::StraightRoad(2000.0, kLimit_mps);
+  const Version1Road road(spec);
+  const auto world = driver::WorldOf(spec);
+  const driver::LanePath path(road, -1);
   const driver::LaneFrame frame = path.At(kLine_m + 2.0);
   const std::vector<driver::Footprint> barrier{{1000, frame.p_W.x(), frame.p_W.y(), frame.heading_rad, 0.0, 4.0, 1.7}};
   TrafficSettings settings = Identical(120, 1.4);

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "common/driving/driver/idm.hpp"
-#include "common/driving/driver/lane_path.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
+#include "tests/lane_path.hpp"
 #include "tests/n222.hpp"
 
 namespace rodeira::traffic {
@@ -43,9 +43,8 @@ struct Pair {
   std::uint32_t behind, ahead;
   double gap_m;
 };
-// The lanes of a world's only road.
-std::map<int, LanePath> PathsOf(const road::World& world) {
-  const road::Road& road = world.roads().empty() ? N222Road() : world.roads()[0];
+// The lanes of a road, which must outlive them.
+std::map<int, LanePath> PathsOf(const Version1Road& road) {
   std::map<int, LanePath> paths;
   for (const road::Lane& lane : road.lanes()) paths.emplace(lane.id, LanePath(road, lane.id));
   return paths;
@@ -71,11 +70,13 @@ std::vector<Pair> PairsOf(const TrafficModel& model, const std::map<int, LanePat
 
 // A column behind a leader of constant speed: gaps (s0 + v T) / sqrt(1 - (v/v0)^4), each with the agent's own T and v0.
 TEST(Traffic, KeepsTheEquilibriumGapWithin5Centimetres) {
-  const WorldPointer world = driver::StraightWorld(9000, 22.0);
+  const road::RoadSpec spec = driver::StraightRoad(9000, 22.0);
+  const Version1Road road(spec);
+  const WorldPointer world = driver::WorldOf(spec);
   TrafficSettings settings;
   settings.vehicles = 60;
   settings.speed_factor_low = 0.9;
-  const LanePath path(world->roads()[0], -1);
+  const LanePath path(road, -1);
   double leader_m = 3000.0;
   std::vector<Footprint> others{Car(path, leader_m, 15.0)};
   TrafficModel model = Made(settings, world, others);
@@ -84,7 +85,7 @@ TEST(Traffic, KeepsTheEquilibriumGapWithin5Centimetres) {
     model.Step(kStep_s, others);
     leader_m += 15.0 * kStep_s;
   }
-  const std::map<int, LanePath> paths = PathsOf(*world);
+  const std::map<int, LanePath> paths = PathsOf(road);
   int compared = 0;
   for (const Pair& pair : PairsOf(model, paths)) {
     const auto find = [&](std::uint32_t id) {
@@ -107,7 +108,7 @@ TEST(Traffic, CirculatesOnN222WithoutLossOrCollision) {
   settings.vehicles = 60;
   TrafficModel model = Made(settings, world);
   EXPECT_GT(model.on_road(), 50u);
-  const std::map<int, LanePath> paths = PathsOf(*world);
+  const std::map<int, LanePath> paths = PathsOf(N222Road());
   double least_gap = 1e9, most_lateral = 0.0, most_over = -1e9, hardest = 0.0;
   for (int i = 0; i < 60000; ++i) {
     model.Step(kStep_s, {});
@@ -181,15 +182,17 @@ TEST(Traffic, FollowersStopBehindTheDriversStandingCarAndGoOnAfterwards) {
   EXPECT_GT(least, 1.0);
   EXPECT_LT(least, 3.0);
   EXPECT_GE(stopped, 3);  // a queue
-  const std::map<int, LanePath> paths = PathsOf(*world);
+  const std::map<int, LanePath> paths = PathsOf(N222Road());
   for (const Pair& pair : PairsOf(model, paths)) EXPECT_GT(pair.gap_m, 1.0);
   for (int i = 0; i < 6000; ++i) model.Step(kStep_s, {});
   for (const AgentPose& pose : model.poses()) EXPECT_GT(pose.speed_mps, 1.0) << pose.id;
 }
 
 TEST(Traffic, TheOtherLaneDoesNotCare) {
-  const WorldPointer world = driver::StraightWorld(2000, 20.0);
-  const LanePath path(world->roads()[0], -1);
+  const road::RoadSpec spec = driver::StraightRoad(2000, 20.0);
+  const Version1Road road(spec);
+  const WorldPointer world = driver::WorldOf(spec);
+  const LanePath path(road, -1);
   const std::vector<Footprint> standing{Car(path, 1000.0, 0.0)};
   TrafficSettings settings;
   settings.vehicles = 10;
@@ -243,12 +246,14 @@ TEST(Traffic, RestoredAnywhereItGoesOnWithTheSameBits) {
 }
 
 TEST(Traffic, MoreThanTheRoadHoldsWaitTheirTurn) {
-  const WorldPointer world = driver::StraightWorld(300, 15.0);
+  const road::RoadSpec spec = driver::StraightRoad(300, 15.0);
+  const Version1Road road(spec);
+  const WorldPointer world = driver::WorldOf(spec);
   TrafficSettings settings;
   settings.vehicles = 200;
   TrafficModel model = Made(settings, world);
   EXPECT_LT(model.on_road(), 120u);
-  const std::map<int, LanePath> paths = PathsOf(*world);
+  const std::map<int, LanePath> paths = PathsOf(road);
   double least = 1e9;
   for (int i = 0; i < 12000; ++i) {
     model.Step(kStep_s, {});

@@ -117,8 +117,8 @@ double HeadingOf(const msg::VehicleState& car) {
 // step.
 TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   const auto world = N222();
-  const road::Road& road = N222Road();
-  const Eigen::Vector3d place = road.Position(400.0, road.LaneCentre(-1, 400.0));
+  const Version1Road& road = N222Road();
+  const Eigen::Vector3d place = road.Position(400.0, road.LaneCentre(-1));
   const double heading = road.Evaluate(400.0).heading_rad;
   const auto request =
       scenario::PlaceRequest({"ego", place.x(), place.y(), place.z()}, heading * 180.0 / 3.14159265358979323846);

@@ -185,7 +185,7 @@ TEST_F(Scenario, AStationIsPassedOnARoadOfVersion1Too) {
   ASSERT_TRUE(before.outcome.ok) << before.outcome.fault;
   ASSERT_EQ(before.events.size(), 1u);
   EXPECT_NEAR(static_cast<double>(before.events.begin()->first), static_cast<double>(now.events.begin()->first), 20.0)
-      << "the autopilot follows another kind of way";
+      << "the formulas of the axis differ by rounding, the hills beside it are others";
 }
 
 // A straight road to the east, from x = 0 on, that crosses another one at 60 m and passes below a third at 100 m: its

@@ -109,14 +109,13 @@ roads:
   }
 }
 
-TEST_F(Database, RoadsOfVersion1AreRefused) {
-  DatabaseOptions options;
-  options.folder = folder_ / "n222";
-  const auto report = WriteDatabase(*N222OfVersion1(), options);
-  ASSERT_FALSE(report.ok());
-  EXPECT_NE(report.error().Text().find("only an OpenDRIVE world, the roads of a world file of version 2"),
-            std::string::npos);
-  EXPECT_FALSE(fs::exists(folder_ / "n222"));
+TEST_F(Database, RoadsOfVersion1AreWritten) {
+  const auto world = road::World::Load(SourceDir() + "/tests/data/straight.yaml");
+  ASSERT_TRUE(world.ok()) << world.error().Text();
+  const DatabaseReport report = Write(*world.value(), "straight");
+  EXPECT_GE(report.tiles, 4u);
+  EXPECT_EQ(report.built, report.tiles);
+  EXPECT_EQ(Write(*world.value(), "straight").built, 0u);
 }
 
 TEST_F(Database, OpenSceneGraphReadsIt) {

@@ -33,7 +33,7 @@ class FlickerStill : public DriverStill {
 // pictures a second: far finer than any display): in each it is lighter than the asphalt beside it, wherever the ground
 // does not hide it.
 TEST_F(FlickerStill, AnEdgeLineIsThereInEveryPicture) {
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   int asked = 0, worst_s = 0;
   double least = 1e9;
   for (const double begin_m :

@@ -89,7 +89,7 @@ TEST(Quality, RoadLinesLandSkyAndCarAreThereAtEachOfThem) {
   RODEIRA_NEEDS_PICTURES();
   constexpr int kWide = 3 * kWidth / 2, kHigh = 3 * kHeight / 2;
   const auto world = World("n222.yaml");
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   Picture picture;
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarOn(road, 60.0, -1.45));

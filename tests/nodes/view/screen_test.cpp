@@ -65,13 +65,13 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
     asked.push_back(request);
     return true;
   });
-  const road::Road& road = N222Road();
-  const Eigen::Vector3d here = road.Position(300.0, road.LaneCentre(-1, 300.0));
+  const Version1Road& road = N222Road();
+  const Eigen::Vector3d here = road.Position(300.0, road.LaneCentre(-1));
   scene::Moment moment;
   moment.cars.push_back(CarAt(here, 1.0));
   screen.value()->Show(moment, 1.0);
   const scene::Camera camera = scene::TopCamera(moment.cars[0], {});
-  const Eigen::Vector3d there = road.Position(312.0, road.LaneCentre(1, 312.0));
+  const Eigen::Vector3d there = road.Position(312.0, road.LaneCentre(1));
   const auto click = [&] { return Click(*screen.value(), *camera.Project(there, 320, 180)); };
   EXPECT_FALSE(click()) << "the car's own";
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F6, true));

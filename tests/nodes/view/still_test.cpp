@@ -99,7 +99,7 @@ TEST(Still, OnAPlane) {
 TEST(Still, OnN222) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   // One surface and painter for all, as the node has them.
   auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
   ASSERT_TRUE(surface.ok());
@@ -185,7 +185,7 @@ TEST(Still, ThreeScreensAreOnePicture) {
 TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   Picture picture;
   picture.camera = scene::CameraKind::kDriver;
   picture.show_instruments = false;
@@ -202,7 +202,7 @@ TEST(Still, TheDriverSeesTheRoadAndNotTheCabin) {
 TEST(Still, TrafficIsWhereItIs) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   Picture picture;
   picture.show_instruments = false;
   picture.moment.cars.push_back(CarOn(road, 30.0, -1.45));

@@ -19,10 +19,6 @@ struct Tree {
   Colour leaves;
 };
 
-// Trees on grass within sight of the roads, in patches: a pure function of the world and the seed. None stands on a
-// road, its shoulders or verges.
-std::vector<Tree> PlantTrees(const road::World& world, std::uint64_t seed);
-
 // How a tree grows: what differs from one to the next of a kind is its place.
 enum class TreeKind { kRound, kCone, kBush };
 TreeKind KindOf(const Tree& tree);
@@ -30,8 +26,5 @@ TreeKind KindOf(const Tree& tree);
 // on. It stands nowhere yet.
 Repeated TreeModel(TreeKind kind, int level);
 StandingPlace PlaceOf(const Tree& tree);
-
-// The trees of each square of about 200 m that has any: one entry a kind, all with the same origin.
-std::vector<std::vector<Repeated>> BuildTrees(const std::vector<Tree>& trees);
 
 }  // namespace rodeira::scene

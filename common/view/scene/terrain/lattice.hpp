@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/world/road/world.hpp"
@@ -10,7 +9,7 @@
 namespace rodeira::scene {
 
 // The terrain without roads as posts in a lattice, in triangles split along the diagonal from south-east to north-west:
-// for a world on an elevation grid its own posts and triangles, for a plane a large piece of it around roads and start.
+// for a world on an elevation grid its own posts and triangles, for a plane a large piece of it around the start.
 class Lattice {
  public:
   struct Sample {
@@ -31,15 +30,8 @@ class Lattice {
   bool IsKnown(int column, int row) const;
   // A post: height, and normal and colour for smooth shading.
   Sample Post(int column, int row) const;
-  // On the triangle over (x, y): the mean of its posts, weighted barycentrically.
-  Sample At(double x_m, double y_m) const;
-  // The cell over (x, y), held within the lattice.
-  Eigen::Vector2i CellAt(double x_m, double y_m) const;
-  // Where a line from a to b passes from one triangle to another: parameters in (0, 1), ascending.
-  std::vector<double> Crossings(const Eigen::Vector2d& a_W, const Eigen::Vector2d& b_W) const;
 
  private:
-  Eigen::Vector2d InPosts(double x_m, double y_m) const;
   double Height(int column, int row) const;
 
   const road::World& world_;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "common/view/scene/terrain/ribbon_cover.hpp"
-
 namespace rodeira::scene {
 namespace {
 
@@ -20,9 +18,8 @@ struct Span {  // of cells: [from, to)
 // Makes one level of one tile.
 class TileWeaver {
  public:
-  TileWeaver(const Lattice& lattice, const RibbonCover& cover, Span columns, Span rows, int stride, Mesh& mesh)
+  TileWeaver(const Lattice& lattice, Span columns, Span rows, int stride, Mesh& mesh)
       : lattice_(lattice),
-        cover_(cover),
         columns_(columns),
         rows_(rows),
         stride_(stride),
@@ -43,12 +40,12 @@ class TileWeaver {
            lattice_.IsKnown(column + 1, row + 1);
   }
 
-  // A block drawn cell by cell: it is small, or a road or a void is near.
+  // A block drawn cell by cell: it is small, or a void is near.
   bool IsFine(int column, int row) const {
     if (stride_ == 1 || column + stride_ > columns_.to || row + stride_ > rows_.to) return true;
     for (int c = column; c < column + stride_; ++c) {
       for (int r = row; r < row + stride_; ++r) {
-        if (cover_.Touches(c, r) || !IsKnown(c, r)) return true;
+        if (!IsKnown(c, r)) return true;
       }
     }
     return false;
@@ -92,7 +89,6 @@ class TileWeaver {
   }
 
   void Cell(int column, int row) {
-    const bool touched = cover_.Touches(column, row);
     const std::array<std::array<Eigen::Vector2i, 3>, 2> halves = {{
         {Eigen::Vector2i(column, row), Eigen::Vector2i(column + 1, row), Eigen::Vector2i(column, row + 1)},
         {Eigen::Vector2i(column + 1, row), Eigen::Vector2i(column + 1, row + 1), Eigen::Vector2i(column, row + 1)},
@@ -101,42 +97,11 @@ class TileWeaver {
       bool known = true;
       for (const Eigen::Vector2i& post : half) known = known && lattice_.IsKnown(post.x(), post.y());
       if (!known) continue;
-      if (touched)
-        CutTriangle(column, row, half);
-      else
-        mesh_.AddTriangle(Post(half[0].x(), half[0].y()), Post(half[1].x(), half[1].y()),
-                          Post(half[2].x(), half[2].y()));
-    }
-  }
-
-  void CutTriangle(int column, int row, const std::array<Eigen::Vector2i, 3>& posts) {
-    Polygon triangle;
-    std::array<Lattice::Sample, 3> corners;
-    for (std::size_t k = 0; k < 3; ++k) {
-      corners[k] = lattice_.Post(posts[k].x(), posts[k].y());
-      triangle.emplace_back(corners[k].p_W.x(), corners[k].p_W.y());
-    }
-    const double whole = Area(triangle);
-    for (const Polygon& piece : cover_.Remainder(column, row, triangle)) {
-      std::vector<std::uint32_t> ring;
-      for (const Eigen::Vector2d& p : piece) {
-        const double b = Area({triangle[0], p, triangle[2]}) / whole, c = Area({triangle[0], triangle[1], p}) / whole;
-        const double a = 1.0 - b - c;
-        const double z = a * corners[0].p_W.z() + b * corners[1].p_W.z() + c * corners[2].p_W.z();
-        const Eigen::Vector3d normal =
-            (a * corners[0].normal_W + b * corners[1].normal_W + c * corners[2].normal_W).normalized();
-        const Colour colour =
-            b + c > 1e-9
-                ? Mix(corners[0].colour, Mix(corners[1].colour, corners[2].colour, c / (b + c)), std::min(b + c, 1.0))
-                : corners[0].colour;
-        ring.push_back(mesh_.Add({p.x(), p.y(), z}, normal, colour));
-      }
-      for (std::size_t k = 1; k + 1 < ring.size(); ++k) mesh_.AddTriangle(ring[0], ring[k], ring[k + 1]);
+      mesh_.AddTriangle(Post(half[0].x(), half[0].y()), Post(half[1].x(), half[1].y()), Post(half[2].x(), half[2].y()));
     }
   }
 
   const Lattice& lattice_;
-  const RibbonCover& cover_;
   Span columns_, rows_;
   int stride_;
   Mesh& mesh_;
@@ -149,8 +114,7 @@ float TerrainSeen_m(const TerrainTile& tile, std::size_t level) {
   return kLevelRange_m[level] + static_cast<float>(tile.radius_m);
 }
 
-std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons) {
-  const RibbonCover cover(lattice, ribbons);
+std::vector<TerrainTile> BuildTerrain(const Lattice& lattice) {
   std::vector<TerrainTile> tiles;
   for (int column = 0; column < lattice.columns() - 1; column += kTileCells) {
     for (int row = 0; row < lattice.rows() - 1; row += kTileCells) {
@@ -165,8 +129,8 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<
         Mesh& mesh = tile.levels[level];
         mesh.material = lattice.material();
         mesh.origin_W = origin;
-        TileWeaver(lattice, cover, columns, rows, kStrides[level], mesh).Weave();
-        // Where a road winds through the tile, larger blocks may spare nothing.
+        TileWeaver(lattice, columns, rows, kStrides[level], mesh).Weave();
+        // Where voids lie all over the tile, larger blocks may spare nothing.
         if (level > 0 && mesh.triangle_count() >= tile.levels[level - 1].triangle_count())
           mesh = tile.levels[level - 1];
       }

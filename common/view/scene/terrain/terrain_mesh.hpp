@@ -7,7 +7,6 @@
 
 #include "common/view/scene/mesh/mesh.hpp"
 #include "common/view/scene/terrain/lattice.hpp"
-#include "common/view/scene/terrain/ribbon.hpp"
 
 namespace rodeira::scene {
 
@@ -25,7 +24,7 @@ struct TerrainTile {
 // Up to this distance from the tile's centre a level is shown.
 float TerrainSeen_m(const TerrainTile& tile, std::size_t level);
 
-// The lattice's triangles, with the ribbons cut out of them. Near a ribbon every level is the finest one.
-std::vector<TerrainTile> BuildTerrain(const Lattice& lattice, const std::vector<Ribbon>& ribbons);
+// The lattice's triangles.
+std::vector<TerrainTile> BuildTerrain(const Lattice& lattice);
 
 }  // namespace rodeira::scene

@@ -23,7 +23,7 @@ constexpr double kSameLevel_m = 1e-6;
 // Whether SUELO knows nothing below its highest answer, so that no hint finds more: on terrain of its own, where no
 // road is, or where the one that stands on the ground is what it answers from.
 bool IsAlone(const road::World& world, const Eigen::Vector2d& p_W, double z_m) {
-  if (world.network() == nullptr || world.open_drive() || !world.roads().empty()) return false;
+  if (world.network() == nullptr || world.open_drive()) return false;
   thread_local std::vector<network::Surfacing> surfaces;
   world.network()->Surfaces(p_W.x(), p_W.y(), surfaces);
   if (surfaces.empty()) return true;

@@ -4,8 +4,6 @@
 #include <functional>
 #include <vector>
 
-#include "common/view/scene/mesh/repeated.hpp"
-#include "common/view/scene/terrain/ribbon.hpp"
 #include "common/view/scene/terrain/terrain_mesh.hpp"
 #include "common/view/scene/visual_world/ground_tile.hpp"
 #include "common/world/road/world.hpp"
@@ -14,10 +12,8 @@ namespace rodeira::scene {
 
 // Everything of a world that stands still.
 struct WorldScene {
-  std::vector<GroundTile> ground;  // of a network
-  std::vector<TerrainTile> terrain;
-  std::vector<RoadTile> roads;
-  std::vector<std::vector<Repeated>> trees;  // by the square in which they stand
+  std::vector<GroundTile> ground;    // of a network; or
+  std::vector<TerrainTile> terrain;  // of a world without one
 };
 
 // The land of a world without roads, with the picture that lies on it: a plane as far as it is drawn.
@@ -28,7 +24,6 @@ using Progress = std::function<void(double share)>;
 
 // A pure function of the world and of which models can be read: the same meshes, bit by bit. `progress` is told on this
 // thread.
-WorldScene BuildWorldScene(const road::World& world, const RoadTolerance& tolerance = {},
-                           const ModelIsThere& is_there = {}, const Progress& progress = {});
+WorldScene BuildWorldScene(const road::World& world, const ModelIsThere& is_there = {}, const Progress& progress = {});
 
 }  // namespace rodeira::scene

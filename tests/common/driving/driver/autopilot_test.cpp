@@ -21,9 +21,9 @@ constexpr int kDriverEvery = 10;  // 100 Hz
 
 // A car in a lane with its driver.
 struct Drive {
-  Drive(std::shared_ptr<const road::World> in, int lane, double start_m, double speed_mps, int road_index = 0)
-      : Drive(in, std::make_unique<LanePath>(in->roads()[static_cast<std::size_t>(road_index)], lane), start_m,
-              speed_mps) {}
+  Drive(const std::shared_ptr<const road::World>& in, int lane, double start_m, double speed_mps)
+      : Drive(in, std::make_unique<RoutePath>(*in->network(), StraightOn(*in->network(), {0, 0, lane}, 20'000.0)),
+              start_m, speed_mps) {}
   Drive(std::shared_ptr<const road::World> in, std::unique_ptr<const Way> way, double start_m, double speed_mps)
       : world(std::move(in)),
         ground(world->MakeGround()),
@@ -47,11 +47,11 @@ struct Drive {
     ++k;
     car->Step(controls, *ground, kStep_s);
   }
-  LanePath::Place Place() const {
+  Way::Place Place() const {
     const auto& p = car->state().p_WB_W;
     const auto place = autopilot.path().Locate(p.x(), p.y());
     EXPECT_TRUE(place.has_value());
-    return place.value_or(LanePath::Place{});
+    return place.value_or(Way::Place{});
   }
   Footprint At(double d, double speed) const {
     const LaneFrame frame = autopilot.path().At(d);

@@ -10,6 +10,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/driving/driver/autopilot.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
+#include "tests/lane_path.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::driver {
@@ -37,9 +38,8 @@ TEST(Idm, AgreesWithItsFormula) {
 // On a circle a lane at offset t is (R - t) long a radian; the other lane runs the other way.
 TEST(LanePath, DistancesAreTheLanesOwn) {
   const double radius = 50.0, angle = 2.0;
-  const auto world =
-      WorldOf(TwoLanes({{radius * angle, 1 / radius, 1 / radius}}, 20, {{0, 0, 0}, {radius * angle, 0, 0}}));
-  const road::Road& road = world->roads()[0];
+  const Version1Road road(
+      TwoLanes({{radius * angle, 1 / radius, 1 / radius}}, 20, {{0, 0, 0}, {radius * angle, 0, 0}}));
   const LanePath right(road, -1);
   const LanePath left(road, 1);
   EXPECT_NEAR(right.length_m(), (radius + 1.5) * angle, 1e-9);
@@ -53,8 +53,8 @@ TEST(LanePath, DistancesAreTheLanesOwn) {
 }
 
 RC_GTEST_PROP(LanePath, LocateLeadsBackToPosition, (std::uint32_t seed)) {
-  static const auto world = WindingWorld();
-  static const LanePath paths[] = {LanePath(world->roads()[0], -1), LanePath(world->roads()[0], 1)};
+  static const Version1Road road(WindingRoad());
+  static const LanePath paths[] = {LanePath(road, -1), LanePath(road, 1)};
   const LanePath& path = paths[seed % 2];
   const double d = path.length_m() * base::RandomUniform({seed, 0}, 0.001, 0.999);
   const double offset = base::RandomUniform({seed, 1}, -3, 3);
@@ -65,10 +65,10 @@ RC_GTEST_PROP(LanePath, LocateLeadsBackToPosition, (std::uint32_t seed)) {
 }
 
 TEST(SpeedPlan, KeepsTheLimitTheBendsAndThePlannedBraking) {
-  const auto world = WindingWorld(20.0);
+  const Version1Road road(WindingRoad(20.0));
   const SpeedPlanSettings settings{.stop_at_end = true};
   for (const int lane : {-1, 1}) {
-    const LanePath path(world->roads()[0], lane);
+    const LanePath path(road, lane);
     const SpeedPlan plan(path, settings);
     double slowest = 1e9;
     for (double d = 0; d < path.length_m() - 1; d += 0.5) {
@@ -103,8 +103,8 @@ TEST(Steering, PursuitOnACircleIsTheCirclesAngle) {
 }
 
 TEST(Leader, OnlyWhatIsAheadAndInTheWay) {
-  const auto world = StraightWorld(300, 20);
-  const LanePath path(world->roads()[0], -1);
+  const Version1Road road(StraightRoad(300, 20));
+  const LanePath path(road, -1);
   const auto at = [&](double d, double offset, double turn, double speed) {
     const Eigen::Vector3d p = path.Position(d, offset);
     return Footprint{1, p.x(), p.y(), path.At(d).heading_rad + turn, speed, 4.0, 1.7};

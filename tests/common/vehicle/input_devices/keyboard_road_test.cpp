@@ -6,11 +6,11 @@
 #include <cmath>
 #include <deque>
 
-#include "common/driving/driver/lane_path.hpp"
 #include "common/driving/driver/speed_plan.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
+#include "tests/lane_path.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::input_devices {
@@ -54,9 +54,11 @@ struct Drive {
 
 // Bends of 35 m and more, at speeds up to 20 m/s, from rest to shortly before the road's end.
 Drive DriveBy(const Person& person, const KeyboardSettings& settings) {
-  const auto world = driver::WindingWorld();
+  const road::RoadSpec spec = driver::WindingRoad();
+  const Version1Road road(spec);
+  const auto world = driver::WorldOf(spec);
   const auto ground = world->MakeGround();
-  const driver::LanePath path(world->roads()[0], -1);
+  const driver::LanePath path(road, -1);
   const driver::SpeedPlan plan(path, {.lateral_mps2 = 2.0, .stop_at_end = true});
   auto car = dynamics::LoadVehicle(kConfigs / "vehicles/default.yaml").value();
   const driver::LaneFrame start = path.At(5.0);

@@ -205,7 +205,7 @@ TEST(Camera, AFreeEyeTurnsAboutTheCarAndStaysOverTheGround) {
 // of it; the eye stands still for as long as the car is on its part of the road.
 TEST(Camera, BesideTheRoadPostsTakeTurns) {
   const auto world = N222();
-  const road::Road& road = N222Road();
+  const Version1Road& road = N222Road();
   std::vector<Eigen::Vector3d> posts;
   for (double s = 2.0; s < road.length_m(); s += 5.0) {
     const road::RoadFrame frame = road.Evaluate(s);

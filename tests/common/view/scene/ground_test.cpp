@@ -16,6 +16,7 @@
 #include "tests/common/view/scene/correlation.hpp"
 #include "tests/common/view/scene/ground_tiles.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
+#include "tests/common/view/scene/worlds.hpp"
 #include "tests/common/world/surface/made_crg.hpp"
 #include "tests/long_form.hpp"
 #include "tests/setting.hpp"
@@ -68,6 +69,38 @@ TEST(Ground, VergesAndSlopesOfSmallRadiiAreWhereTheTyresAre) {
     EXPECT_EQ(found.far, 0) << "worst " << found.worst_m << " m at " << found.where.transpose();
     std::printf("%s: %d points, worst %.4f m from SUELO\n", verge ? "verges" : "slopes and land", found.asked,
                 found.worst_m);
+  }
+}
+
+// A road of version 1 and its blend into the land, on a plane and in hills.
+TEST(Ground, ABlendIsWhereTheTyresAre) {
+  const auto hills = road::World::Parse(
+      "rodeira: world/1\nname: blend\nterrain:\n  generate: {seed: 5, columns: 41, rows: 41, spacing_m: 8, west_m: "
+      "-100, south_m: -130, full_m: 30, flat_m: 5, relief: [{wavelength_m: 90, amplitude_m: 6}]}\n"
+      "roads:\n  - id: a\n    start: {x_m: -60, y_m: 0}\n    axis: [line: {length_m: 60}, arc: {length_m: 60, "
+      "radius_m: 25}, line: {length_m: 30}]\n    vertical: [{s_m: 0, z_m: 0}, {s_m: 70, z_m: 3, parabola_m: 60}, "
+      "{s_m: 140, z_m: 4}]\n    section: {lanes: [{id: -1, width_m: 3, speed_limit_kmh: 50}], verge: {width_m: 1.5}, "
+      "blend_m: 8}\n",
+      "blend.yaml");
+  ASSERT_TRUE(hills.ok()) << hills.error().Text();
+  for (const auto& world : {PlaneWithRoad(), hills.value()}) {
+    const std::vector<GroundTile> tiles = BuildAll(*world);
+    const auto in_blend = [&](const Mesh& mesh, std::size_t i) {
+      const auto corners = CornersOf(mesh, i);
+      const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
+      const auto place = world->network()->Locate(middle.x(), middle.y());
+      return place && place->distance_m > 0.0 && place->distance_m < 8.0;
+    };
+    for (const bool beside : {false, true}) {
+      const Correlation found =
+          beside ? Correlate(*world, tiles, Points(), 3, in_blend, kFinest, everywhere)
+                 : Correlate(
+                       *world, tiles, Points(), 3, [](const Mesh&, std::size_t) { return true; }, kFinest, everywhere);
+      EXPECT_EQ(found.asked, Points());
+      EXPECT_EQ(found.far, 0) << world->name() << ": worst " << found.worst_m << " m at " << found.where.transpose();
+      std::printf("%s, %s: %d points, worst %.4f m from SUELO\n", world->name().c_str(), beside ? "blend" : "all",
+                  found.asked, found.worst_m);
+    }
   }
 }
 

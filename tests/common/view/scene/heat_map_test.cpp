@@ -88,11 +88,11 @@ TEST(HeatMap, WhatTheTrafficSaysThatItBurns) {
 
 TEST(HeatMap, GreenIsTheLimitOfTheLane) {
   const auto world = PlaneWithRoad();
-  const road::Road& road = world->roads()[0];
+  const Version1Road& road = PlaneRoad();
   HeatMap map(*world);
   const double speed = 0.5 * 70.0 / 3.6;
   for (int i = 0; i <= 100; ++i)
-    map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1, 20.0))}));
+    map.Add(At(i * kStep_ns, {road.Position(20.0 + 0.02 * i * speed, road.LaneCentre(-1))}));
   for (const auto& [key, cell] : map.cells()) EXPECT_NEAR(*map.Value(HeatKind::kSpeed, cell), 50.0, 0.5);
   const HeatRaster raster = MakeHeatRaster(map, HeatKind::kSpeed, road.Position(20.0, 0.0));
   std::size_t coloured = 0;

@@ -66,11 +66,11 @@ TEST(Placing, BeyondTheWorldThereIsNoGround) {
 
 TEST(Placing, ACarStandsInTheDirectionOfItsLanesTraffic) {
   const auto world = PlaneWithRoad();
-  const road::Road& road = world->roads()[0];
+  const Version1Road& road = PlaneRoad();
   for (const double s : {5.0, 40.0, 70.0, 100.0}) {
     const double along = road.Evaluate(s).heading_rad;
     for (const int id : {-1, 1}) {
-      const Vector3d p = road.Position(s, road.LaneCentre(id, s));
+      const Vector3d p = road.Position(s, road.LaneCentre(id));
       const CarPlace place = PlaceAt(*world, p, 0.3);
       EXPECT_TRUE(place.on_lane);
       EXPECT_NEAR(std::remainder(place.heading_rad - along - (id > 0 ? geometry::kPi : 0.0), 2.0 * geometry::kPi), 0.0,

@@ -23,7 +23,7 @@ Heard ShareOf(const char* name, WorldScene* built = nullptr) {
   EXPECT_TRUE(world.ok()) << world.error().Text();
   Heard heard;
   const auto here = std::this_thread::get_id();
-  WorldScene scene = BuildWorldScene(*world.value(), {}, {}, [&](double share) {
+  WorldScene scene = BuildWorldScene(*world.value(), {}, [&](double share) {
     heard.shares.push_back(share);
     heard.elsewhere = heard.elsewhere || std::this_thread::get_id() != here;
   });
@@ -31,7 +31,7 @@ Heard ShareOf(const char* name, WorldScene* built = nullptr) {
   return heard;
 }
 
-// The lights' crossing has roads of version 2, the old N222 those of version 1, the plane has none.
+// The lights' crossing has roads of version 2, the old N222 one of version 1, the plane has none.
 TEST(Progress, TheShareNeverFallsAndIsWholeAtLast) {
   for (const char* name : {"lights.yaml", "../../tests/data/n222_version1.yaml", "plane.yaml"}) {
     const Heard heard = ShareOf(name);

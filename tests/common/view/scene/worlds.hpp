@@ -11,8 +11,7 @@
 namespace rodeira::scene {
 
 // A sloping plane with one road that bends once, a double white line and a dashed yellow one.
-inline std::shared_ptr<const road::World> PlaneWithRoad() {
-  static const auto world = road::World::Parse(R"(rodeira: world/1
+inline constexpr const char* kPlaneWithRoad = R"(rodeira: world/1
 name: plane with a road
 ground: {kind: plane, z_m: 10, slope_x: 0.02, slope_y: -0.01, friction: 1.0}
 start: {road: r, lane: -1, s_m: 5}
@@ -34,10 +33,18 @@ roads:
     marks:
       - {t_m: 0, width_m: 0.12, kind: dashed, stroke_m: 3, gap_m: 5, colour: yellow}
       - {t_m: 3.1, width_m: 0.12, kind: continuous}
-)",
-                                               "plane_with_road.yaml");
+)";
+
+inline std::shared_ptr<const road::World> PlaneWithRoad() {
+  static const auto world = road::World::Parse(kPlaneWithRoad, "plane_with_road.yaml");
   EXPECT_TRUE(world.ok()) << world.error().Text();
   return world.value();
+}
+
+// Its road by the formulas of version 1.
+inline const Version1Road& PlaneRoad() {
+  static const auto road = Version1Road::Parse(kPlaneWithRoad);
+  return road;
 }
 
 }  // namespace rodeira::scene

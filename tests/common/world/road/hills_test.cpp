@@ -27,7 +27,7 @@ HillsSpec Spec() {
 
 TEST(Hills, TheSameSeedGivesTheSameBytesAndAnotherOneOthers) {
   HillsSpec spec = Spec();
-  const auto roads = Sample()->roads();
+  const std::span<const Road> roads = SampleRoad().Alone();
   const base::Bytes first = terrain::BtBytes(MakeHills(spec, roads));
   EXPECT_EQ(terrain::BtBytes(MakeHills(spec, roads)), first);
   spec.seed = 12;
@@ -44,8 +44,8 @@ TEST(Hills, WithoutRoadsTheyRiseAboutTheBase) {
 }
 
 TEST(Hills, LieLevelWithTheRoadNearIt) {
-  const Road& road = Sample()->roads()[0];
-  const auto grid = MakeHills(Spec(), Sample()->roads());
+  const Version1Road& road = SampleRoad();
+  const auto grid = MakeHills(Spec(), SampleRoad().Alone());
   int near = 0, far = 0;
   for (int column = 0; column < grid.frame().columns; ++column) {
     for (int row = 0; row < grid.frame().rows; ++row) {

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "common/core/base/random.hpp"
-#include "common/world/road/stations.hpp"
 #include "tests/common/world/road/sample_world.hpp"
 
 namespace rodeira::road {
@@ -19,7 +18,7 @@ double Draw(int low, int high, double unit) {
 }
 
 TEST(Road, EvaluatesItsAxis) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   EXPECT_DOUBLE_EQ(road.length_m(), 305.5);
   const double heading = 5.0 * std::acos(-1.0) / 180.0;
   const RoadFrame at = road.Evaluate(40.0);  // on the first line, before the first parabola
@@ -40,22 +39,22 @@ TEST(Road, EvaluatesItsAxis) {
 }
 
 TEST(Road, KnowsItsLanes) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   ASSERT_EQ(road.lanes().size(), 2u);
   EXPECT_EQ(road.lanes()[0].id, -1);
   EXPECT_EQ(road.lanes()[0].direction, 1);
   EXPECT_NEAR(road.lanes()[0].speed_limit_mps, 70.0 / 3.6, 1e-12);
   EXPECT_EQ(road.lanes()[1].direction, -1);
-  EXPECT_DOUBLE_EQ(road.LaneCentre(-1, 100.0), -1.625);
-  EXPECT_DOUBLE_EQ(road.LaneCentre(1, 100.0), 1.5);
-  EXPECT_EQ(road.LaneAt(5.0, -3.0)->id, -1);
-  EXPECT_EQ(road.LaneAt(5.0, 0.0)->id, 1);
-  EXPECT_EQ(road.LaneAt(5.0, 3.01), nullptr);
-  EXPECT_EQ(road.LaneAt(5.0, -3.26), nullptr);
+  EXPECT_DOUBLE_EQ(road.lanes()[0].centre_t_m(), -1.625);
+  EXPECT_DOUBLE_EQ(road.lanes()[1].centre_t_m(), 1.5);
+  EXPECT_EQ(road.LaneAt(-3.0)->id, -1);
+  EXPECT_EQ(road.LaneAt(0.0)->id, 1);
+  EXPECT_EQ(road.LaneAt(3.01), nullptr);
+  EXPECT_EQ(road.LaneAt(-3.26), nullptr);
 }
 
 TEST(Road, TheCrossSectionFallsFromTheCrown) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   const double crown = road.Evaluate(60.0).p_W.z();
   EXPECT_DOUBLE_EQ(road.Position(60.0, 0.0).z(), crown);
   EXPECT_NEAR(road.Position(60.0, 2.0).z(), crown - 0.025 * 2.0, 1e-12);
@@ -66,15 +65,14 @@ TEST(Road, TheCrossSectionFallsFromTheCrown) {
 }
 
 TEST(Road, OneSidedCrossfallGoesThroughTheCrown) {
-  const auto world = MustParse(SampleWith("kind: crown, fall: 0.025", "kind: right, fall: 0.03"));
-  const Road& road = world->roads()[0];
+  const auto road = Version1Road::Parse(SampleWith("kind: crown, fall: 0.025", "kind: right, fall: 0.03"));
   const double axis = road.Evaluate(60.0).p_W.z();
   EXPECT_NEAR(road.Position(60.0, 2.0).z(), axis + 0.06, 1e-12);
   EXPECT_NEAR(road.Position(60.0, -2.0).z(), axis - 0.06, 1e-12);
 }
 
 RC_GTEST_PROP(Road, LocateLeadsBack, ()) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   const double s = Draw(0, 305'500, 0.001), t = Draw(-13'000, 12'000, 0.001);
   const Eigen::Vector3d p = road.Position(s, t);
   const auto found = road.Locate(p.x(), p.y());
@@ -85,7 +83,7 @@ RC_GTEST_PROP(Road, LocateLeadsBack, ()) {
 }
 
 TEST(Road, LocateSaysWhereThereIsNoRoad) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   const geometry::PlanPoint start = road.plan().Evaluate(0.0);
   const Eigen::Vector2d before = start.p_W - 0.01 * start.tangent_W + 2.0 * start.left_W();
   EXPECT_FALSE(road.Locate(before.x(), before.y()).has_value());
@@ -108,7 +106,7 @@ double LengthOfLine(const Road& road, double t, double from, double to) {
 }
 
 TEST(Road, DashesAreEquallyLongOnTheLineItself) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   const Mark& inner = road.marks()[1];  // t = 3, from 10 to 250, strokes 3 m, gaps 5 m
   const auto strokes = road.Strokes(inner);
   ASSERT_GT(strokes.size(), 25u);
@@ -124,13 +122,13 @@ TEST(Road, DashesAreEquallyLongOnTheLineItself) {
 }
 
 TEST(Road, IsPaintedExactlyWhereTheStrokesAre) {
-  const Road& road = Sample()->roads()[0];
+  const Version1Road& road = SampleRoad();
   for (const std::size_t mark : {0u, 1u, 2u}) {
     const auto strokes = road.Strokes(road.marks()[mark]);
     for (std::uint64_t i = 0; i < 3000; ++i) {
       const double s = base::RandomUniform({i, mark}, 0.0, road.length_m());
       bool expected = false, near_an_end = false;
-      for (const Stroke& stroke : strokes) {
+      for (const Version1Road::Stroke& stroke : strokes) {
         expected |= s >= stroke.from_s_m && s <= stroke.to_s_m;
         near_an_end |= std::fabs(s - stroke.from_s_m) < 1e-6 || std::fabs(s - stroke.to_s_m) < 1e-6;
       }
@@ -139,29 +137,6 @@ TEST(Road, IsPaintedExactlyWhereTheStrokesAre) {
       EXPECT_EQ(road.IsPainted(s, road.marks()[mark].t_m + 0.049, heading), expected) << s;
       EXPECT_FALSE(road.IsPainted(s, road.marks()[mark].t_m + 0.07, heading));
     }
-  }
-}
-
-TEST(Road, StationsKeepTheChordError) {
-  const Road& road = Sample()->roads()[0];
-  for (const double error : {0.1, 0.01, 0.001}) {
-    const auto stations = Stations(road, error);
-    EXPECT_EQ(stations.front(), 0.0);
-    EXPECT_EQ(stations.back(), road.length_m());
-    EXPECT_TRUE(std::find(stations.begin(), stations.end(), 80.0) != stations.end());  // where the first line ends
-    double worst = 0.0;
-    for (std::size_t i = 1; i < stations.size(); ++i) {
-      ASSERT_LT(stations[i - 1], stations[i]);
-      for (const double t : {road.section().verge_left_m(), 0.0, road.section().verge_right_m()}) {
-        const Eigen::Vector3d a = road.Position(stations[i - 1], t), b = road.Position(stations[i], t);
-        const Eigen::Vector3d middle = road.Position(0.5 * (stations[i - 1] + stations[i]), t);
-        const Eigen::Vector2d across(a.y() - b.y(), b.x() - a.x());
-        worst = std::max(worst, std::fabs((middle - a).head<2>().dot(across.normalized())));
-        worst = std::max(worst, std::fabs(middle.z() - 0.5 * (a.z() + b.z())));
-      }
-    }
-    EXPECT_LT(worst, 1.01 * error);  // h^2 / 8 is the first term of the chord's error
-    EXPECT_GT(worst, 0.3 * error);   // and the road is not cut finer than it needs
   }
 }
 

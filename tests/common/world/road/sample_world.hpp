@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/world/road/world.hpp"
+#include "tests/version1_road.hpp"
 
 namespace rodeira::road {
 
@@ -83,6 +84,12 @@ inline std::shared_ptr<const World> MustParse(const std::string& text) {
 inline std::shared_ptr<const World> Sample() {
   static const auto world = MustParse(kSample);
   return world;
+}
+
+// Its road by the formulas of version 1.
+inline const Version1Road& SampleRoad() {
+  static const auto road = Version1Road::Parse(kSample);
+  return road;
 }
 
 }  // namespace rodeira::road

@@ -31,7 +31,7 @@ GroundQuery AnyPoint(const World& world, std::uint64_t seed, std::uint64_t i) {
   };
   const Extents e = world.extents();
   if (i % 4 == 0) return {draw(0, e.west_m - 20.0, e.east_m + 20.0), draw(1, e.south_m - 20.0, e.north_m + 20.0)};
-  const Road& road = world.roads()[0];
+  const Version1Road& road = SampleRoad();
   if (i % 4 == 1) {
     const Eigen::Vector3d end = road.Evaluate(i % 8 == 1 ? 0.0 : road.length_m()).p_W;
     return {end.x() + draw(0, -16.0, 16.0), end.y() + draw(1, -16.0, 16.0)};
@@ -42,7 +42,7 @@ GroundQuery AnyPoint(const World& world, std::uint64_t seed, std::uint64_t i) {
 
 TEST(Suelo, ShowsTheCrossfall) {
   const auto world = Sample();
-  const Road& road = world->roads()[0];
+  const Version1Road& road = SampleRoad();
   const auto ground = world->MakeGround();
   for (const double s : {20.0, 110.0, 140.0, 200.0, 290.0}) {
     const RoadFrame frame = road.Evaluate(s);
@@ -75,8 +75,8 @@ TEST(Suelo, IsTheTerrainAwayFromTheRoad) {
   int compared = 0;
   for (std::uint64_t i = 0; i < 5000; ++i) {
     const GroundQuery q = AnyPoint(*world, 3, i);
-    const double distance = world->roads()[0].plan().Project(q.x_m, q.y_m).distance_m;
-    if (distance < world->roads()[0].section().reach_m()) continue;
+    const double distance = SampleRoad().plan().Project(q.x_m, q.y_m).distance_m;
+    if (distance < SampleRoad().section().reach_m()) continue;
     const terrain::GridSample sample = world->grid()->At(q.x_m, q.y_m);
     const GroundPoint point = ground->At(q.x_m, q.y_m);
     ASSERT_EQ(point.inside, sample.inside);
@@ -112,7 +112,7 @@ RC_GTEST_PROP(Suelo, HasNoStepsAndUnitNormals, (std::uint64_t seed)) {
 
 TEST(Suelo, HasNoStepAtAnyEdgeOfTheSection) {
   const auto world = Sample();
-  const Road& road = world->roads()[0];
+  const Version1Road& road = SampleRoad();
   const Section& section = road.section();
   std::vector<double> edges = {section.blend_left_m(), section.blend_right_m()};
   for (const Band& band : section.bands()) edges.push_back(band.from_t_m), edges.push_back(band.to_t_m);
@@ -234,7 +234,7 @@ TEST(Suelo, ARoadOnAPlaneIsBlendedIntoIt) {
   const auto from = text.find("terrain:"), to = text.find("start: {road");
   text.replace(from, to - from, "ground: {kind: plane, z_m: 95, surface: gravel}\n");
   const auto world = MustParse(text);
-  const Road& road = world->roads()[0];
+  const Version1Road& road = SampleRoad();
   const Eigen::Vector3d on = road.Position(150.0, 1.5), off = road.Position(150.0, 30.0);
   EXPECT_NEAR(world->At(on.x(), on.y()).z_m, on.z(), 1e-9);
   EXPECT_EQ(world->At(off.x(), off.y()).z_m, 95.0);

@@ -80,9 +80,9 @@ TEST(WorldFile, NamesCommentsAndOrderDoNotChangeTheHash) {
 
 TEST(WorldFile, TheStartIsOnItsLaneInItsDirection) {
   const auto world = MustParse(SampleWith("lane: -1, s_m: 12.5", "lane: 1, s_m: 40"));
-  const RoadFrame frame = world->roads()[0].Evaluate(40.0);
+  const RoadFrame frame = SampleRoad().Evaluate(40.0);
   EXPECT_NEAR(std::cos(world->start().heading_rad - frame.heading_rad), -1.0, 1e-12);
-  EXPECT_NEAR(world->roads()[0].Locate(world->start().x_m, world->start().y_m)->t_m, 1.5, 1e-9);
+  EXPECT_NEAR(SampleRoad().Locate(world->start().x_m, world->start().y_m)->t_m, 1.5, 1e-9);
   const auto free = MustParse(SampleWith("{road: main, lane: -1, s_m: 12.5}", "{x_m: 20, y_m: -40, heading_deg: 90}"));
   EXPECT_EQ(free->start().road, -1);
   EXPECT_EQ(free->start().y_m, -40.0);

@@ -52,11 +52,11 @@ TEST_F(WorldReport, QueryTellsTheCratersOracle) {
 }
 
 TEST_F(WorldReport, QueryTellsThePlaceOnTheRoad) {
-  const Eigen::Vector3d p = Sample()->roads()[0].Position(140.0, -1.625);
+  const Eigen::Vector3d p = SampleRoad().Position(140.0, -1.625);
   const std::string text = DescribePoint(*Sample(), p.x(), p.y());
-  EXPECT_THAT(text, HasSubstr("road: main\ns_m: 140.000000\nt_m: -1.625000\nlane: -1\n"));
+  EXPECT_THAT(text, HasSubstr("road: main\ns_m: 140.000000\nt_m: -1.625000\nlane: -1 (driving)\n"));
   EXPECT_THAT(text, HasSubstr("surface: asphalt"));
-  EXPECT_THAT(DescribePoint(*Sample(), 0.0, 200.0), Not(HasSubstr("road:")));
+  EXPECT_THAT(DescribePoint(*Sample(), 0.0, 200.0), HasSubstr("lane: none, "));
   EXPECT_THAT(DescribePoint(*Sample(), 1e6, 0.0), HasSubstr("inside: false\nextents_m: x -100.000 to 410.000"));
 }
 
@@ -118,8 +118,8 @@ TEST_F(WorldReport, TellsWhereOnTheEarthAPointLies) {
 TEST_F(WorldReport, InfoTellsWhatTheWorldHolds) {
   const std::string text = DescribeWorld(*Sample());
   for (const char* part :
-       {"world sample\n", "61 x 51 heights every 8.5 m", "length_m: 305.500", "bends: 2 ", "smallest_radius_m: 45",
-        "lane -1: along s, width_m 3.25, speed limit 70 km/h", "marks: 3", "(road main, lane -1, s_m 12.500)"}) {
+       {"world sample\n", "61 x 51 heights every 8.5 m", "network: 1 roads with 0 junctions\nroad main\n",
+        "length_m: 305.500", "smallest_radius_m: 45", "(road main, lane -1, s_m 12.500)"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, HasSubstr(base::Hex(Sample()->content_hash())));
@@ -217,8 +217,7 @@ TEST_F(WorldReport, TheProfileShowsGradesRadiiAndSlopes) {
   EXPECT_THAT(svg, Not(HasSubstr("nan")));
   for (const char* text : {"grade in %", "curvature in 1/m", "slope across in %", "height in m"})
     EXPECT_THAT(svg, HasSubstr(text));
-  const auto world = Sample();
-  const Road& road = world->roads()[0];
+  const Version1Road& road = SampleRoad();
   double steepest = 0.0, sharpest = 0.0;  // told at the diagrams' edges, to four digits
   for (int i = 0; i <= 1500; ++i) {
     const RoadFrame at = road.Evaluate(road.length_m() * i / 1500);
