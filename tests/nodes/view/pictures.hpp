@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/view/scene/camera/camera.hpp"
+#include "common/world/road/road.hpp"
 #include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
 #include "nodes/view/renderer/painter.hpp"
