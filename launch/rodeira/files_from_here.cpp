@@ -5,6 +5,8 @@
 #include <functional>
 #include <system_error>
 
+#include "common/core/config/quoted.hpp"
+
 namespace rodeira::cli {
 namespace {
 
@@ -21,7 +23,7 @@ bool IsFile(const std::string& word) {
 std::string Replace(const std::string& value, const std::function<std::string(const std::string&)>& rename) {
   if (IsFile(value)) {
     const std::string renamed = rename(value);
-    return renamed == value ? value : "\"" + renamed + "\"";
+    return renamed == value ? value : config::Quoted(renamed);
   }
   constexpr std::string_view kBetween = "{}[],: \"'";
   std::string text;

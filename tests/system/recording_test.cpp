@@ -65,6 +65,23 @@ TEST_F(Recordings, ARunWithoutARecorderIsRecordedInTheUsersDataFolder) {
   EXPECT_THAT(info.out, HasSubstr("embedded  launch.yaml"));
 }
 
+// The name of a file is a value, never a part of another text: nodes get it through YAML and a command line.
+TEST_F(Recordings, AFileMayHaveAnyName) {
+  const std::string folder = Path("any");
+  for (const char* process : {"--in-process", "--quiet"}) {
+    for (const std::string name :
+         {"it's.mcap", "a \"b\".mcap", "c\\d.mcap", "e\nf.mcap", "g\th.mcap", "i: [j], {k} #l.mcap", "*m.mcap"}) {
+      const Ended run = Run({LaunchFile("empty.yaml"), "--for", "0.02", process, "--record", folder + "/" + name});
+      ASSERT_EQ(run.status, 0) << name << run.out;
+      std::vector<fs::path> files;
+      for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path().filename());
+      EXPECT_EQ(files, std::vector<fs::path>{name});
+      EXPECT_EQ(Ask({"info", folder + "/" + name}).status, 0) << name;
+      fs::remove_all(folder);
+    }
+  }
+}
+
 TEST_F(Recordings, InOneProcessTooAndTwoRunsOfOneSecondDoNotMeet) {
   for (int i = 0; i < 2; ++i) ASSERT_EQ(Run({LaunchFile("empty.yaml"), "--for", "0.05", "--in-process"}).status, 0);
   EXPECT_EQ(Recorded().size(), 2u);

@@ -95,6 +95,22 @@ TEST_P(FrontDoor, ARunWithANodeThatHangsEndsWithItsName) {
       << ended_.out;
 }
 
+TEST(SecondStart, IsRefusedAndTheFirstRunGoesOn) {
+  const std::string name = fmt::format("twice-{}", ::getpid());
+  const std::vector<std::string> command{
+      Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "3", "--run", name};
+  Started first(command);
+  ASSERT_TRUE(Runs(name));
+  for (int i = 0; i < 2; ++i) {
+    const Ended second = RunCommand(command);
+    EXPECT_EQ(second.status, 2) << second.out;
+    EXPECT_NE(second.out.find("run '" + name + "' is going on already on this PC"), std::string::npos) << second.out;
+  }
+  const Ended ended = first.Wait(20s);
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << ended.out;
+}
+
 TEST_P(FrontDoor, ARunThatStartsEnds) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "100", "--run", Name()});
   for (int i = 0; i < 400 && ProcessesWith("--run " + Name(), "/rodeira-").empty(); ++i) ::usleep(5000);

@@ -26,6 +26,8 @@ bool DifferOnlyByUnit(const std::string& a, const std::string& b) {
   return kUnits.contains(a.substr(cut_a + 1)) && kUnits.contains(b.substr(cut_b + 1));
 }
 
+constexpr std::size_t kMaxUnknown = 50;  // keys of a mapping that are looked at: a file of another kind has thousands
+
 // What an unknown key was probably meant to be, and the end of the sentence that says so.
 struct Meant {
   std::string key;  // empty: nothing is near
@@ -140,6 +142,7 @@ std::vector<base::Error> File::Problems() const {
       if (!seen.insert(key).second)
         all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
+      if (strange.size() + misspelt.size() >= kMaxUnknown) break;
       std::set<std::string, std::less<>> known = asked.keys;
       known.insert(asked.hoped.begin(), asked.hoped.end());
       known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read

@@ -3,12 +3,101 @@
 
 #include <fmt/format.h>
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace rodeira::config {
+namespace {
+
+// Counts the values of a document as a reader meets them: an alias has those of what it stands for. Throws where an
+// alias lies inside of what it stands for, which would have no end, and where aliases make too many.
+class AliasCheck final : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { AddValue(anchor); }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t anchor, const std::string&) override {
+    AddValue(anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    if (std::ranges::any_of(open_, [anchor](const Open& one) { return one.anchor == anchor; }))
+      throw YAML::ParserException(mark, "an alias refers to a list or mapping that it is part of");
+    const auto found = values_.find(anchor);
+    const std::size_t values = found == values_.end() ? 1 : found->second;
+    count_ += values;
+    by_aliases_ += values;
+    if (by_aliases_ > kMaxByAliases)
+      throw YAML::ParserException(mark, fmt::format("aliases stand for more than {} values", kMaxByAliases));
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    Begin(anchor);
+  }
+  void OnSequenceEnd() override { End(); }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    Begin(anchor);
+  }
+  void OnMapEnd() override { End(); }
+
+ private:
+  static constexpr std::size_t kMaxByAliases = 100'000;
+  struct Open {
+    YAML::anchor_t anchor = YAML::NullAnchor;
+    std::size_t before = 0;  // values, when it began
+  };
+  void AddValue(YAML::anchor_t anchor) {
+    ++count_;
+    if (anchor != YAML::NullAnchor) values_[anchor] = 1;
+  }
+  void Begin(YAML::anchor_t anchor) {
+    open_.push_back({anchor, count_});
+    ++count_;
+  }
+  void End() {
+    if (open_.back().anchor != YAML::NullAnchor) values_[open_.back().anchor] = count_ - open_.back().before;
+    open_.pop_back();
+  }
+
+  std::size_t count_ = 0, by_aliases_ = 0;
+  std::vector<Open> open_;
+  std::map<YAML::anchor_t, std::size_t> values_;  // by anchor, with those that its aliases stand for
+};
+
+// Whether a second document begins somewhere, and where.
+struct BeginsAt final : YAML::EventHandler {
+  void OnDocumentStart(const YAML::Mark& at) override { mark = at; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+  YAML::Mark mark;
+};
+
+void CheckDocument(const std::string& text) {
+  std::istringstream in(text);
+  YAML::Parser parser(in);
+  AliasCheck check;
+  if (!parser.HandleNextDocument(check)) return;
+  BeginsAt second;
+  if (parser.HandleNextDocument(second))
+    throw YAML::ParserException(second.mark, "a second document begins here; one was expected");
+}
+
+}  // namespace
 
 int LineOf(const YAML::Node& node) { return node.IsDefined() && !node.Mark().is_null() ? node.Mark().line + 1 : 0; }
 
@@ -46,6 +135,7 @@ base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
     return base::WrongInput(why, mark.is_null() ? "" : std::to_string(mark.line + 1));
   };
   try {
+    CheckDocument(text);
     return YAML::Load(text);
   } catch (const YAML::DeepRecursion&
                problem) {  // the library's own bound: it descends a level of its stack with each level of the text

@@ -73,7 +73,9 @@ std::optional<std::int64_t> ToInteger(const std::string& text);
 
 // The value of a key, undefined where there is none.
 YAML::Node Find(const YAML::Node& map, std::string_view key);
-// The first document of a text, which `what` names in a sentence. The error's context is the line, where there is one.
+// The document of a text, which `what` names in a sentence. The error's context is the line, where there is one.
+// Refused: a second document, an alias inside of what it stands for, and aliases that stand for more than 100 000
+// values.
 base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what);
 
 }  // namespace rodeira::config

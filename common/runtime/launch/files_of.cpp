@@ -10,6 +10,7 @@
 #include <system_error>
 
 #include "common/core/base/files.hpp"
+#include "common/core/config/quoted.hpp"
 #include "idl/idl_source.hpp"
 
 namespace rodeira::launch {
@@ -171,12 +172,11 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
 }
 
 std::string LaidOut(const std::string& value, const fs::path& launch_file) {
-  const bool quoted = value.size() > 2 && value.front() == '"' && value.back() == '"';
-  const fs::path path(quoted ? value.substr(1, value.size() - 2) : value);
+  const fs::path path(config::Unquoted(value).value_or(value));
   if (!path.is_absolute()) return value;
   const fs::path copy = launch_file.parent_path() / (kAbsolute + path.generic_string());
   std::error_code problem;
-  return fs::is_regular_file(copy, problem) ? "\"" + copy.string() + "\"" : value;
+  return fs::is_regular_file(copy, problem) ? config::Quoted(copy.string()) : value;
 }
 
 std::string WithNames(std::string text, const fs::path& folder) {

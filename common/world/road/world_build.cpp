@@ -7,6 +7,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/config/config.hpp"
+#include "common/core/config/quoted.hpp"
 #include "common/world/road/logical_files.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/network_world.hpp"
@@ -25,8 +26,8 @@ std::string TextureText(const terrain::LaidPicture& picture, const std::filesyst
   const std::filesystem::path whole = std::filesystem::absolute(picture.file).lexically_normal();
   const std::filesystem::path below =
       whole.lexically_relative(std::filesystem::absolute(world_yaml).lexically_normal().parent_path());
-  const std::string start =
-      fmt::format("  texture:\n    file: \"{}\"\n", (below.empty() || LeadsOut(below) ? whole : below).string());
+  const std::string start = fmt::format("  texture:\n    file: {}\n",
+                                        config::Quoted((below.empty() || LeadsOut(below) ? whole : below).string()));
   if (picture.repeats) return start + fmt::format("    kind: geotypical\n    repeat_m: {}\n", picture.width_m);
   return start + fmt::format("    kind: draped\n    west_m: {}\n    south_m: {}\n    east_m: {}\n    north_m: {}\n",
                              picture.west_m, picture.south_m, picture.west_m + picture.width_m,

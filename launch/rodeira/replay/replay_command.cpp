@@ -10,6 +10,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/quoted.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/interrupt.hpp"
 #include "launch/rodeira/replay/branch_command.hpp"
@@ -71,7 +72,7 @@ base::Result<launch::Overrides> LibrariesOf(const ReplayOptions& options) {
                               "--library");
     }
     overrides.emplace_back(fmt::format("nodes.{}.library", node),
-                           fmt::format("\"{}\"", std::filesystem::absolute(file).lexically_normal().string()));
+                           config::Quoted(std::filesystem::absolute(file).lexically_normal().string()));
   }
   return overrides;
 }

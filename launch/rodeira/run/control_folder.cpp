@@ -55,6 +55,13 @@ int ConnectTo(const std::filesystem::path& socket) {
   return -1;
 }
 
+bool IsRunning(const std::string& run) {
+  const auto folder = ControlFolder();
+  const int connection = folder ? ConnectTo(ControlSocket(folder.value(), run)) : -1;
+  if (connection >= 0) ::close(connection);
+  return connection >= 0;
+}
+
 std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> living;
   std::error_code problem;

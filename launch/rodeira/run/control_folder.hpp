@@ -15,8 +15,10 @@ base::Result<std::filesystem::path> ControlFolder();
 // The socket of a run in it. A name that is no good file name stands there as its hash.
 std::filesystem::path ControlSocket(const std::filesystem::path& folder, const std::string& run);
 
-// A connection to the socket, or -1: nobody listens there (what a killed run left is removed).
+// A connection to the socket, or -1 where no run listens there.
 int ConnectTo(const std::filesystem::path& socket);
+// Whether this user has a run of this name, with its clock, on this PC.
+bool IsRunning(const std::string& run);
 // The sockets on which somebody listens, by name.
 std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folder);
 

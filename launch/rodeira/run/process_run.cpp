@@ -19,6 +19,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
+#include "launch/rodeira/run/control_folder.hpp"
 #include "launch/rodeira/run/failure_report.hpp"
 #include "launch/rodeira/run/node_processes.hpp"
 #include "launch/rodeira/run/operator.hpp"
@@ -312,6 +313,13 @@ class ProcessRun {
 
 int RunProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
                  launch::Overrides overrides) {
+  // Its nodes would take the names of those of the first one.
+  if (placement.has_clock() && IsRunning(options.run)) {
+    return base::PrintError(
+        "rodeira", base::WrongInput(fmt::format("run '{}' is going on already on this PC; another --run was expected, "
+                                                "or `rodeira ctl stop --run {}` first",
+                                                options.run, options.run)));
+  }
   return ProcessRun(options, placement, launch, std::move(overrides)).Run();
 }
 

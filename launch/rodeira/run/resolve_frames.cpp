@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "common/core/config/quoted.hpp"
 #include "launch/rodeira/run/resolve_recording.hpp"
 
 namespace rodeira::cli {
@@ -21,7 +22,7 @@ void ResolveFrames(const launch::Launch& launch, const Placement& placement, con
   const std::string stem = file.replace_extension().string() + "-frames";
   for (const launch::LaunchNode* view : views) {
     const std::string folder = views.size() == 1 ? stem : stem + "-" + view->name;
-    overrides.emplace_back("nodes." + view->name + ".config.frames.folder", "\"" + folder + "\"");
+    overrides.emplace_back("nodes." + view->name + ".config.frames.folder", config::Quoted(folder));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "common/core/base/user_folders.hpp"
+#include "common/core/config/quoted.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -78,7 +79,7 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
     recorder = FreeName(launch, "recorder");
     overrides.emplace_back("nodes." + recorder + ".kind", "recorder");
   }
-  overrides.emplace_back("nodes." + recorder + ".config.file", "\"" + options.record + "\"");
+  overrides.emplace_back("nodes." + recorder + ".config.file", config::Quoted(options.record));
   return {};
 }
 

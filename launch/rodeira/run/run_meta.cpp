@@ -5,22 +5,10 @@
 
 #include <algorithm>
 
+#include "common/core/config/quoted.hpp"
+
 namespace rodeira::cli {
 namespace {
-
-// A YAML text in double quotes, whatever it holds.
-std::string QuotedYaml(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) {
-      quoted += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
-    } else {
-      quoted += c;
-    }
-  }
-  return quoted + '"';
-}
 
 bool IsName(std::string_view key) {
   return !key.empty() && key.size() <= 64 && std::all_of(key.begin(), key.end(), [](unsigned char c) {
@@ -49,7 +37,7 @@ base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string
           fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
     }
     overrides.emplace_back("nodes." + recorder + ".config.meta." + key,
-                           QuotedYaml(std::string_view(pair).substr(equals + 1)));
+                           config::Quoted(std::string_view(pair).substr(equals + 1)));
   }
   return {};
 }

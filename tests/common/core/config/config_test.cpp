@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/core/base/random.hpp"
+#include "common/core/config/quoted.hpp"
+
 namespace rodeira::config {
 namespace {
 
@@ -197,6 +204,69 @@ TEST(Config, NumbersAreNeverInfinite) {
   const File file = Parsed("a: .inf\nb: nan\nc: 1e999\n");
   for (const char* key : {"a", "b", "c"}) (void)file.root().Number(key);
   EXPECT_EQ(file.Problems().size(), 3u);
+}
+
+std::string Refusal(const std::string& text) {
+  const auto file = File::Parse(text, "x.yaml");
+  return file.ok() ? "" : file.error().Text();
+}
+
+TEST(Yaml, AnAliasStandsForItsValues) {
+  const File file = Parsed("front: &axle {track_m: 1.5}\nrear: *axle\nagain: [*axle, *axle]\n");
+  EXPECT_EQ(file.root().Child("rear").Number("track_m"), 1.5);
+}
+
+TEST(Yaml, AnAliasInsideOfWhatItStandsForIsRefused) {
+  const std::string why = "an alias refers to a list or mapping that it is part of";
+  EXPECT_NE(Refusal("a: 1\nb: &b [*b, 2]\n").find("x.yaml:2: this is no YAML: " + why), std::string::npos)
+      << Refusal("a: 1\nb: &b [*b, 2]\n");
+  EXPECT_NE(Refusal("b: &b {c: {d: *b}}\n").find(why), std::string::npos);
+  EXPECT_NE(Refusal("&root\nb: [1, *root]\n").find(why), std::string::npos);
+  EXPECT_EQ(Refusal("b: &b [1, 2]\nc: [*b, *b]\n"), "");
+}
+
+TEST(Yaml, AliasesThatGrowWithoutBoundAreRefused) {
+  std::string text = "a0: &a0 [1, 1]\n";
+  for (int i = 1; i < 60; ++i)
+    text += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [*a" + std::to_string(i - 1) + ", *a" +
+            std::to_string(i - 1) + "]\n";
+  EXPECT_NE(Refusal(text).find("aliases stand for more than 100000 values"), std::string::npos) << Refusal(text);
+}
+
+TEST(Yaml, ASecondDocumentIsRefused) {
+  EXPECT_NE(Refusal("a: 1\n---\nb: 2\n").find("a second document begins here; one was expected"), std::string::npos);
+  EXPECT_EQ(Refusal("---\na: 1\n...\n"), "");
+}
+
+TEST(Yaml, AValueThatRefersToItselfIsRefused) {
+  File file = Parsed("seed: 1\n");
+  const auto status = file.Override("seed", "&a [*a, *a]");
+  ASSERT_FALSE(status.ok());
+  EXPECT_NE(status.error().Text().find("an alias refers to"), std::string::npos) << status.error().Text();
+}
+
+// Whatever a path or a name holds: as part of a YAML text it is the same bytes again.
+TEST(Quoted, AnyTextIsReadBackAsItWas) {
+  std::vector<std::string> texts = {"",     "plain",  "it's",       "a \"b\"",  "C:\\x",  "a: b", "[x], {y}",
+                                    "# no", "*alias", "&anchor",    "\ttab\n",  "\\n",    "~",    "true",
+                                    "12",   "%YAML",  "---\n...\n", " spaces ", "é ü 漢", "\r\n", "a\\\\b"};
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    std::string text;
+    for (std::uint64_t i = 0; i < n % 20; ++i) text += static_cast<char>(base::RandomBits({n, i}) % 128);
+    texts.push_back(text);
+  }
+  for (const std::string& text : texts) {
+    EXPECT_EQ(Unquoted(Quoted(text)), text) << Quoted(text);
+    if (text.find('\0') != std::string::npos) continue;  // no path or name holds it
+    const auto file = File::Parse("value: " + Quoted(text) + "\n", "x.yaml");
+    ASSERT_TRUE(file.ok()) << Quoted(text) << ": " << file.error().Text();
+    EXPECT_EQ(file.value().root().Text("value"), text) << Quoted(text);
+    File changed = Parsed("value: 1\n");
+    ASSERT_TRUE(changed.Override("value", Quoted(text)).ok()) << Quoted(text);
+    EXPECT_EQ(changed.root().Text("value"), text) << Quoted(text);
+  }
+  for (const char* other : {"", "\"", "plain", "\"a", "\"a\"b\"", "\"\\\"", "\"\\q\"", "\"\\x1\""})
+    EXPECT_FALSE(Unquoted(other)) << other;
 }
 
 }  // namespace
