@@ -129,6 +129,18 @@ TEST_P(FrontDoor, ARunOfOneProcessEnds) {
   EXPECT_EQ(ended.status, 0) << ended.out;
 }
 
+TEST_P(FrontDoor, ARunOfOneProcessWithANodeThatHangsEnds) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "100", "--in-process", "--set",
+               "nodes.b.config.hang_at_step=200"});
+  std::this_thread::sleep_for(800ms);
+  ::kill(run.pid(), GetParam());
+  const auto begin = std::chrono::steady_clock::now();
+  const Ended ended = run.Wait(20s);
+  EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended.out;
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("stopped by a signal before all nodes had finished"), std::string::npos) << ended.out;
+}
+
 INSTANTIATE_TEST_SUITE_P(ByASignal, FrontDoor, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
                          [](const auto& one) { return std::string(::sigabbrev_np(one.param)); });
 

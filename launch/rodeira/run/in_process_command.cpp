@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
@@ -18,6 +21,8 @@
 
 namespace rodeira::cli {
 namespace {
+
+constexpr std::chrono::milliseconds kForcedStop{1500};  // after a signal
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -58,7 +63,15 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
     settings.last_step =
         static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
-  settings.stop_requested = Interrupted;
+  settings.stop_requested = [interrupted_at = std::optional<WallClock::time_point>()]() mutable {
+    if (!Interrupted()) return false;
+    if (!interrupted_at) interrupted_at = WallClock::now();
+    if (WallClock::now() - *interrupted_at > kForcedStop) {  // a thread that hangs cannot be ended
+      fmt::print(stderr, "rodeira: stopped by a signal before all nodes had finished\n");
+      std::_Exit(1);
+    }
+    return true;
+  };
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
   CatchInterrupts();
