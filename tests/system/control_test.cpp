@@ -2,6 +2,7 @@
 // An operator at a whole run: pause, steps, paces, markers and stop from another process; what is recorded of it; and
 // that none of it changes a sample.
 #include <gtest/gtest.h>
+#include <signal.h>
 
 #include <mutex>
 #include <thread>
@@ -211,6 +212,24 @@ TEST_F(Control, WithoutARunWithSeveralAndNonsenseAreSentences) {
   }
   EXPECT_NE(RunCommand(Run("meta", {"--meta", "a=b", "--no-record"})).out.find("--meta: nothing is recorded"),
             std::string::npos);
+}
+
+// A run that is stopped takes no connections, and soon no more can wait: others are asked all the same.
+TEST_F(Control, AStoppedRunKeepsNoOtherFromBeingAsked) {
+  Started stopped(Run("stopped", {"--no-record", "--for", "1000", "--pace", "real"}));
+  EXPECT_NE(Begun("stopped").find("step"), std::string::npos);
+  ::kill(stopped.pid(), SIGSTOP);
+  Started other(Run("other", {"--no-record", "--for", "1000", "--pace", "real"}));
+  EXPECT_NE(Begun("other").find("step"), std::string::npos);
+  for (int i = 0; i < 14; ++i) {
+    const Ended without = Ctl({"state"});  // looks at every run
+    EXPECT_EQ(without.status, 2) << without.out;
+    EXPECT_EQ(Ctl({"state", "--run", "other"}).status, 0);
+  }
+  EXPECT_EQ(Ctl({"stop", "--run", "other"}).status, 0);
+  EXPECT_EQ(other.Wait(10s).status, 0);
+  ::kill(stopped.pid(), SIGKILL);
+  ::kill(stopped.pid(), SIGCONT);
 }
 
 }  // namespace

@@ -71,6 +71,8 @@ TEST_F(Recordings, AFileMayHaveAnyName) {
   for (const char* process : {"--in-process", "--quiet"}) {
     for (const std::string name :
          {"it's.mcap", "a \"b\".mcap", "c\\d.mcap", "e\nf.mcap", "g\th.mcap", "i: [j], {k} #l.mcap", "*m.mcap"}) {
+      if (process == std::string("--quiet") && name.find('"') == std::string::npos) continue;  // one is enough
+      fs::create_directory(folder);
       const Ended run = Run({LaunchFile("empty.yaml"), "--for", "0.02", process, "--record", folder + "/" + name});
       ASSERT_EQ(run.status, 0) << name << run.out;
       std::vector<fs::path> files;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "launch/rodeira/run/control_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -42,24 +43,29 @@ std::filesystem::path ControlSocket(const std::filesystem::path& folder, const s
   return folder / ((plain ? run : base::Hex(base::Hash(run))) + ".ctl");
 }
 
-int ConnectTo(const std::filesystem::path& socket) {
+int ConnectTo(const std::filesystem::path& socket, bool* is_busy) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string path = socket.string();
   if (path.size() >= sizeof(address.sun_path)) return -1;
   std::memcpy(address.sun_path, path.c_str(), path.size());
-  const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (file < 0) return -1;
-  if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) return file;
+  if (::connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) {
+    ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return file;
+  }
+  if (is_busy != nullptr) *is_busy = errno == EAGAIN;
   ::close(file);
   return -1;
 }
 
 bool IsRunning(const std::string& run) {
   const auto folder = ControlFolder();
-  const int connection = folder ? ConnectTo(ControlSocket(folder.value(), run)) : -1;
+  bool is_busy = false;
+  const int connection = folder ? ConnectTo(ControlSocket(folder.value(), run), &is_busy) : -1;
   if (connection >= 0) ::close(connection);
-  return connection >= 0;
+  return connection >= 0 || is_busy;
 }
 
 std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folder) {
@@ -67,9 +73,10 @@ std::vector<std::filesystem::path> LivingRuns(const std::filesystem::path& folde
   std::error_code problem;
   for (const auto& entry : std::filesystem::directory_iterator(folder, problem)) {
     if (entry.path().extension() != ".ctl") continue;
-    const int file = ConnectTo(entry.path());
-    if (file < 0) continue;
-    ::close(file);
+    bool is_busy = false;
+    const int file = ConnectTo(entry.path(), &is_busy);
+    if (file < 0 && !is_busy) continue;
+    if (file >= 0) ::close(file);
     living.push_back(entry.path());
   }
   std::sort(living.begin(), living.end());

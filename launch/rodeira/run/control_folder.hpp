@@ -15,8 +15,9 @@ base::Result<std::filesystem::path> ControlFolder();
 // The socket of a run in it. A name that is no good file name stands there as its hash.
 std::filesystem::path ControlSocket(const std::filesystem::path& folder, const std::string& run);
 
-// A connection to the socket, or -1 where no run listens there.
-int ConnectTo(const std::filesystem::path& socket);
+// A connection to the socket, or -1 where no run listens there. Never waits: a run that hangs or is stopped, and has
+// let its connections wait, gives -1 too, and `is_busy` is then true.
+int ConnectTo(const std::filesystem::path& socket, bool* is_busy = nullptr);
 // Whether this user has a run of this name, with its clock, on this PC.
 bool IsRunning(const std::string& run);
 // The sockets on which somebody listens, by name.

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <stop_token>
+#include <thread>
 
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
@@ -22,7 +24,19 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr std::chrono::milliseconds kForcedStop{1500};  // after a signal
+// A thread that hangs cannot be ended: a while after a signal the process ends without it. On a thread of its own, for
+// nodes run on every other one.
+void EndWhatHangs(const std::stop_token& done) {
+  constexpr std::chrono::milliseconds kForcedStop{1500}, kLook{20};
+  std::optional<WallClock::time_point> interrupted_at;
+  for (; !done.stop_requested(); std::this_thread::sleep_for(kLook)) {
+    if (!Interrupted()) continue;
+    if (!interrupted_at) interrupted_at = WallClock::now();
+    if (WallClock::now() - *interrupted_at < kForcedStop) continue;
+    fmt::print(stderr, "rodeira: stopped by a signal before all nodes had finished\n");
+    std::_Exit(1);
+  }
+}
 
 RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& roster, double wall_s) {
   RunReport report;
@@ -63,18 +77,11 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
     settings.last_step =
         static_cast<lockstep::Step>(std::llround(*seconds * 1e9 / static_cast<double>(roster.base_step_ns())));
   settings.pace = launch::ParsePace(options.pace).value();
-  settings.stop_requested = [interrupted_at = std::optional<WallClock::time_point>()]() mutable {
-    if (!Interrupted()) return false;
-    if (!interrupted_at) interrupted_at = WallClock::now();
-    if (WallClock::now() - *interrupted_at > kForcedStop) {  // a thread that hangs cannot be ended
-      fmt::print(stderr, "rodeira: stopped by a signal before all nodes had finished\n");
-      std::_Exit(1);
-    }
-    return true;
-  };
+  settings.stop_requested = Interrupted;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
   CatchInterrupts();
+  const std::jthread guard(EndWhatHangs);
   const auto start = WallClock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = SecondsSince(start);
