@@ -85,9 +85,9 @@ function(rodeira_program name)
 endfunction()
 
 # rodeira_test(base SOURCES … LINK …): one GoogleTest program a module, every case known to ctest.
-# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). ALONE lists the tests, as --gtest_filter
-# does, that run while no other test does. The others of such a program mostly wait, and begin first (COST), so that
-# shorter tests fill the processors meanwhile.
+# PROPERTIES are passed to the discovered tests (TIMEOUT, RUN_SERIAL, LABELS …). ALONE lists the tests, as
+# --gtest_filter does, that run while no other test does. The others of such a program mostly wait, and begin first
+# (COST), so that shorter tests fill the processors meanwhile.
 function(rodeira_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK;PROPERTIES;ALONE" ${ARGN})
   add_executable(${name}_test ${ARG_SOURCES})

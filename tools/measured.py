@@ -24,7 +24,8 @@ def run(command, **options):
 
 def revision(root, name):
     """The short hash of a revision of the repository at `root`."""
-    sha = subprocess.run(["git", "-C", root, "rev-parse", "--short", name + "^{commit}"], capture_output=True, text=True)
+    command = ["git", "-C", root, "rev-parse", "--short", name + "^{commit}"]
+    sha = subprocess.run(command, capture_output=True, text=True)
     if sha.returncode != 0:
         raise Failure(f"{name}: no such revision")
     return sha.stdout.strip()

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/random.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
@@ -32,6 +33,7 @@ class EmptyNode final : public lockstep::Node {
 
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     if (step.step == fail_at_) return base::Failed("told to fail here by its configuration (fail_at_step)");
+    if (step.step == hang_at_) base::Log(base::LogLevel::kWarning, "", "told to hang here");
     while (step.step == hang_at_) std::this_thread::sleep_for(std::chrono::seconds(1));
     for (const lockstep::Sample& sample : inbox.All(topics::kPulse)) {
       const auto pulse = idl::Decode<msg::Pulse>(*sample.payload);

@@ -42,7 +42,7 @@ msg::TrafficAgent Standing(std::uint32_t id, std::uint32_t trip, const Eigen::Ve
   return out;
 }
 
-msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTraits& traits, std::uint32_t lights) {
+msg::TrafficAgent ToMessage(const traffic::AgentPose& pose, const traffic::AgentTraits& traits, std::uint32_t lights) {
   const Eigen::Matrix3d rotation = pose.q_WB.toRotationMatrix();
   msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_WB_W);
   out.heading_rad(Single(std::atan2(rotation(1, 0), rotation(0, 0))));
@@ -64,7 +64,7 @@ msg::TrafficAgent ToWire(const traffic::AgentPose& pose, const traffic::AgentTra
 }
 
 // Level, with no lights; the wheel that its legs go by turns once in two steps.
-msg::TrafficAgent ToWire(const traffic::PersonPose& pose) {
+msg::TrafficAgent ToMessage(const traffic::PersonPose& pose) {
   constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
   msg::TrafficAgent out = Standing(pose.id, pose.trip, pose.p_W);
   out.heading_rad(Single(pose.heading_rad));
@@ -80,7 +80,7 @@ msg::TrafficAgent ToWire(const traffic::PersonPose& pose) {
   return out;
 }
 
-msg::TrafficDetail ToWire(const traffic::AgentDetail& detail) {
+msg::TrafficDetail ToMessage(const traffic::AgentDetail& detail) {
   constexpr double kKilograms = 1e-6;  // a milligram
   msg::TrafficDetail out;
   out.id(detail.id);
@@ -275,15 +275,15 @@ class TrafficNode final : public lockstep::Node {
     msg::TrafficState state;
     state.agents().reserve(model_.poses().size());
     for (const traffic::AgentPose& pose : model_.poses())
-      state.agents().push_back(ToWire(pose, model_.traits(pose.id), model_.LightsOf(pose)));
+      state.agents().push_back(ToMessage(pose, model_.traits(pose.id), model_.LightsOf(pose)));
     if (model_.people() != nullptr) {
-      for (const traffic::PersonPose& person : model_.people()->Poses()) state.agents().push_back(ToWire(person));
+      for (const traffic::PersonPose& person : model_.people()->Poses()) state.agents().push_back(ToMessage(person));
     }
     outbox.Put(topics::kTrafficState, idl::Encode(state));
     outbox.Put(topics::kSignalsState, idl::Encode(Lights()));
     msg::TrafficDetails details;
     if (with_details) {
-      for (const traffic::AgentDetail& detail : model_.Details()) details.agents().push_back(ToWire(detail));
+      for (const traffic::AgentDetail& detail : model_.Details()) details.agents().push_back(ToMessage(detail));
     }
     outbox.Put(topics::kTrafficDetails, idl::Encode(details));
   }

@@ -75,7 +75,6 @@ class CellRun {
                  to_its_end ? "2" : "real", "--for", to_its_end ? "8" : "100", "--record", recording_, "--set",
                  "recovery=" + cell_.policy});
     if (!Runs(name_)) return "the run did not begin: " + run.Wait(10s).out;
-    std::this_thread::sleep_for(300ms);
     const pid_t victim = Victim(run);
     if (victim <= 0) return "the part was not found";
     ::kill(victim, SignalOf(cell_.cause));

@@ -48,7 +48,6 @@ TEST_P(EveryPart, IsNamedWithinASecondAndTheRunEnds) {
   const std::string part = GetParam();
   Started run(Command({"--pace", "real", "--for", "100"}));
   ASSERT_TRUE(Runs(Name()));
-  std::this_thread::sleep_for(300ms);
   ::kill(Part(part), SIGTERM);
   const auto took = run.WaitFor("node '" + part + "' was told to end by signal 15 (Terminated) at about step ", 10s);
   EXPECT_GE(took, 0ms);
@@ -86,8 +85,11 @@ TEST_P(FrontDoor, ARunThatDrivesEndsInOrder) {
 TEST_P(FrontDoor, ARunWithANodeThatHangsEndsWithItsName) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "100",
                "--run", Name(), "--set", "nodes.b.config.hang_at_step=200", "--set", "nodes.b.deadline_s=60"});
-  ASSERT_TRUE(Runs(Name()));
-  std::this_thread::sleep_for(600ms);
+  std::string state;
+  const auto until = std::chrono::steady_clock::now() + 30s;
+  while (state.find("'b' computes step 200") == std::string::npos && std::chrono::steady_clock::now() < until)
+    state = RunCommand({Bin("rodeira"), "ctl", "state", "--run", Name()}).out;
+  ASSERT_NE(state.find("'b' computes step 200"), std::string::npos) << state;
   ExpectItsEnd(run);
   EXPECT_EQ(ended_.status, 1) << ended_.out;
   EXPECT_NE(ended_.out.find("stopped by a signal before these nodes had finished: 'a', 'b', 'c', 'd'"),
@@ -120,25 +122,19 @@ TEST_P(FrontDoor, ARunThatStartsEnds) {
 
 TEST_P(FrontDoor, ARunOfOneProcessEnds) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--pace", "real", "--for", "100",
-               "--in-process", "--set", "seed=7"});
-  std::this_thread::sleep_for(800ms);
-  ::kill(run.pid(), GetParam());
-  const auto begin = std::chrono::steady_clock::now();
-  const Ended ended = run.Wait(20s);
-  EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended.out;
-  EXPECT_EQ(ended.status, 0) << ended.out;
+               "--in-process", "--run", Name()});
+  ASSERT_TRUE(Runs(Name()));
+  ExpectItsEnd(run);
+  EXPECT_EQ(ended_.status, 0) << ended_.out;
 }
 
 TEST_P(FrontDoor, ARunOfOneProcessWithANodeThatHangsEnds) {
-  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "100", "--in-process", "--set",
-               "nodes.b.config.hang_at_step=200"});
-  std::this_thread::sleep_for(800ms);
-  ::kill(run.pid(), GetParam());
-  const auto begin = std::chrono::steady_clock::now();
-  const Ended ended = run.Wait(20s);
-  EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended.out;
-  EXPECT_EQ(ended.status, 1) << ended.out;
-  EXPECT_NE(ended.out.find("stopped by a signal before all nodes had finished"), std::string::npos) << ended.out;
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "100", "--in-process", "--run",
+               Name(), "--set", "nodes.b.config.hang_at_step=200"});
+  ASSERT_GE(run.WaitFor("told to hang here", 30s), 0ms);
+  ExpectItsEnd(run);
+  EXPECT_EQ(ended_.status, 1) << ended_.out;
+  EXPECT_NE(ended_.out.find("stopped by a signal before all nodes had finished"), std::string::npos) << ended_.out;
 }
 
 INSTANTIATE_TEST_SUITE_P(ByASignal, FrontDoor, ::testing::Values(SIGINT, SIGTERM, SIGHUP),

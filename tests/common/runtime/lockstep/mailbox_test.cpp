@@ -128,13 +128,15 @@ TEST_F(MailboxTest, AStepThatNoSourceCanHaveReachedIsRefused) {
 
 TEST_F(MailboxTest, AnEarlyEndIsForGoodWhateverTheClockSays) {
   EXPECT_FALSE(mailbox_.early_end());
-  std::thread ends([&] {
-    std::this_thread::sleep_for(10ms);
-    mailbox_.EndEarly({LifeEvent::kLost, "was told to end"});
-    mailbox_.EndEarly({LifeEvent::kFailed, "a later reason"});
-  });
-  EXPECT_EQ(mailbox_.WaitForActivation(0, 10s), Mailbox::Woken::kAborted);
-  ends.join();
+  // Before, while and after a thread waits.
+  for (int race = 0; race < 200; ++race) {
+    Mailbox box(roster_, 2);
+    std::thread ends([&box] { box.EndEarly({LifeEvent::kLost, "was told to end"}); });
+    EXPECT_EQ(box.WaitForActivation(0, 10s), Mailbox::Woken::kAborted);
+    ends.join();
+  }
+  mailbox_.EndEarly({LifeEvent::kLost, "was told to end"});
+  mailbox_.EndEarly({LifeEvent::kFailed, "a later reason"});
   mailbox_.DeliverGrant(Through(100, true));
   EXPECT_EQ(mailbox_.WaitForActivation(0, 0s), Mailbox::Woken::kAborted);
   ASSERT_TRUE(mailbox_.early_end());
