@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "common/core/base/display.hpp"
+#include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/version.hpp"
 #include "launch/rodeira/commands/edit_command.hpp"
@@ -415,6 +416,7 @@ int ChooseCommand() {
 
 int Main(int argc, char** argv) {
   base::FixMathematics(argv);
+  base::NameExhaustion("rodeira");
   KeepArguments(argc, argv);
   CLI::App app{"Rodeira, a distributed driving simulator."};
   app.name("rodeira");

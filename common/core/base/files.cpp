@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/core/base/nearest_file.hpp"
+#include "common/core/base/open_error.hpp"
 
 namespace rodeira::base {
 namespace {
@@ -43,7 +44,7 @@ Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_byt
   if (!std::filesystem::exists(status)) return WrongInput(NoSuchFile(path), path.string());
   if (std::filesystem::is_directory(status)) return WrongInput("this is a folder, a file was expected", path.string());
   std::ifstream in(path, std::ios::binary);
-  if (!in) return WrongInput(fmt::format("the file cannot be opened: {}", std::strerror(errno)), path.string());
+  if (!in) return OpenError("the file cannot be opened", errno, path.string());
   if (!std::filesystem::is_regular_file(status)) return ReadStream<Buffer>(in, path, limit_bytes);
   const auto size = static_cast<std::size_t>(in.seekg(0, std::ios::end).tellg());
   if (size > limit_bytes) {

@@ -55,9 +55,13 @@ McapWriter::~McapWriter() {
 
 base::Result<McapWriter> McapWriter::Open(const std::filesystem::path& path, const WriterSettings& settings) {
   if (auto status = CheckSettings(settings, path.string()); !status) return status.error();
+  std::error_code problem;
+  const bool is_new = !std::filesystem::exists(path, problem);
   auto sink = OpenFileSink(path, settings.overwrite);
   if (!sink) return sink.error();
-  return Open(std::move(sink).value(), settings);
+  auto writer = Open(std::move(sink).value(), settings);
+  if (!writer && is_new) std::filesystem::remove(path, problem);  // nothing but its beginning
+  return writer;
 }
 
 base::Result<McapWriter> McapWriter::Open(std::unique_ptr<Sink> sink, const WriterSettings& settings) {

@@ -11,16 +11,17 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/core/base/open_error.hpp"
+
 namespace rodeira::record {
 namespace {
 
-// Faults of the place that was asked for are wrong input; a full disk and the like are failures.
 base::Error CannotOpen(const std::filesystem::path& path, int error) {
-  std::string message = fmt::format("the recording cannot be created: {}", std::strerror(error));
-  if (error == EEXIST) message = "the recording cannot be created: a file of that name is there already";
-  if (error == EWOULDBLOCK) message = "the recording cannot be created: another process writes it at this moment";
-  const bool disk = error == ENOSPC || error == EDQUOT || error == EIO || error == EMFILE || error == ENFILE;
-  return disk ? base::Failed(message, path.string()) : base::WrongInput(message, path.string());
+  if (error == EEXIST)
+    return base::WrongInput("the recording cannot be created: a file of that name is there already", path.string());
+  if (error == EWOULDBLOCK)
+    return base::WrongInput("the recording cannot be created: another process writes it at this moment", path.string());
+  return base::OpenError("the recording cannot be created", error, path.string());
 }
 
 class FileSink final : public Sink {
@@ -87,7 +88,7 @@ base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& pa
   auto sink = std::make_unique<FileSink>(file, path.string());
   if (device) return std::unique_ptr<Sink>(std::move(sink));
   if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
-  if (::ftruncate(file, 0) != 0) return CannotOpen(path, errno);
+  if (there && ::ftruncate(file, 0) != 0) return CannotOpen(path, errno);
   return std::unique_ptr<Sink>(std::move(sink));
 }
 

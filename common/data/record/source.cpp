@@ -9,6 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/core/base/open_error.hpp"
+
 namespace rodeira::record {
 namespace {
 
@@ -63,9 +65,7 @@ base::Result<base::Bytes> Source::Read(std::uint64_t offset, std::uint64_t size)
 
 base::Result<std::unique_ptr<Source>> OpenFileSource(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) {
-    return base::WrongInput(fmt::format("the recording cannot be opened: {}", std::strerror(errno)), path.string());
-  }
+  if (file < 0) return base::OpenError("the recording cannot be opened", errno, path.string());
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(file);

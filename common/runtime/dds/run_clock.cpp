@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/core/base/crash_trace.hpp"
+#include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/clock_desk.hpp"
@@ -275,6 +276,7 @@ class ClockProcess {
 int RunClock(int argc, char** argv) {
   base::FixMathematics(argv);
   base::TraceCrashes();
+  base::NameExhaustion("rodeira-clock");
   const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   const auto launch = launch::Launch::Load(parsed.options.launch_file, parsed.options.overrides);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/core/base/crash_trace.hpp"
+#include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
@@ -184,6 +185,7 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   // An external node is called as its file is.
   const std::string program = kind == launch::kExternalKind ? std::filesystem::path(argv[0]).filename().string()
                                                             : fmt::format("rodeira-{}", kind);
+  base::NameExhaustion(program);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   NodeBus::HandleSignals();

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/core/base/crash_trace.hpp"
+#include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/node_bus.hpp"
@@ -31,6 +32,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   base::FixMathematics(argv);
   base::TraceCrashes();
   const std::string program = fmt::format("rodeira-{}", kind);
+  base::NameExhaustion(program);
   const ParsedOptions parsed = ParseOptions(program, false, argc, argv);
   if (parsed.leave_with) return *parsed.leave_with;
   NodeBus::HandleSignals();

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <memory>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -51,13 +52,15 @@ class ThreadedRun {
     std::vector<std::thread> threads;
     for (NodeIndex n = 0; n < runners_.size(); ++n) {
       if (runners_[n] == nullptr) continue;
-      threads.emplace_back([this, n] {
-        if (nodes_[n]->runs_inline()) {
-          RunInline(*runners_[n], *mailboxes_[n], {});
-        } else {
-          runners_[n]->Run();
-        }
-      });
+      try {
+        threads.emplace_back([this, n] { RunNode(n); });
+      } catch (const std::system_error& error) {
+        const std::lock_guard lock(mutex_);
+        fault_ =
+            fmt::format("no thread can be started for node '{}': {}", roster_.node(n).name, error.code().message());
+        conductor_.Abort(fault_, ReadWall());
+        break;
+      }
     }
     std::unique_lock lock(mutex_);
     while (!Over()) {
@@ -85,6 +88,13 @@ class ThreadedRun {
   }
 
  private:
+  void RunNode(NodeIndex n) {
+    if (nodes_[n]->runs_inline()) {
+      RunInline(*runners_[n], *mailboxes_[n], {});
+    } else {
+      runners_[n]->Run();
+    }
+  }
   struct ThreadBus final : Bus {
     explicit ThreadBus(ThreadedRun& owner) : run(owner) {}
     base::Status Publish(const Sample& sample) override { return run.Route(sample); }

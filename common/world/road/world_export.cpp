@@ -286,9 +286,11 @@ base::Result<std::string> Export(const World& world, const NameOf& name_of) {
   text += fmt::format("<header revMajor=\"1\" revMinor=\"{}\" name=\"{}\" version=\"1.00\" vendor=\"Rodeira\">\n",
                       strips ? 8 : 7, Escaped(world.name()));
   // What other programs read; WKT where PROJ has no string for it.
-  if (!network.geo_reference().empty())
-    text += fmt::format("<geoReference>{}</geoReference>\n",
-                        Escaped(terrain::ProjString(network.geo_reference()).value_or(network.geo_reference())));
+  if (!network.geo_reference().empty()) {
+    const auto string = terrain::ProjString(network.geo_reference());
+    if (!string) return string.error();
+    text += fmt::format("<geoReference>{}</geoReference>\n", Escaped(string.value().value_or(network.geo_reference())));
+  }
   text += "</header>\n";
   const ExportParts parts = WithPlainIds(network);
   for (const network::Road& road : parts.roads) text += RoadText(road, name_of);

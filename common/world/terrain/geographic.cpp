@@ -74,16 +74,21 @@ std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const 
   return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg);
 }
 
-std::optional<std::string> ProjString(const std::string& definition) {
+base::Result<std::optional<std::string>> ProjString(const std::string& definition) {
   PJ_CONTEXT* context = proj_context_create();
-  proj_log_level(context, PJ_LOG_NONE);
+  std::string said;
+  proj_log_level(context, PJ_LOG_ERROR);
+  proj_log_func(context, &said, [](void* all, int, const char* line) { *static_cast<std::string*>(all) += line; });
   proj_context_set_enable_network(context, 0);
   PJ* system = proj_create(context, definition.c_str());
-  const char* said = system == nullptr ? nullptr : proj_as_proj_string(context, system, PJ_PROJ_4, nullptr);
+  const char* string = system == nullptr ? nullptr : proj_as_proj_string(context, system, PJ_PROJ_4, nullptr);
   std::optional<std::string> text;
-  if (said != nullptr) text = said;
+  if (string != nullptr) text = string;
   proj_destroy(system);
   proj_context_destroy(context);
+  // PROJ goes on without its database, with another answer.
+  for (const char* of_database : {"proj.db", "SQLite"})
+    if (said.find(of_database) != std::string::npos) return base::Failed(said);
   constexpr std::string_view kType = " +type=crs";
   if (text && text->ends_with(kType)) text->resize(text->size() - kType.size());
   return text;

@@ -36,7 +36,7 @@ class Geographic {
 };
 
 // A coordinate system (a PROJ string, WKT, "EPSG:…") as a PROJ string without "+type=crs", as OpenDRIVE's geoReference
-// wants it. Nothing where PROJ does not know it or has no string for it.
-std::optional<std::string> ProjString(const std::string& definition);
+// wants it. Nothing where PROJ does not know it or has no string for it; an error where PROJ's database cannot be read.
+base::Result<std::optional<std::string>> ProjString(const std::string& definition);
 
 }  // namespace rodeira::terrain

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "common/core/base/installation.hpp"
+#include "common/core/base/open_error.hpp"
 #include "common/core/base/print_error.hpp"
 
 namespace rodeira::cli {
@@ -43,9 +44,8 @@ int ContinueInGraphics(const std::string& command) {
     problem = errno;
   }
   return base::PrintError(
-      "rodeira", base::WrongInput(fmt::format("the program {} is needed: {}; build with RODEIRA_VIEW=ON", program,
-                                              std::strerror(problem)),
-                                  command));
+      "rodeira",
+      base::OpenError(fmt::format("the program {} is needed (build with RODEIRA_VIEW=ON)", program), problem, command));
 }
 
 bool ReadsDevice(const launch::LaunchNode& node) {

@@ -57,7 +57,10 @@ std::string WrittenFile(const std::string& recording, double reached_s) {
   std::string text = fmt::format("wrote   {} ({})\n", recording, Size(std::filesystem::file_size(recording, problem)));
   if (!std::filesystem::is_regular_file(recording, problem)) return text;
   const auto reader = record::McapReader::Open(recording);
-  if (!reader) return text + fmt::format("lost    {}\n", reader.error().Text());
+  if (!reader) {
+    const bool is_unknown = reader.error().code == base::ErrorCode::kFailed;
+    return text + fmt::format("{}{}\n", is_unknown ? "audit   not made: " : "lost    ", reader.error().Text());
+  }
   if (reader.value().condition().whole) return text + AuditLine(reader.value());
   return text +
          fmt::format(

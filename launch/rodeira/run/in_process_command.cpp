@@ -66,6 +66,8 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
 }  // namespace
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
+  CatchInterrupts();
+  const std::jthread guard(EndWhatHangs);
   const auto& roster = launch.roster();
   Operator desk(options.run, options.quiet);
   launch::RunLogBoard log;
@@ -80,8 +82,6 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   settings.stop_requested = Interrupted;
   settings.on_log = [&log](const lockstep::LogBatch& batch) { log.Say(batch); };
   settings.next_command = [&desk] { return NextCommand(desk); };
-  CatchInterrupts();
-  const std::jthread guard(EndWhatHangs);
   const auto start = WallClock::now();
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = SecondsSince(start);

@@ -36,8 +36,9 @@ TEST_F(LoneFrontDoor, CommandsThatDrawNameTheMissingProgram) {
     words.insert(words.end(), command.begin(), command.end());
     const auto ended = RunCommand(words);
     EXPECT_EQ(ended.status, 2) << ended.out;
-    EXPECT_THAT(ended.out, HasSubstr("the program " + folder_.path().string() +
-                                     "/rodeira-graphics is needed: No such file or directory"));
+    EXPECT_THAT(ended.out,
+                HasSubstr("the program " + folder_.path().string() +
+                          "/rodeira-graphics is needed (build with RODEIRA_VIEW=ON): No such file or directory"));
   }
 }
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/core/base/exhaustion.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+namespace rodeira::base {
+namespace {
+
+std::string g_program;
+std::terminate_handler g_other = nullptr;
+
+// Without memory of the heap, of which there may be none left.
+[[noreturn]] void EndWith(std::string_view sentence) {
+  for (const std::string_view part : {std::string_view(g_program), std::string_view(": "), sentence}) {
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part.data(), part.size());
+  }
+  ::_exit(1);
+}
+
+[[noreturn]] void OnTerminate() {
+  if (const std::exception_ptr thrown = std::current_exception()) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const std::bad_alloc&) {
+      EndWith("the memory that this program may use is exhausted (ulimit -v, the container's limit, RAM)\n");
+    } catch (const std::system_error& error) {
+      if (error.code() == std::errc::resource_unavailable_try_again)
+        EndWith("no further thread can be started (ulimit -u, the container's limit of processes, memory)\n");
+    } catch (...) {
+    }
+  }
+  g_other();
+  std::abort();
+}
+
+}  // namespace
+
+void NameExhaustion(std::string_view program) {
+  g_program = program;
+  g_other = std::set_terminate(OnTerminate);
+}
+
+}  // namespace rodeira::base
