@@ -9,19 +9,13 @@
 #include <system_error>
 
 #include "common/core/base/files.hpp"
+#include "common/core/base/put_in_place.hpp"
 #include "common/world/traffic_map/companion_text.hpp"
 
 namespace rodeira::editor {
 namespace {
 
 constexpr std::size_t kMostCompanionBytes = 16u << 20;
-
-base::Status PutInPlace(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code problem;
-  std::filesystem::rename(from, to, problem);
-  if (problem) return base::Failed("the file cannot be put in its place: " + problem.message(), to.string());
-  return {};
-}
 
 }  // namespace
 
@@ -64,9 +58,9 @@ base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompani
   }
   if (auto status = traffic_map::SaveMap(document.map, new_map); !status) return fail(status.error());
   if (!text.empty()) {
-    if (auto status = PutInPlace(new_beside, beside); !status) return fail(status.error());
+    if (auto status = base::PutInPlace(new_beside, beside); !status) return fail(status.error());
   }
-  if (auto status = PutInPlace(new_map, map_file); !status) return fail(status.error());
+  if (auto status = base::PutInPlace(new_map, map_file); !status) return fail(status.error());
   if (text.empty()) std::filesystem::remove(beside, ignored);  // another map's
   return LoadedCompanion{document.companion, text};
 }

@@ -15,6 +15,7 @@
 
 #include "common/core/base/nearest_file.hpp"
 #include "common/core/base/open_error.hpp"
+#include "common/core/base/put_in_place.hpp"
 
 namespace rodeira::base {
 namespace {
@@ -56,16 +57,6 @@ Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_byt
     return Failed("the file cannot be read to its end", path.string());
   }
   return buffer;
-}
-
-// The name of a renamed file is on the disk once its folder is. A folder that cannot be opened or synced keeps the name
-// all the same as soon as the system writes it.
-void SyncName(const std::filesystem::path& path) {
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (opened < 0) return;
-  (void)::fsync(opened);
-  ::close(opened);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "common/core/base/files.hpp"
+#include "common/core/base/put_in_place.hpp"
 #include "common/data/csv/table_writer.hpp"
 #include "common/data/decode/idl_reader.hpp"
 
@@ -60,12 +62,15 @@ class Workplace {
     return {};
   }
   base::Status Finish() {
+    if (auto status = base::SyncFolder(path_); !status)
+      return base::Error{status.error().code, status.error().message, target_.string()};
     if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
       const std::string what =
           fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
       return base::Failed(what, target_.string());
     }
     path_.clear();
+    base::SyncName(target_);
     return {};
   }
   const fs::path& path() const { return path_; }

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "common/core/base/put_in_place.hpp"
 #include "common/data/record/mcap_contents.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/mcap_writer.hpp"
@@ -222,9 +223,8 @@ base::Result<RepairReport> Repair(const std::filesystem::path& source, const std
   auto sink = OpenFileSink(beside, false);
   if (!sink) return sink.error();
   auto report = RepairInto(*opened.value(), std::move(sink).value(), end);
-  if (report && ::rename(beside.c_str(), target.c_str()) != 0) {
-    report = base::Failed(fmt::format("the repaired recording cannot be put in its place: {}", std::strerror(errno)),
-                          target.string());
+  if (report) {
+    if (auto status = base::PutInPlace(beside, target); !status) report = status.error();
   }
   if (!report) std::filesystem::remove(beside, problem);
   return report;

@@ -10,8 +10,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 #include "common/core/base/open_error.hpp"
+#include "common/core/base/put_in_place.hpp"
+#include "common/data/record/background_sync.hpp"
 
 namespace rodeira::record {
 namespace {
@@ -30,11 +33,13 @@ class FileSink final : public Sink {
   FileSink(const FileSink&) = delete;
   FileSink& operator=(const FileSink&) = delete;
   ~FileSink() override {
+    sync_.reset();
     if (file_ >= 0) ::close(file_);
   }
 
   base::Status Append(std::span<const std::byte> bytes) override {
     RODEIRA_ASSERT(file_ >= 0);
+    if (sync_ && sync_->error() != 0) return Problem("brought to the disk", sync_->error());
     while (!bytes.empty()) {
       const ssize_t wrote = ::write(file_, bytes.data(), bytes.size());
       if (wrote < 0 && errno == EINTR) continue;
@@ -46,9 +51,15 @@ class FileSink final : public Sink {
 
   base::Status Sync() override {
     RODEIRA_ASSERT(file_ >= 0);
-    // What is no file (a pipe, a device) has nothing to wait for and says EINVAL.
-    if (::fdatasync(file_) != 0 && errno != EINVAL) return Problem("brought to the disk", errno);
+    // What is no file (a pipe, a device) has nothing to wait for and says EINVAL; some file systems say EROFS.
+    if (::fdatasync(file_) != 0 && errno != EINVAL && errno != EROFS) return Problem("brought to the disk", errno);
     return {};
+  }
+
+  void SyncSoon() override {
+    RODEIRA_ASSERT(file_ >= 0);
+    if (!sync_) sync_ = std::make_unique<BackgroundSync>(file_, path_);
+    sync_->Request();
   }
 
   void CutTo(std::uint64_t size) override {
@@ -58,9 +69,13 @@ class FileSink final : public Sink {
 
   base::Status Close() override {
     if (file_ < 0) return {};
-    const int result = ::close(file_);
+    const int earlier = sync_ ? sync_->error() : 0;
+    sync_.reset();
+    base::Status synced = earlier == 0 ? Sync() : Problem("brought to the disk", earlier);
+    base::SyncName(path_);
+    const int result = ::close(std::exchange(file_, -1));
     const int error = errno;
-    file_ = -1;
+    if (!synced) return synced;
     if (result != 0 && error != EINTR) return Problem("closed", error);
     return {};
   }
@@ -74,6 +89,7 @@ class FileSink final : public Sink {
 
   int file_;
   std::string path_;
+  std::unique_ptr<BackgroundSync> sync_;  // where it was asked for
 };
 
 }  // namespace

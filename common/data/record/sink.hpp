@@ -21,8 +21,11 @@ class Sink {
   virtual base::Status Append(std::span<const std::byte> bytes) = 0;
   // Waits until what was appended lies on the disk.
   virtual base::Status Sync() = 0;
+  // Begins to bring what was appended to the disk, without waiting for it. Where that fails, the next Append says so.
+  virtual void SyncSoon() {}
   // After a failed Append: drops what lies behind the first `size` bytes, as well as that can be done.
   virtual void CutTo(std::uint64_t size) = 0;
+  // What was appended is on the disk, and no more can be appended.
   virtual base::Status Close() = 0;
   // For error sentences.
   virtual std::string name() const = 0;

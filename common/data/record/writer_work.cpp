@@ -128,7 +128,9 @@ Status McapWriter::Work::CloseChunk() {
   if (chunk_.empty()) return {};
   chunks_.push_back(chunk_.Finish(offset_, out_));
   ++statistics_.chunks;
-  return Emit();
+  if (auto status = Emit(); !status) return status;
+  sink_->SyncSoon();
+  return {};
 }
 
 Status McapWriter::Work::AddMetadata(std::string_view name, const TextMap& entries) {

@@ -10,6 +10,7 @@
 #include <system_error>
 #include <vector>
 
+#include "common/core/base/put_in_place.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/mcap_writer.hpp"
 #include "common/data/record/text_number.hpp"
@@ -214,9 +215,8 @@ base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep:
   if (!writer) return base::Error{writer.error().code, writer.error().message, target.string()};
   auto status = Splicer(parent, reader.value(), at, writer.value(), stop_requested).Write(about);
   if (status.ok()) {
-    fs::rename(part, target, problem);
-    if (!problem) return {};
-    status = base::Failed(fmt::format("the file cannot be given its name: {}", problem.message()), target.string());
+    status = base::PutInPlace(part, target);
+    if (status.ok()) return {};
   }
   fs::remove(part, problem);
   return status;
