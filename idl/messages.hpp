@@ -2,8 +2,8 @@
 #pragma once
 
 /// @file
-/// All message types of Rodeira's IDL (namespace rodeira::msg), as fastddsgen makes them. docs/wire.md lists the types,
-/// the comments of the IDL files describe their members.
+/// All message types of Rodeira's IDL (namespace rodeira::msg), as fastddsgen makes them. docs/reference/wire.md lists
+/// the types, the comments of the IDL files describe their members.
 
 #include "clock.h"
 #include "collisions.h"

@@ -10,8 +10,8 @@
 
 namespace rodeira::idl {
 
-/// The topics of Rodeira (docs/wire.md), each with its type. The samples of kControls … kSnapshot belong to the
-/// lockstep and are always recorded.
+/// The topics of Rodeira (docs/reference/wire.md), each with its type. The samples of kControls … kSnapshot belong to
+/// the lockstep and are always recorded.
 namespace topics {
 inline constexpr std::string_view kControls = "rodeira/controls";           ///< Controls of a vehicle
 inline constexpr std::string_view kVehicleState = "rodeira/vehicle_state";  ///< VehicleState of a vehicle

@@ -136,7 +136,7 @@ def main():
     over = round(0.5 * (rest[CROSSINGS][0] + rest[CROSSINGS][1]))
 
     print(f"""# A world for long drives: a main road of {number(length / 1000)} km through hills and villages, crossed by other roads. Invented:
-# tools/author_haste.py says how, and wrote this file (its seed {SEED}); the format is described in docs/formats.md.
+# tools/author_haste.py says how, and wrote this file (its seed {SEED}); format: docs/reference/world-files.md.
 rodeira: world/2
 name: HASTE
 description: a main road of {number(length)} m, {CROSSINGS} roads that cross it, one above it, {len(VILLAGES)} villages; all invented

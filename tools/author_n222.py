@@ -365,7 +365,7 @@ def write(seed, road, length, points):
     hills = Hills(road, axis)
     print(f"""# A world inspired by the Portuguese national road 222 between Regua and Pinhao. Invented, not surveyed: only the
 # number of bends a km, their range of radii and the widths are those of the real road. Written by
-# tools/author_n222.py (its seed {seed}); the format is described in docs/formats.md.
+# tools/author_n222.py (its seed {seed}); the format is described in docs/reference/world-files.md.
 rodeira: world/2
 name: N222
 description: {number(length)} m of winding hill road, {BENDS} bends, inspired by N222

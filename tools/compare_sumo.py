@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What SUMO does where docs/traffic.md compares this project's traffic with it: four cars that meet, a closed town, a queue at a light, a turn, a roundabout's entry.
+"""What SUMO does where docs/explanation/traffic.md compares this project's traffic with it: four cars that meet, a
+closed town, a queue at a light, a turn, a roundabout's entry.
 
     tools/compare_sumo.py [four | town | queue | turn | roundabout]...     all of them without a word; needs Debian's package `sumo`
 

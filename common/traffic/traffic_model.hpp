@@ -35,12 +35,13 @@ namespace rodeira::traffic {
 
 // Cars on the lanes of a network: each draws its way at every branch, follows whoever is ahead on it with the IDM, at
 // the speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to
-// the next place to stand is its own (docs/traffic.md). A car that reaches the end of its last lane leaves and enters
-// again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never changes, and
-// nobody is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route or without,
-// and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles, wherever they
-// are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here depends on order of
-// arrival, threads or the clock: the state is Save's, and each step is a function of it and of `others`.
+// the next place to stand is its own (docs/explanation/traffic.md). A car that reaches the end of its last lane leaves
+// and enters again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never
+// changes, and nobody is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route
+// or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles,
+// wherever they are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here
+// depends on order of arrival, threads or the clock: the state is Save's, and each step is a function of it and of
+// `others`.
 class TrafficModel {
  public:
   // Places the agents on all lanes, clear of `others`; who finds no room waits to enter. Wrong input where there should
@@ -116,7 +117,7 @@ class TrafficModel {
   // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it
   // stands at a line before conflict zones, none up to where it would stand behind them.
   bool RoomAhead(std::uint32_t id) const;
-  // Whether its driver braked in an emergency in the last step (docs/traffic.md).
+  // Whether its driver braked in an emergency in the last step (docs/explanation/traffic.md).
   bool Hurries(std::uint32_t id) const { return hurries_[id] != 0; }
   // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30
   // m or three seconds, indicates; in a roundabout only who leaves it.

@@ -3,7 +3,7 @@
 
 namespace rodeira::cli {
 
-// The front door: finds the command, reads its options, returns the exit status (docs/architecture.md).
+// The front door: finds the command, reads its options, returns the exit status (docs/explanation/architecture.md).
 int Main(int argc, char** argv);
 
 }  // namespace rodeira::cli

@@ -8,10 +8,11 @@
 
 namespace rodeira::nodes {
 
-// The driver's hands and feet. Configuration (files: docs/formats.md): `source: script`, with `script` (CSV); `source:
-// autopilot`, with `driver`, `vehicle` (for its measures) and optionally `lane`; `source: keyboard`, with `keyboard`;
-// `source: joystick`, with `wheel` and optionally `devices` (GUIDs that stand above the wheel file's), or without
-// `wheel` what is plugged in, and with `keyboard` the windows' keys where that is nothing; `source: gamepad`.
+// The driver's hands and feet. Configuration (files: docs/reference/driver-files.md): `source: script`, with `script`
+// (CSV); `source: autopilot`, with `driver`, `vehicle` (for its measures) and optionally `lane`; `source: keyboard`,
+// with `keyboard`; `source: joystick`, with `wheel` and optionally `devices` (GUIDs that stand above the wheel file's),
+// or without `wheel` what is plugged in, and with `keyboard` the windows' keys where that is nothing; `source:
+// gamepad`.
 base::Result<std::unique_ptr<lockstep::Node>> MakeInputNode(launch::NodeContext& context);
 
 // The same with a source that was made elsewhere; `base_step_ns` of the roster.

@@ -13,9 +13,9 @@
 
 namespace rodeira::nodes {
 
-// A steering wheel with pedals, or any other joystick, as a wheel file says (docs/formats.md). A device that is missing
-// at the start is wrong input; one that is unplugged during the run is told of, its pedals are released, the run goes
-// on. Where no file is named: MakeFoundSource.
+// A steering wheel with pedals, or any other joystick, as a wheel file says (docs/reference/driver-files.md). A device
+// that is missing at the start is wrong input; one that is unplugged during the run is told of, its pedals are
+// released, the run goes on. Where no file is named: MakeFoundSource.
 base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& config, launch::NodeContext& context);
 
 // The same of one file, or of settings from anywhere. `config` may say other GUIDs (`devices`); what is wrong with

@@ -9,7 +9,7 @@
 namespace rodeira::nodes {
 
 // Drives by the keys that the run's windows forward (common/runtime/launch/live_keys.hpp), as a keyboard file says
-// (docs/formats.md). What is held at an activation becomes the controls of that activation.
+// (docs/reference/driver-files.md). What is held at an activation becomes the controls of that activation.
 base::Result<std::unique_ptr<Source>> MakeKeyboardSource(const config::Map& config, launch::NodeContext& context);
 
 }  // namespace rodeira::nodes

@@ -7,8 +7,9 @@
 
 namespace rodeira::nodes {
 
-// Puts into a recording what the run was made of (docs/formats.md): the launch file as 'launch.yaml', every file that
-// it names as 'files/NAME', each --set as 'override'. Larger files are compressed and say so by their media type.
+// Puts into a recording what the run was made of (docs/reference/recordings.md): the launch file as 'launch.yaml',
+// every file that it names as 'files/NAME', each --set as 'override'. Larger files are compressed and say so by their
+// media type.
 base::Status EmbedFiles(const launch::Launch& launch, record::McapWriter& writer);
 
 }  // namespace rodeira::nodes

@@ -7,9 +7,9 @@
 
 namespace rodeira::nodes {
 
-// Publishes the events of a scenario file (docs/formats.md). Configuration: `scenario`. A scheduled event stands in the
-// sample that is valid at exactly its time; a conditional one in the next sample after the car was seen past the
-// station.
+// Publishes the events of a scenario file (docs/reference/scenario-files.md). Configuration: `scenario`. A scheduled
+// event stands in the sample that is valid at exactly its time; a conditional one in the next sample after the car was
+// seen past the station.
 base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeContext& context);
 
 }  // namespace rodeira::nodes

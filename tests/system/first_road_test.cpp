@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/first-road.md is what a newcomer does: its file, and its commands as they stand there.
+// docs/tutorials/first-road.md is what a newcomer does: its file, and its commands as they stand there.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ std::string BlockOf(const std::string& document, const std::string& fence, std::
 class FirstRoad : public ::testing::Test {
  protected:
   FirstRoad() {
-    const std::string document = base::ReadText(SourceDir() + "/docs/first-road.md").value();
+    const std::string document = base::ReadText(SourceDir() + "/docs/tutorials/first-road.md").value();
     std::size_t at = 0;
     world_ = BlockOf(document, "```yaml", at);
     std::istringstream lines(BlockOf(document, "\n```", at));

@@ -30,9 +30,10 @@ struct ExportReport {
 // Called now and then with the share that is done, 0 to 1; the export is broken off where it gives false.
 using ExportProgress = std::function<bool(double share)>;
 
-// Writes one table a topic (docs/formats.md), with today's names by `aliases`, into `folder`, which must not exist and
-// appears with whole tables or not at all. Messages are read one chunk after the other. Wrong input where the folder is
-// there already, or where a message is not what its schema says; failed where the disk does not take the tables.
+// Writes one table a topic (docs/reference/tables.md), with today's names by `aliases`, into `folder`, which must not
+// exist and appears with whole tables or not at all. Messages are read one chunk after the other. Wrong input where the
+// folder is there already, or where a message is not what its schema says; failed where the disk does not take the
+// tables.
 base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const std::filesystem::path& folder,
                                      const decode::Aliases& aliases = {}, const ExportProgress& progress = {});
 

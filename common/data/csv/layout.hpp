@@ -10,8 +10,8 @@
 
 namespace rodeira::csv {
 
-// How the messages of a type become rows of a table (docs/formats.md). One value of a message after the other goes to
-// the slots in their order, over and over for the elements of the sequence that makes the rows.
+// How the messages of a type become rows of a table (docs/reference/tables.md). One value of a message after the other
+// goes to the slots in their order, over and over for the elements of the sequence that makes the rows.
 struct Slot {
   enum class Use {
     kCell,     // one value

@@ -11,9 +11,9 @@
 
 namespace rodeira::decode {
 
-// What an IDL text defines. It reads the plain IDL that docs/formats.md lists for recordings; what would change the
-// encoding or is not read (unions, maps, inheritance, forward declarations, @optional, @mutable, preprocessor lines …)
-// is refused. Wrong input says "PLACE:LINE: …".
+// What an IDL text defines. It reads the plain IDL that docs/reference/recordings.md lists for recordings; what would
+// change the encoding or is not read (unions, maps, inheritance, forward declarations, @optional, @mutable,
+// preprocessor lines …) is refused. Wrong input says "PLACE:LINE: …".
 class IdlTypes {
  public:
   static base::Result<IdlTypes> Read(std::string_view text, std::string_view place);

@@ -34,7 +34,7 @@ struct ConditionalEvent {
   std::string place;  // file:line
 };
 
-// `rodeira: scenario/1` (docs/formats.md).
+// `rodeira: scenario/1` (docs/reference/scenario-files.md).
 struct Scenario {
   std::vector<ScheduledEvent> scheduled;  // by step, then as they stand in the file
   std::vector<ConditionalEvent> conditional;

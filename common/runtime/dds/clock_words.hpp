@@ -6,7 +6,7 @@
 #include "common/core/base/hash.hpp"
 #include "common/runtime/dds/led_run.hpp"
 
-// What the clock says of a run on standard output, as text (docs/architecture.md names the lines).
+// What the clock says of a run on standard output, as text (docs/reference/run-control.md names the lines).
 namespace rodeira::dds {
 
 // "waiting for NAMES" before the first grant, "progress …" behind it.

@@ -14,7 +14,7 @@
 
 namespace rodeira::dds {
 
-// How a topic's samples are kept and handed over (docs/architecture.md says why).
+// How a topic's samples are kept and handed over (docs/explanation/architecture.md says why).
 enum class Delivery {
   kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
   kForLateComers,  // reliable, transient local, the newest: world information

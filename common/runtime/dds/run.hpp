@@ -12,8 +12,8 @@ namespace rodeira::dds {
 int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory);
 // A server (SUELO): answers until the run is over.
 int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory);
-// The clock. Says on standard output, a line each, how the run goes (docs/architecture.md); SIGINT and SIGTERM stop the
-// run at the last granted step.
+// The clock. Says on standard output, a line each, how the run goes (docs/reference/run-control.md); SIGINT and SIGTERM
+// stop the run at the last granted step.
 int RunClock(int argc, char** argv);
 
 }  // namespace rodeira::dds

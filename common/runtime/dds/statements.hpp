@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-// What the clock and those who follow it say on standard output, a line a statement (docs/architecture.md): `rodeira
-// run` reads it, people may too.
+// What the clock and those who follow it say on standard output, a line a statement (docs/reference/run-control.md):
+// `rodeira run` reads it, people may too.
 namespace rodeira::dds {
 
 inline void SayLine(const std::string& line) {

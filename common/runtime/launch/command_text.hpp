@@ -10,7 +10,7 @@
 
 namespace rodeira::launch {
 
-// As `rodeira ctl` and the control socket take them (docs/lockstep.md).
+// As `rodeira ctl` and the control socket take them (docs/reference/run-control.md).
 const std::vector<std::string>& CommandNames();
 
 // "pause", "step 10", "pace 0.5", "mark second lap": one line. Wrong input with what was expected and the nearest name.

@@ -23,8 +23,8 @@ struct LabScreen {
   double width_m = 0.0, height_m = 0.0, distance_m = 0.0, angle_rad = 0.0, eye_height_m = 0.0, aside_m = 0.0;
 };
 
-// A laboratory file (docs/formats.md): which PCs there are and how their processes meet. Every PC of a run reads the
-// same.
+// A laboratory file (docs/reference/lab-files.md): which PCs there are and how their processes meet. Every PC of a run
+// reads the same.
 class Lab {
  public:
   static base::Result<Lab> Load(const std::filesystem::path& path);

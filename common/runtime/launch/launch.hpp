@@ -39,8 +39,8 @@ struct LaunchNode {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-// A launch file (docs/formats.md): who takes part in a run, on which world, at which rates. Every process of a run
-// reads the same file and so comes to the same roster; the roster's hash proves it.
+// A launch file (docs/reference/launch-files.md): who takes part in a run, on which world, at which rates. Every
+// process of a run reads the same file and so comes to the same roster; the roster's hash proves it.
 class Launch {
  public:
   // Wrong input where the file is wrong, a kind is unknown, or the wiring is ambiguous or impossible. Keys below

@@ -12,7 +12,8 @@
 
 namespace rodeira::launch {
 
-// The manifest of a node outside Rodeira (docs/formats.md): its ports, its period, and the topics that it adds.
+// The manifest of a node outside Rodeira (docs/reference/launch-files.md): its ports, its period, and the topics that
+// it adds.
 struct Manifest {
   NodeKind kind;                          // named kExternalKind; its program is empty
   std::vector<idl::AddedTopic> topics;    // of the outputs that are not Rodeira's

@@ -7,8 +7,8 @@
 
 namespace rodeira::launch {
 
-// The run's control socket (docs/formats.md), as a window asks it: what it says is an operator's word, no sample. It
-// has no thread.
+// The run's control socket (docs/reference/run-control.md), as a window asks it: what it says is an operator's word, no
+// sample. It has no thread.
 class RunControlClient {
  public:
   // `rodeira run` names the socket to its processes by this variable of their environment.

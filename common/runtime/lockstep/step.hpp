@@ -6,7 +6,7 @@
 
 #include <cstdint>
 
-/// Nodes in lockstep: what a node is, what it sees and what it publishes (docs/lockstep.md).
+/// Nodes in lockstep: what a node is, what it sees and what it publishes (docs/explanation/lockstep.md).
 namespace rodeira::lockstep {
 
 /// Time as an integer: the index of a base step (law L1). A sample valid at step v describes the time v * base_step_ns.

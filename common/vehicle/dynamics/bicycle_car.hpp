@@ -52,7 +52,7 @@ struct BicycleFindings {
 };
 
 // All of one car that changes: a value of some 900 bytes, without a reference to anything, so that many of them are an
-// array (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/vehicle.md).
+// array (common/vehicle/dynamics/car_array). Its equations are those of model `bicycle` (docs/explanation/vehicle.md).
 struct BicycleCar {
   struct Wheel : WheelGround {
     Corner corner;

@@ -12,8 +12,8 @@
 
 namespace rodeira::dynamics {
 
-// The border between a vehicle and an FMU (docs/vehicle.md): names, units, and the FMU's variables that bear them; null
-// where the FMU has none, which only those that are asked for may not be.
+// The border between a vehicle and an FMU (docs/reference/vehicle-files.md): names, units, and the FMU's variables that
+// bear them; null where the FMU has none, which only those that are asked for may not be.
 struct FmuVariables {
   using Variable = const fmi::Variable*;
   struct Wheel {

@@ -42,7 +42,7 @@ struct PedalRates {
   double most = 1.0;  // how far a held key presses the pedal
 };
 
-// `rodeira: keyboard/1` (docs/formats.md). The values are choices of this project.
+// `rodeira: keyboard/1` (docs/reference/driver-files.md). The values are choices of this project.
 struct KeyboardSettings {
   std::vector<Key> keys[kActions];
   double lock_rad = 7.85;            // of the steering wheel, at rest

@@ -58,7 +58,7 @@ enum class WheelButton : std::size_t {
 };
 inline constexpr std::size_t kWheelButtons = 16;
 
-// `rodeira: wheel/1` (docs/formats.md).
+// `rodeira: wheel/1` (docs/reference/driver-files.md).
 struct WheelSettings {
   std::vector<DeviceUse> devices;
   std::optional<AxisUse> axes[kWheelAxes];  // kPedals: throttle on its positive side, brake on the other

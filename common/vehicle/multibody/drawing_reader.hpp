@@ -13,8 +13,8 @@ namespace rodeira::multibody {
 struct SpringLaw;
 
 // Reads the parts of a mechanism from a mapping: points, vectors, angles, distances, bodies, markers, constraints,
-// forces (docs/formats.md). Problems stay in the file's collection; the drawing is good only where there are none.
-// Afterwards it answers what a name means, for what else a file says about the mechanism.
+// forces (docs/reference/mechanism-files.md). Problems stay in the file's collection; the drawing is good only where
+// there are none. Afterwards it answers what a name means, for what else a file says about the mechanism.
 class DrawingReader {
  public:
   explicit DrawingReader(const config::Map& root);

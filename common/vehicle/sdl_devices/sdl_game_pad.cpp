@@ -14,7 +14,7 @@ namespace {
 
 using input_devices::PadButton;
 
-// Names are those of SDL, which are an Xbox pad's (docs/laboratory.md).
+// Names are those of SDL, which are an Xbox pad's (docs/how-to/wheel.md).
 constexpr std::array<std::pair<PadButton, SDL_GameControllerButton>, input_devices::kPadButtons> kButtons = {{
     {PadButton::kGearUp, SDL_CONTROLLER_BUTTON_RIGHTSHOULDER},
     {PadButton::kGearDown, SDL_CONTROLLER_BUTTON_LEFTSHOULDER},

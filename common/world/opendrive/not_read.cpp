@@ -15,7 +15,7 @@ struct Unread {
   std::string_view parent, name;
   bool attribute;
 };
-// Why each of them is not, stands in docs/formats.md.
+// Why each of them is not, stands in docs/decisions/0023-what-is-not-read.md.
 constexpr std::array<Unread, 27> kUnread = {{
     {"object", "surface", false},
     {"object", "perpToRoad", true},

@@ -38,7 +38,8 @@ struct Extents {
 // bit.
 class World : public std::enable_shared_from_this<World> {
  public:
-  // Reads a world file (docs/formats.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or a traffic map
+  // Reads a world file (docs/reference/world-files.md) and all files that it names, or an OpenDRIVE file (`.xodr`), or
+  // a traffic map
   // (`.motors`). Wrong input where anything is missing, broken, out of range or does not fit together.
   static base::Result<std::shared_ptr<const World>> Load(const std::filesystem::path& world_yaml);
   // The same from a text; `name` stands for the path in messages, and relative paths start at its folder.

@@ -22,8 +22,8 @@ struct WorldReading {
                                          // through junctions are not among them
 };
 
-// Reads a world file (docs/formats.md) with the files that it names, makes its hills, and checks that all fits
-// together.
+// Reads a world file (docs/reference/world-files.md) with the files that it names, makes its hills, and checks that all
+// fits together.
 WorldReading ReadWorld(const config::File& file);
 
 }  // namespace rodeira::road

@@ -32,8 +32,8 @@ struct Finding {
   std::string Place(const std::string& file) const;
 };
 
-// Everything that is wrong, errors and warnings in the order of the rules of docs/formats.md and, in a rule, of the
-// file. A map without errors can be made a LaneMap.
+// Everything that is wrong, errors and warnings in the order of the rules of docs/reference/traffic-maps.md and, in a
+// rule, of the file. A map without errors can be made a LaneMap.
 std::vector<Finding> CheckMap(const MapFile& map, const Heights& heights);
 
 }  // namespace rodeira::traffic_map

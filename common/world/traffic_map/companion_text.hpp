@@ -7,8 +7,8 @@
 
 namespace rodeira::traffic_map {
 
-// The companion file anew (docs/formats.md); empty where there is nothing to say. Numbers are the shortest that read
-// the same.
+// The companion file anew (docs/reference/traffic-maps.md); empty where there is nothing to say. Numbers are the
+// shortest that read the same.
 std::string CompanionText(const Heights& heights);
 
 // The companion file after it was edited: `loaded` is what `text` said. Parts that say the same keep their bytes, and

@@ -35,11 +35,11 @@ class WeatherPlan {
   std::vector<Change> changes_;
 };
 
-// What a mapping says of a weather without times (docs/formats.md), at once at the beginning. Problems stay in the
-// file's collection.
+// What a mapping says of a weather without times (docs/reference/scenario-files.md), at once at the beginning. Problems
+// stay in the file's collection.
 Change ReadStanding(const config::Map& map);
 
-// A list of changes (docs/formats.md). Problems stay in the file's collection.
+// A list of changes (docs/reference/scenario-files.md). Problems stay in the file's collection.
 WeatherPlan ReadWeather(const config::List& changes);
 
 }  // namespace rodeira::weather

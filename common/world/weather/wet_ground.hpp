@@ -5,7 +5,8 @@
 
 namespace rodeira::weather {
 
-// What is left of a dry surface's friction under a closed film of water, from 0 to 1 (docs/vehicle.md: chosen).
+// What is left of a dry surface's friction under a closed film of water, from 0 to 1 (docs/explanation/vehicle.md:
+// chosen).
 double FrictionLeft(ground::Surface surface);
 
 // SUELO as a tyre feels it: SUELO's friction is the dry surface's (law L4); here it is

@@ -19,8 +19,8 @@ struct AskedLine {
   std::function<void(const std::string&)> answer;
 };
 
-// The control socket of a run: a line in, a line out, as often as one likes on a connection (docs/formats.md). It has
-// no thread: its owner calls Next() some twenty times a second.
+// The control socket of a run: a line in, a line out, as often as one likes on a connection
+// (docs/reference/run-control.md). It has no thread: its owner calls Next() some twenty times a second.
 class ControlServer {
  public:
   // Failed where a living run has this socket already, or none can be made.

@@ -7,7 +7,7 @@
 
 namespace rodeira::nodes {
 
-// What a picture may cost; docs/view.md lists what each of them leaves out.
+// What a picture may cost; docs/reference/view.md lists what each of them leaves out.
 enum class Quality { kLow, kMedium, kHigh };
 
 // "low", "medium", "high": as settings and options name them.

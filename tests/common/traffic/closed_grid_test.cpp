@@ -84,7 +84,8 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
 
 // 45 vehicles a kilometre: nobody stands longer than 300 s while there is room at the exit, nobody touches anybody or
 // brakes in an emergency, nobody is lost (Drive). So full the flow may fall to a tenth where streets fill one another
-// up in a circle; nothing is asked of it here (docs/traffic.md). RODEIRA_CLOSED_GRID: crossings each way (3; tests/run
+// up in a circle; nothing is asked of it here (docs/explanation/traffic.md). RODEIRA_CLOSED_GRID: crossings each way
+// (3; tests/run
 // --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
 TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
   const Town town = Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1),
@@ -104,7 +105,8 @@ TEST(ClosedGrid, LessFullItGoesOn) {
   }
 }
 
-// The picture of docs/traffic.md: how fast everybody goes in the mean, minute by minute, the fuller the slower.
+// The picture of docs/explanation/traffic.md: how fast everybody goes in the mean, minute by minute, the fuller the
+// slower.
 TEST(ClosedGrid, TheFullerTheSlower) {
   const std::array<std::pair<double, const char*>, 4> towns = {
       {{15.0, "#2c8040"}, {30.0, "#1f5f8b"}, {40.0, "#d89030"}, {45.0, "#b03020"}}};

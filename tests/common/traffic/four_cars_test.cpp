@@ -214,7 +214,7 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   RecordProperty("last_s", std::to_string(last_s_));
 }
 
-// The picture of docs/traffic.md: all four go straight on and would be there in the same moment.
+// The picture of docs/explanation/traffic.md: all four go straight on and would be there in the same moment.
 TEST_F(FourCars, WhoComeInTheSameMomentPassOneAfterTheOther) {
   const Outcome fine = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.01),
                 coarse = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.1);

@@ -30,7 +30,7 @@ TrafficSettings Full(std::uint32_t vehicles) {
 }
 
 // On a level crossing without lights a car slows down harder than 3 m/s² only within a second after a change of gear:
-// the foot itself never asks the brake for so much there. That does not hold everywhere (docs/traffic.md).
+// the foot itself never asks the brake for so much there. That does not hold everywhere (docs/explanation/traffic.md).
 TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
   constexpr double kStep_s = 0.01, kHard_mps2 = 3.0, kTakesHold_s = 1.0;
   TrafficModel model = TrafficModel::Make(Full(24), lanes::MapNetwork("crossing"), {}).value();
@@ -183,7 +183,7 @@ void DriveAFile(const std::string& name, const std::vector<RealDrive>& runs) {
 }
 
 // Lanes here turn on a radius of 2.9 m, which no van can drive, beside oncoming traffic. The foot brakes by 4 m/s² at
-// most, in two minutes of a hundred cars by 4.5; what does not hold is in docs/traffic.md.
+// most, in two minutes of a hundred cars by 4.5; what does not hold is in docs/explanation/traffic.md.
 TEST(FullDrive, DrivesARealTown) {
   const std::vector<RealDrive> brief{{60, 1, 30.0, 4.0, 10.0}, {100, 11, 30.0, 4.5, 10.0}},
       long_form{

@@ -155,7 +155,7 @@ double SpreadThroughThePowertrain(double acceleration_mps2, double for_s) {
   return sum;
 }
 
-// Clear of the boundary that was measured (docs/traffic.md) on both sides.
+// Clear of the boundary that was measured (docs/explanation/traffic.md) on both sides.
 TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
   const double for_s = BriefOrLong(80.0, 400.0);
   EXPECT_GT(SpreadThroughThePowertrain(0.5, for_s), 0.25);
@@ -165,7 +165,8 @@ TEST(Ring, ThroughThePowertrainItJamsAndDoesNotJamClearOfTheMeasuredBoundary) {
 // RODEIRA_RING: prints that table, beside what the linear theory says of accelerations that are applied exactly. Some
 // minutes.
 TEST(Ring, TableOfTheBoundaryThroughThePowertrain) {
-  if (std::getenv("RODEIRA_RING") == nullptr) GTEST_SKIP() << "a table for docs/traffic.md, with RODEIRA_RING=1";
+  if (std::getenv("RODEIRA_RING") == nullptr)
+    GTEST_SKIP() << "a table for docs/explanation/traffic.md, with RODEIRA_RING=1";
   PlotCurve spread{"spread of the speeds over their mean, after 15 minutes", "#b03020", {}};
   for (const double acceleration : {0.5, 0.8, 1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0}) {
     const TrafficSettings settings = Identical(22, acceleration);

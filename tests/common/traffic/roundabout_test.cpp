@@ -95,8 +95,8 @@ Passed Measure(double circulating_per_h, double entering_per_h, const std::strin
 // Highway Capacity Manual (2016): 1380 exp(-0.00102 q).
 double Handbook(double circulating_per_h) { return 1380.0 * std::exp(-0.00102 * circulating_per_h); }
 
-// Up to 800 circulating; what it is beyond is in docs/traffic.md. Who circulates goes first: a queue at the entry takes
-// nothing from him.
+// Up to 800 circulating; what it is beyond is in docs/performance.md. Who circulates goes first: a queue at the entry
+// takes nothing from him.
 TEST(Roundabout, ItsEntryCarriesWhatTheHandbookSays) {
   PlotCurve measured{"measured on roundabout.motors", "#b03020", {}},
       handbook{"1380 exp(-0.00102 q)", "#1f5f8b", {}, true};
@@ -116,7 +116,7 @@ TEST(Roundabout, ItsEntryCarriesWhatTheHandbookSays) {
   EXPECT_TRUE(WritePicture("traffic_entry.svg", svg));
 }
 
-// What stands in docs/traffic.md, of both kinds of drivers and beyond what is asked above.
+// What stands in docs/performance.md, of both kinds of drivers and beyond what is asked above.
 TEST(Roundabout, TableOfItsEntry) {
   if (std::getenv("RODEIRA_ROUNDABOUT") == nullptr)
     GTEST_SKIP() << "RODEIRA_ROUNDABOUT=1 measures and prints the table";

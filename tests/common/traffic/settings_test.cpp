@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/traffic_settings.md tells of every setting of the traffic: its key, what it is otherwise, and from where to
-// where it goes.
+// docs/reference/traffic-settings.md tells of every setting of the traffic: its key, what it is otherwise, and from
+// where to where it goes.
 #include "common/traffic/traffic_settings.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ struct Row {
 // The table's rows by key, "following.time_gap_s".
 std::map<std::string, Row> Told() {
   std::map<std::string, Row> rows;
-  std::istringstream document(base::ReadText(SourceDir() + "/docs/traffic_settings.md").value());
+  std::istringstream document(base::ReadText(SourceDir() + "/docs/reference/traffic-settings.md").value());
   const std::regex row(R"re(\| `([a-z_0-9.]+)` \| ([^|]+) \| (?:([0-9.e]+) to ([0-9.e]+)|[^|]*) \|.*)re");
   std::smatch parts;
   for (std::string line; std::getline(document, line);) {
@@ -37,7 +37,7 @@ std::map<std::string, Row> Told() {
 }
 
 // The keys that the reader asks for, as they stand in the program, but for those that have tables of their own in
-// docs/formats.md.
+// docs/reference/traffic-files.md.
 std::set<std::string> Asked() {
   const std::map<std::string, std::string> prefixes{{"map", ""},
                                                     {"follow", "following."},
@@ -118,9 +118,10 @@ TEST_F(TrafficSettingsFile, TheDocumentTellsOfEveryKey) {
   const std::set<std::string> asked = Asked();
   EXPECT_EQ(asked.size(), kNumbers.size() + kWords.size());
   for (const std::string& key : asked)
-    EXPECT_TRUE(told.contains(key)) << "docs/traffic_settings.md has no row for " << key;
+    EXPECT_TRUE(told.contains(key)) << "docs/reference/traffic-settings.md has no row for " << key;
   for (const auto& [key, row] : told)
-    EXPECT_TRUE(asked.contains(key)) << "docs/traffic_settings.md tells of " << key << ", which nobody asks for";
+    EXPECT_TRUE(asked.contains(key)) << "docs/reference/traffic-settings.md tells of " << key
+                                     << ", which nobody asks for";
 }
 
 TEST_F(TrafficSettingsFile, WhatASettingIsOtherwiseIsWhatTheDocumentSays) {

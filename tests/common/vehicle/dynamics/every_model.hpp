@@ -20,8 +20,8 @@ struct ModelCase {
   const char* name;
   const char* file;     // of configs/vehicles; empty: the tests' FMU, a point on the ground with a speed, or a library
   bool is_body = true;  // it has springs, gears and tyres
-  // A mechanism: its step is solved to some 1e-3 m/s² (docs/multibody.md), and tyres that stand hold the track at which
-  // they met the ground.
+  // A mechanism: its step is solved to some 1e-3 m/s² (docs/explanation/multibody.md), and tyres that stand hold the
+  // track at which they met the ground.
   bool is_mechanism = false;
   bool is_library = false;  // examples/own_vehicle: it never leaves the ground
 };

@@ -101,7 +101,7 @@ TEST(Junction, LanesGoOnWithoutAStep) {
 }
 
 // The ways through lie on the one surface, as well as cubics along a way and across its lanes can follow it
-// (docs/roads.md says how far off they are; SUELO answers by the surface itself).
+// (docs/explanation/ground.md says how far off they are; SUELO answers by the surface itself).
 TEST(Junction, WaysLieOnTheSurface) {
   const network::Network& network = *Made().network;
   for (const network::Road& way : network.roads()) {

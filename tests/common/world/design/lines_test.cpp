@@ -44,7 +44,7 @@ double Middle(const Painted& painted, std::size_t line, double s_m) {
   return network::MarkingAt(painted.design.network->roads()[0], painted.lines[line], s_m).value;
 }
 
-// What docs/formats.md says of a kind: its lines from left to right.
+// What docs/reference/world-roads.md says of a kind: its lines from left to right.
 struct Half {
   double stroke_m, gap_m;  // a gap of 0: continuous
 };

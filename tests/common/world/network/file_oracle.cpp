@@ -13,7 +13,7 @@ namespace rodeira::network {
 namespace {
 
 constexpr double kStep_m = 0.5;
-constexpr double kClosed_m = 0.05;  // docs/roads.md, "What is checked": gaps up to this are closed
+constexpr double kClosed_m = 0.05;  // docs/reference/opendrive.md, "What is checked": gaps up to this are closed
 
 // Simpson's rule on short parts of [from, to].
 template <class Value, class F>

@@ -38,7 +38,7 @@ class FileOracle {
     // Another place is as good, or nearly: within kNear_m of what decides, or of where something changes.
     bool open = false;
   };
-  // As Network::Locate says that it does (docs/roads.md, "Where a point lies").
+  // As Network::Locate says that it does (docs/explanation/ground.md, "Where a point lies").
   Answer Locate(const Eigen::Vector2d& p, std::optional<double> z_m) const;
 
   std::size_t roads() const { return roads_.size(); }

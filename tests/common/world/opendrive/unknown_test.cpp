@@ -24,8 +24,8 @@ std::vector<std::string> WarningsOf(const std::string& text) {
 
 // Whoever looks what becomes of an element finds it: each has its place in the document.
 TEST(Unknown, EveryKnownElementStandsInTheTable) {
-  const std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "docs/formats.md").value();
-  const std::size_t begin = text.find("\n## OpenDRIVE\n"), end = text.find("\n## ", begin + 5);
+  const std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "docs/reference/opendrive.md").value();
+  const std::size_t begin = text.find("\n## Elements\n"), end = text.find("\n## ", begin + 5);
   ASSERT_NE(end, std::string::npos);
   std::set<std::string> said;
   std::string word;

@@ -118,10 +118,9 @@ TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
   std::set<std::pair<std::string, std::string>> said;
   for (const char* file : {"world.yaml", "village.yaml", "plane.yaml", "heights.yaml", "named.yaml"})
     Collect(YAML::LoadFile((kRoot / "configs/worlds/example" / file).string()), "", said);
-  const std::string document = base::ReadText(kRoot / "docs/formats.md").value();
-  const std::size_t begin = document.find("## World files\n"), end = document.find("## Lines of points\n");
-  ASSERT_LT(begin, end);
-  const std::set<std::string> told = WordsInCode(document.substr(begin, end - begin));
+  std::set<std::string> told;
+  for (const char* page : {"world-files.md", "world-roads.md"})
+    told.merge(WordsInCode(base::ReadText(kRoot / "docs/reference" / page).value()));
   std::size_t count = 0;
   for (const auto& [file, keys] : AskedKeys()) {
     ASSERT_TRUE(kPlaces.contains(file)) << file << " asks for keys: where do they stand?";
@@ -137,7 +136,7 @@ TEST(ExampleWorld, SaysEveryKeyAndTheDocumentTellsOfIt) {
     for (const std::string& key : keys) {
       ++count;
       EXPECT_TRUE(is_said(key)) << "the examples do not say " << key << ", which " << file << " asks for";
-      EXPECT_TRUE(told.contains(key)) << "docs/formats.md does not tell of " << key << ", which " << file
+      EXPECT_TRUE(told.contains(key)) << "docs/reference/world-*.md do not tell of " << key << ", which " << file
                                       << " asks for";
     }
   }

@@ -148,8 +148,8 @@ TEST_F(Sides, SignsStandOnTheOtherSideAndTheCarStartsThere) {
   EXPECT_NEAR(left->start().heading_rad, -right->start().heading_rad, 1e-9);
 }
 
-// What docs/formats.md says of them: how many lanes, how wide all of it is, which way it is driven, and which lines may
-// be crossed.
+// What docs/reference/world-roads.md says of them: how many lanes, how wide all of it is, which way it is driven, and
+// which lines may be crossed.
 TEST(Templates, AreRoadsOfTheirKind) {
   struct Kind {
     const char* name;

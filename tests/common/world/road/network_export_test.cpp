@@ -257,8 +257,8 @@ TEST_P(NetworkExport, NetconvertFindsEveryEdgeWithItsLength) {
 }
 
 // Within a junction the exported file's ground is made of its ways, the world's is one surface: SUELO of both, at
-// places on the lanes of its ways. They lie up to 12.0 mm apart (docs/roads.md), which is not the millimetre that is
-// wanted; the bound holds that it becomes no more.
+// places on the lanes of its ways. They lie up to 12.0 mm apart (docs/reference/opendrive.md), which is not the
+// millimetre that is wanted; the bound holds that it becomes no more.
 constexpr double kMeasuredApart_m = 0.0125;
 
 TEST_P(NetworkExport, JunctionsHaveTheWorldsGroundNearly) {
@@ -317,9 +317,10 @@ TEST_P(NetworkExport, GeoReferenceIsAProjStringOfTheSamePlaces) {
   }
 }
 
-// The world of docs/first-road.md, whose junction is called 'at the farm'.
+// The world of docs/tutorials/first-road.md, whose junction is called 'at the farm'.
 TEST(NetworkExportIds, HaveNoBlanksAndNamesAreKept) {
-  const std::string document = base::ReadText(std::filesystem::path(SourceDir()) / "docs/first-road.md").value();
+  const std::string document =
+      base::ReadText(std::filesystem::path(SourceDir()) / "docs/tutorials/first-road.md").value();
   const std::size_t begin = document.find("```yaml\n") + 8;
   const auto world =
       World::Parse(document.substr(begin, document.find("\n```\n", begin) + 1 - begin), "first_road.yaml");

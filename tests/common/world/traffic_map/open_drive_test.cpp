@@ -199,7 +199,7 @@ TEST(OpenDrive, LinesWhereOneStopsOrGivesWayAreSaidOnce) {
                                              fmt::format("3 294 {:.1f}", turn_m - 0.3)}));
 }
 
-// What docs/formats.md says of a border type: lines, their width, strokes and gaps.
+// What docs/reference/traffic-maps.md says of a border type: lines, their width, strokes and gaps.
 struct Measures {
   BorderType type;
   int lines;
