@@ -59,7 +59,7 @@ function(rodeira_install_files)
     install(FILES ${packaging}/rodeira.xml DESTINATION share/mime/packages COMPONENT graphics)
   endif()
   install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CONTRIBUTING.md ${CMAKE_SOURCE_DIR}/SECURITY.md
-          DESTINATION share/doc/rodeira-doc COMPONENT documentation)
+          ${CMAKE_SOURCE_DIR}/CITATION.cff DESTINATION share/doc/rodeira-doc COMPONENT documentation)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/rodeira-doc COMPONENT documentation)
   rodeira_install_kit()
   # Everything that is installed, and nothing else.
