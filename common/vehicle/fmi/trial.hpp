@@ -1,15 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <chrono>
+#include <filesystem>
+#include <string>
 
 #include "common/core/base/result.hpp"
 
 namespace rodeira::fmi {
 
-// Runs foreign code in a child of this process and throws away what it did: wrong input where it is killed by a signal,
-// or has computed for `most_s` seconds (waited for ten times as long) and is not back. What it returns itself is for
-// the caller to find again.
-base::Status TryInChild(const std::function<void()>& code, unsigned most_s = 10);
+struct TrialLimits {
+  std::chrono::seconds cpu{10};   // computed
+  std::chrono::seconds wall{40};  // waited for
+};
+
+// Tries an FMU in a process of its own, the program rodeira-fmu-trial: loads its binary, makes an instance, initialises
+// and frees it. `folder`: where the FMU is unpacked; `file`: its path for messages. The program ends with this process.
+//
+// Wrong input if the FMU's code crashes, ends the process, or exceeds a limit: the message names the function. Failed
+// if the program cannot be started. An error that the FMU itself reports is no failure of the trial: the caller meets
+// it again.
+base::Status TryInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
+                                  const TrialLimits& limits = {});
+
+// The descriptor that the program writes to.
+constexpr int kTrialDescriptor = 3;
+
+// main of rodeira-fmu-trial FOLDER FILE CPU_SECONDS: writes each function's name to kTrialDescriptor before it calls
+// it, and an empty line at the end. Exit status 0, whatever the FMU returns; 2 without these arguments.
+int RunTrial(int argc, char** argv);
 
 }  // namespace rodeira::fmi

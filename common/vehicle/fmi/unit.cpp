@@ -11,11 +11,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
+#include <optional>
 #include <vector>
 
+#include "common/core/base/crash_trace.hpp"
+#include "common/core/base/printable.hpp"
 #include "common/vehicle/fmi/archive.hpp"
 #include "common/vehicle/fmi/fmi2.hpp"
-#include "common/vehicle/fmi/guard.hpp"
 #include "common/vehicle/fmi/trial.hpp"
 
 namespace rodeira::fmi {
@@ -44,7 +46,6 @@ struct Functions {
   StateSizeFunction* state_size = nullptr;
   SerializeFunction* serialize = nullptr;
   DeserializeFunction* deserialize = nullptr;
-  bool crashed = false;  // one of them has: none is called again, and the library stays where it is
 };
 
 const char* Word(fmi2Status status) {
@@ -82,13 +83,12 @@ class LoadedInstance final : public Instance {
       Abandon(component_);
       return;
     }
-    const int signal = CallGuarded([this] {
-      if (runs_ && !failed_) (void)f_.terminate(component_);
-      f_.free_instance(component_);
-    });
-    if (signal == 0) return;
-    f_.crashed = true;
-    Abandon(component_);
+    if (runs_ && !failed_) {
+      const base::ForeignCall call("fmi2Terminate", owner_.c_str());
+      (void)f_.terminate(component_);
+    }
+    const base::ForeignCall call("fmi2FreeInstance", owner_.c_str());
+    f_.free_instance(component_);
   }
   LoadedInstance(const LoadedInstance&) = delete;
   LoadedInstance& operator=(const LoadedInstance&) = delete;
@@ -96,11 +96,12 @@ class LoadedInstance final : public Instance {
   base::Status Make(const std::string& name, const fs::path& resources) {
     callbacks_ = {&Log, &std::calloc, &std::free, nullptr, &said_};
     const std::string where = "file://" + resources.string();
-    const int signal = CallGuarded([&] {
+    owner_ = base::Printable(fmt::format("FMU '{}' (instance '{}')", file_, name));
+    {
+      const base::ForeignCall call("fmi2Instantiate", owner_.c_str());
       component_ =
           f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0);
-    });
-    if (signal != 0) return Crashed("fmi2Instantiate", signal);
+    }
     if (component_ != nullptr) return {};
     return base::WrongInput(
         fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_),
@@ -186,8 +187,10 @@ class LoadedInstance final : public Instance {
   base::Status Call(const char* name, const Function& function, const Variable* variable = nullptr) {
     if (dead_)
       return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
-    fmi2Status status = fmi2OK;
-    if (const int signal = CallGuarded([&] { status = function(); }); signal != 0) return Crashed(name, signal);
+    const fmi2Status status = [&] {
+      const base::ForeignCall call(name, owner_.c_str());
+      return function();
+    }();
     if (status == fmi2OK || status == fmi2Warning) return {};
     failed_ = true;
     dead_ = status == fmi2Fatal;
@@ -195,16 +198,10 @@ class LoadedInstance final : public Instance {
                                     Word(status), said_.empty() ? "" : ": " + said_),
                         file_);
   }
-  base::Status Crashed(const char* name, int signal) {
-    dead_ = f_.crashed = true;
-    return base::Failed(
-        fmt::format("{}: it crashes (signal {}){}", name, signal, said_.empty() ? "" : "; before, it said: " + said_),
-        file_);
-  }
-
   Functions& f_;
   const Description& description_;
   std::string file_;
+  std::string owner_;  // for a crash
   std::string said_;
   fmi2CallbackFunctions callbacks_{};
   fmi2Component component_ = nullptr;
@@ -225,24 +222,34 @@ std::string Platforms(const fs::path& folder) {
 
 class LoadedUnit final : public Unit {
  public:
-  LoadedUnit(base::TemporaryFolder folder, Description description, std::string file)
-      : folder_(std::move(folder)), description_(std::move(description)), file_(std::move(file)) {}
+  LoadedUnit(const fs::path& folder, Description description, const std::string& file)
+      : path_(folder),
+        description_(std::move(description)),
+        file_(file),
+        owner_(base::Printable(fmt::format("FMU '{}'", file))) {}
   ~LoadedUnit() override {
-    if (library_ != nullptr && !f_.crashed) (void)::dlclose(library_);
+    const base::ForeignCall call("unloading", owner_.c_str());
+    if (library_ != nullptr) (void)::dlclose(library_);
   }
   LoadedUnit(const LoadedUnit&) = delete;
   LoadedUnit& operator=(const LoadedUnit&) = delete;
 
+  // The folder is removed with it.
+  void Own(base::TemporaryFolder folder) { folder_.emplace(std::move(folder)); }
+
   base::Status Open() {
-    const fs::path binary = folder_.path() / "binaries/linux64" / (description_.identifier + ".so");
+    const fs::path binary = path_ / "binaries/linux64" / (description_.identifier + ".so");
     std::error_code problem;
     if (!fs::is_regular_file(binary, problem)) {
       return base::WrongInput(
           fmt::format("this FMU has no binaries/linux64/{}.so; the platforms that it has binaries for: {}",
-                      description_.identifier, Platforms(folder_.path())),
+                      description_.identifier, Platforms(path_)),
           file_);
     }
-    library_ = ::dlopen(binary.c_str(), RTLD_NOW | RTLD_LOCAL);
+    {
+      const base::ForeignCall call("loading", owner_.c_str());
+      library_ = ::dlopen(binary.c_str(), RTLD_NOW | RTLD_LOCAL);
+    }
     if (library_ == nullptr)
       return base::WrongInput(fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
     Find("fmi2Instantiate", f_.instantiate);
@@ -273,7 +280,7 @@ class LoadedUnit final : public Unit {
   const Description& description() const override { return description_; }
   base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) override {
     auto instance = std::make_unique<LoadedInstance>(f_, description_, file_);
-    if (auto status = instance->Make(name, folder_.path() / "resources"); !status) return status.error();
+    if (auto status = instance->Make(name, path_ / "resources"); !status) return status.error();
     return std::unique_ptr<Instance>(std::move(instance));
   }
 
@@ -284,31 +291,42 @@ class LoadedUnit final : public Unit {
     if (function == nullptr && missing_.empty()) missing_ = name;
   }
 
-  base::TemporaryFolder folder_;
+  std::optional<base::TemporaryFolder> folder_;
+  fs::path path_;
   Description description_;
   std::string file_;
+  std::string owner_;  // for a crash
   void* library_ = nullptr;
   Functions f_;
   std::string missing_;
 };
+
+base::Result<std::unique_ptr<LoadedUnit>> LoadFolder(const fs::path& folder, const std::string& file, bool with_trial) {
+  auto description = ReadDescription(folder / "modelDescription.xml", file);
+  if (!description) return description.error();
+  if (with_trial) {
+    if (auto status = TryInProcessOfItsOwn(folder, file); !status) return status.error();
+  }
+  auto unit = std::make_unique<LoadedUnit>(folder, std::move(description).value(), file);
+  if (auto status = unit->Open(); !status) return status.error();
+  return unit;
+}
 
 }  // namespace
 
 base::Result<std::unique_ptr<Unit>> Unit::Load(const fs::path& fmu) {
   auto folder = Unpack(fmu);
   if (!folder) return folder.error();
-  auto description = ReadDescription(folder.value().path() / "modelDescription.xml", fmu.string());
-  if (!description) return description.error();
-  auto unit = std::make_unique<LoadedUnit>(std::move(folder).value(), std::move(description).value(), fmu.string());
-  // Once where it can do no harm.
-  const auto tried = TryInChild([&unit] {
-    if (!unit->Open()) return;
-    auto instance = unit->Instantiate("trial");
-    if (instance && instance.value()->EnterInitialisation(0.0)) (void)instance.value()->ExitInitialisation();
-  });
-  if (!tried) return base::Error{tried.error().code, tried.error().message, fmu.string()};
-  if (auto status = unit->Open(); !status) return status.error();
-  return std::unique_ptr<Unit>(std::move(unit));
+  auto unit = LoadFolder(folder.value().path(), fmu.string(), true);
+  if (!unit) return unit.error();
+  unit.value()->Own(std::move(folder).value());
+  return std::unique_ptr<Unit>(std::move(unit).value());
+}
+
+base::Result<std::unique_ptr<Unit>> Unit::LoadUnpacked(const fs::path& folder, const std::string& file) {
+  auto unit = LoadFolder(folder, file, false);
+  if (!unit) return unit.error();
+  return std::unique_ptr<Unit>(std::move(unit).value());
 }
 
 }  // namespace rodeira::fmi

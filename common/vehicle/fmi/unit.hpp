@@ -13,8 +13,8 @@
 namespace rodeira::fmi {
 
 // One running instance of an FMU. Every call may fail: what it says then is "fmi2DoStep: error: WHAT THE FMU LOGGED".
-// After a failure nothing but the destructor may be called. What its code does besides (hang, crash) nobody can keep it
-// from.
+// After a failure nothing but the destructor may be called. A crash of its code ends the process as any crash does;
+// base::ForeignCall names the function and the FMU.
 class Instance {
  public:
   virtual ~Instance() = default;
@@ -34,8 +34,11 @@ class Instance {
 // An FMU for co-simulation, FMI 2.0, of this platform (linux64): unpacked and loaded. Instances must not outlive it.
 class Unit {
  public:
-  // Wrong input where it is none, or of another platform.
+  // The FMU is tried in a process of its own first (trial.hpp). Wrong input if the file is no FMU, is of another
+  // platform or does not pass the trial.
   static base::Result<std::unique_ptr<Unit>> Load(const std::filesystem::path& fmu);
+  // An FMU that is unpacked in `folder`, which outlives it, without a trial. `file`: its path for messages.
+  static base::Result<std::unique_ptr<Unit>> LoadUnpacked(const std::filesystem::path& folder, const std::string& file);
   virtual ~Unit() = default;
 
   virtual const Description& description() const = 0;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
@@ -60,6 +61,7 @@ base::Status Write(const VehicleOptions& options, const manoeuvres::Manoeuvre& m
 int TestVehicle(const VehicleOptions& options) {
   const auto chosen = Chosen(options);
   if (!chosen) return base::PrintError("rodeira", chosen.error());
+  base::TraceCrashes();  // of a vehicle that others wrote
   auto car = dynamics::LoadVehicle(options.file);
   if (!car) return base::PrintError("rodeira", car.error());
   const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;

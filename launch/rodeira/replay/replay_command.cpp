@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/core/config/quoted.hpp"
@@ -93,7 +94,10 @@ int Replay(const ReplayOptions& options) {
         base::WrongInput(fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s),
                          "rodeira replay"));
   }
-  if (!options.changes.empty() || options.verify) CatchInterrupts();
+  if (!options.changes.empty() || options.verify) {
+    base::TraceCrashes();  // the nodes run in this process
+    CatchInterrupts();
+  }
   if (!options.changes.empty()) return MakeBranch(options);
   if (!options.record.empty())
     return base::PrintError(

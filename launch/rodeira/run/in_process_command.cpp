@@ -12,6 +12,7 @@
 #include <stop_token>
 #include <thread>
 
+#include "common/core/base/crash_trace.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
@@ -66,6 +67,7 @@ RunReport ReportOf(const lockstep::RunOutcome& outcome, const lockstep::Roster& 
 }  // namespace
 
 int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
+  base::TraceCrashes("rodeira: the crash ends this run of one process; 'rodeira repair' completes its recording\n");
   CatchInterrupts();
   const std::jthread guard(EndWhatHangs);
   const auto& roster = launch.roster();

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 namespace rodeira::cli {
@@ -15,6 +16,7 @@ namespace {
 constexpr std::size_t kMaxFileBytes = 1u << 20;
 constexpr std::size_t kOlderFiles = 3;
 constexpr std::size_t kMaxLineBytes = 64u << 10;  // longer lines are cut in pieces
+constexpr std::string_view kCrash = "rodeira: crash: ";
 
 spdlog::level::level_enum LevelOf(const std::string& line) {
   if (line.find("crash:") != std::string::npos) return spdlog::level::critical;
@@ -25,7 +27,16 @@ spdlog::level::level_enum LevelOf(const std::string& line) {
 
 // Written by base::TraceCrashes: for the report of the failure, too much for a terminal.
 bool IsOfCrash(const std::string& line) {
-  return line.starts_with("rodeira: crash: ") || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+  return line.starts_with(kCrash) || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+}
+
+// What base::TraceCrashes says of foreign code; empty if the line says nothing of it.
+std::string CrashPlace(std::string_view line) {
+  if (!line.starts_with(kCrash)) return {};
+  const auto in = line.find(" in ");
+  if (in == std::string_view::npos) return {};
+  line.remove_prefix(in + 4);
+  return std::string(line.substr(0, line.rfind("; backtrace:")));
 }
 
 // Null if the file cannot be opened.
@@ -71,6 +82,7 @@ void PartLog::Take(std::string line) {
   is_opened_ = true;
   if (file_) file_->log(LevelOf(line), line);
   if (!IsOfCrash(line)) std::fprintf(stderr, "%s\n", line.c_str());
+  if (auto place = CrashPlace(line); !place.empty()) crash_place_ = std::move(place);
   last_lines_.push_back(std::move(line));
   if (last_lines_.size() > kLastLines) last_lines_.pop_front();
 }

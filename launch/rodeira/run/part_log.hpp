@@ -26,6 +26,12 @@ class PartLog {
   // The rest of an unfinished line, once the part has ended.
   void Finish();
 
+  // The foreign code that the part's process crashed in, by base::TraceCrashes ("fmi2DoStep of FMU 'a.fmu'"); empty: it
+  // has not crashed, or not in foreign code.
+  const std::string& crash_place() const { return crash_place_; }
+  // Another process of the part begins.
+  void ForgetCrash() { crash_place_.clear(); }
+
   const std::deque<std::string>& last_lines() const { return last_lines_; }  // at most kLastLines
   static constexpr std::size_t kLastLines = 100;
 
@@ -36,6 +42,7 @@ class PartLog {
   std::filesystem::path folder_;
   std::string rest_;
   std::deque<std::string> last_lines_;
+  std::string crash_place_;
   std::shared_ptr<spdlog::logger> file_;
   bool is_opened_ = false;
 };

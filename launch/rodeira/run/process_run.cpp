@@ -182,7 +182,7 @@ class ProcessRun {
     if (report_.ended || !fault_.empty()) return false;
     if (child.stopped()) return true;
     if (!child.ended()) return false;
-    const bool by_itself = child.exit_status() && *child.exit_status() <= 2;
+    const bool by_itself = child.exit_status() && *child.exit_status() <= 2 && !child.ended_by_foreign_code();
     return !by_itself || WallClock::now() - child.ended_at() > 1s;
   }
   void TellClock(const Child& broken) {

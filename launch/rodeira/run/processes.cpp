@@ -73,6 +73,7 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
     ::fcntl(errors.out, F_SETFL, O_NONBLOCK);
     child.error_ = std::exchange(errors.out, -1);
     child.log_ = log;
+    log->ForgetCrash();
   }
   return child;
 }
@@ -126,6 +127,7 @@ void Child::Poll() {
       ended_at_ = std::chrono::steady_clock::now();
       if (WIFEXITED(status)) exit_status_ = WEXITSTATUS(status);
       if (WIFSIGNALED(status)) kill_signal_ = WTERMSIG(status);
+      if (error_ >= 0) log_->Read(error_);
       return;
     }
   }
@@ -136,9 +138,11 @@ void Child::Signal(int number) const {
 }
 
 std::string Child::Fate() const {
-  if (kill_signal_ != 0) return fmt::format("was killed by signal {} ({})", kill_signal_, ::strsignal(kill_signal_));
+  const std::string place = log_ == nullptr || log_->crash_place().empty() ? "" : " in " + log_->crash_place();
+  if (kill_signal_ != 0)
+    return fmt::format("was killed by signal {} ({}){}", kill_signal_, ::strsignal(kill_signal_), place);
   if (exit_status_ == 127) return "could not be started";
-  if (exit_status_) return fmt::format("left with status {}", *exit_status_);
+  if (exit_status_) return fmt::format("left with status {}{}", *exit_status_, place);
   if (stopped_) return fmt::format("was stopped by signal {} ({})", stop_signal_, ::strsignal(stop_signal_));
   return "lives";
 }

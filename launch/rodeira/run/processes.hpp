@@ -38,8 +38,11 @@ class Child {
   std::chrono::steady_clock::time_point ended_at() const { return ended_at_; }  // when Poll saw it
   bool stopped() const { return stopped_; }
   std::optional<int> exit_status() const { return exit_status_; }  // where it left by itself
-  // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)".
+  // "was killed by signal 9 (Killed)", "left with status 1", "was stopped by signal 19 (Stopped)". A crash in foreign
+  // code is named: "was killed by signal 11 (Segmentation fault) in fmi2DoStep of FMU '/a/car.fmu' (instance 'b')".
   std::string Fate() const;
+  // It said so before it ended (base::ForeignCall).
+  bool ended_by_foreign_code() const { return ended_ && log_ != nullptr && !log_->crash_place().empty(); }
   int out() const { return out_; }           // to read from; -1 without pipes
   void Send(const std::string& line) const;  // to its standard input
   void CloseInput();

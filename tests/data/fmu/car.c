@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef enum { fmi2OK, fmi2Warning, fmi2Discard, fmi2Error, fmi2Fatal, fmi2Pending } fmi2Status;
 typedef struct {
@@ -54,6 +55,7 @@ enum {
   kMomentZ,
   kGearLever,
   kCrashAt,
+  kExitAt,
   kSpeed,
   kReals
 };
@@ -79,14 +81,22 @@ static void publish(Values* v) {
   v->gear = v->real[kSpeed] < 0.0 ? -1 : 1;
 }
 
+#ifdef CRASH_WHEN_LOADED
+__attribute__((constructor)) static void crash(void) { raise(SIGSEGV); }
+#endif
+
 EXPORT const char* fmi2GetVersion(void) { return "2.0"; }
 EXPORT const char* fmi2GetTypesPlatform(void) { return "default"; }
 
 EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const char* resources,
                              const fmi2CallbackFunctions* callbacks, int visible, int logging) {
   Car* car;
+  volatile double never = 0.0;
   (void)name, (void)resources, (void)visible, (void)logging;
   if (strcmp(guid, "{crashes}") == 0) raise(SIGSEGV);
+  if (strcmp(guid, "{exits}") == 0) exit(0);
+  while (strcmp(guid, "{sleeps}") == 0) pause();
+  while (strcmp(guid, "{computes}") == 0) never = never + 1.0;
   if (type != 1 || strcmp(guid, "{rodeira-test-car}") != 0) {
     callbacks->logger(callbacks->componentEnvironment, "car", fmi2Error, "guid",
                       "the guid is %s, which is another car's", guid);
@@ -95,8 +105,8 @@ EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const
   car = callbacks->allocateMemory(1, sizeof(Car));
   if (car == NULL) return NULL;
   car->callbacks = callbacks;
-  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = car->values.real[kCrashAt] =
-      1e9;
+  car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = 1e9;
+  car->values.real[kCrashAt] = car->values.real[kExitAt] = 1e9;
   return car;
 }
 EXPORT void fmi2FreeInstance(void* c) { ((Car*)c)->callbacks->freeMemory(c); }
@@ -159,6 +169,7 @@ EXPORT fmi2Status fmi2DoStep(void* c, double time, double step, int no_return) {
   }
   while (time >= v->real[kHangAt] - 1e-9) never = never + 1.0;
   if (time >= v->real[kCrashAt] - 1e-9) raise(SIGSEGV);
+  if (time >= v->real[kExitAt] - 1e-9) exit(0);
   brake = 6.0 * v->real[kBrake] * step;
   v->real[kX] += step * v->real[kSpeed] * cos(v->real[kHeading]);
   v->real[kY] += step * v->real[kSpeed] * sin(v->real[kHeading]);

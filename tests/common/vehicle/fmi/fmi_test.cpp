@@ -3,17 +3,10 @@
 #include "tests/common/vehicle/fmi/test_fmu.hpp"
 
 #include <gmock/gmock.h>
-#include <sys/mman.h>
 
-#include <array>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
-#include <thread>
 
 #include "common/vehicle/fmi/archive.hpp"
-#include "common/vehicle/fmi/guard.hpp"
-#include "common/vehicle/fmi/trial.hpp"
 #include "common/vehicle/fmi/unit.hpp"
 
 namespace rodeira::fmi {
@@ -118,83 +111,6 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"../outside.txt", "x"}});
   EXPECT_THAT(Refusal(file), HasSubstr("'../outside.txt' leads out of its folder"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path().parent_path() / "outside.txt"));
-}
-
-// It is tried in a process of its own first.
-TEST_F(Fmi, WhatCrashesOrHangsAsItIsLoadedIsRefused) {
-  EXPECT_THAT(Refusal(folder_.Pack({{"{rodeira-test-car}", "{crashes}"}})),
-              HasSubstr("its binary crashes (signal 11) as it is loaded and makes an instance of itself"));
-  const auto hangs = TryInChild(
-      [] {
-        volatile double never = 0.0;
-        while (never < 1.0) never = never * 0.5;
-      },
-      1);
-  EXPECT_EQ(hangs.error().exit_status(), 2);
-  EXPECT_THAT(hangs.error().Text(), HasSubstr("its binary does not come back within 1 s"));
-}
-
-// Later it is caught where it happens: the call fails, and what is left of the FMU is not called again.
-TEST_F(Fmi, WhatCrashesInAStepFailsInThatStep) {
-  auto unit = Unit::Load(folder_.Pack());
-  ASSERT_TRUE(unit.ok()) << unit.error().Text();
-  {
-    auto made = unit.value()->Instantiate("one");
-    Instance& car = *made.value();
-    ASSERT_TRUE(car.EnterInitialisation(0.0).ok());
-    ASSERT_TRUE(car.Set(*unit.value()->description().Find("crash_at_s"), 0.5).ok());
-    ASSERT_TRUE(car.ExitInitialisation().ok());
-    ASSERT_TRUE(car.DoStep(0.4, 0.1).ok());
-    const auto crashed = car.DoStep(0.5, 0.1);
-    ASSERT_FALSE(crashed.ok());
-    EXPECT_THAT(crashed.error().Text(), HasSubstr("car.fmu: fmi2DoStep: it crashes (signal 11)"));
-    EXPECT_EQ(crashed.error().exit_status(), 1);
-    EXPECT_THAT(car.Get(*unit.value()->description().Find("x_m")).error().Text(), HasSubstr("fmi2GetReal: not called"));
-  }
-}
-
-int Deeper(volatile int* depth) {
-  std::array<volatile char, 4096> wide{};
-  *depth = *depth + 1;
-  wide[static_cast<std::size_t>(*depth) % wide.size()] = 1;
-  return *depth < (1 << 30) ? Deeper(depth) + wide[7] : 0;
-}
-
-// A page that nobody may touch (a null pointer the sanitizers would tell of before).
-volatile int* Forbidden() {
-  static void* const page = ::mmap(nullptr, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  return static_cast<volatile int*>(page);
-}
-
-TEST(FmiGuard, CrashesEndTheCallInEveryThread) {
-  const auto each = [] {
-    volatile int* const nowhere = Forbidden();
-    volatile int depth = 0;
-    EXPECT_EQ(CallGuarded([&] { *nowhere = 1; }), SIGSEGV);
-    EXPECT_EQ(CallGuarded([] { std::abort(); }), SIGABRT);
-    EXPECT_EQ(CallGuarded([&] { (void)Deeper(&depth); }), SIGSEGV) << "no stack is left";
-    EXPECT_EQ(CallGuarded([&] { depth = 5; }), 0);
-    EXPECT_EQ(depth, 5);
-    // Foreign code within foreign code: each call has its own end.
-    EXPECT_EQ(CallGuarded([&] {
-                EXPECT_EQ(CallGuarded([&] { *nowhere = 1; }), SIGSEGV);
-                *nowhere = 1;
-              }),
-              SIGSEGV);
-  };
-  each();
-  std::thread(each).join();
-}
-
-TEST(FmiGuardDeathTest, OurOwnCrashesAreNotHidden) {
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  const auto dies = [](int status) { return status != 0; };  // by SIGSEGV, or as a sanitizer will have it
-  EXPECT_EXIT(
-      {
-        (void)CallGuarded([] {});
-        (void)::raise(SIGSEGV);
-      },
-      dies, "");
 }
 
 // Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: nobody can try foreign

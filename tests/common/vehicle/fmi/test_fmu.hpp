@@ -41,7 +41,10 @@ class FmuFolder {
   static std::string Description() {
     return base::ReadText(std::filesystem::path(SourceDir()) / "tests/data/fmu/modelDescription.xml").value();
   }
-  static std::string Binary() { return base::ReadText(RODEIRA_TEST_FMU_BINARY).value(); }
+  // `name`: "car", or "crashing" for one that crashes when it is loaded.
+  static std::string Binary(const std::string& name) {
+    return base::ReadText(std::filesystem::path(RODEIRA_TEST_FMU_FOLDER) / (name + ".so")).value();
+  }
 
   // Replaces each first text by the second in the description.
   static std::string Changed(const std::vector<std::pair<std::string, std::string>>& changes) {
@@ -54,10 +57,10 @@ class FmuFolder {
     return text;
   }
   std::filesystem::path Pack(const std::vector<std::pair<std::string, std::string>>& changes = {},
-                             const std::string& platform = "linux64") const {
+                             const std::string& platform = "linux64", const std::string& binary = "car") const {
     const auto file = path_ / "car.fmu";
     WriteZip(file, {{"modelDescription.xml", Changed(changes)},
-                    {"binaries/" + platform + "/car.so", Binary()},
+                    {"binaries/" + platform + "/car.so", Binary(binary)},
                     {"resources/note.txt", "of no use"}});
     return file;
   }

@@ -74,6 +74,17 @@ TEST_F(PartLogTest, ABacktraceIsKeptButNotPrinted) {
   EXPECT_THAT(File(), AllOf(HasSubstr("critical rodeira: crash: SIGSEGV"), HasSubstr(frame)));
 }
 
+TEST_F(PartLogTest, RemembersTheForeignCodeOfACrashUntilTheNextProcess) {
+  (void)Write("rodeira: crash: SIGSEGV; backtrace:\n");
+  EXPECT_EQ(log_->crash_place(), "");
+  (void)Write("rodeira: crash: SIGBUS in fmi2DoStep of FMU '/a in b/car.fmu' (instance 'ego'); backtrace:\n");
+  EXPECT_EQ(log_->crash_place(), "fmi2DoStep of FMU '/a in b/car.fmu' (instance 'ego')");
+  (void)Write("rodeira: crash: exit in fmi2DoStep of FMU 'c.fmu'\n");
+  EXPECT_EQ(log_->crash_place(), "fmi2DoStep of FMU 'c.fmu'");
+  log_->ForgetCrash();
+  EXPECT_EQ(log_->crash_place(), "");
+}
+
 TEST_F(PartLogTest, FilesAreRotatedAndOldLinesForgotten) {
   std::string text;
   for (int i = 0; i < 60'000; ++i) text += "line " + std::to_string(i) + " of a part that writes far too much text\n";
