@@ -23,10 +23,16 @@ namespace topics = idl::topics;
 class EmptyNode final : public lockstep::Node {
  public:
   EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at,
-            const std::string& broken, bool saves)
-      : value_(base::RandomBits({seed, index})), fail_at_(fail_at), hang_at_(hang_at), broken_(broken), saves_(saves) {}
+            double initialise_s, const std::string& broken, bool saves)
+      : value_(base::RandomBits({seed, index})),
+        fail_at_(fail_at),
+        hang_at_(hang_at),
+        initialise_s_(initialise_s),
+        broken_(broken),
+        saves_(saves) {}
 
   base::Status Initialise(lockstep::Outbox& outbox) override {
+    Compute(initialise_s_);
     Publish(outbox);
     return {};
   }
@@ -65,6 +71,14 @@ class EmptyNode final : public lockstep::Node {
   }
 
  private:
+  // Holds this thread and a processor, as a large world does that is loaded.
+  static void Compute(double seconds) {
+    if (seconds <= 0.0) return;
+    base::Log(base::LogLevel::kWarning, "", "told to compute here");
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (std::chrono::steady_clock::now() < until) {
+    }
+  }
   // The order of a hash table over addresses: another one in each process.
   static std::uint64_t OrderOfAddresses() {
     std::vector<std::unique_ptr<std::uint64_t>> numbers;
@@ -85,6 +99,7 @@ class EmptyNode final : public lockstep::Node {
   std::uint64_t value_;
   std::int64_t fail_at_;
   std::int64_t hang_at_;
+  double initialise_s_;
   std::string broken_;
   bool saves_;
 };
@@ -95,10 +110,11 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeEmptyNode(launch::NodeContext&
   const config::Map config = context.config();
   const std::int64_t fail_at = config.Integer("fail_at_step", -1, INT64_MAX, -1);
   const std::int64_t hang_at = config.Integer("hang_at_step", -1, INT64_MAX, -1);
+  const double initialise_s = config.Number("initialise_s", {0.0, 600.0}, 0.0);
   const std::string broken = config.Choice("broken", {"no", "clock", "order"}, "no");
   const bool saves = config.Flag("saves", true);
   return std::unique_ptr<lockstep::Node>(
-      std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, broken, saves));
+      std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, initialise_s, broken, saves));
 }
 
 }  // namespace rodeira::nodes

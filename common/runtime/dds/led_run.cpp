@@ -25,8 +25,9 @@ LedRun::LedRun(const launch::Launch& its_launch, const ProcessOptions& options)
       start(WallClock::now()) {}
 
 lockstep::Wall LedRun::Now() const {
-  return {std::chrono::nanoseconds(WallClock::now() - start).count(),
-          std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
+  lockstep::Wall now = lockstep::ReadWall();
+  now.monotonic_ns -= std::chrono::nanoseconds(start.time_since_epoch()).count();
+  return now;
 }
 
 std::int64_t LedRun::BegunNs() const {

@@ -2,12 +2,12 @@
 #include "common/runtime/dds/node_bus.hpp"
 
 #include <fmt/format.h>
-#include <sys/time.h>
 
 #include <algorithm>
 #include <csignal>
 #include <utility>
 
+#include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/sample_difference.hpp"
 #include "idl/topics.hpp"
@@ -22,8 +22,7 @@ volatile std::sig_atomic_t g_terminated = 0;
 
 void OnTerminate(int) {
   g_terminated = 1;
-  const itimerval limit{{0, 0}, {1, 700'000}};
-  ::setitimer(ITIMER_REAL, &limit, nullptr);  // SIGALRM ends a process that hangs
+  EndProcessWithin(kEndWithoutSupervisor);
 }
 
 }  // namespace

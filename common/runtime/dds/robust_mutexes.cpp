@@ -5,6 +5,8 @@
 #include <errno.h>
 #include <pthread.h>
 
+#include "common/runtime/dds/steady_waits.hpp"
+
 namespace {
 
 template <class Function>
@@ -19,9 +21,9 @@ int Recover(pthread_mutex_t* mutex, int result) {
 
 }  // namespace
 
-// The dynamic linker takes a function of the program itself before a library's. These three are all that
-// boost::interprocess, of which Fast DDS makes its mutexes, calls to make one and to lock it: it never waits without a
-// limit.
+// The dynamic linker takes a function of the program itself before a library's. These two and
+// pthread_mutex_timedlock (steady_waits.cpp) are all that boost::interprocess, of which Fast DDS makes its mutexes,
+// calls to make one and to lock it: it never waits without a limit.
 extern "C" {
 
 int pthread_mutexattr_setpshared(pthread_mutexattr_t* attributes, int shared) noexcept {
@@ -29,11 +31,6 @@ int pthread_mutexattr_setpshared(pthread_mutexattr_t* attributes, int shared) no
   const int result = next(attributes, shared);
   if (result != 0 || shared != PTHREAD_PROCESS_SHARED) return result;
   return ::pthread_mutexattr_setrobust(attributes, PTHREAD_MUTEX_ROBUST);
-}
-
-int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* until) noexcept {
-  static auto* const next = TheNext<int(pthread_mutex_t*, const timespec*)>("pthread_mutex_timedlock");
-  return Recover(mutex, next(mutex, until));
 }
 
 int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
@@ -46,9 +43,9 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 namespace rodeira::dds {
 
 bool SharedMutexesAreRobust() {
-  return ::dlsym(RTLD_DEFAULT, "pthread_mutexattr_setpshared") ==
+  return SharedWaitsAreSteady() &&
+         ::dlsym(RTLD_DEFAULT, "pthread_mutexattr_setpshared") ==
              reinterpret_cast<void*>(&::pthread_mutexattr_setpshared) &&
-         ::dlsym(RTLD_DEFAULT, "pthread_mutex_timedlock") == reinterpret_cast<void*>(&::pthread_mutex_timedlock) &&
          ::dlsym(RTLD_DEFAULT, "pthread_mutex_trylock") == reinterpret_cast<void*>(&::pthread_mutex_trylock);
 }
 

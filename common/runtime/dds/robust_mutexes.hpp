@@ -10,8 +10,8 @@ namespace rodeira::dds {
 // locks one goes on. What they protect stays usable: a ring of counters and cells that are written one by one, and a
 // count of waiters.
 //
-// It does so by taking the place of three functions of the C library (see the .cpp); calling it links them in, and it
-// returns whether they are the ones that the whole program uses.
+// It does so by taking the place of functions of the C library (see the .cpp; steady_waits.hpp); calling it links them
+// in, and it returns whether they are the ones that the whole program uses.
 bool SharedMutexesAreRobust();
 
 }  // namespace rodeira::dds

@@ -16,6 +16,7 @@
 
 #include "common/core/base/crash_trace.hpp"
 #include "common/core/base/exhaustion.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/clock_desk.hpp"
@@ -39,6 +40,8 @@ namespace {
 
 using namespace std::chrono_literals;
 namespace topics = idl::topics;
+
+constexpr auto kOrderlyStop = 1000ms;  // after the end of `rodeira run`
 
 std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
   std::random_device device;
@@ -68,7 +71,7 @@ class ClockProcess {
     Say("clock id={} life={}", clock_id_, options_.incarnation);
     Say("starting {} nodes", run_.roster.nodes().size());
     if (options_.listen) {
-      if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { woken_.notify_one(); }); !status)
+      if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { OnSupervisor(); }); !status)
         return Complain(status.error());
     }
     run_.start = WallClock::now();
@@ -118,6 +121,12 @@ class ClockProcess {
   // Two clocks that began at the same moment: the one with the larger number is the one too many.
   bool MustYield() const { return other_clock_ != 0 && other_clock_ < clock_id_; }
 
+  // On the thread of the pipe, which reads also while the loop hangs.
+  void OnSupervisor() {
+    if (supervisor_.is_closed()) EndProcessWithin(kEndWithoutSupervisor);
+    woken_.notify_one();
+  }
+
   // This life of the clock takes the place of one that has died: the nodes' reports say where the run stands.
   void GoOn() {
     run_.clock.Rebuild();
@@ -145,6 +154,8 @@ class ClockProcess {
       if (desk_.stop_asked() && !run_.missed.empty())
         return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
       const lockstep::Grant grant = run_.conductor.Move(run_.Now());
+      if (const std::string warning = run_.conductor.TakeWarning(); !warning.empty())
+        base::Log(base::LogLevel::kWarning, "", warning);
       const auto now = WallClock::now();
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
         said = now;
@@ -175,6 +186,15 @@ class ClockProcess {
     if (signals > 2 || supervisor_.must_abort()) return RunsEnd{"stopped by a signal" + NotFinished(), 1};
     if (signals > 0 && run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
     if (signals > 0) desk_.StopBySignal();
+    return LookAfterSupervisor(now);
+  }
+  // Without `rodeira run` the run ends: in order at its last granted step, or after a moment by an abort.
+  std::optional<RunsEnd> LookAfterSupervisor(WallClock::time_point now) {
+    if (!supervisor_.is_closed()) return std::nullopt;
+    if (!alone_since_) alone_since_ = now;
+    if (run_.clock.grant().through < 0 || now - *alone_since_ > kOrderlyStop)
+      return RunsEnd{"'rodeira run' has ended" + NotFinished(), 1};
+    desk_.StopBySignal();
     return std::nullopt;
   }
   std::string NotFinished() const {
@@ -259,6 +279,7 @@ class ClockProcess {
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point shown_{};
   WallClock::time_point checked_{};
+  std::optional<WallClock::time_point> alone_since_;  // without `rodeira run`
   std::mutex mutex_;
   std::condition_variable woken_;
   std::deque<base::Bytes> inbox_;

@@ -45,7 +45,7 @@ class Follower {
     if (!participant) return Complain(participant.error());
     participant_ = std::move(participant).value();
     if (auto status = Connect(); !status) return Complain(status.error());
-    if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { woken_.notify_one(); }); !status)
+    if (auto status = supervisor_.Listen(STDIN_FILENO, [this] { OnSupervisor(); }); !status)
       return Complain(status.error());
     return Loop();
   }
@@ -54,6 +54,11 @@ class Follower {
   static int Complain(const base::Error& error) {
     Say("fault {}", OneLine(error.Text()));
     return error.exit_status();
+  }
+
+  void OnSupervisor() {
+    if (supervisor_.is_closed()) EndProcessWithin(kEndWithoutSupervisor);
+    woken_.notify_one();
   }
 
   base::Status Connect() {

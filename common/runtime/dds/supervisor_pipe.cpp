@@ -60,7 +60,7 @@ void SupervisorPipe::Read(int descriptor, const std::function<void()>& on_line) 
     char buffer[4096];
     const ssize_t size = ::read(descriptor, buffer, sizeof(buffer));
     if (size < 0 && errno == EINTR) continue;
-    if (size <= 0) return;
+    if (size <= 0) break;
     pending.append(buffer, static_cast<std::size_t>(size));
     bool counts = false;
     for (auto end = pending.find('\n'); end != std::string::npos; end = pending.find('\n')) {
@@ -70,6 +70,11 @@ void SupervisorPipe::Read(int descriptor, const std::function<void()>& on_line) 
     if (pending.size() > kMaxLine_bytes) pending.clear();
     if (counts) on_line();
   }
+  {
+    const std::lock_guard lock(mutex_);
+    is_closed_ = true;
+  }
+  on_line();
 }
 
 bool SupervisorPipe::Take(std::string_view line) {
@@ -102,6 +107,11 @@ std::vector<std::string> SupervisorPipe::TakeCommands() {
 bool SupervisorPipe::must_abort() const {
   const std::lock_guard lock(mutex_);
   return must_abort_;
+}
+
+bool SupervisorPipe::is_closed() const {
+  const std::lock_guard lock(mutex_);
+  return is_closed_;
 }
 
 bool SupervisorPipe::is_waiting() const {

@@ -33,12 +33,15 @@ class SupervisorPipe {
   SupervisorPipe& operator=(const SupervisorPipe&) = delete;
   ~SupervisorPipe();  // ends the thread
 
-  // Reads `descriptor` on a thread of its own, once. `on_line` is called on that thread after each line that counts.
+  // Reads `descriptor` on a thread of its own, once. `on_line` is called on that thread after each line that counts,
+  // and when the other end is closed.
   base::Status Listen(int descriptor, std::function<void()> on_line);
 
   std::vector<LostNode> TakeLost();         // each once
   std::vector<std::string> TakeCommands();  // "NUMBER COMMAND", each once
   bool must_abort() const;
+  // The other end is closed: `rodeira run` has ended, however it did.
+  bool is_closed() const;
   // There is something that was not taken.
   bool is_waiting() const;
 
@@ -50,6 +53,7 @@ class SupervisorPipe {
   std::vector<LostNode> lost_;
   std::vector<std::string> commands_;
   bool must_abort_ = false;
+  bool is_closed_ = false;
   int stop_[2] = {-1, -1};  // a pipe: the thread ends when it is closed
   std::thread thread_;
 };

@@ -2,8 +2,10 @@
 #include "common/runtime/lockstep/conductor.hpp"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 namespace rodeira::lockstep {
@@ -33,7 +35,27 @@ std::uint32_t Conductor::Note(RemarkKind kind, std::string text, const Wall& now
   return log_.Add(Remark{clock_.grant().through, now.utc_ns, RunNs(now), pacer_.pace(), kind, std::move(text), 0});
 }
 
+Wall ReadWall() {
+  timespec asleep{};
+  (void)::clock_gettime(CLOCK_BOOTTIME, &asleep);
+  return {std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count(),
+          std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count(),
+          static_cast<std::int64_t>(asleep.tv_sec) * 1'000'000'000 + asleep.tv_nsec};
+}
+
+void Conductor::PauseAfterSleep(const Wall& now) {
+  const Wall before = std::exchange(moved_, now).value_or(now);
+  const std::int64_t slept_ns =
+      std::max(now.monotonic_ns - before.monotonic_ns, now.awake_and_asleep_ns - before.awake_and_asleep_ns);
+  if (!begun_ || slept_ns < kSleep_ns || pacer_.pace() <= 0.0 || pacer_.paused()) return;
+  warning_ = fmt::format("this PC slept, or the clock was stopped, for {:.0f} s: the run is paused at {}",
+                         static_cast<double>(slept_ns) * 1e-9, Here());
+  NoteFault(warning_, now);
+  Pause(now);
+}
+
 Grant Conductor::Move(const Wall& now) {
+  PauseAfterSleep(now);
   if (clock_.grant().final || clock_.grant().abort || !clock_.all_ready()) return clock_.grant();
   if (!begun_) {
     begun_ = true;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "common/core/base/result.hpp"
 #include "common/runtime/lockstep/clock.hpp"
@@ -11,11 +14,15 @@
 
 namespace rodeira::lockstep {
 
-// Two readings of the wall: one that people and other recorders know, one that never jumps.
+// Readings of the wall: one that never jumps, one that people and other recorders know, and one that also counts while
+// the PC sleeps. Only the first decides; the second is a stamp.
 struct Wall {
   std::int64_t monotonic_ns = 0;
   std::int64_t utc_ns = 0;  // since 1970
+  std::int64_t awake_and_asleep_ns = 0;
 };
+// The wall now. Any thread.
+Wall ReadWall();
 
 // Leads a run: the clock grants, the pacer says when, the operator says otherwise, and the log keeps what happened.
 // Pure logic: whoever holds it brings the wall time and hands on grants and log.
@@ -29,8 +36,12 @@ class Conductor {
   // goes on.
   void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
 
-  // The grant that holds now. The run begins at the first call with everybody ready.
+  // The grant that holds now. The run begins at the first call with everybody ready. A paced run in which this was not
+  // called for kSleep_ns, because the PC slept or the process was stopped, is paused.
   Grant Move(const Wall& now);
+  static constexpr std::int64_t kSleep_ns = 10'000'000'000;
+  // What a person should read, each once; empty: nothing.
+  std::string TakeWarning() { return std::exchange(warning_, {}); }
   // Does it, and says in a sentence what the run does now; failed where the run cannot (it has not begun, it ends).
   base::Result<std::string> Do(const Command& command, const Wall& now);
   // As the command kStop does, for a signal; before the first step nothing is left but to abort.
@@ -51,6 +62,7 @@ class Conductor {
 
  private:
   std::uint32_t Note(RemarkKind kind, std::string text, const Wall& now);
+  void PauseAfterSleep(const Wall& now);
   void Pause(const Wall& now);
   void Resume(const Wall& now);
   void SetPace(double pace, const Wall& now);
@@ -64,6 +76,8 @@ class Conductor {
   bool begun_ = false;
   bool goes_on_ = false;
   std::int64_t begin_ns_ = 0;
+  std::optional<Wall> moved_;  // the last call of Move
+  std::string warning_;
 };
 
 }  // namespace rodeira::lockstep

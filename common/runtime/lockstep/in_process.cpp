@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "common/core/base/log.hpp"
 #include "common/runtime/lockstep/in_process_parts.hpp"
 #include "common/runtime/lockstep/life.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
@@ -20,11 +21,6 @@ namespace rodeira::lockstep {
 namespace {
 
 using namespace std::chrono_literals;
-
-Wall ReadWall() {
-  return {std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count(),
-          std::chrono::nanoseconds(std::chrono::system_clock::now().time_since_epoch()).count()};
-}
 
 class ThreadedRun {
  public:
@@ -67,6 +63,8 @@ class ThreadedRun {
       const Wall now = ReadWall();
       DoCommands(now);
       (void)conductor_.Move(now);
+      if (const std::string warning = conductor_.TakeWarning(); !warning.empty())
+        base::Log(base::LogLevel::kWarning, "", warning);
       if (settings_.stop_requested && settings_.stop_requested()) conductor_.Stop(now);
       news_ = false;
       SendNews(lock);

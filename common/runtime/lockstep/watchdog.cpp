@@ -40,7 +40,7 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
   if (!first_ms_) first_ms_ = checked_ms_ = now_ms;
   const std::int64_t own_gap_ms = now_ms - checked_ms_;
   checked_ms_ = now_ms;
-  if (own_gap_ms > settings_.silence_ms / 3) {
+  if (own_gap_ms > settings_.silence_ms / 6) {
     *first_ms_ += own_gap_ms;
     for (Life& life : lives_) life.last_ms += own_gap_ms;
   }
@@ -78,7 +78,8 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
     const RosterNode& spec = roster_.node(n);
     if (!life.heard || life.excused || IsTerminal(life.report.phase)) continue;
     const std::int64_t silence_ms = now_ms - life.last_ms;
-    if (silence_ms > (life.held_up ? kHeldUp : 1) * settings_.silence_ms) {
+    const std::int64_t patience = life.held_up ? kHeldUp : life.report.phase < Phase::kReady ? kStarting : 1;
+    if (silence_ms > patience * settings_.silence_ms) {
       return Fault{n,
                    fmt::format("node '{}' has said nothing for {:.2f} s at step {}: it was killed, stopped or cut off",
                                spec.name, static_cast<double>(silence_ms) / 1e3, life.report.progress)};

@@ -31,8 +31,10 @@ class Watchdog {
   Watchdog(const Roster& roster, const Settings& settings);
   void Heard(const Report& report, std::int64_t now_ms);
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
-  // calls (the clock itself was stopped) is nobody's silence and is forgiven.
-  // `grant`: what the clock says. A node that has ended though the run goes on is a fault, too.
+  // calls (the clock itself was stopped, or had no processor for a sixth of the silence) is nobody's silence and is
+  // forgiven. While a node starts, its silence may last kStarting times as long: nobody waits for it in a step, and a
+  // PC that loads a large world has no processor to spare. `grant`: what the clock says. A node that has ended though
+  // the run goes on is a fault, too.
   std::optional<Fault> Check(std::int64_t now_ms, const Grant& grant);
   // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or
   // slowness counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A
@@ -51,6 +53,7 @@ class Watchdog {
     bool held_up = false;  // it has not spoken since somebody was started again
   };
   static constexpr std::int64_t kHeldUp = 5;
+  static constexpr std::int64_t kStarting = 5;
 
   const Roster& roster_;
   Settings settings_;

@@ -21,7 +21,9 @@ class SupervisorPipeTest : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_EQ(::pipe(ends_), 0); }
   void TearDown() override {
-    for (const int end : ends_) ::close(end);
+    for (const int end : ends_) {
+      if (end >= 0) ::close(end);
+    }
   }
   void Write(const std::string& text) const {
     for (std::size_t done = 0; done < text.size();) {
@@ -54,6 +56,19 @@ class SupervisorPipeTest : public ::testing::Test {
   int lines_ = 0;
   int ends_[2] = {-1, -1};
 };
+
+TEST_F(SupervisorPipeTest, KnowsWhenTheOtherEndIsClosed) {
+  SupervisorPipe pipe;
+  ASSERT_TRUE(pipe.Listen(ends_[0], Notify()).ok());
+  Write("do 1 pause\n");
+  EXPECT_EQ(CommandsThrough(pipe, "1 pause"), std::vector<std::string>{"1 pause"});
+  EXPECT_FALSE(pipe.is_closed());
+  ::close(ends_[1]);
+  ends_[1] = -1;
+  std::unique_lock lock(mutex_);
+  EXPECT_TRUE(came_.wait_for(lock, std::chrono::seconds(10), [&] { return lines_ == 2; }));
+  EXPECT_TRUE(pipe.is_closed());
+}
 
 TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   SupervisorPipe pipe;

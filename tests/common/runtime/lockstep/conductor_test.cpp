@@ -163,5 +163,37 @@ TEST_F(ConductorTest, AtTheLastStepTimeIsNotLateAnyMore) {
   EXPECT_EQ(conductor.NextDueIn(At(500)), 0);
 }
 
+// Of a PC that slept only one clock tells; of a process that was stopped all do.
+TEST_F(ConductorTest, ARunInRealTimeIsPausedWhereItSlept) {
+  Report(Phase::kReady, 0);
+  EXPECT_EQ(Move(0), 0);
+  EXPECT_EQ(Move(5), 5);
+  Wall awake = At(6);
+  awake.awake_and_asleep_ns = 40'000 * kMs;
+  (void)conductor_.Move(At(5));
+  const Step stands = conductor_.Move(awake).through;
+  EXPECT_TRUE(conductor_.pacer().paused());
+  EXPECT_EQ(conductor_.TakeWarning(),
+            "this PC slept, or the clock was stopped, for 40 s: the run is paused at step 5 (0.005 s)");
+  EXPECT_EQ(conductor_.TakeWarning(), "") << "once";
+  EXPECT_EQ(conductor_.Move(awake).through, stands);
+  EXPECT_EQ(Said(Kind::kResume, 6).substr(0, 17), "runs in real time");
+  EXPECT_GT(Move(9), stands);
+  EXPECT_EQ(Move(9 + 9'999), Move(9 + 9'999)) << "a clock that was held up for less goes on";
+  EXPECT_FALSE(conductor_.pacer().paused());
+  (void)Move(9 + 9'999 + 10'000);
+  EXPECT_TRUE(conductor_.pacer().paused());
+}
+
+TEST_F(ConductorTest, ARunAsFastAsItCanGoesOnWhereItSlept) {
+  Report(Phase::kReady, 0);
+  (void)Move(0);
+  (void)Said(Kind::kPace, 1, 1, 0.0);
+  (void)Move(2);
+  (void)Move(60'000);
+  EXPECT_FALSE(conductor_.pacer().paused());
+  EXPECT_EQ(conductor_.TakeWarning(), "");
+}
+
 }  // namespace
 }  // namespace rodeira::lockstep

@@ -111,6 +111,27 @@ TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
   EXPECT_EQ(fault->node, 1u);
 }
 
+TEST_F(WatchdogTest, WhoLoadsMayBeSilentFiveTimesAsLong) {
+  std::optional<Watchdog::Fault> fault;
+  std::int64_t now = 0;
+  for (Hear(0, 0, Phase::kStarting, Waiting::kNothing); now <= 5000 && !fault; now += 50) {
+    Hear(1, now, Phase::kStarting, Waiting::kNothing);
+    fault = dog_.Check(now, grant_);
+    if (now <= 3000) {
+      ASSERT_FALSE(fault) << now;
+    }
+  }
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->reason, "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
+}
+
+// On a PC with too much work the clock comes late again and again: what it did not hear then is nobody's silence.
+TEST_F(WatchdogTest, ForgivesWhatTheClockHadNoProcessorFor) {
+  Hear(0, 0);
+  Hear(1, 0);
+  for (std::int64_t now = 0; now <= 3000; now += 120) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
+}
+
 TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
   grant_.final = true;
   Hear(0, 0, Phase::kFinished);
