@@ -7,6 +7,7 @@
 #include <csignal>
 #include <utility>
 
+#include "common/core/base/wait.hpp"
 #include "common/runtime/dds/stop_signals.hpp"
 #include "common/runtime/dds/wall_clock.hpp"
 #include "common/runtime/launch/sample_difference.hpp"
@@ -17,6 +18,7 @@ namespace rodeira::dds {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeToEnd{500};
+constexpr std::chrono::milliseconds kShownWait{500};
 
 volatile std::sig_atomic_t g_terminated = 0;
 
@@ -200,6 +202,7 @@ void NodeBus::TakeSnapshot(const base::Bytes& payload) {
 base::Status NodeBus::Remember(const lockstep::Sample& sample) { return answers_->Remember(sample); }
 
 std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
+  const base::WaitNote note("the clock's first grant");
   const auto until = WallClock::now() + limit;
   std::unique_lock lock(mutex_);
   while (!heard_ && WallClock::now() < until) woken_.wait_for(lock, std::chrono::milliseconds(10));
@@ -208,6 +211,7 @@ std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds lim
 
 std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit) {
   const lockstep::Gap wanted{*roster_.node(settings_.node).snapshots, step};
+  const base::WaitNote note("its snapshot, which another node keeps");
   const auto until = WallClock::now() + limit;
   std::unique_lock lock(mutex_);
   wanted_ = wanted;
@@ -308,6 +312,7 @@ lockstep::Report NodeBus::ReportNow() {
   const std::lock_guard lock(mutex_);
   lockstep::Report report = runner_ != nullptr ? runner_->report() : last_;
   const auto end = mailbox_.early_end();
+  if (!lockstep::IsTerminal(report.phase)) report.message = base::LongestWait(kShownWait);
   if (!end || lockstep::IsTerminal(report.phase)) return report;
   if (!ends_since_) ends_since_ = WallClock::now();
   if (runner_ != nullptr && WallClock::now() - *ends_since_ < kTimeToEnd) return report;

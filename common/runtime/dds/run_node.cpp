@@ -11,6 +11,7 @@
 #include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
+#include "common/core/base/wait.hpp"
 #include "common/runtime/dds/node_bus.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/remote_ground.hpp"
@@ -67,6 +68,7 @@ class ProcessContext final : public launch::NodeContext {
       woken.notify_all();
     });
     if (!reader) return reader.error();
+    const base::WaitNote note("the road server's world");
     std::unique_lock lock(mutex);
     const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(launch().watchdog().start_ms);
     while (!summary && !mailbox_.grant().abort && std::chrono::steady_clock::now() < until) woken.wait_for(lock, 20ms);

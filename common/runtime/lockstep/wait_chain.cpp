@@ -44,7 +44,9 @@ std::string WaitChain(const Roster& roster, const std::vector<Report>& reports) 
     at = &reports[on];
   }
   if (at->waiting == Waiting::kGrant && at->phase < Phase::kFailed) return "";
-  return chain + fmt::format("'{}' {}", roster.node(at->node).name, Doing(*at));
+  const bool has_cause = at->phase < Phase::kFinished && !at->message.empty();
+  return chain + fmt::format("'{}' {}{}", roster.node(at->node).name, Doing(*at),
+                             has_cause ? fmt::format(" and {}", at->message) : "");
 }
 
 }  // namespace rodeira::lockstep

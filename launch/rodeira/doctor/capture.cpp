@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
 
 #include "launch/rodeira/wall_clock.hpp"
 
@@ -39,18 +40,17 @@ void ReadAll(int from, WallClock::time_point until, std::string& output) {
   }
 }
 
-// Waits for the end of a child, which is killed at `until`; its waitpid status.
+// Waits for the end of a child, which is killed at `until`; its waitpid status. A child that does not end a second
+// after that, as in a driver that hangs, is left.
 int WaitOrKill(pid_t pid, WallClock::time_point until, bool& too_late) {
-  int status = 0;
-  for (;;) {
-    const pid_t ended = ::waitpid(pid, &status, too_late ? 0 : WNOHANG);
+  using namespace std::chrono_literals;
+  for (;; ::usleep(1000)) {
+    int status = 0;
+    const pid_t ended = ::waitpid(pid, &status, WNOHANG);
     if (ended == pid || (ended < 0 && errno != EINTR)) return status;
-    if (too_late) continue;
-    too_late = WallClock::now() >= until;
-    if (too_late)
-      ::kill(pid, SIGKILL);
-    else
-      ::usleep(1000);
+    const auto now = WallClock::now();
+    if (now >= until && !std::exchange(too_late, true)) ::kill(pid, SIGKILL);
+    if (now >= until + 1s) return SIGKILL;
   }
 }
 

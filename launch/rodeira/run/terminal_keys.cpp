@@ -59,7 +59,8 @@ TerminalKeys::~TerminalKeys() {
   termios now{};
   if (IsForeground() && ::tcgetattr(file_, &now) == 0 && Same(now, keys_)) ::tcsetattr(file_, TCSANOW, &before_);
   if (guarded_ >= 0) ::close(guarded_);
-  if (guardian_ > 0) ::waitpid(guardian_, nullptr, 0);
+  // The guardian ends at once, unless it is stopped.
+  for (int i = 0; guardian_ > 0 && i < 1000 && ::waitpid(guardian_, nullptr, WNOHANG) == 0; ++i) ::usleep(1000);
 }
 
 bool TerminalKeys::IsForeground() const { return ::tcgetpgrp(file_) == ::getpgrp(); }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "common/core/base/wait.hpp"
 #include "nodes/view/frame/png.hpp"
 #include "nodes/view/run_connection/asker.hpp"
 #include "nodes/view/run_connection/key_forwarder.hpp"
@@ -37,6 +38,7 @@ base::Result<std::unique_ptr<Stage>> Stage::Open(const ViewSettings& settings, W
                                                  std::unique_ptr<launch::LiveRequestsSender> requests) {
   std::unique_ptr<Stage> stage(new Stage(settings, std::move(reader), std::move(keys), std::move(requests)));
   {
+    const base::WaitNote note("the view's window and its world");
     std::unique_lock lock(stage->mutex_);
     stage->changed_.wait(lock, [&] { return stage->ready_; });
     if (!stage->set_up_) return stage->set_up_.error();
@@ -81,6 +83,7 @@ base::Status Stage::Order(Picture picture, std::filesystem::path file) {
 }
 
 base::Status Stage::Drain() {
+  const base::WaitNote note("pictures to be written");
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return orders_.empty() || !written_; });
   return written_;

@@ -346,6 +346,11 @@ TEST_F(RecoveryOfOne, TheChainOfWaitingEndsAtItsCause) {
   reports[0].since_ms = 3200;
   EXPECT_EQ(WaitChain(roster, reports),
             "'view' waits for 'car', 'car' waits for 'driver', 'driver' computes step 12 since 3.2 s");
+  reports[0].message = "waits for pictures to be written since 3.1 s";
+  EXPECT_EQ(WaitChain(roster, reports),
+            "'view' waits for 'car', 'car' waits for 'driver', 'driver' computes step 12 since 3.2 s and waits for "
+            "pictures to be written since 3.1 s");
+  reports[0].message.clear();
   reports[0].waiting = Waiting::kServer;
   EXPECT_EQ(
       WaitChain(roster, reports),

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wait that may last for ever, and a use of the system time, is named in a list with its reason
+// (endless_waits.txt, system_time.txt). Waits with a limit and waits on the monotonic clock need none.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/tree.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kEndlessWait =
+    R"((\.|->)wait\(|(\.|->)join\(\)|\bjthread\b.*[;(]|\bfuture<|\bstd::async\(|\bpoll\([^;]*, -1\)|waitpid\([^;]*, 0\))"
+    R"(|\bwaitid\(|\bsem_wait\(|\bpthread_join\(|\bepoll_wait\(|\bselect\([^;]*nullptr\)|::pause\(\)|::flock\([^;]*LOCK_)"
+    R"(|::read\()";
+const char* const kSystemTime =
+    R"(\bsystem_clock\b|\bstd::time\(|::time\(|\bgettimeofday\b|\bCLOCK_REALTIME\b|\blast_write_time\(|\bfile_clock\b)";
+
+std::string Trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
+}
+
+// The part of a line before its comment.
+std::string CodeOf(const std::string& line) { return Trimmed(line.substr(0, line.find("//"))); }
+
+using Hits = std::set<std::string>;  // "path: code"
+
+void Search(std::istream& in, const std::string& path, const std::regex& wanted, Hits& hits) {
+  for (std::string line; std::getline(in, line);) {
+    const std::string code = CodeOf(line);
+    if (!code.starts_with("#") && std::regex_search(code, wanted)) hits.insert(path + ": " + code);
+  }
+}
+
+Hits SearchTree(const char* pattern) {
+  const std::regex wanted(pattern);
+  const fs::path root = rodeira::SourceDir();
+  Hits hits;
+  for (const char* top : {"common", "nodes", "launch", "idl"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
+      const auto extension = entry.path().extension();
+      if (extension != ".cpp" && extension != ".hpp") continue;
+      std::ifstream in(entry.path());
+      Search(in, entry.path().lexically_relative(root).string(), wanted, hits);
+    }
+  }
+  return hits;
+}
+
+// A line with a reason "# …" stands above the lines that it is of; each of these is "path: code".
+Hits ReadList(const std::string& name) {
+  Hits listed;
+  bool has_reason = false;
+  std::ifstream in(fs::path(rodeira::SourceDir()) / "tests/architecture" / name);
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("# ")) has_reason = line.size() > 10;
+    if (line.empty()) has_reason = false;
+    if (line.empty() || line[0] == '#') continue;
+    EXPECT_TRUE(has_reason) << name << ": " << line << " has no reason above it";
+    EXPECT_TRUE(listed.insert(line).second) << name << " names twice: " << line;
+  }
+  return listed;
+}
+
+void ExpectListed(const Hits& found, const std::string& list) {
+  const Hits listed = ReadList(list);
+  EXPECT_FALSE(listed.empty());
+  for (const std::string& one : found) EXPECT_TRUE(listed.contains(one)) << "not in " << list << ": " << one;
+  for (const std::string& one : listed) EXPECT_TRUE(found.contains(one)) << list << " names what is gone: " << one;
+}
+
+TEST(Waits, EveryEndlessWaitHasAReason) { ExpectListed(SearchTree(kEndlessWait), "endless_waits.txt"); }
+TEST(Waits, EveryUseOfTheSystemTimeHasAReason) { ExpectListed(SearchTree(kSystemTime), "system_time.txt"); }
+
+TEST(Waits, TheyAreFoundHoweverTheyAreWritten) {
+  const std::vector<std::string> waits = {"changed_.wait(lock);",
+                                          "changed->wait(lock, [] { return true; });",
+                                          "thread.join();",
+                                          "::poll(&one, 1, -1);",
+                                          "::waitpid(pid, &status, 0);",
+                                          "auto f = std::async(read);",
+                                          "std::future<int> f;",
+                                          "::read(file, buffer, 8);",
+                                          "::pause();",
+                                          "const std::jthread guard(f);"};
+  const std::vector<std::string> none = {
+      "changed_.wait_for(lock, 10ms);", "base::WaitFor(changed, lock, 1s, \"x\", p);",
+      "::poll(&one, 1, 20);",           "::waitpid(pid, &status, WNOHANG);",
+      "fmt::join(names, \", \");",      "// thread.join();"};
+  const std::regex wanted(kEndlessWait);
+  for (const std::string& code : waits) EXPECT_TRUE(std::regex_search(CodeOf(code), wanted)) << code;
+  for (const std::string& code : none) EXPECT_FALSE(std::regex_search(CodeOf(code), wanted)) << code;
+  const std::regex time(kSystemTime);
+  EXPECT_TRUE(std::regex_search(std::string("until = std::chrono::system_clock::now() + 1s;"), time));
+  EXPECT_TRUE(std::regex_search(std::string("const auto now = std::time(nullptr);"), time));
+  EXPECT_FALSE(std::regex_search(std::string("steady_clock::now(); clock.time(3);"), time));
+}
+
+}  // namespace
