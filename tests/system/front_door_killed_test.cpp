@@ -5,7 +5,13 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include "tests/system/command.hpp"
 
@@ -88,12 +94,27 @@ TEST_F(KilledFrontDoor, RightAfterANodeWasTerminated) {
   ExpectNobodyAfterItsDeath(run);
 }
 
+// All threads of it. The kernel lets go on what stands when its parent dies, and nothing that stops a moment later.
+bool IsStopped(pid_t process) {
+  std::error_code problem;
+  for (const auto& thread : std::filesystem::directory_iterator(fmt::format("/proc/{}/task", process), problem)) {
+    std::ifstream in(thread.path() / "stat");
+    const std::string text((std::istreambuf_iterator<char>(in)), {});
+    const auto name_ends = text.rfind(") ");
+    if (name_ends != std::string::npos && text[name_ends + 2] != 'T') return false;
+  }
+  return true;
+}
+
 TEST_F(KilledFrontDoor, WithTheClockOrEverythingStopped) {
   for (const char* stopped : {"/rodeira-clock", "/rodeira-"}) {
     Started run(Command({}));
     ASSERT_TRUE(Runs(Name()));
     ::kill(run.pid(), SIGSTOP);  // it does not see it
-    for (const pid_t part : ProcessesWith("--run " + Name(), stopped)) ::kill(part, SIGSTOP);
+    for (const pid_t part : ProcessesWith("--run " + Name(), stopped)) {
+      ::kill(part, SIGSTOP);
+      while (!IsStopped(part)) std::this_thread::sleep_for(1ms);
+    }
     ExpectNobodyAfterItsDeath(run);
   }
 }
