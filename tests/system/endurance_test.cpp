@@ -83,7 +83,7 @@ class RecorderKilled : public Endurance {
     EXPECT_THAT(info.out, HasSubstr("not whole"));
     const std::string repaired = recording + ".repaired";
     const Ended repair = RunCommand({Bin("rodeira"), "repair", recording, "--out", repaired});
-    ASSERT_EQ(repair.status, 0) << repair.out << ended.out;
+    ASSERT_LE(repair.status, 1) << repair.out << ended.out;  // 1: a record was torn
     EXPECT_EQ(RunCommand({Bin("rodeira"), "info", repaired}).status, 0);
     const auto samples = SamplesOf(repaired);
     ASSERT_LE(samples.size(), calm_.size());

@@ -10,14 +10,17 @@
 namespace rodeira::record {
 namespace {
 
-base::Result<base::Bytes> Uncompress(const ChunkHead& head) {
+base::Result<base::Bytes> Uncompress(const ChunkHead& head, Rules rules) {
   if (head.uncompressed_bytes > kMaxRecordBytes) {
     return base::WrongInput(fmt::format("its records are said to have {} bytes, at most {} were expected",
                                         head.uncompressed_bytes, kMaxRecordBytes));
   }
   if (head.compression == "zstd") return ZstdDecompress(head.records, head.uncompressed_bytes);
+  const bool lz4 = rules == Rules::kSpecification;
+  if (lz4 && head.compression == "lz4") return Lz4Decompress(head.records, head.uncompressed_bytes);
   if (!head.compression.empty()) {
-    return base::WrongInput(fmt::format("its compression is '{:.16}', none or 'zstd' was expected", head.compression));
+    return base::WrongInput(fmt::format("its compression is '{:.16}', {} was expected", head.compression,
+                                        lz4 ? "none, 'zstd' or 'lz4'" : "none or 'zstd'"));
   }
   if (head.records.size() != head.uncompressed_bytes) {
     return base::WrongInput(
@@ -27,7 +30,7 @@ base::Result<base::Bytes> Uncompress(const ChunkHead& head) {
 }
 
 // Takes the records apart: definitions into `found`, messages into chunk.entries.
-base::Status List(Chunk& chunk, Definitions& found) {
+base::Status List(Chunk& chunk, Definitions& found, Rules rules) {
   for (std::uint64_t offset = 0; offset < chunk.records.size();) {
     const auto record = RecordAt(chunk.records, offset);
     const auto fail = [&](const char* what) {
@@ -40,14 +43,16 @@ base::Status List(Chunk& chunk, Definitions& found) {
       if (!found.channels.contains(message->channel)) return fail("a message of an unknown channel lies");
       chunk.entries.push_back({message->log_time_ns, offset, message->channel});
     } else if (record->opcode == Opcode::kSchema) {
-      const auto schema = ParseSchema(record->content);
+      const auto schema = ParseSchema(record->content, rules);
       if (!schema) return fail("a damaged schema lies");
       if (auto status = found.Add(*schema); !status) return status;
     } else if (record->opcode == Opcode::kChannel) {
-      const auto channel = ParseChannel(record->content);
+      const auto channel = ParseChannel(record->content, rules);
       if (!channel) return fail("a damaged channel lies");
       if (auto status = found.Add(*channel); !status) return status;
-    } else if (static_cast<std::uint8_t>(record->opcode) < 0x80) {
+    } else if (IsSkipped(record->opcode, rules)) {
+      ++chunk.skipped;
+    } else {
       return fail("a record that does not belong in a chunk lies");
     }
     offset += kHeadBytes + record->content.size();
@@ -64,9 +69,44 @@ base::Status CheckTimes(const Chunk& chunk) {
   return base::WrongInput("its messages have other times than it says");
 }
 
+// A run of messages that lie outside of chunks.
+base::Result<Chunk> LoadRun(const Source& source, const ChunkInfo& info, Definitions& definitions, Rules rules) {
+  if (info.offset > source.size() || info.record_bytes > source.size() - info.offset) {
+    return base::WrongInput("the file is shorter");
+  }
+  auto records = source.Read(info.offset, info.record_bytes);
+  if (!records) return records.error();
+  Chunk chunk;
+  chunk.records = std::move(records).value();
+  chunk.head.first_log_time_ns = info.first_log_time_ns;
+  chunk.head.last_log_time_ns = info.last_log_time_ns;
+  chunk.head.uncompressed_bytes = info.uncompressed_bytes;
+  if (auto status = List(chunk, definitions, rules); !status) return status.error();
+  if (auto status = CheckTimes(chunk); !status) return status.error();
+  return chunk;
+}
+
+base::Result<Chunk> LoadChunkRecord(const Source& source, const ChunkInfo& info, Definitions& definitions,
+                                    Rules rules) {
+  auto record = ReadRecord(source, info.offset, info.offset + info.record_bytes);
+  if (!record) return record.error();
+  if (record.value().opcode != Opcode::kChunk || record.value().bytes.size() != info.record_bytes) {
+    return base::WrongInput("no chunk of that length lies there");
+  }
+  return DecodeChunk(record.value().content(), definitions, rules);
+}
+
+// The specification lets a chunk define what the summary does not name; its messages need what the summary names.
+bool AreNamed(const Chunk& chunk, const Definitions& used, const Contents& contents) {
+  if (contents.rules == Rules::kOwn) return used == contents.definitions;
+  return std::ranges::all_of(
+      chunk.entries, [&](const Chunk::Entry& entry) { return contents.definitions.channels.contains(entry.channel); });
+}
+
 }  // namespace
 
 base::Status Definitions::Add(const Schema& schema) {
+  if (schema.id == 0) return {};  // to be ignored, by the specification
   const auto [place, added] = schemas.emplace(schema.id, schema);
   if (added || place->second == schema) return {};
   return base::WrongInput(fmt::format("schema {} is defined twice, differently", schema.id));
@@ -105,10 +145,10 @@ base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, 
   return record;
 }
 
-base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions) {
-  auto head = ParseChunk(content);
+base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions, Rules rules) {
+  auto head = ParseChunk(content, rules);
   if (!head) return base::WrongInput("its fields do not fit its length");
-  auto records = Uncompress(*head);
+  auto records = Uncompress(*head, rules);
   if (!records) return records.error();
   Chunk chunk;
   chunk.records = std::move(records).value();
@@ -119,28 +159,27 @@ base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions&
     return base::WrongInput(fmt::format("its checksum is {:08x}, {:08x} was expected", crc, chunk.head.crc));
   }
   Definitions found = definitions;
-  if (auto status = List(chunk, found); !status) return status.error();
+  if (auto status = List(chunk, found, rules); !status) return status.error();
   if (auto status = CheckTimes(chunk); !status) return status.error();
   definitions = std::move(found);
   return chunk;
 }
 
-base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Definitions& known) {
+base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Contents& contents) {
   const auto fail = [&](const std::string& why) {
-    return base::WrongInput(fmt::format("the chunk with the messages from {} to {} is damaged: {}",
+    return base::WrongInput(fmt::format("the {} with the messages from {} to {} is damaged: {}",
+                                        info.unchunked ? "run outside of chunks" : "chunk",
                                         Seconds(info.first_log_time_ns), Seconds(info.last_log_time_ns), why),
                             fmt::format("{}: byte {}", source.name(), info.offset));
   };
-  auto record = ReadRecord(source, info.offset, info.offset + info.record_bytes);
-  if (!record) return fail(record.error().message);
-  if (record.value().opcode != Opcode::kChunk || record.value().bytes.size() != info.record_bytes) {
-    return fail("no chunk of that length lies there");
-  }
-  Definitions definitions = known;
-  auto chunk = DecodeChunk(record.value().content(), definitions);
+  Definitions definitions = contents.definitions;
+  auto chunk = info.unchunked ? LoadRun(source, info, definitions, contents.rules)
+                              : LoadChunkRecord(source, info, definitions, contents.rules);
   if (!chunk) return fail(chunk.error().message);
   const ChunkHead& head = chunk.value().head;
-  if (definitions != known) return fail("it defines a schema or channel that the summary does not name");
+  if (!AreNamed(chunk.value(), definitions, contents)) {
+    return fail("it defines a schema or channel that the summary does not name");
+  }
   if (head.first_log_time_ns != info.first_log_time_ns || head.last_log_time_ns != info.last_log_time_ns ||
       head.uncompressed_bytes != info.uncompressed_bytes || head.compression != info.compression) {
     return fail("it differs from what the summary says of it");

@@ -2,6 +2,7 @@
 #include "common/data/record/compress.hpp"
 
 #include <fmt/format.h>
+#include <lz4frame.h>
 #include <zstd.h>
 
 namespace rodeira::record {
@@ -10,6 +11,12 @@ namespace {
 // A zstd block has at least four bytes and holds at most 128 KiB (RFC 8878, 3.1.1.2).
 constexpr std::uint64_t kMaxBlockBytes = 128u << 10;
 constexpr std::uint64_t kMinBlockBytes = 4;
+// One byte of an lz4 block lengthens a match by at most 255 bytes (lz4_Block_format.md).
+constexpr std::uint64_t kMaxLz4Ratio = 255;
+
+struct FreeLz4 {
+  void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
+};
 
 }  // namespace
 
@@ -43,6 +50,33 @@ base::Result<base::Bytes> ZstdDecompress(std::span<const std::byte> frame, std::
   const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
   if (ZSTD_isError(got)) return base::WrongInput(fmt::format("zstd says '{}'", ZSTD_getErrorName(got)));
   if (got != size) return base::WrongInput(fmt::format("it holds {} bytes, {} were expected", got, size));
+  return bytes;
+}
+
+base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::uint64_t size) {
+  if (size / kMaxLz4Ratio > frame.size()) {
+    return base::WrongInput(fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
+  }
+  LZ4F_dctx* made = nullptr;
+  RODEIRA_ASSERT(!LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)));
+  const std::unique_ptr<LZ4F_dctx, FreeLz4> context(made);
+  base::Bytes bytes(static_cast<std::size_t>(size) + 1);  // one byte more: a frame that holds more is noticed
+  std::size_t read = 0;
+  std::size_t written = 0;
+  std::size_t expected = 1;  // bytes that the frame still needs
+  while (read < frame.size()) {
+    std::size_t in = frame.size() - read;
+    std::size_t out = bytes.size() - written;
+    expected = LZ4F_decompress(context.get(), bytes.data() + written, &out, frame.data() + read, &in, nullptr);
+    if (LZ4F_isError(expected)) return base::WrongInput(fmt::format("lz4 says '{}'", LZ4F_getErrorName(expected)));
+    read += in;
+    written += out;
+    if (in == 0 && out == 0) break;
+  }
+  if (written > size) return base::WrongInput(fmt::format("it holds more than the {} bytes that were expected", size));
+  if (expected != 0) return base::WrongInput("its lz4 frame is incomplete");
+  if (written < size) return base::WrongInput(fmt::format("it holds {} bytes, {} were expected", written, size));
+  bytes.pop_back();
   return bytes;
 }
 

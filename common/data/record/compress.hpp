@@ -30,4 +30,7 @@ class ZstdCompressor {
 // length have been found to fit that size. The Error says what was found.
 base::Result<base::Bytes> ZstdDecompress(std::span<const std::byte> frame, std::uint64_t size);
 
+// The same for lz4 frames (not blocks), which other programs write.
+base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::uint64_t size);
+
 }  // namespace rodeira::record

@@ -29,6 +29,7 @@ struct Definitions {
 
 struct Contents {
   Header header;
+  Rules rules = Rules::kOwn;
   Definitions definitions;
   Statistics statistics;
   std::vector<ChunkInfo> chunks;  // these three in file order
@@ -46,6 +47,7 @@ struct Chunk {
   ChunkHead head;  // without its records
   base::Bytes records;
   std::vector<Entry> entries;  // in file order
+  std::uint64_t skipped = 0;   // records of applications or of later revisions of MCAP
 };
 
 // A record read from the file.
@@ -60,18 +62,26 @@ base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, 
 
 // Uncompresses a Chunk record's content, checks it, adds its schemas and channels to `definitions` (only where all of
 // the chunk is right) and lists its messages.
-base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions);
+base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions, Rules rules);
 
-// The chunk that `info` describes. Its definitions must be among those that are known.
-base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Definitions& known);
+// The chunk, or the run of messages outside of chunks, that `info` describes. Its definitions must be among the
+// contents'.
+base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Contents& contents);
 
-// What the summary says; wrong input says why it cannot be used.
-base::Result<Contents> ReadSummary(const Source& source);
+struct Summary {
+  Contents contents;
+  bool has_statistics = false;
+  std::string shortage;  // why it does not name everything in the file; only in files of other programs
+};
+// What the summary says. Wrong input says why it cannot be used: it is damaged, or the file was not closed.
+base::Result<Summary> ReadSummary(const Source& source);
 
 // What can be read from the start.
 struct Scan {
   Contents contents;
   bool ended = false;            // DataEnd was reached
+  bool lost = false;             // something in the file is not in `contents`, or was changed after it was written
+  std::uint64_t skipped = 0;     // records of applications or of later revisions of MCAP
   std::uint64_t good_bytes = 0;  // up to the end of the last record that was taken
   std::vector<std::string> findings;
 };
@@ -79,6 +89,13 @@ struct Scan {
 base::Status CheckMark(const Source& source);
 // Wrong input where not even the header is there.
 base::Result<Scan> ScanFile(const Source& source);
+
+// Adds schemas and channels that only the summary names: other programs write those without messages so.
+void AddNamed(const Contents& summary, Contents& scanned);
+
+// How a summary differs from the file, one sentence each. Of other programs' files only what their summary says is
+// compared.
+std::vector<std::string> Compare(const Summary& said, const Contents& found);
 
 class McapReader::Shared {
  public:

@@ -35,7 +35,6 @@ class MessageCursor::Walk {
   bool NeedsNextChunk() const;
   base::Status OpenNextChunk();
   void CloseDoneChunks();
-  const Definitions& definitions() const { return shared_->contents.definitions; }
 
   std::shared_ptr<const McapReader::Shared> shared_;
   Query query_;
@@ -82,7 +81,7 @@ base::Status MessageCursor::Walk::OpenNextChunk() {
                                     Seconds(info.first_log_time_ns), shared_->settings.memory_bytes),
                         fmt::format("{}: byte {}", shared_->source->name(), info.offset));
   }
-  auto loaded = LoadChunk(*shared_->source, info, definitions());
+  auto loaded = LoadChunk(*shared_->source, info, shared_->contents);
   if (!loaded) return loaded.error();
   OpenChunk chunk{&info, std::move(loaded).value()};
   auto& entries = chunk.chunk.entries;

@@ -34,7 +34,10 @@ bool GetCounts(ByteReader& in, std::map<ChannelId, std::uint64_t>& counts) {
   return in.ok();
 }
 
-bool AtEnd(const ByteReader& in) { return in.ok() && in.remaining() == 0; }
+// True where the fields fit into the record.
+bool AtEnd(const ByteReader& in, Rules rules = Rules::kOwn) {
+  return in.ok() && (rules == Rules::kSpecification || in.remaining() == 0);
+}
 
 }  // namespace
 
@@ -55,7 +58,7 @@ std::optional<Header> ParseHeader(std::span<const std::byte> content) {
   Header header;
   header.profile = in.GetString();
   header.library = in.GetString();
-  return AtEnd(in) ? std::optional(std::move(header)) : std::nullopt;
+  return AtEnd(in, RulesOf(header)) ? std::optional(std::move(header)) : std::nullopt;
 }
 
 std::optional<Footer> ParseFooter(std::span<const std::byte> content) {
@@ -67,24 +70,25 @@ std::optional<Footer> ParseFooter(std::span<const std::byte> content) {
   return AtEnd(in) ? std::optional(footer) : std::nullopt;
 }
 
-std::optional<Schema> ParseSchema(std::span<const std::byte> content) {
+std::optional<Schema> ParseSchema(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   Schema schema;
   schema.id = in.Get<SchemaId>();
   schema.name = in.GetString();
   schema.encoding = in.GetString();
   schema.text = in.GetString();
-  return AtEnd(in) && schema.id != 0 ? std::optional(std::move(schema)) : std::nullopt;
+  return AtEnd(in, rules) && (schema.id != 0 || rules == Rules::kSpecification) ? std::optional(std::move(schema))
+                                                                                : std::nullopt;
 }
 
-std::optional<Channel> ParseChannel(std::span<const std::byte> content) {
+std::optional<Channel> ParseChannel(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   Channel channel;
   channel.id = in.Get<ChannelId>();
   channel.schema = in.Get<SchemaId>();
   channel.topic = in.GetString();
   channel.message_encoding = in.GetString();
-  if (!GetTexts(in, channel.metadata) || !AtEnd(in)) return std::nullopt;
+  if (!GetTexts(in, channel.metadata) || !AtEnd(in, rules)) return std::nullopt;
   return channel;
 }
 
@@ -99,7 +103,7 @@ std::optional<Message> ParseMessage(std::span<const std::byte> content) {
   return AtEnd(in) ? std::optional(message) : std::nullopt;
 }
 
-std::optional<ChunkHead> ParseChunk(std::span<const std::byte> content) {
+std::optional<ChunkHead> ParseChunk(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   ChunkHead chunk;
   chunk.first_log_time_ns = in.Get<std::uint64_t>();
@@ -109,15 +113,15 @@ std::optional<ChunkHead> ParseChunk(std::span<const std::byte> content) {
   chunk.compression = in.GetString();
   const auto size = in.Get<std::uint64_t>();
   chunk.records = in.GetRaw(size);
-  return AtEnd(in) ? std::optional(std::move(chunk)) : std::nullopt;
+  return AtEnd(in, rules) ? std::optional(std::move(chunk)) : std::nullopt;
 }
 
-std::optional<MessageIndex> ParseMessageIndex(std::span<const std::byte> content) {
+std::optional<MessageIndex> ParseMessageIndex(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   MessageIndex index;
   index.channel = in.Get<ChannelId>();
   ByteReader block = GetBlock(in);
-  if (!AtEnd(in) || block.remaining() % (2 * sizeof(std::uint64_t)) != 0) return std::nullopt;
+  if (!AtEnd(in, rules) || block.remaining() % (2 * sizeof(std::uint64_t)) != 0) return std::nullopt;
   index.entries.reserve(block.remaining() / (2 * sizeof(std::uint64_t)));
   while (block.remaining() > 0) {
     const auto log_time_ns = block.Get<std::uint64_t>();
@@ -126,7 +130,7 @@ std::optional<MessageIndex> ParseMessageIndex(std::span<const std::byte> content
   return index;
 }
 
-std::optional<ChunkInfo> ParseChunkIndex(std::span<const std::byte> content) {
+std::optional<ChunkInfo> ParseChunkIndex(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   ChunkInfo chunk;
   chunk.first_log_time_ns = in.Get<std::uint64_t>();
@@ -138,10 +142,10 @@ std::optional<ChunkInfo> ParseChunkIndex(std::span<const std::byte> content) {
   chunk.compression = in.GetString();
   chunk.compressed_bytes = in.Get<std::uint64_t>();
   chunk.uncompressed_bytes = in.Get<std::uint64_t>();
-  return AtEnd(in) ? std::optional(std::move(chunk)) : std::nullopt;
+  return AtEnd(in, rules) ? std::optional(std::move(chunk)) : std::nullopt;
 }
 
-std::optional<Attachment> ParseAttachment(std::span<const std::byte> content) {
+std::optional<Attachment> ParseAttachment(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   Attachment attachment;
   attachment.log_time_ns = in.Get<std::uint64_t>();
@@ -151,12 +155,12 @@ std::optional<Attachment> ParseAttachment(std::span<const std::byte> content) {
   const auto data = in.GetRaw(in.Get<std::uint64_t>());
   const std::size_t covered = in.position();
   const auto crc = in.Get<std::uint32_t>();
-  if (!AtEnd(in) || (crc != 0 && crc != Crc32(content.first(covered)))) return std::nullopt;
+  if (!AtEnd(in, rules) || (crc != 0 && crc != Crc32(content.first(covered)))) return std::nullopt;
   attachment.data.assign(data.begin(), data.end());
   return attachment;
 }
 
-std::optional<AttachmentInfo> ParseAttachmentIndex(std::span<const std::byte> content) {
+std::optional<AttachmentInfo> ParseAttachmentIndex(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   AttachmentInfo info;
   info.offset = in.Get<std::uint64_t>();
@@ -166,27 +170,27 @@ std::optional<AttachmentInfo> ParseAttachmentIndex(std::span<const std::byte> co
   info.data_bytes = in.Get<std::uint64_t>();
   info.name = in.GetString();
   info.media_type = in.GetString();
-  return AtEnd(in) ? std::optional(std::move(info)) : std::nullopt;
+  return AtEnd(in, rules) ? std::optional(std::move(info)) : std::nullopt;
 }
 
-std::optional<Metadata> ParseMetadata(std::span<const std::byte> content) {
+std::optional<Metadata> ParseMetadata(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   Metadata metadata;
   metadata.name = in.GetString();
-  if (!GetTexts(in, metadata.entries) || !AtEnd(in)) return std::nullopt;
+  if (!GetTexts(in, metadata.entries) || !AtEnd(in, rules)) return std::nullopt;
   return metadata;
 }
 
-std::optional<MetadataInfo> ParseMetadataIndex(std::span<const std::byte> content) {
+std::optional<MetadataInfo> ParseMetadataIndex(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   MetadataInfo info;
   info.offset = in.Get<std::uint64_t>();
   info.record_bytes = in.Get<std::uint64_t>();
   info.name = in.GetString();
-  return AtEnd(in) ? std::optional(std::move(info)) : std::nullopt;
+  return AtEnd(in, rules) ? std::optional(std::move(info)) : std::nullopt;
 }
 
-std::optional<Statistics> ParseStatistics(std::span<const std::byte> content) {
+std::optional<Statistics> ParseStatistics(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   Statistics statistics;
   statistics.messages = in.Get<std::uint64_t>();
@@ -197,7 +201,7 @@ std::optional<Statistics> ParseStatistics(std::span<const std::byte> content) {
   statistics.chunks = in.Get<std::uint32_t>();
   statistics.first_log_time_ns = in.Get<std::uint64_t>();
   statistics.last_log_time_ns = in.Get<std::uint64_t>();
-  if (!GetCounts(in, statistics.messages_by_channel) || !AtEnd(in)) return std::nullopt;
+  if (!GetCounts(in, statistics.messages_by_channel) || !AtEnd(in, rules)) return std::nullopt;
   return statistics;
 }
 
@@ -210,10 +214,10 @@ std::optional<SummaryOffset> ParseSummaryOffset(std::span<const std::byte> conte
   return AtEnd(in) ? std::optional(group) : std::nullopt;
 }
 
-std::optional<std::uint32_t> ParseDataEnd(std::span<const std::byte> content) {
+std::optional<std::uint32_t> ParseDataEnd(std::span<const std::byte> content, Rules rules) {
   ByteReader in(content);
   const auto crc = in.Get<std::uint32_t>();
-  return AtEnd(in) ? std::optional(crc) : std::nullopt;
+  return AtEnd(in, rules) ? std::optional(crc) : std::nullopt;
 }
 
 }  // namespace rodeira::record

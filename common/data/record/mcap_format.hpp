@@ -38,6 +38,17 @@ enum class Opcode : std::uint8_t {
   kDataEnd = 0x0F,
 };
 
+// Which records a reader accepts.
+enum class Rules : std::uint8_t {
+  kOwn,            // exactly what McapWriter writes
+  kSpecification,  // all that MCAP's specification permits: unknown fields and records, messages outside of chunks, lz4
+};
+inline Rules RulesOf(const Header& header) { return header.library == kLibrary ? Rules::kOwn : Rules::kSpecification; }
+// True for records that a reader skips: those of applications and, by the specification, those of later revisions.
+inline bool IsSkipped(Opcode opcode, Rules rules) {
+  return static_cast<std::uint8_t>(opcode) >= 0x80 || (rules == Rules::kSpecification && opcode > Opcode::kDataEnd);
+}
+
 inline constexpr std::array<unsigned char, 8> kMagic = {0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
 inline constexpr std::uint64_t kHeadBytes = 9;  // opcode and length
 inline constexpr std::uint64_t kFooterBytes = kHeadBytes + 20;
@@ -105,22 +116,23 @@ struct RecordView {
 // The record at `offset`, or nothing where no whole record lies there.
 std::optional<RecordView> RecordAt(std::span<const std::byte> bytes, std::uint64_t offset);
 
-// Each reads a record's whole content; nothing where it does not fit exactly.
+// Each reads a record's whole content; nothing where it does not fit. By the specification, unknown fields may follow
+// the known ones, except in Footer and Message. ParseHeader applies the rules that follow from the header.
 std::optional<Header> ParseHeader(std::span<const std::byte> content);
 std::optional<Footer> ParseFooter(std::span<const std::byte> content);
-std::optional<Schema> ParseSchema(std::span<const std::byte> content);
-std::optional<Channel> ParseChannel(std::span<const std::byte> content);
+std::optional<Schema> ParseSchema(std::span<const std::byte> content, Rules rules);
+std::optional<Channel> ParseChannel(std::span<const std::byte> content, Rules rules);
 std::optional<Message> ParseMessage(std::span<const std::byte> content);
-std::optional<ChunkHead> ParseChunk(std::span<const std::byte> content);
-std::optional<MessageIndex> ParseMessageIndex(std::span<const std::byte> content);
-std::optional<ChunkInfo> ParseChunkIndex(std::span<const std::byte> content);
+std::optional<ChunkHead> ParseChunk(std::span<const std::byte> content, Rules rules);
+std::optional<MessageIndex> ParseMessageIndex(std::span<const std::byte> content, Rules rules);
+std::optional<ChunkInfo> ParseChunkIndex(std::span<const std::byte> content, Rules rules);
 // The checksum is checked where there is one.
-std::optional<Attachment> ParseAttachment(std::span<const std::byte> content);
-std::optional<AttachmentInfo> ParseAttachmentIndex(std::span<const std::byte> content);
-std::optional<Metadata> ParseMetadata(std::span<const std::byte> content);
-std::optional<MetadataInfo> ParseMetadataIndex(std::span<const std::byte> content);
-std::optional<Statistics> ParseStatistics(std::span<const std::byte> content);
+std::optional<Attachment> ParseAttachment(std::span<const std::byte> content, Rules rules);
+std::optional<AttachmentInfo> ParseAttachmentIndex(std::span<const std::byte> content, Rules rules);
+std::optional<Metadata> ParseMetadata(std::span<const std::byte> content, Rules rules);
+std::optional<MetadataInfo> ParseMetadataIndex(std::span<const std::byte> content, Rules rules);
+std::optional<Statistics> ParseStatistics(std::span<const std::byte> content, Rules rules);
 std::optional<SummaryOffset> ParseSummaryOffset(std::span<const std::byte> content);
-std::optional<std::uint32_t> ParseDataEnd(std::span<const std::byte> content);
+std::optional<std::uint32_t> ParseDataEnd(std::span<const std::byte> content, Rules rules);
 
 }  // namespace rodeira::record

@@ -19,10 +19,10 @@ base::Result<std::shared_ptr<McapReader::Shared>> OpenSource(std::unique_ptr<Sou
   Condition& condition = shared->condition;
   condition.file_bytes = shared->source->size();
   auto summary = ReadSummary(*shared->source);
-  if (summary && !settings.scan) {
+  if (summary && summary.value().shortage.empty() && !settings.scan) {
     condition.by_summary = condition.whole = true;
     condition.good_bytes = condition.file_bytes;
-    shared->contents = std::move(summary).value();
+    shared->contents = std::move(summary).value().contents;
     return shared;
   }
   auto scan = ScanFile(*shared->source);
@@ -32,6 +32,7 @@ base::Result<std::shared_ptr<McapReader::Shared>> OpenSource(std::unique_ptr<Sou
   condition.whole = condition.findings.empty() && scan.value().ended;
   condition.good_bytes = condition.whole ? condition.file_bytes : scan.value().good_bytes;
   shared->contents = std::move(scan.value().contents);
+  if (summary) AddNamed(summary.value().contents, shared->contents);
   return shared;
 }
 
@@ -89,7 +90,7 @@ std::vector<ChannelId> McapReader::ChannelsOf(std::string_view topic) const {
 }
 
 base::Result<ChunkMessages> McapReader::ReadChunk(const ChunkInfo& info) const {
-  auto chunk = LoadChunk(*shared_->source, info, shared_->contents.definitions);
+  auto chunk = LoadChunk(*shared_->source, info, shared_->contents);
   if (!chunk) return chunk.error();
   ChunkMessages out;
   out.records = std::move(chunk.value().records);
@@ -103,7 +104,7 @@ base::Result<ChunkMessages> McapReader::ReadChunk(const ChunkInfo& info) const {
 base::Result<Metadata> McapReader::ReadMetadata(const MetadataInfo& info) const {
   auto record = ReadListed(*shared_->source, info.offset, info.record_bytes, Opcode::kMetadata);
   if (!record) return record.error();
-  auto metadata = ParseMetadata(record.value().content());
+  auto metadata = ParseMetadata(record.value().content(), shared_->contents.rules);
   if (!metadata || metadata->name != info.name) {
     return base::WrongInput(fmt::format("the metadata '{:.64}' are damaged", info.name),
                             fmt::format("{}: byte {}", shared_->source->name(), info.offset));
@@ -126,7 +127,7 @@ base::Result<std::optional<Metadata>> McapReader::FindMetadata(std::string_view 
 base::Result<Attachment> McapReader::ReadAttachment(const AttachmentInfo& info) const {
   auto record = ReadListed(*shared_->source, info.offset, info.record_bytes, Opcode::kAttachment);
   if (!record) return record.error();
-  auto attachment = ParseAttachment(record.value().content());
+  auto attachment = ParseAttachment(record.value().content(), shared_->contents.rules);
   if (!attachment || attachment->name != info.name || attachment->media_type != info.media_type ||
       attachment->log_time_ns != info.log_time_ns || attachment->create_time_ns != info.create_time_ns ||
       attachment->data.size() != info.data_bytes) {

@@ -39,10 +39,11 @@ struct ChunkInfo {
   std::uint64_t last_log_time_ns = 0;
   std::uint64_t compressed_bytes = 0;
   std::uint64_t uncompressed_bytes = 0;
-  std::string compression;                           // "", "zstd"
+  std::string compression;                           // "", "zstd", "lz4"
   std::map<ChannelId, std::uint64_t> index_offsets;  // of the MessageIndex records
   std::uint64_t index_bytes = 0;                     // of all of them
   std::optional<std::set<ChannelId>> channels;       // those with messages in it, where that is known
+  bool unchunked = false;                            // no Chunk record: a run of messages that lie outside of chunks
 };
 
 struct MetadataInfo {
@@ -94,11 +95,15 @@ class MessageCursor {
   std::unique_ptr<Walk> walk_;
 };
 
-// Reads an MCAP file with chunked messages, uncompressed or zstd. Never crashes, whatever the bytes: lengths are
-// checked before memory is asked for, and a message is handed out only when its chunk's checksum is right.
+// Reads an MCAP file. Never crashes, whatever the bytes: lengths are checked before memory is allocated, and a message
+// is handed out only when its chunk's checksum is right.
 //
 // By the summary when that is whole; otherwise from the start, taking complete records as far as they go: then what
 // follows the first incomplete or damaged record is lost, and condition() says so.
+//
+// A file whose header names kLibrary must be as McapWriter writes it. For other files the MCAP specification holds:
+// chunks may be compressed by lz4, messages may lie outside of chunks, and the summary and all indexes are optional. A
+// file whose summary does not name all of it is read from the start. A damaged chunk is lost, what follows is not.
 //
 // One reader and its cursors are for one thread.
 class McapReader {
@@ -117,7 +122,7 @@ class McapReader {
   // The ids of the channels of a topic, smallest first.
   std::vector<ChannelId> ChannelsOf(std::string_view topic) const;
   const Statistics& statistics() const;
-  const std::vector<ChunkInfo>& chunks() const;  // in file order
+  const std::vector<ChunkInfo>& chunks() const;  // in file order, with the runs of messages outside of chunks
   const std::vector<MetadataInfo>& metadata() const;
   const std::vector<AttachmentInfo>& attachments() const;
 

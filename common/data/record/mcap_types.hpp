@@ -20,6 +20,9 @@ using TextMap = std::map<std::string, std::string>;
 inline constexpr std::uint64_t kMaxMessageBytes = 64u << 20;
 inline constexpr std::uint64_t kMaxRecordBytes = 256u << 20;
 
+// Header.library of the recordings that McapWriter writes unless it is told another name.
+inline constexpr const char* kLibrary = "rodeira";
+
 enum class Compression { kNone, kZstd };
 
 struct Header {

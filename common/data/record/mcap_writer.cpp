@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/data/record/mcap_writer.hpp"
+#include "common/core/base/utf8.hpp"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,12 @@ Status CheckSettings(const WriterSettings& settings, const std::string& where) {
   return {};
 }
 
+TextMap InUtf8(const TextMap& entries) {
+  TextMap texts;
+  for (const auto& [key, value] : entries) texts.emplace(base::ToUtf8(key), base::ToUtf8(value));
+  return texts;
+}
+
 }  // namespace
 
 McapWriter::McapWriter(std::unique_ptr<Work> work) : work_(std::move(work)) {}
@@ -73,13 +80,13 @@ base::Result<McapWriter> McapWriter::Open(std::unique_ptr<Sink> sink, const Writ
 
 base::Result<SchemaId> McapWriter::AddSchema(std::string_view name, std::string_view encoding, std::string_view text) {
   RODEIRA_ASSERT(!work_->closed());
-  return work_->AddSchema(name, encoding, text);
+  return work_->AddSchema(base::ToUtf8(name), base::ToUtf8(encoding), text);
 }
 
 base::Result<ChannelId> McapWriter::AddChannel(std::string_view topic, SchemaId schema,
                                                std::string_view message_encoding, const TextMap& metadata) {
   RODEIRA_ASSERT(!work_->closed());
-  return work_->AddChannel(topic, schema, message_encoding, metadata);
+  return work_->AddChannel(base::ToUtf8(topic), schema, base::ToUtf8(message_encoding), InUtf8(metadata));
 }
 
 Status McapWriter::Write(ChannelId channel, std::uint32_t sequence, std::uint64_t log_time_ns,
@@ -90,15 +97,15 @@ Status McapWriter::Write(ChannelId channel, std::uint32_t sequence, std::uint64_
 
 Status McapWriter::AddMetadata(std::string_view name, const TextMap& entries) {
   RODEIRA_ASSERT(!work_->closed());
-  return work_->AddMetadata(name, entries);
+  return work_->AddMetadata(base::ToUtf8(name), InUtf8(entries));
 }
 
 Status McapWriter::AddAttachment(std::string_view name, std::string_view media_type, std::span<const std::byte> data,
                                  std::uint64_t log_time_ns, std::uint64_t create_time_ns) {
   RODEIRA_ASSERT(!work_->closed());
   AttachmentInfo info;
-  info.name = name;
-  info.media_type = media_type;
+  info.name = base::ToUtf8(name);
+  info.media_type = base::ToUtf8(media_type);
   info.log_time_ns = log_time_ns;
   info.create_time_ns = create_time_ns;
   return work_->AddAttachment(std::move(info), data);

@@ -23,7 +23,7 @@ struct WriterSettings {
   std::uint64_t chunk_bytes = 1u << 20;         // a chunk is closed before it would grow beyond (4 KiB to 64 MiB)
   bool overwrite = false;                       // an existing file is refused otherwise
   std::string profile;
-  std::string library = "rodeira";
+  std::string library = kLibrary;
 };
 
 // Writes one MCAP file with chunks, indexes and checksums. The bytes are a pure function of the calls and the settings.
@@ -34,6 +34,9 @@ struct WriterSettings {
 // The first failure (disk full, file too large) is final: what was complete before it stays readable, nothing more is
 // written, and every later call returns the same Error. A call refused with kWrongInput (a text that is too long, an
 // unknown channel) changes nothing and the writer goes on.
+//
+// MCAP's texts are UTF-8: of names, topics and metadata, each other byte is written as "\xe4". A schema's text and the
+// data of messages and attachments stay as they are.
 //
 // Not for use by several threads at the same time.
 class McapWriter {

@@ -38,6 +38,11 @@ class Copier {
   Status CopyRecord(const RecordView& record);
   Status CopyMetadata(const MetadataInfo& info);
   Status CopyAttachment(const AttachmentInfo& info);
+  Status AddDefinitions();
+  void Lose(std::string sentence) {
+    report_.lost = true;
+    report_.losses.push_back(std::move(sentence));
+  }
   base::Result<FileRecord> Read(std::uint64_t offset, std::uint64_t record_bytes) const {
     return ReadRecord(source_, offset, offset + record_bytes);
   }
@@ -69,11 +74,11 @@ base::Result<ChannelId> Copier::IdOf(const Channel& channel) {
 
 Status Copier::CopyRecord(const RecordView& record) {
   if (record.opcode == Opcode::kSchema) {
-    const auto id = IdOf(*ParseSchema(record.content));
+    const auto id = IdOf(*ParseSchema(record.content, contents_.rules));
     return id ? Status() : Status(id.error());
   }
   if (record.opcode == Opcode::kChannel) {
-    const auto id = IdOf(*ParseChannel(record.content));
+    const auto id = IdOf(*ParseChannel(record.content, contents_.rules));
     return id ? Status() : Status(id.error());
   }
   if (record.opcode != Opcode::kMessage) return {};
@@ -82,15 +87,20 @@ Status Copier::CopyRecord(const RecordView& record) {
     const auto id = IdOf(contents_.definitions.channels.at(message.channel));
     if (!id) return id.error();
   }
+  if (message.data.size() > kMaxMessageBytes) {
+    Lose(fmt::format("a message at {} is lost: it has {} bytes, at most {} can be written",
+                     Seconds(message.log_time_ns), message.data.size(), kMaxMessageBytes));
+    return {};
+  }
   if (end_ != nullptr) end_->Keep(contents_.definitions.channels.at(message.channel), message);
   return writer_.Write(channel_ids_.at(message.channel), message.sequence, message.log_time_ns, message.publish_time_ns,
                        message.data);
 }
 
 Status Copier::CopyChunk(const ChunkInfo& info) {
-  const auto chunk = LoadChunk(source_, info, contents_.definitions);
+  const auto chunk = LoadChunk(source_, info, contents_);
   if (!chunk) {
-    report_.losses.push_back(fmt::format("byte {}: {}", info.offset, chunk.error().message));
+    Lose(fmt::format("byte {}: {}", info.offset, chunk.error().message));
     return {};
   }
   for (std::uint64_t offset = 0; offset < chunk.value().records.size();) {
@@ -103,9 +113,9 @@ Status Copier::CopyChunk(const ChunkInfo& info) {
 
 Status Copier::CopyMetadata(const MetadataInfo& info) {
   const auto record = Read(info.offset, info.record_bytes);
-  const auto metadata = record ? ParseMetadata(record.value().content()) : std::nullopt;
+  const auto metadata = record ? ParseMetadata(record.value().content(), contents_.rules) : std::nullopt;
   if (!metadata || record.value().opcode != Opcode::kMetadata) {
-    report_.losses.push_back(fmt::format("byte {}: the metadata '{:.64}' are damaged", info.offset, info.name));
+    Lose(fmt::format("byte {}: the metadata '{:.64}' are damaged", info.offset, info.name));
     return {};
   }
   if (end_ != nullptr && metadata->name == end_->name()) {
@@ -117,13 +127,26 @@ Status Copier::CopyMetadata(const MetadataInfo& info) {
 
 Status Copier::CopyAttachment(const AttachmentInfo& info) {
   const auto record = Read(info.offset, info.record_bytes);
-  const auto attachment = record ? ParseAttachment(record.value().content()) : std::nullopt;
+  const auto attachment = record ? ParseAttachment(record.value().content(), contents_.rules) : std::nullopt;
   if (!attachment || record.value().opcode != Opcode::kAttachment) {
-    report_.losses.push_back(fmt::format("byte {}: the attachment '{:.64}' is damaged", info.offset, info.name));
+    Lose(fmt::format("byte {}: the attachment '{:.64}' is damaged", info.offset, info.name));
     return {};
   }
   return writer_.AddAttachment(attachment->name, attachment->media_type, attachment->data, attachment->log_time_ns,
                                attachment->create_time_ns);
+}
+
+// Other programs define schemas and channels outside of chunks, and some without a message. In a recording of Rodeira a
+// channel without a message is one whose messages were lost: it is not kept.
+Status Copier::AddDefinitions() {
+  if (contents_.rules == Rules::kOwn) return {};
+  for (const auto& [id, schema] : contents_.definitions.schemas) {
+    if (const auto added = IdOf(schema); !added) return added.error();
+  }
+  for (const auto& [id, channel] : contents_.definitions.channels) {
+    if (const auto added = IdOf(channel); !added) return added.error();
+  }
+  return {};
 }
 
 Status Copier::Run() {
@@ -135,7 +158,7 @@ Status Copier::Run() {
     const std::uint64_t c = next(chunk, contents_.chunks);
     const std::uint64_t m = next(metadata, contents_.metadata);
     const std::uint64_t a = next(attachment, contents_.attachments);
-    if (std::min({c, m, a}) == ~std::uint64_t{0}) return {};
+    if (std::min({c, m, a}) == ~std::uint64_t{0}) return AddDefinitions();
     Status status;
     if (c < m && c < a) {
       status = CopyChunk(*chunk++);
@@ -158,20 +181,49 @@ TextMap Statement(const RepairReport& report) {
   return entries;
 }
 
+bool FollowsSummary(const Scan& scan, const base::Result<Summary>& summary) {
+  return summary.ok() && summary.value().shortage.empty() && !scan.ended;
+}
+
+// A wrong index loses nothing; a wrong count says that something was there.
+bool CountsDiffer(const Summary& summary, const Contents& found) {
+  const Statistics& said = summary.contents.statistics;
+  const Statistics& is = found.statistics;
+  return summary.has_statistics &&
+         (said.messages != is.messages || said.attachments != is.attachments || said.metadata != is.metadata);
+}
+
+// What is said of the source before anything is copied.
+void DescribeSource(const Scan& scan, const base::Result<Summary>& summary, RepairReport& report) {
+  std::vector<std::string> findings;
+  if (!summary) findings.push_back(summary.error().message);
+  findings.insert(findings.end(), scan.findings.begin(), scan.findings.end());
+  if (summary && scan.ended && scan.contents.rules == Rules::kSpecification) {
+    const auto differences = Compare(summary.value(), scan.contents);
+    report.lost = CountsDiffer(summary.value(), scan.contents);
+    findings.insert(findings.end(), differences.begin(), differences.end());
+  }
+  report.was_whole = scan.ended && findings.empty();
+  if (FollowsSummary(scan, summary)) return;  // the copy says what is damaged
+  report.lost = report.lost || scan.lost;
+  report.losses = std::move(findings);
+  if (scan.skipped == 0) return;
+  report.lost = true;
+  report.losses.push_back(
+      fmt::format("{} records that MCAP's specification leaves to applications are not copied", scan.skipped));
+}
+
 base::Result<RepairReport> RepairInto(const Source& source, std::unique_ptr<Sink> sink, RepairEnd* end) {
   RepairReport report;
   report.source_bytes = source.size();
-  const auto scan = ScanFile(source);
+  auto scan = ScanFile(source);
   if (!scan) return scan.error();
   const auto summary = ReadSummary(source);
-  report.was_whole = summary.ok() && scan.value().ended && scan.value().findings.empty();
+  DescribeSource(scan.value(), summary, report);
   // With a whole summary the chunks behind a damaged one can be found; otherwise the scan's end is the end.
-  const bool by_summary = summary.ok() && !scan.value().ended;
-  const Contents& contents = by_summary ? summary.value() : scan.value().contents;
-  if (!by_summary) {
-    if (!summary) report.losses.push_back(summary.error().message);
-    report.losses.insert(report.losses.end(), scan.value().findings.begin(), scan.value().findings.end());
-  }
+  const bool by_summary = FollowsSummary(scan.value(), summary);
+  if (!by_summary && summary) AddNamed(summary.value().contents, scan.value().contents);
+  const Contents& contents = by_summary ? summary.value().contents : scan.value().contents;
 
   WriterSettings settings;
   settings.chunk_bytes = 64u << 20;  // the source's chunks stay as they are

@@ -21,6 +21,7 @@ struct RepairReport {
   std::uint64_t source_bytes = 0;
   std::uint64_t target_bytes = 0;
   std::vector<std::string> losses;  // one sentence each: what was lost, and what was found damaged
+  bool lost = false;                // false: all that lies in the source was kept, only indexes or its end are new
 
   // Several lines for a person.
   std::string Text() const;

@@ -27,6 +27,18 @@ base::Error CannotOpen(const std::filesystem::path& path, int error) {
   return base::OpenError("the recording cannot be created", error, path.string());
 }
 
+// Locks the file for this writer. Another process that asks whether it is locked holds it for some microseconds.
+bool Lock(int file) {
+  constexpr int kTries = 20;
+  for (int i = 0; i < kTries; ++i) {
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno != EWOULDBLOCK) return false;
+    ::usleep(2000);
+  }
+  errno = EWOULDBLOCK;
+  return false;
+}
+
 class FileSink final : public Sink {
  public:
   FileSink(int file, std::string path) : file_(file), path_(std::move(path)) {}
@@ -103,7 +115,7 @@ base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& pa
   if (file < 0) return CannotOpen(path, errno);
   auto sink = std::make_unique<FileSink>(file, path.string());
   if (device) return std::unique_ptr<Sink>(std::move(sink));
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
+  if (!Lock(file)) return CannotOpen(path, errno);
   if (there && ::ftruncate(file, 0) != 0) return CannotOpen(path, errno);
   return std::unique_ptr<Sink>(std::move(sink));
 }
@@ -112,10 +124,18 @@ base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::pa
   const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (file < 0) return CannotOpen(path, errno);
   auto sink = std::make_unique<FileSink>(file, path.string());
-  if (::flock(file, LOCK_EX | LOCK_NB) != 0) return CannotOpen(path, errno);
+  if (!Lock(file)) return CannotOpen(path, errno);
   if (::ftruncate(file, static_cast<off_t>(size)) != 0 || ::lseek(file, 0, SEEK_END) < 0)
     return CannotOpen(path, errno);
   return std::unique_ptr<Sink>(std::move(sink));
+}
+
+bool IsBeingWritten(const std::filesystem::path& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return false;
+  const bool locked = ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(file);
+  return locked;
 }
 
 base::Status MemorySink::Append(std::span<const std::byte> bytes) {

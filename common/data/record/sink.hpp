@@ -38,6 +38,9 @@ base::Result<std::unique_ptr<Sink>> OpenFileSink(const std::filesystem::path& pa
 // An existing file, to go on behind its first `size` bytes; the rest is dropped. Locked too.
 base::Result<std::unique_ptr<Sink>> OpenFileSinkBehind(const std::filesystem::path& path, std::uint64_t size);
 
+// True while a sink of some process has this file open.
+bool IsBeingWritten(const std::filesystem::path& path);
+
 // Memory that can be made to fail: Append fails, after writing what fits, beyond `capacity` bytes.
 class MemorySink final : public Sink {
  public:

@@ -34,7 +34,7 @@ bool CountsFromOne(const Numbered& numbered) {
 const ChunkInfo* LastWhole(const Scan& scan) {
   const auto& chunks = scan.contents.chunks;
   for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
-    if (chunk->index_offsets.size() == chunk->channels->size()) return &*chunk;
+    if (!chunk->unchunked && chunk->index_offsets.size() == chunk->channels->size()) return &*chunk;
   }
   return nullptr;
 }
@@ -45,7 +45,7 @@ base::Status HandInTail(const Source& source, const Contents& contents, const Mc
   const std::uint64_t from_ns = end_ns > tail.span_ns ? end_ns - tail.span_ns : 0;
   for (const ChunkInfo& info : contents.chunks) {
     if (info.last_log_time_ns < from_ns) continue;
-    const auto chunk = LoadChunk(source, info, contents.definitions);
+    const auto chunk = LoadChunk(source, info, contents);
     if (!chunk) return chunk.error();
     for (const Chunk::Entry& entry : chunk.value().entries) {
       const auto record = RecordAt(chunk.value().records, entry.offset);

@@ -18,7 +18,7 @@ int RepairRecording(const std::string& recording, const std::string& out) {
   if (!report) return base::PrintError("rodeira", report.error());
   const auto& done = report.value();
   fmt::print("{}{}  {} of {}\n", done.Text(), out, Size(done.target_bytes), Size(done.source_bytes));
-  return 0;
+  return done.lost ? 1 : 0;
 }
 
 }  // namespace rodeira::cli

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many seeded mutations of small files: the reader, Verify and Repair never crash, and never hand out a message that
-// was not written. RODEIRA_FUZZ_FILES sets how many files are tried, RODEIRA_FUZZ_FIRST with which number they begin.
+// was not written. Of other programs' files, whose messages may lie outside of checksums, Verify sees what was changed.
+// RODEIRA_FUZZ_FILES sets how many files are tried, RODEIRA_FUZZ_FIRST with which number they begin.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
 #include "common/data/record/repair.hpp"
+#include "tests/common/data/record/foreign.hpp"
 #include "tests/common/data/record/mutated.hpp"
 #include "tests/common/data/record/sample.hpp"
 #include "tests/property/last_words.hpp"
@@ -81,6 +83,55 @@ TEST(Fuzz, MutatedFilesNeitherCrashNorLie) {
   }
   if (count < 1000) return;
   EXPECT_GT(opened, count / 10);  // the mutations are not so wild that all is refused at the door
+}
+
+TEST(Fuzz, MutatedFilesOfOtherProgramsNeitherCrashNorLie) {
+  const std::size_t first = Setting("RODEIRA_FUZZ_FIRST", 0);
+  const std::size_t count = Setting("RODEIRA_FUZZ_FILES", 30'000);
+  std::size_t opened = 0;
+  property::SayWhereItDies();
+  for (std::size_t file = first; file < first + count; ++file) {
+    property::NowTrying("file of another program", file);
+    Draw draw(file);
+    const Form form = DrawForm(draw);
+    const auto calls = DrawPlan(draw);
+    base::Bytes bytes = ForeignRecord(calls, form);
+    const std::size_t mutations = 1 + draw.Below(4);
+    for (std::size_t i = 0; i < mutations && !bytes.empty(); ++i) {
+      if (draw.Below(2) == 0) {
+        Mutate(bytes, draw);
+      } else {
+        MutateARecord(bytes, draw);
+      }
+    }
+    const bool resealed = draw.Below(2) == 0;
+    if (resealed) Reseal(bytes);
+    if (UseAll(bytes, file % 2 == 0, nullptr) > 0) ++opened;
+    const auto reader = McapReader::OpenBytes(bytes);
+    const bool sealed = form.checksums && form.data_end && mutations == 1 && !resealed;
+    if (reader && sealed && reader.value().Verify().empty()) {
+      Query query;
+      query.order = Query::Order::kFile;
+      EXPECT_EQ(ReadAll(reader.value(), query).messages, MessagesOf(calls)) << file << ": changed in silence";
+    }
+    if (file % 4 == 0) {
+      base::Bytes repaired;
+      const auto report = RepairBytes(bytes, &repaired);
+      if (report) {
+        auto again = McapReader::OpenBytes(repaired);
+        ASSERT_TRUE(again.ok()) << file;
+        EXPECT_EQ(again.value().Verify(), std::vector<std::string>{}) << file;
+        EXPECT_EQ(again.value().statistics().messages, report.value().kept.messages) << file;
+        EXPECT_TRUE(!report.value().was_whole || !reader || reader.value().Verify().empty()) << file;
+        if (sealed && !report.value().lost) {
+          EXPECT_EQ(report.value().kept.messages, MessagesOf(calls).size()) << file << ": a loss in silence";
+        }
+      }
+    }
+    if (testing::Test::HasFailure()) FAIL() << property::g_last_words;
+  }
+  if (count < 1000) return;
+  EXPECT_GT(opened, count / 10);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "common/core/base/files.hpp"
+#include "common/data/record/repair.hpp"
 #include "tests/common/data/record/probe.hpp"
 #include "tests/common/data/record/sample.hpp"
 #include "tests/tree.hpp"
@@ -27,11 +28,9 @@ struct Outcome {
   std::string output;
 };
 
-Outcome Check(const fs::path& recording, const fs::path& expected = {}) {
-  const std::string command = fmt::format("node '{}' '{}' {} 2>&1", (kChecker / "check.mjs").string(),
-                                          recording.string(), expected.empty() ? "" : "'" + expected.string() + "'");
+Outcome Execute(const std::string& command) {
   Outcome outcome;
-  FILE* pipe = ::popen(command.c_str(), "r");
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return outcome;
   std::array<char, 4096> buffer;
   while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), pipe))
@@ -39,6 +38,11 @@ Outcome Check(const fs::path& recording, const fs::path& expected = {}) {
   const int status = ::pclose(pipe);
   outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return outcome;
+}
+
+Outcome Check(const fs::path& recording, const fs::path& expected = {}) {
+  return Execute(fmt::format("node '{}' '{}' {}", (kChecker / "check.mjs").string(), recording.string(),
+                             expected.empty() ? "" : "'" + expected.string() + "'"));
 }
 
 class Npm : public testing::Test {
@@ -144,6 +148,43 @@ TEST_F(Npm, OddRecordingsAreReadToo) {
   check(SmallPlan(), "small.mcap");
   check({}, "empty.mcap");
   check({{Call::Kind::kFlush, 0, 0, 0}, {Call::Kind::kMessage, 1, 7, 8}}, "late.mcap");
+}
+
+// The reference writer, with every combination of its options: all is read, and repair keeps all of it.
+TEST_F(Npm, WhatTheReferenceWriterWritesIsReadWhole) {
+  const Outcome made = Execute(fmt::format("node '{}' '{}'", (kChecker / "write.mjs").string(), folder_.string()));
+  ASSERT_EQ(made.status, 0) << made.output;
+  std::size_t files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    SCOPED_TRACE(entry.path().filename().string());
+    ++files;
+    const auto opened = McapReader::Open(entry.path());
+    ASSERT_TRUE(opened.ok()) << opened.error().Text();
+    const McapReader& reader = opened.value();
+    EXPECT_TRUE(reader.condition().whole);
+    EXPECT_EQ(reader.condition().findings, std::vector<std::string>{});
+    EXPECT_EQ(reader.Verify(), std::vector<std::string>{});
+    const Read read = ReadAll(reader);
+    EXPECT_EQ(read.errors, std::vector<std::string>{});
+    ASSERT_EQ(read.messages.size(), 60u);
+    for (std::size_t i = 0; i < read.messages.size(); ++i) {  // as write.mjs says
+      const Copied& message = read.messages[i];
+      EXPECT_EQ(message.topic, i % 3 == 0 ? "/slow" : "/fast");
+      EXPECT_EQ(message.log_time_ns, 100'000'000 * i);
+      const std::string text = fmt::format("{{\"n\":{}}}", i);
+      EXPECT_TRUE(std::ranges::equal(message.data, std::as_bytes(std::span(text))));
+    }
+    EXPECT_EQ(reader.attachments().size(), 1u);
+    EXPECT_EQ(reader.FindMetadata("about").value()->entries, (TextMap{{"key", "value"}}));
+    const fs::path repaired = entry.path().string() + ".repaired";
+    const auto report = Repair(entry.path(), repaired);
+    ASSERT_TRUE(report.ok()) << report.error().Text();
+    EXPECT_TRUE(report.value().was_whole) << report.value().Text();
+    EXPECT_FALSE(report.value().lost);
+    EXPECT_EQ(ReadAll(McapReader::Open(repaired).value()).messages, read.messages);
+    fs::remove(repaired);
+  }
+  EXPECT_EQ(files, 3u * 256u);
 }
 
 }  // namespace

@@ -272,5 +272,22 @@ TEST(Writer, SettingsOutOfRangeAreRefused) {
             "memory: zstd_level is 20, -7 (fastest) to 19 was expected");
 }
 
+// MCAP's texts are UTF-8: other readers refuse a file whose texts are not.
+TEST(Writer, TextsThatAreNotUtf8AreConverted) {
+  base::Bytes bytes;
+  auto writer = McapWriter::Open(std::make_unique<MemorySink>(&bytes));
+  ASSERT_TRUE(writer.ok());
+  ASSERT_TRUE(writer.value().AddMetadata("gr\xFC\xDF", {{"k\xE4", "\xE4\xC3\xA4"}}).ok());
+  ASSERT_TRUE(writer.value().AddAttachment("f\xFC.yaml", "text/plain", {}, 0, 0).ok());
+  ASSERT_TRUE(writer.value().AddChannel("t\xFC", 0, "cdr", {{"source", "\xFF"}}).ok());
+  ASSERT_TRUE(writer.value().Close().ok());
+  const auto reader = McapReader::OpenBytes(bytes);
+  ASSERT_TRUE(reader.ok());
+  EXPECT_EQ(reader.value().FindMetadata("gr\\xfc\\xdf").value()->entries, (TextMap{{"k\\xe4", "\\xe4\xC3\xA4"}}));
+  EXPECT_EQ(reader.value().attachments()[0].name, "f\\xfc.yaml");
+  EXPECT_EQ(reader.value().channels().at(1).topic, "t\\xfc");
+  EXPECT_EQ(reader.value().channels().at(1).metadata, (TextMap{{"source", "\\xff"}}));
+}
+
 }  // namespace
 }  // namespace rodeira::record

@@ -195,8 +195,8 @@ TEST_F(RecordingFuzz, NoChangedRecordingCrashesOrPasses) {
         status = RepairRecording(file, repaired);
         EXPECT_TRUE(info >= 0 && info <= 2 && !(must_be_found && info == 0)) << info;
       }
-      EXPECT_EQ(std::filesystem::exists(repaired), status == 0);
-      if (status == 0) {
+      EXPECT_EQ(std::filesystem::exists(repaired), status <= 1);  // 1: something is lost
+      if (status <= 1) {
         const auto again = VerifyFile(repaired, 0);
         if (!again) ExpectASentence(again.error());
         if (again && !again.value().difference) ++mended;
