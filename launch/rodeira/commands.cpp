@@ -10,6 +10,7 @@
 #include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/version.hpp"
+#include "launch/rodeira/checked_output.hpp"
 #include "launch/rodeira/commands/edit_command.hpp"
 #include "launch/rodeira/commands/export_command.hpp"
 #include "launch/rodeira/commands/info_command.hpp"
@@ -414,7 +415,9 @@ int ChooseCommand() {
 
 }  // namespace
 
-int Main(int argc, char** argv) {
+namespace {
+
+int RunCommandLine(int argc, char** argv) {
   base::FixMathematics(argv);
   base::NameExhaustion("rodeira");
   KeepArguments(argc, argv);
@@ -492,6 +495,12 @@ int Main(int argc, char** argv) {
     return 2;
   if (replay->parsed()) return Replay(replay_options);
   return Run(run);
+}
+
+}  // namespace
+
+int Main(int argc, char** argv) {
+  return WithCheckedOutput([argc, argv] { return RunCommandLine(argc, argv); });
 }
 
 }  // namespace rodeira::cli

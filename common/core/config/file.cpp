@@ -6,6 +6,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/base/utf8.hpp"
 #include "common/core/config/yaml.hpp"
 
 namespace rodeira::config {
@@ -82,6 +83,13 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   context->text = std::string(text);
   if (text.find('\0') != std::string_view::npos)
     return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
+  if (const auto at = base::FirstNotUtf8(text)) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*at), '\n');
+    return base::WrongInput(
+        fmt::format("byte 0x{:02x} is not UTF-8; YAML in UTF-8 was expected; save the file as UTF-8",
+                    static_cast<unsigned char>(text[*at])),
+        fmt::format("{}:{}", name.string(), line));
+  }
   const auto root = LoadYaml(context->text, "this");
   if (!root)
     return base::WrongInput(root.error().message,

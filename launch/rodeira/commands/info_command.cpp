@@ -8,15 +8,19 @@
 #include "common/core/base/print_error.hpp"
 #include "common/data/record/mcap_reader.hpp"
 #include "common/data/record/repair.hpp"
+#include "common/data/record/sink.hpp"
 #include "launch/rodeira/replay/recording_audit.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
 namespace rodeira::cli {
 namespace {
 
-void PrintWhatItIs(const record::McapReader& in, const std::string& file) {
+void PrintWhatItIs(const record::McapReader& in, const std::string& file, bool is_being_written) {
   const auto& statistics = in.statistics();
-  fmt::print("{}  {}, {}\n", file, Size(in.condition().file_bytes), in.condition().whole ? "whole" : "not whole");
+  fmt::print("{}  {}, {}\n", file, Size(in.condition().file_bytes),
+             is_being_written       ? "being written"
+             : in.condition().whole ? "whole"
+                                    : "not whole");
   fmt::print("time    {:.3f} s to {:.3f} s, {} samples in {} chunks\n",
              static_cast<double>(statistics.first_log_time_ns) * 1e-9,
              static_cast<double>(statistics.last_log_time_ns) * 1e-9, statistics.messages, statistics.chunks);
@@ -50,11 +54,12 @@ void PrintWhatIsEmbedded(const record::McapReader& in) {
 }  // namespace
 
 int Info(const std::string& file) {
+  const bool is_being_written = record::IsBeingWritten(file);
   const auto reader = record::McapReader::Open(file);
   if (!reader) return base::PrintError("rodeira", reader.error());
   const auto& in = reader.value();
   const RecordingAudit audit = Audit(in);
-  PrintWhatItIs(in, file);
+  PrintWhatItIs(in, file, is_being_written);
   PrintSources(audit);
   PrintWhatIsEmbedded(in);
   for (const RecordedSource& source : audit.sources) {
@@ -66,6 +71,10 @@ int Info(const std::string& file) {
     fmt::print("type      topic {} differs from this program's: {}\n", source.topic, source.type_difference);
   }
   fmt::print("content   {}  (of all samples: recordings with the same one are identical)\n", base::Hex(audit.content));
+  if (is_being_written) {  // its end is not written yet, which is no damage
+    fmt::print("being written: this is what it holds so far; ask again when the run has ended\n");
+    return 1;
+  }
   for (const std::string& damage : audit.damages) fmt::print("damage    {}\n", damage);
   if (audit.steps_without_wall_time.value_or(0) > 0) {
     fmt::print("wall      the wall times of {} steps are missing: a clock that was lost had not said them yet\n",

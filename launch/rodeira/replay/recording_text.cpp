@@ -53,7 +53,10 @@ std::string Size(std::uint64_t bytes) {
 
 std::string WrittenFile(const std::string& recording, double reached_s) {
   std::error_code problem;
-  if (!std::filesystem::exists(recording, problem)) return {};
+  if (recording.empty()) return {};
+  if (!std::filesystem::exists(recording, problem)) {
+    return fmt::format("lost    {}: no such file: it was removed, or not even begun\n", recording);
+  }
   std::string text = fmt::format("wrote   {} ({})\n", recording, Size(std::filesystem::file_size(recording, problem)));
   if (!std::filesystem::is_regular_file(recording, problem)) return text;
   const auto reader = record::McapReader::Open(recording);

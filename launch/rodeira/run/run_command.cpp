@@ -18,6 +18,7 @@
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/run/in_process_command.hpp"
+#include "launch/rodeira/run/launch_path.hpp"
 #include "launch/rodeira/run/placement.hpp"
 #include "launch/rodeira/run/process_run.hpp"
 #include "launch/rodeira/run/resolve_frames.hpp"
@@ -64,6 +65,8 @@ int Run(const RunOptions& given) {
                                                         "run"));
   }
   auto file = ResolveInputFile(InputKind::kLaunch, options.launch_file);
+  if (!file) return base::PrintError("rodeira", file.error());
+  file = LaunchPath(file.value());
   if (!file) return base::PrintError("rodeira", file.error());
   options.launch_file = std::move(file).value();
   if (const auto pace = launch::ParsePace(options.pace.empty() ? "max" : options.pace); !pace)

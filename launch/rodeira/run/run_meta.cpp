@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/core/base/utf8.hpp"
 #include "common/core/config/quoted.hpp"
 
 namespace rodeira::cli {
@@ -35,6 +36,9 @@ base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string
     if (equals == std::string::npos || !IsName(key)) {
       return base::WrongInput(
           fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
+    }
+    if (base::FirstNotUtf8(pair)) {
+      return base::WrongInput(fmt::format("'{}' is not UTF-8, which texts in a recording are", pair), "--meta");
     }
     overrides.emplace_back("nodes." + recorder + ".config.meta." + key,
                            config::Quoted(std::string_view(pair).substr(equals + 1)));

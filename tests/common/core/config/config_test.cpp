@@ -269,5 +269,14 @@ TEST(Quoted, AnyTextIsReadBackAsItWas) {
     EXPECT_FALSE(Unquoted(other)) << other;
 }
 
+// The values go into recordings, whose texts are UTF-8.
+TEST(Utf8, AFileInAnotherEncodingIsRefusedWithItsLine) {
+  const auto file = File::Parse("a: 1\nb: gr\xFC\xDF\n", "x.yaml");
+  ASSERT_FALSE(file.ok());
+  EXPECT_EQ(file.error().Text(),
+            "x.yaml:2: byte 0xfc is not UTF-8; YAML in UTF-8 was expected; save the file as UTF-8");
+  EXPECT_TRUE(File::Parse("a: 1\nb: gr\xC3\xBC\xC3\x9F\n", "x.yaml").ok());
+}
+
 }  // namespace
 }  // namespace rodeira::config
