@@ -124,7 +124,12 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     }
     if (std::string(name) == "export")
       command->add_option("-o,--out,--opendrive", options.out, "file to write")->required()->check(NewFile());
-    if (std::string(name) == "check") command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances");
+    if (std::string(name) == "check") {
+      command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances, and nothing is repaired");
+      command->add_flag("--no-repair", options.no_repair, "OpenDRIVE: errors stay errors, by the usual tolerances");
+      command->add_flag("--verbose", options.verbose, "OpenDRIVE: every warning, not one of each kind");
+      command->add_option("--repair", options.repair, "OpenDRIVE: write the repaired file here")->check(NewFile());
+    }
     if (std::string(name) == "info") {
       command->add_option("--svg", options.svg, "draw the plan into this file")->check(NewFile());
       command

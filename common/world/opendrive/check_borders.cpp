@@ -77,7 +77,8 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
             road.lines.sections[i],
             road.spec.id,
             (*side)[k].id,
-            worst[k].at};
+            worst[k].at,
+            {within_m > most_m ? "the lane is read as 0 m wide there" : ""}};
         (within_m > most_m ? findings.errors : findings.warnings).push_back(finding);
       }
     }

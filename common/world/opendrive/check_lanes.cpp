@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "common/world/network/meeting.hpp"
 #include "common/world/opendrive/checks.hpp"
+#include "common/world/opendrive/repair_lanes.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -18,7 +20,9 @@ using network::LaneKey;
 using network::Network;
 using network::Road;
 
-constexpr double kListed_m = 0.01;  // ASAM's own limit between two lanes
+constexpr double kListed_m = 0.01;    // ASAM's own limit between two lanes
+constexpr double kFound_m = 0.1;      // nearer lies the lane that is meant
+constexpr double kLaneWidth_m = 1.0;  // narrower, a lane ends beside another one
 
 struct LaneChecker {
   const Network& network;
@@ -26,15 +30,21 @@ struct LaneChecker {
   const Tolerance& tolerance;
   Findings& findings;
   bool ground_is_wrong = false;  // of a junction
+  LaneRepairs repairs{network, lines, *findings.source};
 
   double StationOf(const LaneKey& key, End end) const {
     const network::LaneSection& section = network.Section(key);
     return network.roads()[key.road].Held(key.section, end == End::kStart ? section.s_m : section.end_s_m);
   }
 
-  Finding At(const LaneKey& key, End end, std::string rule, std::string message) const {
-    return {std::move(rule), std::move(message), lines[key.road].sections[key.section], network.roads()[key.road].id(),
-            key.lane,        StationOf(key, end)};
+  Finding At(const LaneKey& key, End end, std::string rule, std::string message, Repair repair = {}) const {
+    return {std::move(rule),
+            std::move(message),
+            lines[key.road].sections[key.section],
+            network.roads()[key.road].id(),
+            key.lane,
+            StationOf(key, end),
+            std::move(repair)};
   }
 
   // The section that a lane's links at one end mean; nothing where it is a junction or there is none.
@@ -66,7 +76,8 @@ struct LaneChecker {
       if (found == nullptr) {
         findings.errors.push_back(At(key, end, "road.lane.link.lanes_across_lane_sections",
                                      fmt::format("the lane's {} is lane {} of road {}, which has no such lane there",
-                                                 word, id, network.roads()[target->road].id())));
+                                                 word, id, network.roads()[target->road].id()),
+                                     repairs.DropLink(key, end, id)));
         continue;
       }
       if (id == 0) continue;
@@ -114,15 +125,19 @@ struct LaneChecker {
     const Road &road = network.roads()[key.road], &other_road = network.roads()[other.lane.road];
     const network::LaneMeeting meeting = network::MeetingOf(
         {&road, key.section, key.lane, end}, {&other_road, other.lane.section, other.lane.lane, other.end});
-    const double gap = meeting.gap_m;
+    double gap = meeting.gap_m;
+    // A lane that splits into several, or several that become one, meet with their outer edges.
+    if (gap > kListed_m) gap = std::min({gap, GapTogether({key, end}, other), GapTogether(other, {key, end})});
     Finding finding =
         At(key, end, "lane_smoothness.contact_point_no_horizontal_gaps",
            fmt::format("a gap of {:.4g} m between the lane's edges and those of lane {} of road {}; {}", gap,
                        other.lane.lane, other_road.id(), GapWords(gap, LaneGap(tolerance), kListed_m, "m")));
-    if (gap > LaneGap(tolerance))
+    if (gap > LaneGap(tolerance)) {
+      finding.repair = repairs.GapRepair({key, end}, other);
       findings.errors.push_back(finding);
-    else if (gap > kListed_m)
+    } else if (gap > kListed_m) {
       findings.warnings.push_back(finding);
+    }
     // What the reference lines' heights do is told with the roads.
     const bool lines_meet = road.spec().junction.empty() && other_road.spec().junction.empty();
     const double step = meeting.step_m - (lines_meet ? AxisStep(key, end, other) : 0.0);
@@ -136,11 +151,71 @@ struct LaneChecker {
               step, most, findings);
   }
 
+  // Between a lane's end and all the lanes of the other one's section that it goes on into.
+  double GapTogether(const LaneEnd& from, const LaneEnd& other) const {
+    std::vector<LaneEnd> all;
+    for (const LaneEnd& end : from.end == End::kEnd ? network.AtEnd(from.lane) : network.AtStart(from.lane)) {
+      if (end.lane.road == other.lane.road && end.lane.section == other.lane.section && end.end == other.end)
+        all.push_back(end);
+    }
+    return all.size() < 2 ? std::numeric_limits<double>::infinity() : repairs.GapToAll(from, all);
+  }
+
   double AxisStep(const LaneKey& key, End end, const LaneEnd& other) const {
     const auto height = [&](const LaneKey& of, End at) {
       return network.roads()[of.road].spec().elevation.Value(StationOf(of, at));
     };
     return std::fabs(height(key, end) - height(other.lane, other.end));
+  }
+
+  // A lane that traffic comes onto, and that goes on nowhere in a junction, in its road's middle or where its road goes
+  // on.
+  void DeadEnd(const LaneKey& key) const {
+    const Lane& lane = *network.Find(key);
+    if (!network::IsDrivable(lane.type) || lane.direction == 0 || lane.traffic_ends) return;
+    if (!network.Successors(key).empty() || network.Predecessors(key).empty()) return;
+    const End end = lane.direction < 0 ? End::kStart : End::kEnd;
+    if (network.Span(key, StationOf(key, end))->width_m() < kLaneWidth_m) return;
+    const auto target = TargetOf(key, end);
+    const bool in_junction = !network.roads()[key.road].spec().junction.empty();
+    if (!target && !in_junction) return;
+    const network::RoadSpec& road = network.roads()[key.road].spec();
+    const auto junction = network.FindJunction(road.junction);
+    // A way off a road's middle may end where nothing is drawn, as in a yard.
+    if (junction && network.junctions()[*junction].type == "virtual" &&
+        !(end == End::kEnd ? road.successor : road.predecessor))
+      return;
+    Finding finding = At(key, end, "rodeira.lane.dead_end", "traffic is led onto the lane, and it goes on nowhere");
+    const auto next = target ? OnlyLaneAt({key, end}, *target) : std::nullopt;
+    if (next && tolerance.repair) {
+      finding.repair = repairs.FindLink({key, end}, *next);
+      findings.errors.push_back(std::move(finding));
+    } else if (next || in_junction) {
+      findings.warnings.push_back(std::move(finding));
+    }
+  }
+
+  // The one lane that lies at a lane's end without a gap.
+  std::optional<LaneEnd> OnlyLaneAt(const LaneEnd& from, const Target& target) const {
+    std::optional<LaneEnd> only;
+    const network::LaneSection& section = network.roads()[target.road].spec().sections[target.section];
+    for (const auto* side : {&section.left, &section.right}) {
+      for (const Lane& lane : *side) {
+        const LaneEnd to{{target.road, target.section, lane.id}, target.end};
+        if (!network::IsDrivable(lane.type) ||
+            network.Span(to.lane, StationOf(to.lane, to.end))->width_m() < kLaneWidth_m)
+          continue;
+        const network::LaneMeeting meeting =
+            network::MeetingOf({&network.roads()[from.lane.road], from.lane.section, from.lane.lane, from.end},
+                               {&network.roads()[target.road], target.section, lane.id, target.end});
+        if (meeting.gap_m > kFound_m || !repairs.PassingOf(from, to).drivable) continue;
+        const bool leads_away = lane.direction == 0 || (lane.direction > 0) == (to.end == End::kStart);
+        if (!leads_away) continue;
+        if (only) return std::nullopt;
+        only = to;
+      }
+    }
+    return only;
   }
 
   void JunctionLanes() const {
@@ -157,7 +232,8 @@ struct LaneChecker {
             findings.errors.push_back(
                 At(to, connection.contact, "junctions.connection.lane_link",
                    fmt::format("connection {} of junction {} leads to this lane, which the road does not have there",
-                               connection.id, junction.id)));
+                               connection.id, junction.id),
+                   repairs.DropLaneLink(connection, link)));
           }
           const auto has = [&](const network::LaneSection& on) { return on.Find(link.from) != nullptr; };
           const auto& from = network.roads()[*incoming].spec().sections;
@@ -165,7 +241,8 @@ struct LaneChecker {
           findings.errors.push_back(
               At({*incoming, 0, link.from}, End::kStart, "junctions.connection.lane_link",
                  fmt::format("connection {} of junction {} comes from this lane, which the road does not have",
-                             connection.id, junction.id)));
+                             connection.id, junction.id),
+                 repairs.DropLaneLink(connection, link)));
         }
       }
     }
@@ -192,6 +269,9 @@ void CheckLaneLinks(const Network& network, std::span<const RoadLines> lines, co
     }
   }
   checker.JunctionLanes();
+  if (tolerance.repair || !tolerance.strict) {
+    for (const LaneKey& key : network.Lanes()) checker.DeadEnd(key);
+  }
 }
 
 }  // namespace rodeira::opendrive

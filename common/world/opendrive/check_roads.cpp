@@ -9,6 +9,7 @@
 #include "common/core/geometry/angle.hpp"
 #include "common/world/network/meeting.hpp"
 #include "common/world/opendrive/checks.hpp"
+#include "common/world/opendrive/repair_lanes.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -17,7 +18,8 @@ using network::End;
 using network::Network;
 using network::Road;
 
-constexpr double kGapRounding_m = 1e-9;  // no gap: what computing leaves
+constexpr const char* kByLanes = "each lane goes on as its own links say";
+constexpr double kGapRounding_m = 1e-6;  // what ASAM's checker passes is not worth a word
 constexpr double kTurned_rad = 1e-6;
 constexpr double kMinHeightStep_m = 1e-3;  // smaller steps come from the digits of files
 
@@ -34,8 +36,23 @@ struct RoadChecker {
   const Tolerance& tolerance;
   Findings& findings;
 
-  Finding At(std::size_t road, std::string rule, std::string message, std::optional<double> s_m) const {
-    return {std::move(rule), std::move(message), lines[road].road, network.roads()[road].id(), std::nullopt, s_m};
+  Finding At(std::size_t road, std::string rule, std::string message, std::optional<double> s_m,
+             Repair repair = {}) const {
+    return {std::move(rule),  std::move(message), lines[road].road, network.roads()[road].id(), std::nullopt, s_m,
+            std::move(repair)};
+  }
+
+  Node RoadNode(std::size_t road) const { return {findings.source, lines[road].node}; }
+
+  Repair LinkRepair(std::size_t road, End end) const {
+    const Node link = RoadNode(road).Child("link").Child(end == End::kStart ? "predecessor" : "successor");
+    return {"the road ends there", {link.Remove()}};
+  }
+
+  // An error, which is read as `done` says, or a warning.
+  void Judge(Finding finding, bool is_error, std::string done) const {
+    if (is_error) finding.repair.done = std::move(done);
+    (is_error ? findings.errors : findings.warnings).push_back(std::move(finding));
   }
 
   std::vector<std::string> RoadNames() const {
@@ -48,13 +65,19 @@ struct RoadChecker {
     std::map<std::string, int> count;
     for (std::size_t i = 0; i < network.roads().size(); ++i) {
       if (++count[network.roads()[i].id()] == 2)
-        findings.errors.push_back(At(i, "ids.id_unique_in_class", "this id stands at two roads", std::nullopt));
+        findings.errors.push_back(At(i, "ids.id_unique_in_class", "this id stands at two roads", std::nullopt,
+                                     {"the second is left out", {RoadNode(i).Remove()}}));
     }
     count.clear();
     for (const network::Junction& junction : network.junctions()) {
       if (++count[junction.id] == 2)
-        findings.errors.push_back(
-            {"ids.id_unique_in_class", fmt::format("two junctions have the id {}", junction.id), 0, "", {}, {}});
+        findings.errors.push_back({"ids.id_unique_in_class",
+                                   fmt::format("two junctions have the id {}", junction.id),
+                                   0,
+                                   "",
+                                   {},
+                                   {},
+                                   {"the ways of both count"}});
     }
   }
 
@@ -67,15 +90,11 @@ struct RoadChecker {
                              StepWords(meeting.step_m, StepMost(tolerance, tolerance.gap_m))),
                  s),
               meeting.step_m, StepMost(tolerance, tolerance.gap_m), findings);
-    const Finding finding =
-        At(index, "road.geometry.contact_heading",
-           fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(),
-                       GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")),
-           s);
-    if (kink > tolerance.kink_rad)
-      findings.errors.push_back(finding);
-    else if (kink > kTurned_rad)
-      findings.warnings.push_back(finding);
+    Finding finding = At(index, "road.geometry.contact_heading",
+                         fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(),
+                                     GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")),
+                         s);
+    if (kink > kTurned_rad) Judge(std::move(finding), kink > tolerance.kink_rad, "it is driven as it lies");
   }
 
   // A road whose end goes on into another road.
@@ -91,10 +110,8 @@ struct RoadChecker {
                          s);
     // In and out of a junction the lanes meet, the reference lines need not.
     const bool in_junction = !road.spec().junction.empty() || !other.spec().junction.empty();
-    if (gap > tolerance.gap_m && !in_junction)
-      findings.errors.push_back(finding);
-    else if (gap > kGapRounding_m && !in_junction)
-      findings.warnings.push_back(finding);
+    if (gap > kGapRounding_m && !in_junction)
+      Judge(finding, gap > tolerance.gap_m, "lanes go on where their edges meet");
     // Of the other road's links one should lead back. A connecting road is reached by way of the junction.
     const auto& back = LinkOf(other, contact);
     const bool means_us = back && !back->junction && back->id == road.id() && back->contact == end;
@@ -108,7 +125,7 @@ struct RoadChecker {
           "which road "
           "follows",
           Name(contact), other.id(), back->id);
-      findings.errors.push_back(finding);
+      Judge(finding, true, kByLanes);
       return;
     }
     finding.rule = "road.linkage.both_ways";
@@ -130,7 +147,7 @@ struct RoadChecker {
           findings.errors.push_back(At(i, "road.linkage.id",
                                        fmt::format("the road's {} goes on into {} {}, which is not in the file",
                                                    Name(end), link->junction ? "junction" : "road", link->id),
-                                       StationOf(road, end)));
+                                       StationOf(road, end), LinkRepair(i, end)));
         } else if (!link->junction) {
           RoadToRoad(i, end, *known, link->contact);
         }
@@ -139,7 +156,7 @@ struct RoadChecker {
         findings.errors.push_back(
             At(i, "junctions.id",
                fmt::format("the road belongs to junction {}, which is not in the file", road.spec().junction),
-               std::nullopt));
+               std::nullopt, {"it is read as a road outside of junctions", {RoadNode(i).Set("junction", "-1")}}));
       }
     }
   }
@@ -179,7 +196,7 @@ struct RoadChecker {
           At(end.first, "road.linkage.is_junction_needed",
              fmt::format("roads {} and {} both go on into this road's {}: a junction is needed",
                          network.roads()[roads[0]].id(), network.roads()[roads[1]].id(), Name(end.second)),
-             StationOf(road, end.second)));
+             StationOf(road, end.second), {kByLanes}));
     }
   }
 
@@ -202,8 +219,11 @@ struct RoadChecker {
 
   void Junctions() const {
     const std::vector<std::string> names = RoadNames();
-    for (const network::Junction& junction : network.junctions()) {
-      for (const network::JunctionConnection& connection : junction.connections) {
+    const LaneRepairs repairs(network, lines, *findings.source);
+    for (std::size_t number = 0; number < network.junctions().size(); ++number) {
+      const network::Junction& junction = network.junctions()[number];
+      for (std::size_t i = 0; i < junction.connections.size(); ++i) {
+        const network::JunctionConnection& connection = junction.connections[i];
         for (const std::string* id : {&connection.incoming_road, &connection.connecting_road}) {
           if (network.FindRoad(*id) || (id->empty() && junction.type == "virtual")) continue;
           findings.errors.push_back(
@@ -213,7 +233,8 @@ struct RoadChecker {
                0,
                "",
                {},
-               {}});
+               {},
+               repairs.DropConnection(number, i)});
         }
       }
     }
@@ -222,7 +243,8 @@ struct RoadChecker {
 
 }  // namespace
 
-void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings) {
+void JudgeStep(Finding finding, double step_m, double most_m, Findings& findings) {
+  if (std::fabs(step_m) > most_m) finding.repair.done = "it stays, and wheels feel it";
   if (std::fabs(step_m) > most_m)
     findings.errors.push_back(finding);
   else if (std::fabs(step_m) > kMinHeightStep_m)

@@ -16,6 +16,7 @@ namespace rodeira::opendrive {
 
 struct Findings {
   std::vector<Finding> errors, warnings;
+  Source* source = nullptr;  // the file's
 };
 
 // The end of a sentence about a gap: that it is too large, or that it is closed, and what ASAM's own checker allows.
@@ -28,7 +29,7 @@ constexpr double kClimbed_m = 0.2;
 inline double StepMost(const Tolerance& tolerance, double strictly_m) {
   return tolerance.strict ? strictly_m : kClimbed_m;
 }
-void JudgeStep(const Finding& finding, double step_m, double most_m, Findings& findings);
+void JudgeStep(Finding finding, double step_m, double most_m, Findings& findings);
 std::string StepWords(double step_m, double most_m);
 // The most between two lanes: strictly ASAM's own.
 double LaneGap(const Tolerance& tolerance);
@@ -37,6 +38,8 @@ double LaneGap(const Tolerance& tolerance);
 void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
 // Borders of lanes that lie within the edge of the lane inside of them.
 void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
+// Widths and lane offsets that jump within a lane section, under lanes that are driven on.
+void CheckJumps(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
 // One warning for each road whose reference line has jumps of curvature, also where it goes on into another road
 // outside of junctions: at the largest of them.
 void TellCurvatureJumps(const network::Network& network, std::span<const RoadLines> lines, Findings& findings);

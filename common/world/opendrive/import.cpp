@@ -8,6 +8,7 @@
 #include "common/core/base/files.hpp"
 #include "common/world/opendrive/checks.hpp"
 #include "common/world/opendrive/read.hpp"
+#include "common/world/opendrive/repair.hpp"
 
 namespace rodeira::opendrive {
 namespace {
@@ -15,13 +16,14 @@ namespace {
 void ReadHeader(const Node& root, Import& import, network::NetworkSpec& spec) {
   const Node header = root.Child("header");
   if (!header) {
-    root.Wrong("core.header", "<OpenDRIVE> has no <header>");
+    root.Wrong("core.header", "<OpenDRIVE> has no <header>", {"it is read as OpenDRIVE 1.8"});
     return;
   }
   const int major = header.Integer("revMajor"), minor = header.Integer("revMinor");
   import.version = fmt::format("{}.{}", major, minor);
   if (major != 1 || minor < 1)
-    header.Wrong("core.version", fmt::format("this is OpenDRIVE {}; 1.4 to 1.8 was expected", import.version));
+    header.Wrong("core.version", fmt::format("this is OpenDRIVE {}; 1.4 to 1.8 was expected", import.version),
+                 {"it is read as if it were 1.8"});
   if (major == 1 && (minor < 4 || minor > 8)) {
     import.warnings.push_back({"core.version",
                                fmt::format("this is OpenDRIVE {}; it is read as if it were 1.4 to 1.8", import.version),
@@ -47,14 +49,34 @@ void Finish(Import& import) {
   }
 }
 
+// Whether a reading ends with these errors: without repair with any, otherwise with those that change the text, or that
+// nothing is done about.
+bool MustStop(const std::vector<Finding>& errors, const Tolerance& tolerance) {
+  if (!tolerance.repair) return !errors.empty();
+  return std::any_of(errors.begin(), errors.end(),
+                     [](const Finding& error) { return error.repair.done.empty() || !error.repair.edits.empty(); });
+}
+
+// What is done about an error that nothing else is done about.
+Repair LeaveOut(const Finding& error, const Node& root) {
+  for (const Node& road : root.Children("road")) {
+    if (!error.road.empty() && road.Text("id", "") == error.road) return {kLeftOut, {road.Remove()}};
+  }
+  return {};
+}
+
+constexpr std::size_t kMostRepairs = 100000;  // in one reading
+
 }  // namespace
 
-base::Result<Import> Read(std::string text, const std::filesystem::path& path, const Tolerance& tolerance) {
+base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::path& path, const Tolerance& tolerance,
+                              const Edited* edited) {
   Import import;
   import.content_hash = base::Hash(text);
-  auto parsed = Source::Parse(std::move(text), path);
+  auto parsed = Source::Parse(text, path, edited);
   if (!parsed) return parsed.error();
   Source& source = *parsed.value();
+  if (tolerance.repair) source.most_findings = kMostRepairs;
   const Node root = source.root();
   if (root.name() != "OpenDRIVE") {
     return base::WrongInput(fmt::format("the outermost element is <{}>; <OpenDRIVE> was expected", root.name()),
@@ -76,15 +98,31 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   import.surfaces = std::move(source.surfaces);
   import.warnings.insert(import.warnings.end(), source.warnings.begin(), source.warnings.end());
   Finish(import);
-  if (!import.errors.empty()) return import;
+  if (MustStop(import.errors, tolerance)) return import;
 
   Findings findings;
+  findings.errors = std::move(import.errors);
+  findings.source = &source;
+  import.errors.clear();
+  const auto stop = [&](bool always = false) {
+    for (Finding& error : findings.errors) {
+      if (error.repair.done.empty()) error.repair = LeaveOut(error, root);
+    }
+    if (!always && !MustStop(findings.errors, tolerance)) return false;
+    import.errors = std::move(findings.errors);
+    import.warnings.insert(import.warnings.end(), findings.warnings.begin(), findings.warnings.end());
+    if (!tolerance.repair && !import.errors.empty()) import.network = nullptr;
+    Finish(import);
+    return true;
+  };
   const auto on_foot = PathsOnFoot(readings, junctions);
   CutAtMiddles(readings, on_foot, findings);
   for (const RoadReading& road : readings) {
     CheckPlan(road, tolerance, findings);
     CheckBorders(road, tolerance, findings);
+    CheckJumps(road, tolerance, findings);
   }
+  if (tolerance.repair && stop()) return import;
   std::vector<RoadLines> lines;
   for (RoadReading& road : readings) {
     auto axis = geometry::PlanAxis::Make(std::move(road.elements));
@@ -94,16 +132,26 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   for (const JunctionReading& junction : junctions) spec.junctions.push_back(junction.junction);
   LayJunctionGrounds(junctions, tolerance, spec, findings);
   LayJunctionThings(junctions, on_foot, spec, lines, findings);
-  TakeTurns(spec);
+  TakeTurns(spec, findings);
   import.network = std::make_shared<const network::Network>(std::move(spec));
+  if (tolerance.repair) import.before = ReachOf(*import.network);
   CheckRoadLinks(*import.network, lines, tolerance, findings);
+  if (tolerance.repair && stop()) return import;
   CheckLaneLinks(*import.network, lines, tolerance, findings);
   CheckSurfaces(*import.network, lines, tolerance, findings);
   TellCurvatureJumps(*import.network, lines, findings);
-  import.errors = std::move(findings.errors);
-  import.warnings.insert(import.warnings.end(), findings.warnings.begin(), findings.warnings.end());
-  if (!import.errors.empty()) import.network = nullptr;
-  Finish(import);
+  stop(true);
+  return import;
+}
+
+base::Result<Import> Read(std::string text, const std::filesystem::path& path, const Tolerance& tolerance) {
+  if (tolerance.repair) return ReadRepaired(std::move(text), path, tolerance);
+  auto import = ReadOnce(text, path, tolerance, nullptr);
+  if (import) {
+    for (auto* list : {&import.value().errors, &import.value().warnings}) {
+      for (Finding& finding : *list) finding.repair = {};
+    }
+  }
   return import;
 }
 
@@ -151,6 +199,11 @@ std::string Describe(const Import& import) {
   text +=
       fmt::format("lanes: {} in {} sections, of which {} drivable, {:.3f} m\n", lanes, sections, drivable, lane_length);
   text += fmt::format("junctions: {}\nsignals: {}\nobjects: {}\n", network.junctions().size(), signals, objects);
+  const Reach reach = ReachOf(network);
+  text += fmt::format(
+      "driving lanes that are reached and lead on: {:.1f} % of {:.3f} m as drawn, {:.1f} % of {:.3f} m as read\n",
+      100.0 * import.before.value_or(reach).share(), import.before.value_or(reach).lanes_m, 100.0 * reach.share(),
+      reach.lanes_m);
   if (!network.geo_reference().empty()) text += fmt::format("geoReference: {}\n", network.geo_reference());
   return text + fmt::format("warnings: {}\n", import.warnings.size());
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,16 +16,27 @@
 // OpenDRIVE 1.4 to 1.8 (https://www.asam.net/standards/detail/opendrive/) into a network.
 namespace rodeira::opendrive {
 
-// How far neighbours may stand apart. Smaller gaps than these are closed and listed, larger ones refused.
+// How far neighbours may stand apart. Smaller gaps than these are closed and listed, larger ones are errors.
 struct Tolerance {
   double gap_m = 0.05;
   double kink_rad = 1e-3;
   bool strict = false;
+  bool repair = true;  // errors are repaired, and become warnings; a file is refused where nothing of it can be driven
 
   static Tolerance Usual() { return {}; }
-  // What ASAM's own checker allows: contact points within 1e-6 m, lanes within 1 cm.
-  static Tolerance Strict() { return {1e-6, 1e-6, true}; }
+  static Tolerance Unrepaired() { return {0.05, 1e-3, false, false}; }
+  // What ASAM's own checker allows: contact points within 1e-6 m, lanes within 1 cm. Nothing is repaired.
+  static Tolerance Strict() { return {1e-6, 1e-6, true, false}; }
 };
+
+// How much of the lanes for driving, in metres, can be reached from where traffic enters the network (or from a way in
+// a circle) and leads to where it leaves it (or into a circle).
+struct Reach {
+  double lanes_m = 0.0, reached_m = 0.0;
+
+  double share() const { return lanes_m > 0.0 ? reached_m / lanes_m : 0.0; }
+};
+Reach ReachOf(const network::Network& network);
 
 struct Import {
   std::string version;                              // "1.7"
@@ -32,6 +44,8 @@ struct Import {
   std::vector<Finding> errors, warnings;            // by line
   std::vector<NamedFile> surfaces;                  // measured surfaces, as they stand in the file
   base::Digest content_hash = 0;                    // of the file's bytes
+  std::string repaired_text;                        // of the file; empty where nothing had to be changed
+  std::optional<Reach> before;                      // of the file as it is drawn; nothing where it cannot be built
 };
 
 // Wrong input where the file cannot be read or is no OpenDRIVE at all; what else is wrong with it are its findings.
@@ -40,6 +54,10 @@ base::Result<Import> Load(const std::filesystem::path& path, const Tolerance& to
 // A network without errors, or the first of them as "file:line: rule: road, lane, s: sentence".
 base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path,
                                                                   const Tolerance& tolerance = {});
+
+// One sentence for each rule and what was done about it: the first place, and how many there are. In order of the
+// lines.
+std::vector<Finding> OneEachKind(const std::vector<Finding>& findings);
 
 base::Error ToError(const Finding& finding, const std::filesystem::path& path);
 // What the file holds: a table for people, ending in a newline.

@@ -60,8 +60,13 @@ class Drawer {
   bool good() const { return findings_.errors.size() == errors_before_; }
 
   void Wrong(std::size_t line, std::string rule, std::string message) {
-    findings_.errors.push_back(
-        {std::move(rule), fmt::format("junction {}: {}", junction_.junction.id, message), line, "", {}, {}});
+    findings_.errors.push_back({std::move(rule),
+                                fmt::format("junction {}: {}", junction_.junction.id, message),
+                                line,
+                                "",
+                                {},
+                                {},
+                                {"its roads keep their own heights"}});
   }
 
   void Add(const BoundarySegment& segment) {

@@ -12,14 +12,20 @@ namespace {
 void Lay(const JunctionReading& reading, const Tolerance& tolerance, network::NetworkSpec& spec,
          network::Junction& junction, Findings& findings) {
   const auto wrong = [&](std::string rule, std::string message) {
-    findings.errors.push_back(
-        {std::move(rule), fmt::format("junction {}: {}", junction.id, message), reading.line, "", {}, {}});
+    findings.errors.push_back({std::move(rule),
+                               fmt::format("junction {}: {}", junction.id, message),
+                               reading.line,
+                               "",
+                               {},
+                               {},
+                               {"its roads keep their own heights"}});
   };
   if (junction.type != "default" && !junction.type.empty()) {
     wrong("junctions.boundary.only_for_common_junctions",
           fmt::format("its type is '{}'; a boundary or heights of its own has only a common junction", junction.type));
     return;
   }
+  const std::size_t errors_before = findings.errors.size();
   JunctionBoundary boundary = BoundaryOf(reading, spec.roads, tolerance, findings);
   if (!reading.has_grid) return;
   auto line = geometry::PlanAxis::Make(reading.elements);
@@ -38,6 +44,7 @@ void Lay(const JunctionReading& reading, const Tolerance& tolerance, network::Ne
           fmt::format("its heights do not reach to ({:.2f}, {:.2f}) on its boundary", p.x(), p.y()));
     return;
   }
+  if (findings.errors.size() != errors_before) return;
   const auto ground = std::make_shared<const network::JunctionGround>(std::move(*grid), std::move(boundary.corners_W),
                                                                       std::move(boundary.mouths));
   junction.ground = ground;

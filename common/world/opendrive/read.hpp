@@ -10,11 +10,15 @@
 // How the elements of an OpenDRIVE file become the parts of a network. Each says what is wrong to the node's source.
 namespace rodeira::opendrive {
 
+struct Findings;
+
 // Where something stands in the file, for checks that come later.
 struct RoadLines {
   std::size_t road = 0;
   std::vector<std::size_t> elements;  // by plan view element
   std::vector<std::size_t> sections;  // by lane section
+  pugi::xml_node node;                // the road's element, and those of the same parts
+  std::vector<pugi::xml_node> element_nodes, section_nodes;
 };
 
 struct RoadReading {
@@ -76,8 +80,9 @@ void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
 // Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of
-// amber, 2 s of red for all. Those of lights for people on foot alone stay dark.
-void TakeTurns(network::NetworkSpec& spec);
+// amber, 2 s of red for all. Those of lights for people on foot alone stay dark, and those of a junction's only
+// controller where its ways come from different sides and cross.
+void TakeTurns(network::NetworkSpec& spec, Findings& findings);
 // A warning for each kind of element or attribute that says something about the world and is passed over; at the first
 // of them.
 void TellUnread(const Node& root);

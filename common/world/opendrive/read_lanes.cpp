@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 #include "common/core/base/suggest.hpp"
 #include "common/world/opendrive/read.hpp"
@@ -15,17 +16,39 @@ namespace {
 using network::Lane;
 using network::LaneSection;
 
+constexpr int kMostMissing = 100;
+
+double OffsetOf(const Node& node) { return node.xml().attribute("sOffset").as_double(0.0); }
+
+// The first of a lane's records that stands behind one of a larger sOffset; null where none does.
+const Node* OutOfOrder(const std::vector<Node>& nodes) {
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if (OffsetOf(nodes[i]) < OffsetOf(nodes[i - 1])) return &nodes[i];
+  }
+  return nullptr;
+}
+
+Repair RecordsInOrder(const std::vector<Node>& nodes) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return OffsetOf(nodes[a]) < OffsetOf(nodes[b]); });
+  return {"they are read in the order of sOffset", Reorder(nodes, order)};
+}
+
 template <class Record, class Read>
 std::vector<Record> ReadRecords(const Node& lane, const char* element, double section_s_m, const Read& read) {
   std::vector<Record> records;
-  for (const Node& node : lane.Children(element)) {
+  const std::vector<Node> nodes = lane.Children(element);
+  if (const Node* behind = OutOfOrder(nodes)) {
+    behind->Wrong(fmt::format("road.lane.{}.elem_asc_order", element),
+                  fmt::format("<{}> elements were expected in ascending order of sOffset", element),
+                  RecordsInOrder(nodes));
+  }
+  for (const Node& node : nodes) {
     Record record = read(node);
     record.s_m = section_s_m + node.Number("sOffset", 0.0);
-    if (!records.empty() && record.s_m < records.back().s_m) {
-      node.Wrong(fmt::format("road.lane.{}.elem_asc_order", element),
-                 fmt::format("<{}> elements were expected in ascending order of sOffset", element));
-      continue;
-    }
+    if (!records.empty() && record.s_m < records.back().s_m) continue;  // said above
     if (!records.empty() && record.s_m == records.back().s_m)
       records.back() = std::move(record);  // the last one counts
     else
@@ -52,7 +75,8 @@ std::vector<network::LaneAccess> ReadAccesses(const Node& lane, double section_s
     if (all.empty() || access.s_m > all.back().s_m) {
       all.push_back(std::move(access));
     } else if (access.s_m < all.back().s_m) {
-      node.Wrong("road.lane.access.elem_asc_order", "<access> elements were expected in ascending order of sOffset");
+      node.Wrong("road.lane.access.elem_asc_order", "<access> elements were expected in ascending order of sOffset",
+                 RecordsInOrder(lane.Children("access")));
     } else if (access.rule == all.back().rule) {
       all.back().restrictions.insert(all.back().restrictions.end(), access.restrictions.begin(),
                                      access.restrictions.end());
@@ -158,6 +182,39 @@ void ReadBeside(const Node& node, Lane& lane) {
   }
 }
 
+Repair TypeRepair(const Node& node, const std::string& type) {
+  const std::string nearest = base::NearestName(type, network::LaneTypeNames());
+  const std::string read_as = nearest.empty() ? "none" : nearest;
+  return {fmt::format("it is read as '{}'", read_as), {node.Set("type", read_as)}};
+}
+
+Repair WithoutWidth(const Node& node) {
+  Repair repair{"it is passed over", {}};
+  for (const char* record : {"width", "border"}) {
+    for (const Node& each : node.Children(record)) repair.edits.push_back(each.Remove());
+  }
+  return repair;
+}
+
+// A lane whose id is not the next one: a second one of an id is passed over, and an id that is left out is that of a
+// lane without width.
+Repair IdRepair(const Node& group, const Lane& lane, int expected) {
+  if (std::abs(lane.id) < std::abs(expected)) {
+    std::vector<Node> same;
+    for (const Node& node : group.Children("lane")) {
+      if (node.xml().attribute("id").as_int() == lane.id) same.push_back(node);
+    }
+    return {"the first of them counts", {same.back().Remove()}};
+  }
+  std::string missing;
+  for (int id = expected; std::abs(id) < std::abs(lane.id) && std::abs(id - expected) < kMostMissing;
+       id += id > 0 ? 1 : -1)
+    missing += fmt::format(
+        "<lane id=\"{}\" type=\"none\" level=\"false\"><width sOffset=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></lane>",
+        id);
+  return {"a lane without width takes each id that is left out", {group.Append(missing)}};
+}
+
 Lane ReadLane(const Node& node, const Around& around) {
   const double section_s_m = around.section_s_m;
   Lane lane;
@@ -169,7 +226,8 @@ Lane ReadLane(const Node& node, const Around& around) {
     lane.type = *known;
   else
     node.Wrong("road.lane.type",
-               fmt::format("the lane's type is '{}'{}", type, base::DidYouMean(type, network::LaneTypeNames())));
+               fmt::format("the lane's type is '{}'{}", type, base::DidYouMean(type, network::LaneTypeNames())),
+               TypeRepair(node, type));
   lane.level = node.Flag("level", false);
   lane.direction = (lane.id < 0) == around.left_hand ? -1 : 1;
   const std::string direction = node.Text("direction", "standard");
@@ -193,7 +251,7 @@ Lane ReadLane(const Node& node, const Around& around) {
   ReadBeside(node, lane);
   ReadLinks(node, lane);
   if (lane.id == 0 && (!lane.width.empty() || !lane.border.empty())) {
-    node.Wrong("road.lane.center_lane_no_width", "the centre lane has a width; none was expected");
+    node.Wrong("road.lane.center_lane_no_width", "the centre lane has a width; none was expected", WithoutWidth(node));
   }
   return lane;
 }
@@ -206,8 +264,10 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Aro
     for (const Node& node : group.Children("lane")) {
       Lane lane = ReadLane(node, around);
       if (lane.id == 0 || (lane.id > 0) != left) {
-        node.Wrong("road.lane.id", fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id,
-                                               left ? "above" : "below"));
+        node.Wrong("road.lane.id",
+                   fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id,
+                               left ? "above" : "below"),
+                   {"the lane is passed over", {node.Remove()}});
         continue;
       }
       lanes.push_back(std::move(lane));
@@ -221,7 +281,8 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Aro
     section_node.Wrong(
         "road.lane.id",
         fmt::format("lane {} was expected on the {}, and lane {} found; ids are counted from the centre without gaps",
-                    expected, side, lanes[i].id));
+                    expected, side, lanes[i].id),
+        IdRepair(section_node.Child(side), lanes[i], expected));
     lanes.resize(i);
   }
   const auto wide = std::find_if(lanes.begin(), lanes.end(), [](const Lane& lane) { return !lane.width.empty(); });
@@ -250,6 +311,31 @@ void TellBorders(const Node& section_node, const LaneSection& section, const Aro
 
 }  // namespace
 
+namespace {
+
+Repair OneCentre(const std::vector<Node>& centres) {
+  Repair repair{centres.empty() ? "one without marks is read" : "the first counts", {}};
+  for (std::size_t i = 1; i < centres.size(); ++i) repair.edits.push_back(centres[i].Remove());
+  return repair;
+}
+
+// Sections by s; of several at one s the last counts.
+Repair SectionsInOrder(const std::vector<Node>& nodes) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto s = [&](std::size_t i) { return nodes[i].xml().attribute("s").as_double(); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return s(a) < s(b); });
+  Repair repair{"they are read in the order of s", Reorder(nodes, order)};
+  if (!repair.edits.empty()) return repair;
+  repair.done = "of sections at one s the last counts";
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    if (s(i) == s(i + 1)) repair.edits.push_back(nodes[i].Remove());
+  }
+  return repair;
+}
+
+}  // namespace
+
 std::optional<double> ReadSpeed(const Node& speed, const char* attribute) {
   const std::string text = speed.Text(attribute, "");
   if (text.empty() || text == "undefined") return std::nullopt;
@@ -257,7 +343,8 @@ std::optional<double> ReadSpeed(const Node& speed, const char* attribute) {
   const std::string unit = speed.Text("unit", "m/s");
   const double factor = unit == "km/h" ? 1.0 / 3.6 : unit == "mph" ? 0.44704 : 1.0;
   if (unit != "m/s" && unit != "km/h" && unit != "mph")
-    speed.Wrong("road.lane.speed", fmt::format("the unit is '{}'; m/s, km/h or mph was expected", unit));
+    speed.Wrong("road.lane.speed", fmt::format("the unit is '{}'; m/s, km/h or mph was expected", unit),
+                {"it is read as m/s"});
   const double value = speed.Number(attribute) * factor;
   // A limit below 0 is how some tools say that there is none.
   return value < 0.0 ? std::numeric_limits<double>::infinity() : value;
@@ -278,23 +365,27 @@ void ReadLanes(const Node& road, network::RoadSpec& spec, RoadLines& lines) {
     const auto centres = node.Child("center").Children("lane");
     if (centres.size() != 1)
       node.Wrong("road.lane.center_lane",
-                 fmt::format("a lane section has {} centre lanes; one was expected", centres.size()));
+                 fmt::format("a lane section has {} centre lanes; one was expected", centres.size()),
+                 OneCentre(centres));
     else
       section.centre = ReadLane(centres[0], around);
     TellBorders(node, section, around);
     if (!spec.sections.empty() && section.s_m <= spec.sections.back().s_m) {
       node.Wrong("road.lane.lane_section.elem_asc_order",
                  fmt::format("a <laneSection> of s {:.6g} stands behind one of s {:.6g}; ascending order was expected",
-                             section.s_m, spec.sections.back().s_m));
+                             section.s_m, spec.sections.back().s_m),
+                 SectionsInOrder(lanes.Children("laneSection")));
       continue;
     }
     spec.sections.push_back(std::move(section));
     lines.sections.push_back(node.line());
+    lines.section_nodes.push_back(node.xml());
   }
   if (spec.sections.empty()) {
     road.Wrong("road.lane.lane_section.one", "the road has no lane section");
     spec.sections.emplace_back();
     lines.sections.push_back(road.line());
+    lines.section_nodes.push_back({});
   }
 }
 

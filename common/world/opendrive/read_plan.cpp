@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "common/core/geometry/angle.hpp"
 #include "common/world/opendrive/measures.hpp"
@@ -26,7 +29,8 @@ void ReadParamPoly3(const Node& poly, PlanElement& element) {
   const std::string range = poly.Text("pRange", "normalized");
   if (range != "normalized" && range != "arcLength") {
     poly.Wrong("road.geometry.paramPoly3.range",
-               fmt::format("pRange is '{}'; arcLength or normalized was expected", range));
+               fmt::format("pRange is '{}'; arcLength or normalized was expected", range),
+               {"it is read as normalized", {poly.Set("pRange", "normalized")}});
   }
   element.p_end = range == "arcLength" ? element.length_m : 1.0;
 }
@@ -43,8 +47,34 @@ void ReadKind(const Node& geometry, PlanElement& element) {
   } else if (const Node poly = geometry.Child("paramPoly3")) {
     ReadParamPoly3(poly, element);
   } else {
-    geometry.Wrong("road.geometry.one_element", "<geometry> has none of line, arc, spiral, poly3 and paramPoly3");
+    geometry.Wrong("road.geometry.one_element", "<geometry> has none of line, arc, spiral, poly3 and paramPoly3",
+                   {"it is read as a line", {geometry.Append("<line/>")}});
   }
+}
+
+Repair ElementsInOrder(const std::vector<Node>& nodes) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return nodes[a].xml().attribute("s").as_double() < nodes[b].xml().attribute("s").as_double();
+  });
+  return {"they are read in the order of s", Reorder(nodes, order)};
+}
+
+// None of the road's elements has a length: the first is a line as long as the road.
+void TellNoElements(const Node& road) {
+  const std::vector<Node> nodes = road.Child("planView").Children("geometry");
+  const double length_m = road.xml().attribute("length").as_double();
+  if (nodes.empty() || !(length_m > 1e-9)) return road.Wrong("road.geometry.one_element", "the road has no plan view");
+  const auto number = [&](const char* name) { return nodes.front().Text(name, "0"); };
+  std::vector<Edit> edits{nodes.front().Replace(
+      fmt::format("<geometry s=\"0\" x=\"{}\" y=\"{}\" hdg=\"{}\" length=\"{}\"><line/></geometry>", number("x"),
+                  number("y"), number("hdg"), length_m))};
+  for (std::size_t i = 1; i < nodes.size(); ++i) edits.push_back(nodes[i].Remove());
+  nodes.front().Wrong(
+      "road.geometry.length",
+      fmt::format("none of the road's {} elements has a length; the road is {:.6g} m long", nodes.size(), length_m),
+      {"it is read as a line of the road's length", std::move(edits)});
 }
 
 }  // namespace
@@ -63,17 +93,20 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     if (!(element.start_W.cwiseAbs().maxCoeff() + element.length_m < 0.5 * network::Network::kFarthest_m)) {
       geometry.Wrong("road.geometry.position",
                      fmt::format("an element at ({:.6g}, {:.6g}) of {:.6g} m lies beyond all that can be surveyed",
-                                 element.start_W.x(), element.start_W.y(), element.length_m));
+                                 element.start_W.x(), element.start_W.y(), element.length_m),
+                     TakeOut(road));
       continue;
     }
     if (element.length_m < 0.0)
-      geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m));
+      geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m),
+                     {"it is passed over", {geometry.Remove()}});
     if (!(element.length_m > 1e-9)) continue;  // nothing of it can be driven on
     ReadKind(geometry, element);
     if (!elements.empty() && element.s_m < elements.back().s_m) {
       geometry.Wrong("road.geometry.elem_asc_order",
                      fmt::format("a <geometry> of s {:.6g} stands behind one of s {:.6g}; ascending order was expected",
-                                 element.s_m, elements.back().s_m));
+                                 element.s_m, elements.back().s_m),
+                     ElementsInOrder(road.Child("planView").Children("geometry")));
     }
     const double turned_rad =
         0.5 * std::fabs(element.curvature_start_1pm + element.curvature_end_1pm) * element.length_m;
@@ -85,9 +118,9 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     }
     elements.push_back(element);
     lines.elements.push_back(geometry.line());
+    lines.element_nodes.push_back(geometry.xml());
   }
-  if (elements.empty() && road.source().errors.size() == before)
-    road.Wrong("road.geometry.one_element", "the road has no plan view");
+  if (elements.empty() && road.source().errors.size() == before) TellNoElements(road);
   return elements;
 }
 

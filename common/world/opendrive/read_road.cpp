@@ -45,6 +45,18 @@ network::End ReadContact(const Node& node, const char* attribute) {
   return contact == "end" ? network::End::kEnd : network::End::kStart;
 }
 
+namespace {
+
+Repair LengthByElements(const Node& road) {
+  double length_m = 0.0;
+  for (const Node& element : road.Child("planView").Children("geometry"))
+    length_m += element.xml().attribute("length").as_double();
+  if (!(length_m > 0.0)) return TakeOut(road);
+  return {"it is as long as its elements", {road.Set("length", fmt::format("{}", length_m))}};
+}
+
+}  // namespace
+
 RoadReading ReadRoad(const Node& road) {
   RoadReading reading;
   network::RoadSpec& spec = reading.spec;
@@ -56,12 +68,13 @@ RoadReading ReadRoad(const Node& road) {
   if (spec.junction == "-1") spec.junction.clear();
   const std::string rule = road.Text("rule", "RHT");
   if (rule != "RHT" && rule != "LHT")
-    road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule));
+    road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule),
+               {"it is read as RHT", {road.Set("rule", "RHT")}});
   spec.left_hand = rule == "LHT";
   const std::size_t before = road.source().errors.size();
   spec.length_m = road.Number("length");
   if (road.source().errors.size() == before && !(spec.length_m > 0.0))
-    road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m));
+    road.Wrong("road.length", fmt::format("the road is {} m long", spec.length_m), LengthByElements(road));
   spec.predecessor = ReadLink(road.Child("link").Child("predecessor"), true);
   spec.successor = ReadLink(road.Child("link").Child("successor"), false);
   for (const Node& type : road.Children("type")) {
@@ -70,6 +83,7 @@ RoadReading ReadRoad(const Node& road) {
                           speed ? ReadSpeed(speed, "max") : std::nullopt});
   }
   reading.lines.road = road.line();
+  reading.lines.node = road.xml();
   reading.elements = ReadPlanView(road, reading.lines);
   ReadProfiles(road, spec);
   ReadLanes(road, spec, reading.lines);

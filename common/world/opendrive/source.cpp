@@ -4,14 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 namespace rodeira::opendrive {
 namespace {
-
-constexpr std::size_t kMostFindings = 1000;
 
 std::string_view Trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -27,16 +27,24 @@ std::string Finding::Text() const {
   if (!road.empty()) add(fmt::format("road {}", road));
   if (lane) add(fmt::format("lane {}", *lane));
   if (s_m) add(fmt::format("s {:.6g}", *s_m));
-  return fmt::format("{}: {}{}{}", rule, place, place.empty() ? "" : ": ", message);
+  return fmt::format("{}: {}{}{}{}{}", rule, place, place.empty() ? "" : ": ", message,
+                     repair.done.empty() ? "" : "; repaired: ", repair.done);
 }
 
-base::Result<std::unique_ptr<Source>> Source::Parse(std::string text, const std::filesystem::path& path) {
+std::vector<std::size_t> LineStarts(std::string_view text) {
+  std::vector<std::size_t> starts{0};
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    if (text[at] == '\n') starts.push_back(at + 1);
+  }
+  return starts;
+}
+
+base::Result<std::unique_ptr<Source>> Source::Parse(std::string text, const std::filesystem::path& path,
+                                                    const Edited* edited) {
   std::unique_ptr<Source> source(new Source());
   source->text_ = std::move(text);
-  source->line_starts_.push_back(0);
-  for (std::size_t at = 0; at < source->text_.size(); ++at) {
-    if (source->text_[at] == '\n') source->line_starts_.push_back(at + 1);
-  }
+  source->edited_ = edited;
+  source->line_starts_ = edited != nullptr ? edited->line_starts : LineStarts(source->text_);
   const auto result = source->document_.load_buffer(source->text_.data(), source->text_.size(), pugi::parse_default,
                                                     pugi::encoding_utf8);
   if (!result) {
@@ -48,18 +56,74 @@ base::Result<std::unique_ptr<Source>> Source::Parse(std::string text, const std:
 
 std::size_t Source::LineAt(std::ptrdiff_t offset) const {
   if (offset < 0) return 0;
-  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), static_cast<std::size_t>(offset));
+  auto at = static_cast<std::size_t>(offset);
+  if (edited_ != nullptr) {
+    for (auto map = edited_->maps.rbegin(); map != edited_->maps.rend(); ++map) at = map->Before(at);
+  }
+  const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), at);
   return static_cast<std::size_t>(after - line_starts_.begin());
 }
 
-void Source::Wrong(std::string_view rule, std::string message, std::size_t line) {
-  if (errors.size() < kMostFindings)
-    errors.push_back({std::string(rule), std::move(message), line, where.road, where.lane, where.s_m});
+void Source::Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair) {
+  if (errors.size() < most_findings)
+    errors.push_back(
+        {std::string(rule), std::move(message), line, where.road, where.lane, where.s_m, std::move(repair)});
+}
+
+void Source::Note(std::string_view rule, std::string message, std::size_t line, std::string done) {
+  warnings.push_back(
+      {std::string(rule), std::move(message), line, where.road, where.lane, where.s_m, {std::move(done)}});
 }
 
 std::size_t Node::line() const { return source_->LineAt(node_.offset_debug()); }
 
-void Node::Wrong(std::string_view rule, std::string message) const { source_->Wrong(rule, std::move(message), line()); }
+void Node::Wrong(std::string_view rule, std::string message) const { Wrong(rule, std::move(message), TakeOut(*this)); }
+
+void Node::Wrong(std::string_view rule, std::string message, Repair repair) const {
+  source_->Wrong(rule, std::move(message), line(), std::move(repair));
+}
+
+std::string_view Node::Text() const {
+  return source_->text().substr(Begin(), ElementEnd(source_->text(), Begin()) - Begin());
+}
+Edit Node::Remove() const { return Replace(""); }
+Edit Node::Replace(std::string text) const { return {Begin(), ElementEnd(source_->text(), Begin()), std::move(text)}; }
+Edit Node::Set(std::string_view attribute, std::string_view value) const {
+  return SetAttribute(source_->text(), Begin(), attribute, value);
+}
+Edit Node::Insert(std::string_view xml) const {
+  const std::size_t tag = TagEnd(source_->text(), Begin());
+  return {tag, tag, std::string(xml)};
+}
+Edit Node::Append(std::string_view xml) const { return AppendChild(source_->text(), Begin(), xml); }
+
+Repair TakeOut(const Node& node) {
+  constexpr std::array<std::string_view, 13> kNeeded = {"planView", "geometry",   "line",  "arc",         "spiral",
+                                                        "poly3",    "paramPoly3", "lanes", "laneSection", "left",
+                                                        "center",   "right",      "lane"};
+  pugi::xml_node at = node.xml();
+  for (const char* curve : {"arc", "spiral", "poly3", "paramPoly3"}) {
+    const Node kind = std::string_view(at.name()) == curve ? node : node.Child(curve);
+    if (kind && std::string_view(kind.xml().parent().name()) == "geometry")
+      return {"it is read as a line", {kind.Replace("<line/>")}};
+  }
+  while (at && std::find(kNeeded.begin(), kNeeded.end(), std::string_view(at.name())) != kNeeded.end())
+    at = at.parent();
+  if (std::string_view(at.name()) == "junction" && at != node.xml()) at = at.child("planView");
+  const std::string_view name = at.name();
+  if (!at || name == "OpenDRIVE" || name == "header") return {};
+  const Node taken(&node.source(), at);
+  if (name == "road") return {kLeftOut, {taken.Remove()}};
+  return {fmt::format("<{}> is passed over", name), {taken.Remove()}};
+}
+
+std::vector<Edit> Reorder(const std::vector<Node>& nodes, const std::vector<std::size_t>& order) {
+  std::vector<Edit> edits;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (order[i] != i) edits.push_back(nodes[i].Replace(std::string(nodes[order[i]].Text())));
+  }
+  return edits;
+}
 
 std::optional<double> Node::Read(const char* attribute) const {
   const pugi::xml_attribute found = node_.attribute(attribute);
@@ -135,15 +199,23 @@ std::vector<Node> Node::Children(const char* element) const {
 geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* from, double origin,
                                 std::string_view rule) {
   std::vector<geometry::Cubic> cubics;
+  std::optional<std::size_t> behind;  // the first that stands behind a later one
   for (const Node& record : records) {
     cubics.push_back(record.Cubic(from, origin));
-    if (cubics.size() > 1 && cubics.back().from < cubics[cubics.size() - 2].from) {
-      Within within(record.source());
-      record.source().where.s_m = cubics.back().from;
-      record.Wrong(rule,
-                   fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
-                               record.name(), from, record.Number(from), from));
-    }
+    if (cubics.size() > 1 && cubics.back().from < cubics[cubics.size() - 2].from && !behind) behind = cubics.size() - 1;
+  }
+  if (behind) {
+    const Node& record = records[*behind];
+    Within within(record.source());
+    record.source().where.s_m = cubics[*behind].from;
+    std::vector<std::size_t> order(cubics.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return cubics[a].from < cubics[b].from; });
+    record.Wrong(rule,
+                 fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
+                             record.name(), from, record.Number(from), from),
+                 {fmt::format("they are read in the order of {}", from), Reorder(records, order)});
   }
   std::stable_sort(cubics.begin(), cubics.end(),
                    [](const geometry::Cubic& a, const geometry::Cubic& b) { return a.from < b.from; });

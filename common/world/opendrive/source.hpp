@@ -10,6 +10,7 @@
 
 #include "common/core/base/result.hpp"
 #include "common/core/geometry/cubic.hpp"
+#include "common/world/opendrive/edits.hpp"
 #include "common/world/opendrive/finding.hpp"
 
 namespace rodeira::opendrive {
@@ -40,22 +41,42 @@ class Node {
 
   Node Child(const char* element) const { return {source_, node_.child(element)}; }
   std::vector<Node> Children(const char* element) const;
+  // Without a repair: the element is taken out, where a road can be read without it; else the road is.
   void Wrong(std::string_view rule, std::string message) const;
+  void Wrong(std::string_view rule, std::string message, Repair repair) const;
+
+  // What is changed in the file's text.
+  std::string_view Text() const;  // of the whole element
+  Edit Remove() const;
+  Edit Replace(std::string text) const;
+  Edit Set(std::string_view attribute, std::string_view value) const;
+  Edit Append(std::string_view xml) const;  // as its last child
+  Edit Insert(std::string_view xml) const;  // as its first child, where it has any
 
  private:
+  std::size_t Begin() const { return static_cast<std::size_t>(node_.offset_debug()) - 1; }
   std::optional<double> Read(const char* attribute) const;
   Source* source_;
   pugi::xml_node node_;
 };
 
+// An original text's lines, and the edits since.
+struct Edited {
+  std::vector<std::size_t> line_starts;
+  std::vector<OffsetMap> maps;
+};
+
 // An XML file as it is read: what is found wrong in it, and in which road, lane and s the reader is.
 class Source {
  public:
-  // Wrong input where the text is no XML.
-  static base::Result<std::unique_ptr<Source>> Parse(std::string text, const std::filesystem::path& path);
+  // Wrong input where the text is no XML. `edited`: what was done to the original text, in order.
+  static base::Result<std::unique_ptr<Source>> Parse(std::string text, const std::filesystem::path& path,
+                                                     const Edited* edited = nullptr);
 
   Node root() { return {this, document_.document_element()}; }
-  std::size_t LineAt(std::ptrdiff_t offset) const;
+  std::string_view text() const { return text_; }
+  std::size_t LineAt(std::ptrdiff_t offset) const;                                       // of the original text
+  std::size_t repairs() const { return edited_ == nullptr ? 0 : edited_->maps.size(); }  // how often it was edited
 
   // Said with every finding from now on.
   struct Where {
@@ -67,14 +88,26 @@ class Source {
   std::vector<Finding> errors, warnings;
   std::vector<NamedFile> surfaces;
 
-  void Wrong(std::string_view rule, std::string message, std::size_t line);
+  void Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair);
+  void Note(std::string_view rule, std::string message, std::size_t line, std::string done = {});
+  std::size_t most_findings = 1000;
 
  private:
   Source() = default;
   std::string text_;
+  const Edited* edited_ = nullptr;
   std::vector<std::size_t> line_starts_;
   pugi::xml_document document_;
 };
+
+inline constexpr const char* kLeftOut = "the road is left out";
+
+std::vector<std::size_t> LineStarts(std::string_view text);
+// How an element is taken out of the file: alone where a road can be read without it, a curve for a line, otherwise
+// with its road; with nothing done where none is possible.
+Repair TakeOut(const Node& node);
+// Elements that stand in the order of `order` (indices into `nodes`) from now on, each where one of them stood.
+std::vector<Edit> Reorder(const std::vector<Node>& nodes, const std::vector<std::size_t>& order);
 
 // Keeps `where` for as long as it lives.
 class Within {

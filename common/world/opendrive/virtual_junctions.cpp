@@ -68,6 +68,8 @@ void CutSection(RoadReading& road, double s_m) {
   sections.insert(sections.begin() + static_cast<std::ptrdiff_t>(at) + 1, std::move(behind));
   road.lines.sections.insert(road.lines.sections.begin() + static_cast<std::ptrdiff_t>(at) + 1,
                              road.lines.sections[at]);
+  road.lines.section_nodes.insert(road.lines.section_nodes.begin() + static_cast<std::ptrdiff_t>(at) + 1,
+                                  road.lines.section_nodes[at]);
 }
 
 // The station that is meant: the beginning of one of the road's sections, after the cut if need be; or its end, and
@@ -108,7 +110,11 @@ void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, s
       findings.errors.push_back({"road.linkage.element_s",
                                  fmt::format("the road's {} goes on at s = {} m of road {}, which is {} m long",
                                              first ? "start" : "end", s, (*link)->id, length),
-                                 road.lines.road, road.spec.id, std::nullopt, first ? 0.0 : road.spec.length_m});
+                                 road.lines.road,
+                                 road.spec.id,
+                                 std::nullopt,
+                                 first ? 0.0 : road.spec.length_m,
+                                 {"the road ends there"}});
       link->reset();
     }
   }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/core/base/files.hpp"
 #include "common/world/network/marking.hpp"
 #include "common/world/network/placing.hpp"
 #include "common/world/opendrive/import.hpp"
@@ -14,18 +16,26 @@
 
 namespace rodeira::road {
 
-NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
+NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool verbose, bool repair) {
   NetworkCheck check;
-  const auto import = opendrive::Load(file, strict ? opendrive::Tolerance::Strict() : opendrive::Tolerance::Usual());
+  const auto import = opendrive::Load(file, strict   ? opendrive::Tolerance::Strict()
+                                            : repair ? opendrive::Tolerance::Usual()
+                                                     : opendrive::Tolerance::Unrepaired());
   if (!import) {
     check.errors.push_back(import.error());
     return check;
   }
   for (const opendrive::Finding& error : import.value().errors) check.errors.push_back(opendrive::ToError(error, file));
-  for (const opendrive::Finding& warning : import.value().warnings)
+  const std::vector<opendrive::Finding>& all = import.value().warnings;
+  for (const opendrive::Finding& warning : verbose ? all : opendrive::OneEachKind(all))
     check.warnings.push_back(opendrive::ToError(warning, file).Text());
   check.table = opendrive::Describe(import.value());
   if (import.value().network == nullptr) return check;
+  if (opendrive::ReachOf(*import.value().network).lanes_m == 0.0) {
+    check.errors.push_back(base::WrongInput("the network has no lane for driving", file.string()));
+    check.table.clear();
+    return check;
+  }
   if (const std::string& earth = import.value().network->geo_reference(); !earth.empty()) {
     if (const auto map = terrain::Geographic::Make(earth); !map)
       check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is",
@@ -42,6 +52,26 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict) {
       check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
   }
   return check;
+}
+
+base::Result<std::vector<std::string>> WriteRepaired(const std::filesystem::path& file,
+                                                     const std::filesystem::path& out) {
+  auto import = opendrive::Load(file);
+  if (!import) return import.error();
+  if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), file);
+  std::string text = std::move(import.value().repaired_text);
+  if (text.empty()) {
+    auto original = base::ReadText(file);
+    if (!original) return original.error();
+    text = std::move(original).value();
+  }
+  if (const auto status = base::WriteWhole(out, text); !status) return status.error();
+  const auto strictly = opendrive::Read(std::move(text), out, opendrive::Tolerance::Strict());
+  if (!strictly) return strictly.error();
+  std::vector<std::string> left;
+  for (const opendrive::Finding& error : opendrive::OneEachKind(strictly.value().errors))
+    left.push_back(opendrive::ToError(error, out).Text());
+  return left;
 }
 
 std::string DescribeNetwork(const network::Network& network) {

@@ -39,13 +39,18 @@ base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const 
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file);
 
 // What `rodeira world check` says of the file: errors and warnings with their places, by line, and a table of what the
-// file holds, which is empty where there are errors. strict: ASAM's own tolerances.
+// file holds, which is empty where there are errors. strict: ASAM's own tolerances, and nothing is repaired. Of
+// warnings of one kind the first is said, with their number; verbose: each. Without repair errors stay errors.
 struct NetworkCheck {
   std::vector<base::Error> errors;
   std::vector<std::string> warnings;
   std::string table;
 };
-NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict);
+NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool verbose = false, bool repair = true);
+// Writes the file as it is read, after repair: what was not repaired keeps its bytes. Says what ASAM's own tolerances
+// still find in it, one sentence a kind. Wrong input: the file is refused, or `out` cannot be written.
+base::Result<std::vector<std::string>> WriteRepaired(const std::filesystem::path& file,
+                                                     const std::filesystem::path& out);
 
 // Extents, roads, lanes; and where a point lies, as further lines of an answer of SUELO.
 std::string DescribeNetwork(const network::Network& network);

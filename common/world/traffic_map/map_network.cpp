@@ -9,7 +9,7 @@ namespace rodeira::traffic_map {
 base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& map, const std::string& name) {
   const auto drive = ToOpenDrive(map, name, Junctions::kDirect);
   if (!drive) return base::WrongInput(drive.error().message, name);
-  const auto import = opendrive::Read(drive.value().xml, name);
+  const auto import = opendrive::Read(drive.value().xml, name, opendrive::Tolerance::Unrepaired());
   if (!import) return import.error();
   // A line of the OpenDRIVE in between would say nothing to whoever wrote the map; its roads have the numbers of the
   // lanes.

@@ -45,14 +45,23 @@ int CheckLights(const std::string& world_file) {
   return status ? 0 : base::PrintError("rodeira", status.error());
 }
 
+int Repair(const WorldOptions& options) {
+  const auto left = road::WriteRepaired(options.world_file, options.repair);
+  if (!left) return base::PrintError("rodeira", left.error());
+  for (const std::string& sentence : left.value()) fmt::print(stderr, "rodeira: left as it is: {}\n", sentence);
+  fmt::print("wrote {}\n", options.repair);
+  return 0;
+}
+
 int CheckOpenDrive(const WorldOptions& options) {
-  const road::NetworkCheck check = road::CheckNetwork(options.world_file, options.strict);
+  const road::NetworkCheck check =
+      road::CheckNetwork(options.world_file, options.strict, options.verbose, !options.no_repair);
   for (const std::string& warning : check.warnings) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   for (const base::Error& error : check.errors) fmt::print(stderr, "rodeira: {}\n", error.Text());
   if (!check.errors.empty()) return check.errors.front().exit_status();
   if (const int status = CheckLights(options.world_file); status != 0) return status;
   fmt::print("{}{}: no error found\n", check.table, options.world_file);
-  return 0;
+  return options.repair.empty() ? 0 : Repair(options);
 }
 
 // A folder that was built.
@@ -86,8 +95,13 @@ int CheckWorldFile(const WorldOptions& options) {
   std::error_code none;
   if (std::filesystem::is_directory(options.world_file, none)) return CheckBuilt(options);
   if (road::IsOpenDrive(options.world_file)) return CheckOpenDrive(options);
-  if (options.strict)
-    return base::PrintError("rodeira", base::WrongInput("'--strict' is for OpenDRIVE files", options.world_file));
+  for (const auto& [given, name] :
+       {std::pair(options.strict, "--strict"), std::pair(options.verbose, "--verbose"),
+        std::pair(options.no_repair, "--no-repair"), std::pair(!options.repair.empty(), "--repair")}) {
+    if (given)
+      return base::PrintError("rodeira",
+                              base::WrongInput(fmt::format("'{}' is for OpenDRIVE files", name), options.world_file));
+  }
   for (const std::string& warning : road::WorldWarnings(options.world_file))
     fmt::print(stderr, "rodeira: warning: {}\n", warning);
   const auto problems = road::WorldProblems(options.world_file);

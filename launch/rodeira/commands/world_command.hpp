@@ -16,6 +16,9 @@ struct WorldOptions {
   bool earth = false;  // X and Y are longitude and latitude
   std::string out;
   bool strict = false;
+  bool verbose = false;
+  bool no_repair = false;
+  std::string repair;    // the repaired OpenDRIVE file is written here; empty: it is not
   unsigned threads = 0;  // 0: as many as the machine has
   bool quiet = false;
   std::string svg;

@@ -53,7 +53,8 @@ TEST(LaneGraph, BeginsAndEndsWhereItsLanesSay) {
   EXPECT_TRUE(network->Find({0, 0, -1})->traffic_begins);
   EXPECT_TRUE(network->Find({0, 0, -1})->traffic_ends);
   road.right = lane(says("sleeps"));
-  const auto wrong = opendrive::Read(opendrive::Document(road.Text()), "w.xodr").value();
+  const auto wrong =
+      opendrive::Read(opendrive::Document(road.Text()), "w.xodr", opendrive::Tolerance::Unrepaired()).value();
   ASSERT_EQ(wrong.errors.size(), 1u);
   EXPECT_EQ(wrong.errors.front().message, "of the lane's traffic 'sleeps' was found; 'begins' or 'ends' was expected");
 }

@@ -18,7 +18,7 @@ struct Told {
   std::vector<std::string> errors, warnings;
 };
 
-Told Of(const std::string& text, const Tolerance& tolerance = {}) {
+Told Of(const std::string& text, const Tolerance& tolerance = Tolerance::Unrepaired()) {
   const auto import = Read(text, "sample.xodr", tolerance);
   EXPECT_TRUE(import.ok());
   Told told;

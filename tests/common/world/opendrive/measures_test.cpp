@@ -25,7 +25,7 @@ std::vector<std::string> Texts(const std::vector<Finding>& findings) {
 std::vector<std::string> ErrorsOf(const std::function<void(RoadText&)>& change) {
   RoadText road;
   change(road);
-  const auto import = Read(Document(road.Text()), "sample.xodr", {});
+  const auto import = Read(Document(road.Text()), "sample.xodr", Tolerance::Unrepaired());
   EXPECT_TRUE(import.ok());
   return import ? Texts(import.value().errors) : std::vector<std::string>();
 }
@@ -67,7 +67,7 @@ TEST(Measures, AWidthBeyondAllThatIsBuiltIsAnErrorWhereItIs) {
                              r.right = "\n" + WideBy(R"(a="1e8")");
                              return r.Text();
                            }()),
-                           "sample.xodr", {});
+                           "sample.xodr", Tolerance::Unrepaired());
   ASSERT_EQ(import.value().errors.size(), 1u);
   EXPECT_EQ(import.value().errors[0].line, 13u);
 }
@@ -263,7 +263,7 @@ TEST(Measures, HeightsOfAJunction) {
           RoadText().Text() +
           R"(<junction id="9"><planView><geometry s="0" x="0" y="0" hdg="0" length="100"><line/></geometry></planView>
 <elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1 1e7" right="1"/><elevation center="1" left="1" right="1"/></elevationGrid></junction>)"),
-      "sample.xodr", {});
+      "sample.xodr", Tolerance::Unrepaired());
   ASSERT_TRUE(import.ok());
   EXPECT_THAT(Texts(import.value().errors),
               ElementsAre("junctions.elevation_grid.height: attribute 'left' of <elevation> has a height of 1e+07 m; "

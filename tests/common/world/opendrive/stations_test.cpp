@@ -17,7 +17,7 @@ struct Said {
 
 Said WhatIsSaidOf(const std::string& content) {
   Said said;
-  const auto import = Read(Document(content), "sample.xodr", {});
+  const auto import = Read(Document(content), "sample.xodr", Tolerance::Unrepaired());
   EXPECT_TRUE(import.ok());
   if (!import) return said;
   for (const Finding& error : import.value().errors) said.errors.push_back(error.Text());

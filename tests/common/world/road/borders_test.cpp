@@ -234,7 +234,8 @@ TEST(BordersToldOf, ABorderWithinTheLaneInsideIsNamedWithRoadLaneAndPlace) {
         Side{{{{0.0, -3.5, 0.0, 0.0, 0.0}}}}.Lanes(true, -1) + "<lane id=\"-2\" type=\"shoulder\">" + outer + "</lane>";
     return Document(road.Text());
   };
-  const auto errors = [&](const std::string& outer, const opendrive::Tolerance& tolerance = {}) {
+  const auto errors = [&](const std::string& outer,
+                          const opendrive::Tolerance& tolerance = opendrive::Tolerance::Unrepaired()) {
     std::vector<std::string> said;
     const auto read = opendrive::Read(text(outer), "f.xodr", tolerance);
     for (const auto& error : read.value().errors) said.push_back(error.Text());

@@ -236,9 +236,11 @@ TEST_F(NetworkWorld, IsDescribedCheckedAndDrawn) {
   EXPECT_THAT(check.table, HasSubstr("roads: 2, 200.000 m"));
   EXPECT_NE(world->content_hash(), MustLoad(TwoLevels() + " ")->content_hash());
   RoadText broken;
-  broken.length = 70.0;
+  broken.length = 70.0;  // its elements have 100 m, which count
+  EXPECT_EQ(MustLoad(Document(broken.Text()))->network()->roads()[0].length_m(), 100.0);
+  broken.geometry = R"(<geometry s="0" x="1e12" y="0" hdg="0" length="70"><line/></geometry>)";
   EXPECT_THAT(World::Load(Put(Document(broken.Text()))).error().Text(),
-              HasSubstr("town.XODR:4: road.length: road 1: the road says 70 m"));
+              HasSubstr("town.XODR:6: road.geometry.position: road 1, s 0"));
 }
 
 // On every real file: where a lane is, SUELO is the lane's surface, whatever the batch.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "common/world/opendrive/read.hpp"
+
+// How reference lines that do not hang together are repaired.
+namespace rodeira::opendrive {
+
+inline constexpr double kBridgedAlong_m = 0.3, kBridgedAcross_m = 0.1;  // larger gaps end the road, or the lane's way
+inline constexpr double kFolded_rad = 1.2;  // a larger kink within a road ends it: its lanes would fold
+inline constexpr double kBridge_m = 5.0;    // the last part of an element that a bridge takes the place of
+
+// A gap between element `next` and the one before: bridged, or the road ends there.
+Repair GapRepair(Source& source, const RoadReading& road, std::size_t next);
+Repair KinkRepair(Source& source, const RoadReading& road, std::size_t next, double kink_rad);
+// An element that begins elsewhere along the line than the one before ends.
+Repair StationRepair(Source& source, const RoadReading& road, std::size_t next);
+// A cubic whose curve is not as long as its element says.
+Repair CubicRepair(Source& source, const RoadReading& road, std::size_t element);
+Repair LengthRepair(Source& source, const RoadReading& road);
+Repair SectionRepair(Source& source, const RoadReading& road, std::size_t section);
+
+}  // namespace rodeira::opendrive
