@@ -45,7 +45,7 @@ TEST(RepairedNetwork, EachKindIsOneWarningUnlessAllAreAskedFor) {
                           HasSubstr("road.linkage.id: road 19, s 100")));
   EXPECT_EQ(CheckNetwork(file, false, true).warnings.size(), 21u);
   EXPECT_THAT(CheckNetwork(file, false).errors, IsEmpty());
-  EXPECT_THAT(CheckNetwork(file, false).table, HasSubstr("driving lanes that are reached and lead on: 97.5 % of "
+  EXPECT_THAT(CheckNetwork(file, false).table, HasSubstr("driving lanes that are reached and lead on: 95.0 % of "
                                                          "4000.000 m as drawn, 100.0 % of 4000.000 m as read\n"));
   EXPECT_EQ(CheckNetwork(file, true).errors.size(), 20u);
   EXPECT_EQ(CheckNetwork(file, false, false, false).errors.size(), 20u);
@@ -72,8 +72,8 @@ TEST(RepairedNetwork, IsWrittenAndPassesStrictly) {
   expected.erase(expected.find(link), link.size());
   EXPECT_EQ(repaired, expected);
   if (!HasNetconvert()) GTEST_SKIP() << "netconvert (sumo) is not installed";
-  EXPECT_EQ(std::system(("netconvert --opendrive-files " + out.string() + " -o " +
-                         (folder.path() / "it.net.xml").string() + " > /dev/null 2>&1")
+  EXPECT_EQ(std::system(("[ -n \"$SUMO_HOME\" ] || export SUMO_HOME=/usr/share/sumo; netconvert --opendrive-files " +
+                         out.string() + " -o " + (folder.path() / "it.net.xml").string() + " > /dev/null 2>&1")
                             .c_str()),
             0);
 }
