@@ -334,6 +334,14 @@ TEST(Repair, AFileIsRefusedWhereNothingIsLeftAndSaysWhy) {
   EXPECT_EQ(kept.network->roads().size(), 1u);
 }
 
+TEST(Repair, AHeaderWithoutAVersionIsPassedOver) {
+  std::string text = Document(OneLane().Text());
+  text.replace(text.find(" revMajor=\"1\""), 13, "");
+  const Import import = MustImport(text);
+  ASSERT_NE(import.network, nullptr);
+  EXPECT_THAT(Done(import), ElementsAre(HasSubstr("it is passed over"), HasSubstr("it is read as if it were 1.8")));
+}
+
 // Lines are those of the file as it was, however much was put in or taken out before them.
 TEST(Repair, LinesAreThoseOfTheFile) {
   RoadText road = OneLane(), second = OneLane();
