@@ -77,7 +77,8 @@ void AddRun(CLI::App& app, RunOptions& options, std::vector<std::string>& sets) 
   run->add_option("--lab", options.lab, "laboratory file: the PCs and their network");
   run->add_option("--host", options.host, "start only what belongs to this host of the laboratory");
   run->add_option("--run", options.run, "name of the run: only processes of the same name meet");
-  run->add_option("--domain", options.domain, "DDS domain, 0 to 232")->check(Between(0, 232));
+  run->add_option("--domain", options.domain, "DDS domain, 0 to 232 (default: the first free one)")
+      ->check(Between(0, 232));
 }
 
 CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
@@ -273,6 +274,7 @@ void AddDoctor(CLI::App& app, DoctorOptions& options) {
   doctor->add_flag("--quiet", options.quiet, "only what is not well");
   doctor->add_flag("--clean", options.clean, "first remove what dead processes of yours left in /dev/shm");
   doctor->add_option("--answer", options.answer)->group("");  // the second process of the loop-back
+  doctor->add_option("--segment-kib", options.segment_kib)->group("");
   doctor->add_flag("--devices", options.devices)->group("");  // by rodeira-graphics, for the doctor of `rodeira`
   doctor->callback([&options] { options.asked = true; });
 }

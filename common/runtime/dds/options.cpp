@@ -85,6 +85,8 @@ DomainSettings DomainOf(const ProcessOptions& options, const launch::Launch& lau
           false,
           launch.keeps_for_restarts(),
           options.incarnation > 0,
+          launch.transport_settings().has_observers,
+          launch.transport_settings().segment_kib,
           launch.topics()};
 }
 

@@ -3,7 +3,6 @@
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/log/Log.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -18,9 +17,11 @@
 #include <mutex>
 #include <utility>
 
+#include "common/runtime/dds/library_log.hpp"
 #include "common/runtime/dds/participant_qos.hpp"
 #include "common/runtime/dds/raw_type.hpp"
 #include "common/runtime/dds/robust_mutexes.hpp"
+#include "common/runtime/dds/shared_memory_room.hpp"
 #include "common/runtime/dds/udp_port.hpp"
 #include "idl/topics.hpp"
 
@@ -172,13 +173,21 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
                                         discovery.port),
                             fmt::format("run '{}'", settings.run));
   }
-  fdds::Log::SetVerbosity(fdds::Log::Kind::Error);
+  const bool is_shared = settings.transport == launch::Transport::kSharedMemory;
+  if (is_shared) {
+    if (auto status = CheckSpace(SharedMemoryNeed(settings.segment_kib)); !status) return status.error();
+  }
+  RedirectLibraryLog();
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
   if (participant == nullptr) {
     return base::Failed(fmt::format(
         "Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)",
         settings.domain, 7400 + 250 * settings.domain));
+  }
+  if (auto status = is_shared ? ClaimOwnSegment() : base::Status(); !status) {
+    factory->delete_participant(participant);
+    return status.error();
   }
   fdds::PublisherQos publisher_qos = fdds::PUBLISHER_QOS_DEFAULT;
   publisher_qos.partition().push_back(("rodeira/" + settings.run).c_str());

@@ -31,7 +31,9 @@ struct DomainSettings {
   bool serves_discovery = false;  // the one that DiscoveryKind::kServer asks: the clock
   bool meets_later = false;       // processes may be started again in the midst of the run
   bool is_restarted = false;      // of a process that has died: takes none of its places in shared memory
-  idl::TopicTable topics = {};    // names and types of the topics
+  bool has_observers = false;     // with shared memory: samples also go over UDP, for programs that are not Rodeira's
+  std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;  // of shared memory
+  idl::TopicTable topics = {};                                         // names and types of the topics
 };
 
 class Writer {

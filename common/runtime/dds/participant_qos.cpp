@@ -23,9 +23,8 @@ using eprosima::fastrtps::rtps::GuidPrefix_t;
 using eprosima::fastrtps::rtps::IPLocator;
 using eprosima::fastrtps::rtps::Locator_t;
 
-// Shared memory: the defaults (512 KiB, 512 messages) are full after a few hundred unread samples, and full means lost
-// until a heartbeat; sized for two windows of all sources.
-constexpr std::uint32_t kSegmentBytes = 8u << 20;
+// Shared memory: the defaults (segments of 512 KiB, 512 messages) are full after a few hundred unread samples, and full
+// means lost until a heartbeat. launch::TransportSettings::kSegmentKib and this hold two windows of all sources.
 constexpr std::uint32_t kPortQueue = 4096;
 constexpr std::uint32_t kSocketBufferBytes = 4u << 20;
 
@@ -49,33 +48,45 @@ GuidPrefix_t ServerPrefix(const DomainSettings& settings) {
   return prefix;
 }
 
-void SetTransport(const DomainSettings& settings, fdds::DomainParticipantQos& qos) {
-  qos.transport().use_builtin_transports = false;
-  if (settings.transport == launch::Transport::kSharedMemory) {
-    auto shared = std::make_shared<rtps::SharedMemTransportDescriptor>();
-    shared->segment_size(kSegmentBytes);
-    shared->port_queue_capacity(kPortQueue);
-    qos.transport().user_transports.push_back(shared);
-    if (!settings.meets_later) return;
-    // The port of shared memory on which all participants listen for each other is out of order for seconds where one
-    // of them was killed: every newcomer finds it broken and makes its own. So they meet over the loopback interface
-    // instead; samples go through ports that belong to one process each.
-    auto loopback = std::make_shared<rtps::UDPv4TransportDescriptor>();
-    loopback->interfaceWhiteList.emplace_back("127.0.0.1");
-    qos.transport().user_transports.push_back(loopback);
-    auto& builtin = qos.wire_protocol().builtin;
-    builtin.metatrafficUnicastLocatorList.push_back(UdpLocator("127.0.0.1", 0));
-    builtin.metatrafficMulticastLocatorList.push_back(
-        UdpLocator("239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * settings.domain)));
-    return;
-  }
+std::shared_ptr<rtps::UDPv4TransportDescriptor> UdpTransport(const DomainSettings& settings) {
   auto udp = std::make_shared<rtps::UDPv4TransportDescriptor>();
   udp->sendBufferSize = kSocketBufferBytes;
   udp->receiveBufferSize = kSocketBufferBytes;
   if (settings.discovery.kind == launch::DiscoveryKind::kPeers)
     udp->maxInitialPeersRange = settings.discovery.participants;
   if (!settings.discovery.interface.empty()) udp->interfaceWhiteList.push_back(settings.discovery.interface);
-  qos.transport().user_transports.push_back(udp);
+  return udp;
+}
+
+// The port of shared memory on which all participants listen for each other is out of order for seconds after one of
+// them was killed: every newcomer finds it broken and makes its own. Processes that may be started again meet over UDP
+// instead; samples go through ports that belong to one process each.
+void MeetOverUdp(const DomainSettings& settings, fdds::DomainParticipantQos& qos) {
+  auto& builtin = qos.wire_protocol().builtin;
+  builtin.metatrafficUnicastLocatorList.push_back(settings.has_observers ? Locator_t() : UdpLocator("127.0.0.1", 0));
+  builtin.metatrafficMulticastLocatorList.push_back(
+      UdpLocator("239.255.0.1", static_cast<std::uint16_t>(7400 + 250 * settings.domain)));
+}
+
+void SetTransport(const DomainSettings& settings, fdds::DomainParticipantQos& qos) {
+  qos.transport().use_builtin_transports = false;
+  auto& transports = qos.transport().user_transports;
+  if (settings.transport == launch::Transport::kUdp) {
+    transports.push_back(UdpTransport(settings));
+    return;
+  }
+  auto shared = std::make_shared<rtps::SharedMemTransportDescriptor>();
+  shared->segment_size(settings.segment_kib << 10);
+  shared->port_queue_capacity(kPortQueue);
+  transports.push_back(shared);
+  if (settings.has_observers) {
+    transports.push_back(UdpTransport(settings));
+  } else if (settings.meets_later) {
+    auto loopback = std::make_shared<rtps::UDPv4TransportDescriptor>();
+    loopback->interfaceWhiteList.emplace_back("127.0.0.1");
+    transports.push_back(loopback);
+  }
+  if (settings.meets_later) MeetOverUdp(settings, qos);
 }
 
 // Fast DDS 2.9.1 makes a port of shared memory anew where its owner has died, while those who wrote to it go on writing

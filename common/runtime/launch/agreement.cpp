@@ -6,8 +6,9 @@
 namespace rodeira::launch {
 
 bool IsOfTheRun(const Launch& launch, const std::string& key) {
-  if (key == "transport" || key == "discovery" || key.starts_with("discovery.") || key.starts_with("limits."))
-    return false;
+  for (const std::string_view local : {"transport", "discovery", "limits"}) {
+    if (key.starts_with(local) && (key.size() == local.size() || key[local.size()] == '.')) return false;
+  }
   for (const LaunchNode& node : launch.nodes()) {
     if (node.kind->name == "recorder" && key == fmt::format("nodes.{}.config.file", node.name)) return false;
   }

@@ -241,11 +241,9 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
   launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
   if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
-  launch.transport_ = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory") == "udp"
-                          ? Transport::kUdp
-                          : Transport::kSharedMemory;
+  launch.transport_ = ReadTransport(root);
   launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
-  if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport_ != Transport::kUdp) {
+  if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport() != Transport::kUdp) {
     root.Problem("discovery",
                  fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
   }

@@ -13,14 +13,13 @@
 #include "common/core/config/config.hpp"
 #include "common/runtime/launch/discovery.hpp"
 #include "common/runtime/launch/kinds.hpp"
+#include "common/runtime/launch/transport.hpp"
 #include "common/runtime/lockstep/recovery.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "common/runtime/lockstep/watchdog.hpp"
 #include "idl/topic_table.hpp"
 
 namespace rodeira::launch {
-
-enum class Transport { kSharedMemory, kUdp };
 
 struct LaunchNode {
   std::string name;
@@ -61,7 +60,8 @@ class Launch {
   }  // of cars, in place of their files' own; empty: those
   std::uint64_t seed() const { return seed_; }
   std::optional<double> duration_s() const { return duration_s_; }
-  Transport transport() const { return transport_; }
+  Transport transport() const { return transport_.kind; }
+  const TransportSettings& transport_settings() const { return transport_; }
   const Discovery& discovery() const { return discovery_; }
   const std::string& pace() const { return pace_; }  // as --pace takes it; empty: not said
   const lockstep::Watchdog::Settings& watchdog() const { return watchdog_; }
@@ -89,7 +89,7 @@ class Launch {
   std::string vehicle_model_;
   std::uint64_t seed_ = 0;
   std::optional<double> duration_s_;
-  Transport transport_ = Transport::kSharedMemory;
+  TransportSettings transport_;
   Discovery discovery_;
   std::string pace_;
   lockstep::Watchdog::Settings watchdog_;

@@ -15,6 +15,7 @@
 #include "common/core/base/installation.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/user_folders.hpp"
+#include "common/runtime/dds/network_state.hpp"
 #include "common/vehicle/input_devices/device_access.hpp"
 #include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/doctor/built_with.hpp"
@@ -99,6 +100,7 @@ std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transpor
   const std::vector<CheckFunction> others{
       [] { return CheckSharedMemory(); },
       [domain = options.domain] { return CheckPorts(domain); },
+      [] { return CheckLoopBackInterface(dds::ReadNetworkState().addresses); },
       [loop_back] { return CheckLoopBack(loop_back); },
       [] { return CheckSockets(); },
       [] { return CheckCores(std::thread::hardware_concurrency()); },
@@ -137,7 +139,7 @@ int StatusOf(std::span<const Finding> findings) {
 
 int Doctor(const DoctorOptions& options) {
   const auto transport = options.transport == "udp" ? launch::Transport::kUdp : launch::Transport::kSharedMemory;
-  if (!options.answer.empty()) return AnswerLoopBack(options.answer, options.domain, transport);
+  if (!options.answer.empty()) return AnswerLoopBack(options.answer, options.domain, transport, options.segment_kib);
   if (options.devices) {
     const Finding finding = LookForJoysticks();
     fmt::print("{}\t{}\n", WordOf(finding.verdict), finding.sentence);

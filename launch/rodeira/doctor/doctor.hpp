@@ -18,7 +18,8 @@ struct DoctorOptions {
   bool quiet = false;
   bool clean = false;
   bool devices = false;  // print only what the joysticks are: VERDICT, a tab, the sentence
-  std::string answer;    // be the second process of the DDS loop-back, in this run
+  std::string answer;    // be the second process of the DDS loop-back, in this run, …
+  std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;  // … with this segment
 };
 
 // One line of the table, with its line break.

@@ -86,6 +86,17 @@ struct End {
   }
 };
 
+dds::DomainSettings SettingsOf(const std::string& run, const std::string& name, std::uint32_t domain,
+                               launch::Transport transport, std::uint32_t segment_kib) {
+  dds::DomainSettings settings;
+  settings.run = run;
+  settings.name = name;
+  settings.domain = domain;
+  settings.transport = transport;
+  settings.segment_kib = segment_kib;
+  return settings;
+}
+
 base::Bytes Question(std::uint64_t number) {
   msg::GroundRequest request;
   request.request_number(number);
@@ -155,14 +166,15 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   const std::string run = fmt::format("doctor-{:08x}{:08x}", device(), device());
   const auto before = SharedMemoryFiles();
   base::Result<LoopBack> measured = base::Failed("not measured");
-  auto partner = Child::Start("doctor",
-                              {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain),
-                               "--transport", TransportName(settings.transport)},
-                              true);
+  auto partner = Child::Start(
+      "doctor",
+      {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain), "--transport",
+       TransportName(settings.transport), "--segment-kib", std::to_string(settings.segment_kib)},
+      true);
   if (!partner) return partner.error();
   {
     End end;
-    base::Status status = end.Open({settings.domain, run, "doctor", settings.transport, {}, false},
+    base::Status status = end.Open(SettingsOf(run, "doctor", settings.domain, settings.transport, settings.segment_kib),
                                    topics::kGroundRequest, topics::kGroundReply);
     if (status.ok()) status = WaitUntilReady(partner.value(), settings);
     measured = status.ok() ? Measure(end, settings) : base::Result<LoopBack>(status.error());
@@ -177,11 +189,12 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   return measured;
 }
 
-int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transport transport) {
+int AnswerLoopBack(const std::string& run, std::uint32_t domain, launch::Transport transport,
+                   std::uint32_t segment_kib) {
   ::signal(SIGTERM, SIG_IGN);  // the end of standard input ends it, with nothing left in shared memory
   End end;
-  if (auto status = end.Open({domain, run, "doctor's second process", transport, {}, false}, topics::kGroundReply,
-                             topics::kGroundRequest);
+  if (auto status = end.Open(SettingsOf(run, "doctor's second process", domain, transport, segment_kib),
+                             topics::kGroundReply, topics::kGroundRequest);
       !status) {
     fmt::print("{}\n", status.error().Text());
     return status.error().exit_status();

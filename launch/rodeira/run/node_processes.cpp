@@ -36,7 +36,7 @@ NodeProcesses::NodeProcesses(const RunOptions& options, const Placement& placeme
       placement_(placement),
       launch_(launch),
       overrides_(std::move(overrides)),
-      domain_(options.domain.value_or(static_cast<std::uint32_t>(1 + base::Hash(options.run) % 200))) {}
+      domain_(options.domain.value()) {}
 
 std::vector<std::string> NodeProcesses::Command(const std::string& program) const {
   std::vector<std::string> command{base::FindProgram(program).string(),

@@ -20,7 +20,7 @@ namespace rodeira::cli {
 // The processes of a run on this PC: the clock, or who follows it, and the nodes. Started, started again, ended.
 class NodeProcesses {
  public:
-  // All outlive it; options.run is the run's name.
+  // All outlive it; options.run is the run's name, options.domain is set.
   NodeProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
                 launch::Overrides overrides);
 

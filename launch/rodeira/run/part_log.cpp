@@ -25,9 +25,9 @@ spdlog::level::level_enum LevelOf(const std::string& line) {
   return line.starts_with("rodeira") ? spdlog::level::err : spdlog::level::info;
 }
 
-// Written by base::TraceCrashes: for the report of the failure, too much for a terminal.
-bool IsOfCrash(const std::string& line) {
-  return line.starts_with(kCrash) || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+// Written by base::TraceCrashes and by Fast DDS: for the log and the report of the failure, too much for a terminal.
+bool IsForLogAlone(const std::string& line) {
+  return line.starts_with(kCrash) || line.starts_with("rodeira: Fast DDS: ") || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
 }
 
 // What base::TraceCrashes says of foreign code; empty if the line says nothing of it.
@@ -81,7 +81,7 @@ void PartLog::Take(std::string line) {
   if (!is_opened_) file_ = OpenFile(folder_, part_);
   is_opened_ = true;
   if (file_) file_->log(LevelOf(line), line);
-  if (!IsOfCrash(line)) std::fprintf(stderr, "%s\n", line.c_str());
+  if (!IsForLogAlone(line)) std::fprintf(stderr, "%s\n", line.c_str());
   if (auto place = CrashPlace(line); !place.empty()) crash_place_ = std::move(place);
   last_lines_.push_back(std::move(line));
   if (last_lines_.size() > kLastLines) last_lines_.pop_front();

@@ -19,6 +19,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
+#include "common/runtime/dds/network_state.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
 #include "launch/rodeira/run/failure_report.hpp"
 #include "launch/rodeira/run/node_processes.hpp"
@@ -46,7 +47,8 @@ class ProcessRun {
       : options_(options),
         placement_(placement),
         launch_(launch),
-        processes_(options, placement, launch, std::move(overrides)) {
+        processes_(options, placement, launch, std::move(overrides)),
+        network_need_(dds::NeedOf(launch)) {
     RemoveLeftOvers({});  // of dead runs
     before_ = SharedMemoryFiles();
     if (placement.has_clock()) desk_.emplace(options.run, options.quiet);
@@ -151,6 +153,7 @@ class ProcessRun {
         }
       }
       AskClock();
+      LookAtNetwork();
       ShowProgress();
     }
   }
@@ -205,9 +208,17 @@ class ProcessRun {
     clocks_last_step_ = report_.step;
     return clocks_losses_ < 4;
   }
+  // An interface that goes away is named before the nodes that are no longer heard.
+  void LookAtNetwork() {
+    const auto problem = dds::NetworkProblem(network_need_, dds::ReadNetworkState());
+    if (problem && !network_problem_) Tell(*problem);
+    if (!problem && network_problem_) Tell("the network of the run is there again");
+    network_problem_ = problem;
+  }
   // The first fault is the cause, what follows are its consequences; it is said at once.
   void Fault(const std::string& fault) {
     if (!fault_.empty()) return;
+    LookAtNetwork();
     fault_ = fault;
     Tell(fault);
   }
@@ -306,6 +317,8 @@ class ProcessRun {
   std::int64_t clocks_last_step_ = -1;  // where it was lost …
   int clocks_losses_ = 0;               // … so often
   bool shown_ = false;
+  const dds::NetworkNeed network_need_;
+  std::optional<std::string> network_problem_;
   WallClock::time_point start_ = WallClock::now();
 };
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <random>
 #include <utility>
 
@@ -24,6 +25,7 @@
 #include "launch/rodeira/run/resolve_frames.hpp"
 #include "launch/rodeira/run/resolve_recording.hpp"
 #include "launch/rodeira/run/run_meta.hpp"
+#include "launch/rodeira/run/run_network.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -109,6 +111,15 @@ int Run(const RunOptions& given) {
   // A button of a wheel or a game pad pauses the run.
   if (std::ranges::any_of(launch.value().nodes(), ReadsDevice) && CanContinueInGraphics())
     return ContinueInGraphics("run");
+  const auto network = RunNetwork::Prepare(resolved, placement, launch.value());
+  if (!network) return base::PrintError("rodeira", network.error());
+  resolved.domain = network.value().domain;
+  if (!network.value().note.empty()) {
+    fmt::print(stderr, "rodeira: {}\n", network.value().note);
+    std::ranges::copy(network.value().overrides, std::back_inserter(overrides));
+    launch = launch::Launch::Load(options.launch_file, overrides);
+    if (!launch) return base::PrintError("rodeira", launch.error());
+  }
   return RunProcesses(resolved, placement, launch.value(), std::move(overrides));
 }
 

@@ -75,6 +75,27 @@ TEST(Launch, ANodeOfNoKindIsNotThere) {
             "dir/drive.yaml:7: node 'ego' needs 'controls', but no node pu");
 }
 
+TEST(Launch, TransportIsAWordOrAMapping) {
+  const auto of = [](const char* value) {
+    return Launch::Parse(kDrive, "x.yaml", {{"transport", value}}).value().transport_settings();
+  };
+  EXPECT_EQ(Launch::Parse(kDrive, "x.yaml").value().transport(), Transport::kSharedMemory);
+  EXPECT_EQ(of("udp").kind, Transport::kUdp);
+  EXPECT_FALSE(of("shared_memory").has_observers);
+  EXPECT_EQ(of("{observers: udp}").kind, Transport::kSharedMemory);
+  EXPECT_TRUE(of("{observers: udp}").has_observers);
+  EXPECT_EQ(of("{segment_kib: 1024}").segment_kib, 1024u);
+  TransportSettings settings{Transport::kSharedMemory, true, 2048};
+  EXPECT_EQ(TransportText(of(TransportText(settings).c_str())), TransportText(settings));
+  settings.kind = Transport::kUdp;
+  EXPECT_EQ(TransportText(of(TransportText(settings).c_str())), TransportText(settings));
+  EXPECT_EQ(Refusal(kDrive, {{"transport", "{observers: upd}"}}),
+            "dir/drive.yaml: 'transport.observers' is 'upd'; did you mean 'udp'?");
+  EXPECT_EQ(Refusal(kDrive, {{"transport", "{kind: udp, segment_kib: 1024}"}}),
+            "dir/drive.yaml: unknown key 'transport.segment_kib'; known are kind, observers");
+  EXPECT_EQ(Refusal(kDrive, {{"transport", "upd"}}), "dir/drive.yaml: 'transport' is 'upd'; did you mean 'udp'?");
+}
+
 TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   const std::string text = kDrive;
   EXPECT_EQ(Refusal(text + "  x: {kind: vehcile}\n"),

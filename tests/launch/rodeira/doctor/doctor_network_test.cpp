@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-TEST(SharedMemory, AFolderThatIsMissingRefusesOrIsFullIsAFault) {
+TEST(SharedMemory, AFolderThatIsMissingOrRefusesIsAFaultOneThatIsFullAWarning) {
   const TemporaryFolder folder;
   EXPECT_EQ(CheckSharedMemory(folder.path(), 1).verdict, Verdict::kOk) << CheckSharedMemory(folder.path(), 1).sentence;
   const Finding missing = CheckSharedMemory(folder.path() / "shm");
@@ -29,8 +29,16 @@ TEST(SharedMemory, AFolderThatIsMissingRefusesOrIsFullIsAFault) {
   EXPECT_EQ(refused.verdict, Verdict::kFault);
   EXPECT_THAT(refused.sentence, HasSubstr("/proc takes no files"));
   const Finding full = CheckSharedMemory(folder.path(), ~0ull);
-  EXPECT_EQ(full.verdict, Verdict::kFault);
-  EXPECT_THAT(full.sentence, HasSubstr("MB were expected: sudo mount -o remount"));
+  EXPECT_EQ(full.verdict, Verdict::kWarning);
+  EXPECT_THAT(full.sentence, HasSubstr("MB were expected: a run of 7 processes uses "));
+  EXPECT_THAT(full.sentence, HasSubstr("sudo mount -o remount"));
+}
+
+TEST(LoopBack, AnInterfaceThatIsDownIsAWarning) {
+  EXPECT_EQ(CheckLoopBackInterface({"192.168.10.1", "127.0.0.1"}).verdict, Verdict::kOk);
+  const Finding down = CheckLoopBackInterface({"192.168.10.1"});
+  EXPECT_EQ(down.verdict, Verdict::kWarning);
+  EXPECT_THAT(down.sentence, HasSubstr("sudo ip link set lo up"));
 }
 
 TEST(SharedMemory, WhatDeadProcessesLeftIsCountedWhatLivingOnesUseIsNot) {
