@@ -24,8 +24,10 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::uint32_t kDomain = 216;
-constexpr const char* kRun = "cyclone";
+struct Meeting {
+  std::uint32_t domain;
+  std::string run;
+};
 // On N222.
 constexpr double kX_m = 120.5, kY_m = -3.25;
 
@@ -36,15 +38,15 @@ class Cyclone : public ::testing::Test {
       GTEST_SKIP() << "built without CycloneDDS (packages cyclonedds-dev and cyclonedds-tools)";
   }
   // Every process of the run, and the observer, on the loop-back interface.
-  std::vector<std::string> Run(const std::string& transport) const {
+  std::vector<std::string> Run(const Meeting& meeting, const std::string& transport) const {
     return {
         Bin("rodeira"),
         "run",
         LaunchFile("demo.yaml"),
         "--run",
-        kRun,
+        meeting.run,
         "--domain",
-        std::to_string(kDomain),
+        std::to_string(meeting.domain),
         "--for",
         "1000",
         "--pace",
@@ -64,13 +66,13 @@ class Cyclone : public ::testing::Test {
         "--set",
         "nodes.story={kind: scenario, config: {scenario: " + SourceDir() + "/configs/scenarios/rain_at_dusk.yaml}}"};
   }
-  static std::vector<std::string> Observer() {
+  static std::vector<std::string> Observer(const Meeting& meeting) {
     return {
         "CYCLONEDDS_URI=<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"true\"/>"
         "</Interfaces></General></Domain></CycloneDDS>",
         Bin("rodeira-test-cyclone-observer"),
-        std::to_string(kDomain),
-        kRun,
+        std::to_string(meeting.domain),
+        meeting.run,
         fmt::format("{}", kX_m),
         fmt::format("{}", kY_m)};
   }
@@ -80,10 +82,10 @@ class Cyclone : public ::testing::Test {
 // Topics on which a run without windows and losses publishes nothing: a participant as any node's does.
 class OtherTopics {
  public:
-  OtherTopics() {
+  explicit OtherTopics(const Meeting& meeting) {
     dds::DomainSettings settings;
-    settings.domain = kDomain;
-    settings.run = kRun;
+    settings.domain = meeting.domain;
+    settings.run = meeting.run;
     settings.name = "a window";
     settings.discovery.interface = "127.0.0.1";
     settings.has_observers = true;
@@ -117,17 +119,18 @@ double QueriedHeight() {
 }
 
 TEST_F(Cyclone, AProgramOfAnotherDdsReadsEveryTopicAndAsksForAHeight) {
-  Started run(Run("{observers: udp}"));
-  ASSERT_TRUE(Runs(kRun));
-  Started observer(Observer());
-  OtherTopics others;
+  const Meeting meeting{216, "cyclone"};
+  Started run(Run(meeting, "{observers: udp}"));
+  ASSERT_TRUE(Runs(meeting.run));
+  Started observer(Observer(meeting));
+  OtherTopics others(meeting);
   std::chrono::milliseconds told{-1};
   for (int i = 0; i < 300 && told.count() < 0; ++i) {
     others.Write();
     told = observer.WaitFor("all\n", 100ms);
   }
   EXPECT_GE(told.count(), 0) << "not within 30 s";
-  ASSERT_EQ(RunCommand({Bin("rodeira"), "ctl", "stop", "--run", kRun}).status, 0);
+  ASSERT_EQ(RunCommand({Bin("rodeira"), "ctl", "stop", "--run", meeting.run}).status, 0);
   const Ended ended = run.Wait();
   EXPECT_EQ(ended.status, 0) << ended.out;
   ::kill(observer.pid(), SIGTERM);
@@ -142,9 +145,10 @@ TEST_F(Cyclone, AProgramOfAnotherDdsReadsEveryTopicAndAsksForAHeight) {
 }
 
 TEST_F(Cyclone, WithoutObserversNothingLeavesSharedMemory) {
-  Started run(Run("shared_memory"));
-  ASSERT_TRUE(Runs(kRun));
-  Started observer(Observer());
+  const Meeting meeting{215, "cyclone-unseen"};
+  Started run(Run(meeting, "shared_memory"));
+  ASSERT_TRUE(Runs(meeting.run));
+  Started observer(Observer(meeting));
   EXPECT_LT(observer.WaitFor("read ", 3s).count(), 0);
 }
 
