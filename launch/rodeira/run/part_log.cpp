@@ -27,7 +27,8 @@ spdlog::level::level_enum LevelOf(const std::string& line) {
 
 // Written by base::TraceCrashes and by Fast DDS: for the log and the report of the failure, too much for a terminal.
 bool IsForLogAlone(const std::string& line) {
-  return line.starts_with(kCrash) || line.starts_with("rodeira: Fast DDS: ") || (line.ends_with(']') && line.find(")[0x") != std::string::npos);
+  return line.starts_with(kCrash) || line.starts_with("rodeira: Fast DDS: ") ||
+         (line.ends_with(']') && line.find(")[0x") != std::string::npos);
 }
 
 // What base::TraceCrashes says of foreign code; empty if the line says nothing of it.
