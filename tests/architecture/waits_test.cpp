@@ -18,9 +18,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* const kEndlessWait =
-    R"((\.|->)wait\(|(\.|->)join\(\)|\bjthread\b.*[;(]|\bfuture<|\bstd::async\(|\bpoll\([^;]*, -1\)|waitpid\([^;]*, 0\))"
-    R"(|\bwaitid\(|\bsem_wait\(|\bpthread_join\(|\bepoll_wait\(|\bselect\([^;]*nullptr\)|::pause\(\)|::flock\([^;]*LOCK_)"
-    R"(|::read\()";
+    R"((\.|->)wait\(|(\.|->)join\(\)|\bjthread\b.*[;(]|\bfuture<|\bstd::async\(|\bpoll\([^;]*, -1\))"
+    R"(|waitpid\([^;]*, 0\)|\bwaitid\(|\bsem_wait\(|\bpthread_join\(|\bepoll_wait\(|\bselect\([^;]*nullptr\))"
+    R"(|::pause\(\)|::flock\([^;]*LOCK_|::read\()";
 const char* const kSystemTime =
     R"(\bsystem_clock\b|\bstd::time\(|::time\(|\bgettimeofday\b|\bCLOCK_REALTIME\b|\blast_write_time\(|\bfile_clock\b)";
 
