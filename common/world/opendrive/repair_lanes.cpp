@@ -20,7 +20,7 @@ using network::Road;
 
 // A car takes a sharper turn from one lane into the next only as an arc; onto a way that turns round no such turn fits.
 constexpr double kDrivenKink_rad = 0.7, kDrivenKinkTurning_rad = 0.35;
-constexpr double kTurnsRound_rad = 2.4;
+constexpr double kTurnsRound_rad = 1.9;
 constexpr double kDrivenAhead_m = 1.0;  // of nothing between two lanes
 constexpr std::size_t kMostTurned = 3;  // repairs; a road whose both ends lie at one place would be turned for ever
 constexpr double kShared = 0.7;         // of the narrower lane's width, which both share

@@ -318,6 +318,17 @@ TEST(Repair, AWayThatNoCarCanDriveIsDropped) {
   EXPECT_EQ(ReachOf(*import.network).share(), 1.0);
 }
 
+// A way that turns back by 2.2 rad, with 0.46 rad across its road at either end, as SUMO draws its U-turns: the lane's
+// edge is 2 * 3.5 * sin(0.23) = 1.6 m off.
+TEST(Repair, AUTurnThatIsKinkedIsDropped) {
+  std::string text = Junction("<predecessor id=\"-1\"/><successor id=\"-1\"/>", 0.0, 0.46);
+  const std::string line = "<line/>", way = "<arc curvature=\"0.11\"/>";
+  text.replace(text.rfind(line), line.size(), way);
+  const Import import = MustImport(text);
+  EXPECT_THAT(Done(import), ElementsAre(HasSubstr("a gap of 1.596 m")));
+  EXPECT_FALSE(import.network->FindRoad("3"));
+}
+
 TEST(Repair, LanesOfMissingIdsHaveNoWidth) {
   RoadText road = OneLane();
   road.right = Lane(-1, "", Wide(3.5)) + Lane(-4, "", Wide(1.5), "shoulder");

@@ -29,7 +29,7 @@ std::string Twenty() {
     road.id = std::to_string(i);
     road.geometry =
         fmt::format("<geometry s=\"0\" x=\"0\" y=\"{}\" hdg=\"0\" length=\"100\"><line/></geometry>", 20 * i);
-    road.elevation = R"(<elevation s="50" a="1"/><elevation s="0" a="1"/>)";
+    road.elevation = R"(<elevation s="50" a="1" b="0" c="0" d="0"/><elevation s="0" a="1" b="0" c="0" d="0"/>)";
     if (i == 19) road.link = R"(<successor elementType="road" elementId="77" contactPoint="start"/>)";
     roads += road.Text();
   }
@@ -64,8 +64,8 @@ TEST(RepairedNetwork, IsWrittenAndPassesStrictly) {
   EXPECT_EQ(base::ReadText(again).value(), repaired);
   // The records have changed places, the link is gone, and every other byte is as it was.
   std::string expected = text;
-  const std::string wrong = R"(<elevation s="50" a="1"/><elevation s="0" a="1"/>)",
-                    right = R"(<elevation s="0" a="1"/><elevation s="50" a="1"/>)",
+  const std::string wrong = R"(<elevation s="50" a="1" b="0" c="0" d="0"/><elevation s="0" a="1" b="0" c="0" d="0"/>)",
+                    right = R"(<elevation s="0" a="1" b="0" c="0" d="0"/><elevation s="50" a="1" b="0" c="0" d="0"/>)",
                     link = R"(<successor elementType="road" elementId="77" contactPoint="start"/>)";
   for (std::size_t at = expected.find(wrong); at != std::string::npos; at = expected.find(wrong, at))
     expected.replace(at, wrong.size(), right);
