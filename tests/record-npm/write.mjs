@@ -8,8 +8,8 @@ import { open } from "node:fs/promises";
 import zstd from "@foxglove/wasm-zstd";
 import { McapWriter } from "@mcap/core";
 
-const OPTIONS = ["useStatistics", "useSummaryOffsets", "useChunks", "repeatSchemas", "repeatChannels", "useMessageIndex",
-  "useChunkIndex", "useAttachmentIndex"];
+const OPTIONS = ["useStatistics", "useSummaryOffsets", "useChunks", "repeatSchemas", "repeatChannels",
+  "useMessageIndex", "useChunkIndex", "useAttachmentIndex"];
 
 class FileWritable {
   constructor(handle) {
