@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of a chain of who waits for whom that closes.
+// Deadlocks of traffic: finds a closed cycle of vehicles, each of which waits for the next one, and ends it.
 #include <algorithm>
 #include <numeric>
 #include <span>

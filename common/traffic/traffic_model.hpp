@@ -174,6 +174,7 @@ class TrafficModel {
   std::span<const Block> BlocksOn(std::uint32_t track) const {
     return any_block_ ? std::span<const Block>(blocks_[track]) : std::span<const Block>();
   }
+  // The leader, with the gap to it: the next vehicle on the agent's way.
   Ahead FindAhead(std::uint32_t id) const;
   const lanes::Link& NextLink(std::uint32_t id, std::uint32_t track, Choice& choice) const;
   const Route* RouteOf(const Agent& agent) const;

@@ -75,7 +75,7 @@ class NodeBus final : public lockstep::Bus {
   void OnParcel(const base::Bytes& payload);
   void OnAnswer(const base::Bytes& payload);
   void TakeSnapshot(const base::Bytes& payload);
-  // `topic`: by which it came; empty: in a parcel.
+  // On a receive thread of Fast DDS. `topic`: the sample's topic; empty for a sample of a batch.
   void OnSample(std::string_view topic, base::Bytes&& payload);
   void OnGrant(base::Bytes&& payload);
   void OnAsk(const base::Bytes& payload);
