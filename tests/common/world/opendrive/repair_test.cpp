@@ -111,9 +111,8 @@ TEST(Repair, AProfileInFallingOrderOfTIsSorted) {
 
 TEST(Repair, TheSameProfileTwiceIsOne) {
   RoadText road = OneLane();
-  road.lateral =
-      R"(<shape s="5" t="-3" a="0.2"/><shape s="5" t="1" a="0.2"/><shape s="5" t="-3" a="0.2"/>)"
-      R"(<shape s="5" t="1" a="0.2"/>)";
+  road.lateral = R"(<shape s="5" t="-3" a="0.2"/><shape s="5" t="1" a="0.2"/><shape s="5" t="-3" a="0.2"/>)"
+                 R"(<shape s="5" t="1" a="0.2"/>)";
   const Import import = Repaired(Document(road.Text()), "the second, which is the same, is passed over");
   EXPECT_NEAR(import.network->roads()[0].Surface(50.0, -2.0).p_W.z(), 0.2, 1e-12);
 }
@@ -251,9 +250,8 @@ TEST(Repair, ALinkToALaneThatIsNotThereIsDropped) {
 
 TEST(Repair, ARoadEndsWhereTheNextIsNotInTheFile) {
   RoadText road = OneLane();
-  road.link =
-      R"(<predecessor elementType="junction" elementId="12"/>)"
-      R"(<successor elementType="road" elementId="9" contactPoint="end"/>)";
+  road.link = R"(<predecessor elementType="junction" elementId="12"/>)"
+              R"(<successor elementType="road" elementId="9" contactPoint="end"/>)";
   const Import import = Repaired(Document(road.Text()), "road.linkage.id: road 1");
   EXPECT_FALSE(import.network->roads()[0].spec().predecessor || import.network->roads()[0].spec().successor);
   EXPECT_EQ(import.before->share(), 0.0);
@@ -279,15 +277,13 @@ std::string Junction(const std::string& links, double y_m, double heading) {
   out.id = "2", out.link = R"(<predecessor elementType="junction" elementId="5"/>)";
   out.geometry = Line(0, 120, 0, 0, 100);
   way.id = "3", way.length = 20, way.attributes = "junction=\"5\"";
-  way.link =
-      R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>)"
-      R"(<successor elementType="road" elementId="2" contactPoint="start"/>)";
+  way.link = R"(<predecessor elementType="road" elementId="1" contactPoint="end"/>)"
+             R"(<successor elementType="road" elementId="2" contactPoint="start"/>)";
   way.geometry = Line(0, 100, y_m, heading, 20);
   way.right = Lane(-1, links, Wide(3.5));
-  return Document(
-      in.Text() + out.Text() + way.Text() +
-      R"(<junction id="5"><connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start">)"
-      R"(<laneLink from="-1" to="-1"/></connection></junction>)");
+  return Document(in.Text() + out.Text() + way.Text() +
+                  R"(<junction id="5"><connection id="0" incomingRoad="1" connectingRoad="3" contactPoint="start">)"
+                  R"(<laneLink from="-1" to="-1"/></connection></junction>)");
 }
 
 TEST(Repair, AMissingLinkInAJunctionIsFoundByGeometry) {
@@ -393,10 +389,10 @@ TEST(Repair, LightsOfOneControllerForCrossingWaysStayDark) {
     b.id = "2", b.geometry = Line(0, 50, -90, heading, 100);
     a.more = R"(<signals><signal id="1" s="90" t="-4" type="1000001" orientation="+" dynamic="yes"/></signals>)";
     b.more = R"(<signals><signal id="2" s="90" t="-4" type="1000001" orientation="+" dynamic="yes"/></signals>)";
-    return MustImport(Document(
-        a.Text() + b.Text() +
-        R"(<controller id="c"><control signalId="1"/><control signalId="2"/></controller><junction id="5">)"
-        R"(<controller id="c"/></junction>)"));
+    return MustImport(
+        Document(a.Text() + b.Text() +
+                 R"(<controller id="c"><control signalId="1"/><control signalId="2"/></controller><junction id="5">)"
+                 R"(<controller id="c"/></junction>)"));
   };
   const Import crossing = with(1.5707963267948966), opposite = with(3.1);
   EXPECT_FALSE(crossing.network->controllers()[0].times);
