@@ -128,7 +128,7 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
     if (std::string(name) == "check") {
       command->add_flag("--strict", options.strict, "OpenDRIVE: ASAM's own tolerances, and nothing is repaired");
       command->add_flag("--no-repair", options.no_repair, "OpenDRIVE: errors stay errors, by the usual tolerances");
-      command->add_flag("--verbose", options.verbose, "OpenDRIVE: every warning, not one of each kind");
+      command->add_flag("--verbose", options.verbose, "OpenDRIVE: every finding, not one of each kind");
       command->add_option("--repair", options.repair, "OpenDRIVE: write the repaired file here")->check(NewFile());
     }
     if (std::string(name) == "info") {
