@@ -19,7 +19,8 @@ std::terminate_handler g_other = nullptr;
 
 // Without memory of the heap, of which there may be none left.
 [[noreturn]] void EndWith(std::string_view sentence) {
-  for (const std::string_view part : {std::string_view(g_program), std::string_view(": "), sentence}) {
+  constexpr std::string_view kRecording = "; `rodeira repair` completes a recording that was being written\n";
+  for (const std::string_view part : {std::string_view(g_program), std::string_view(": "), sentence, kRecording}) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, part.data(), part.size());
   }
   ::_exit(1);
@@ -30,10 +31,10 @@ std::terminate_handler g_other = nullptr;
     try {
       std::rethrow_exception(thrown);
     } catch (const std::bad_alloc&) {
-      EndWith("the memory that this program may use is exhausted (ulimit -v, the container's limit, RAM)\n");
+      EndWith("the memory that this program may use is exhausted (ulimit -v, the container's limit, RAM)");
     } catch (const std::system_error& error) {
       if (error.code() == std::errc::resource_unavailable_try_again)
-        EndWith("no further thread can be started (ulimit -u, the container's limit of processes, memory)\n");
+        EndWith("no further thread can be started (ulimit -u, the container's limit of processes, memory)");
     } catch (...) {
     }
   }

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 #include "common/core/base/open_error.hpp"
@@ -51,7 +52,7 @@ class FileSink final : public Sink {
 
   base::Status Append(std::span<const std::byte> bytes) override {
     RODEIRA_ASSERT(file_ >= 0);
-    if (sync_ && sync_->error() != 0) return Problem("brought to the disk", sync_->error());
+    if (const int problem = SyncProblem(); problem != 0) return Problem("brought to the disk", problem);
     while (!bytes.empty()) {
       const ssize_t wrote = ::write(file_, bytes.data(), bytes.size());
       if (wrote < 0 && errno == EINTR) continue;
@@ -70,8 +71,19 @@ class FileSink final : public Sink {
 
   void SyncSoon() override {
     RODEIRA_ASSERT(file_ >= 0);
-    if (!sync_) sync_ = std::make_unique<BackgroundSync>(file_, path_);
-    sync_->Request();
+    if (!sync_ && !has_no_thread_) {
+      try {
+        sync_ = std::make_unique<BackgroundSync>(file_, path_);
+      } catch (const std::system_error&) {
+        has_no_thread_ = true;  // the machine has none left: the writer waits for the disk itself
+        base::SyncName(path_);
+      }
+    }
+    if (sync_) {
+      sync_->Request();
+    } else if (const base::Status synced = Sync(); !synced && sync_problem_ == 0) {
+      sync_problem_ = EIO;
+    }
   }
 
   void CutTo(std::uint64_t size) override {
@@ -81,7 +93,7 @@ class FileSink final : public Sink {
 
   base::Status Close() override {
     if (file_ < 0) return {};
-    const int earlier = sync_ ? sync_->error() : 0;
+    const int earlier = SyncProblem();
     sync_.reset();
     base::Status synced = earlier == 0 ? Sync() : Problem("brought to the disk", earlier);
     base::SyncName(path_);
@@ -95,6 +107,8 @@ class FileSink final : public Sink {
   std::string name() const override { return path_; }
 
  private:
+  // errno of an earlier SyncSoon that failed; 0: none has.
+  int SyncProblem() const { return sync_ ? sync_->error() : sync_problem_; }
   base::Error Problem(const char* what, int error) const {
     return base::Failed(fmt::format("the recording cannot be {}: {}", what, std::strerror(error)), path_);
   }
@@ -102,6 +116,8 @@ class FileSink final : public Sink {
   int file_;
   std::string path_;
   std::unique_ptr<BackgroundSync> sync_;  // where it was asked for
+  bool has_no_thread_ = false;
+  int sync_problem_ = 0;
 };
 
 }  // namespace
