@@ -37,7 +37,7 @@ namespace rodeira::traffic {
 // the speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to
 // the next place to stand is its own (docs/explanation/traffic.md). A car that reaches the end of its last lane leaves
 // and enters again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never
-// changes, and nobody is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route
+// changes, and none is moved or removed elsewhere. With flows (DemandSettings) they come as those say, with a route
 // or without, and are gone at the end of their way. They see other vehicles (the driver's car) by their rectangles,
 // wherever they are. On roads of several lanes they change lanes where that brings them on (MOBIL). Nothing here
 // depends on order of arrival, threads or the clock: the state is Save's, and each step is a function of it and of

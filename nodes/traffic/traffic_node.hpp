@@ -9,7 +9,7 @@ namespace rodeira::nodes {
 
 // Autonomous traffic on the world's roads, all agents in one sample, and what the world's lights show in another.
 // Configuration: common/traffic's settings (docs/reference/traffic-files.md), `vehicles` first of all. It sees every
-// car whose state is wired to it.
+// car with a state that is wired to it.
 base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContext& context);
 
 }  // namespace rodeira::nodes

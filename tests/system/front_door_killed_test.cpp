@@ -34,7 +34,7 @@ class KilledFrontDoor : public ::testing::Test {
     const auto found = ProcessesWith("--run " + Name(), text);
     return found.size() == 1 ? found.front() : -1;
   }
-  void ExpectNobodyAfterItsDeath(const Started& run) const {
+  void ExpectNoProcessAfterItsDeath(const Started& run) const {
     ::kill(run.pid(), SIGKILL);
     const auto until = std::chrono::steady_clock::now() + 2s;
     while (!ProcessesWith("--run " + Name()).empty() && std::chrono::steady_clock::now() < until)
@@ -49,26 +49,26 @@ class KilledFrontDoor : public ::testing::Test {
 TEST_F(KilledFrontDoor, WhileANodeLoads) {
   Started run(Command({"nodes.b.config.initialise_s=100"}));
   ASSERT_GE(run.WaitFor("told to compute here", 30s), 0ms);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, WhileItRuns) {
   Started run(Command({}));
   ASSERT_TRUE(Runs(Name()));
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, WhileItIsPaused) {
   Started run(Command({}));
   ASSERT_TRUE(Runs(Name()));
   ASSERT_EQ(RunCommand({Bin("rodeira"), "ctl", "pause", "--run", Name()}).status, 0);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, WhileANodeHangs) {
   Started run(Command({"nodes.b.config.hang_at_step=200", "nodes.b.deadline_s=600"}));
   ASSERT_GE(run.WaitFor("told to hang here", 30s), 0ms);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, WhileItWaitsForAStoppedNode) {
@@ -76,7 +76,7 @@ TEST_F(KilledFrontDoor, WhileItWaitsForAStoppedNode) {
   ASSERT_TRUE(Runs(Name()));
   ::kill(Part("--node b"), SIGSTOP);
   ASSERT_GE(run.WaitFor("the run waits", 30s), 0ms);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, WhileItWaitsForANodeThatWasTerminated) {
@@ -84,14 +84,14 @@ TEST_F(KilledFrontDoor, WhileItWaitsForANodeThatWasTerminated) {
   ASSERT_TRUE(Runs(Name()));
   ::kill(Part("--node b"), SIGTERM);
   ASSERT_GE(run.WaitFor("the run waits", 30s), 0ms);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 TEST_F(KilledFrontDoor, RightAfterANodeWasTerminated) {
   Started run(Command({}));
   ASSERT_TRUE(Runs(Name()));
   ::kill(Part("--node b"), SIGTERM);
-  ExpectNobodyAfterItsDeath(run);
+  ExpectNoProcessAfterItsDeath(run);
 }
 
 // All threads of it. The kernel lets go on what stands when its parent dies, and nothing that stops a moment later.
@@ -115,7 +115,7 @@ TEST_F(KilledFrontDoor, WithTheClockOrEverythingStopped) {
       ::kill(part, SIGSTOP);
       while (!IsStopped(part)) std::this_thread::sleep_for(1ms);
     }
-    ExpectNobodyAfterItsDeath(run);
+    ExpectNoProcessAfterItsDeath(run);
   }
 }
 

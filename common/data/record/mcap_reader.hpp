@@ -101,9 +101,10 @@ class MessageCursor {
 // By the summary when that is whole; otherwise from the start, taking complete records as far as they go: then what
 // follows the first incomplete or damaged record is lost, and condition() says so.
 //
-// A file whose header names kLibrary must be as McapWriter writes it. For other files the MCAP specification holds:
+// A file with kLibrary in its header must be as McapWriter writes it. For other files the MCAP specification holds:
 // chunks may be compressed by lz4, messages may lie outside of chunks, and the summary and all indexes are optional. A
-// file whose summary does not name all of it is read from the start. A damaged chunk is lost, what follows is not.
+// file with a summary that does not name all of it is read from the start. A damaged chunk is lost, what follows is
+// not.
 //
 // One reader and its cursors are for one thread.
 class McapReader {

@@ -214,7 +214,7 @@ Status Scanner::TakeFooter(const FileRecord& record) {
   return {};
 }
 
-// What lies between the end of the data and the place that the footer names would be read by nobody.
+// What lies between the end of the data and the place that the footer names is read by no reader.
 void Scanner::CheckPlaceOfDataEnd(std::uint64_t end) {
   const std::uint64_t tail = kFooterBytes + kMagic.size();
   if (source_.size() < tail) return;

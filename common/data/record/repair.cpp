@@ -137,7 +137,7 @@ Status Copier::CopyAttachment(const AttachmentInfo& info) {
 }
 
 // Other programs define schemas and channels outside of chunks, and some without a message. In a recording of Rodeira a
-// channel without a message is one whose messages were lost: it is not kept.
+// channel without a message has lost its messages: it is not kept.
 Status Copier::AddDefinitions() {
   if (contents_.rules == Rules::kOwn) return {};
   for (const auto& [id, schema] : contents_.definitions.schemas) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-// What the clock and those who follow it say on standard output, a line a statement (docs/reference/run-control.md):
+// What the clock and its followers say on standard output, a line a statement (docs/reference/run-control.md):
 // `rodeira run` reads it, people may too.
 namespace rodeira::dds {
 

@@ -54,7 +54,7 @@ int sem_timedwait(sem_t* semaphore, const timespec* until) {
   return ::sem_clockwait(semaphore, CLOCK_MONOTONIC, &steady);
 }
 
-// A mutex whose owner has died is taken as it is (robust_mutexes.hpp).
+// A mutex of an owner that has died is taken as it is (robust_mutexes.hpp).
 int pthread_mutex_timedlock(pthread_mutex_t* mutex, const timespec* until) noexcept {
   const timespec steady = Steady(*until);
   const int result = ::pthread_mutex_clocklock(mutex, CLOCK_MONOTONIC, &steady);

@@ -38,7 +38,7 @@ struct LaunchNode {
 
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-// A launch file (docs/reference/launch-files.md): who takes part in a run, on which world, at which rates. Every
+// A launch file (docs/reference/launch-files.md): which nodes take part in a run, on which world, at which rates. Every
 // process of a run reads the same file and so comes to the same roster; the roster's hash proves it.
 class Launch {
  public:

@@ -31,8 +31,8 @@ class Watchdog {
   Watchdog(const Roster& roster, const Settings& settings);
   void Heard(const Report& report, std::int64_t now_ms);
   // The first fault in the roster's order; a node that failed by its own word comes first. A gap in the caller's own
-  // calls (the clock itself was stopped, or had no processor for a sixth of the silence) is nobody's silence and is
-  // forgiven. While a node starts, its silence may last kStarting times as long: nobody waits for it in a step, and a
+  // calls (the clock itself was stopped, or had no processor for a sixth of the silence) is no node's silence and is
+  // forgiven. While a node starts, its silence may last kStarting times as long: no node waits for it in a step, and a
   // PC that loads a large world has no processor to spare. `grant`: what the clock says. A node that has ended though
   // the run goes on is a fault, too.
   std::optional<Fault> Check(std::int64_t now_ms, const Grant& grant);

@@ -96,7 +96,7 @@ void CheckJumps(const RoadReading& road, const Tolerance& tolerance, Findings& f
   for (std::size_t i = 0; i < road.spec.sections.size(); ++i) {
     checker.Side(road.spec.sections[i].left, i);
     checker.Side(road.spec.sections[i].right, i);
-    // Where a section begins, lanes go on into those of another one, whose edges are compared.
+    // Where a section begins, lanes go on into those of another one: their edges are compared.
     const double end_m = i + 1 < road.spec.sections.size() ? road.spec.sections[i + 1].s_m : road.spec.length_m;
     checker.Table(road.spec.lane_offset, lanes.Children("laneOffset"), "s", 0.0, road.spec.sections[i].s_m, end_m,
                   "the lane offset", std::nullopt, road.lines.sections[i]);

@@ -196,8 +196,8 @@ Repair WithoutWidth(const Node& node) {
   return repair;
 }
 
-// A lane whose id is not the next one: a second one of an id is passed over, and an id that is left out is that of a
-// lane without width.
+// A lane with an id that is not the next one: a second one of an id is passed over, and an id that is left out is that
+// of a lane without width.
 Repair IdRepair(const Node& group, const Lane& lane, int expected) {
   if (std::abs(lane.id) < std::abs(expected)) {
     std::vector<Node> same;

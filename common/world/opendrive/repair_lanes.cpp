@@ -22,7 +22,7 @@ using network::Road;
 constexpr double kDrivenKink_rad = 0.7, kDrivenKinkTurning_rad = 0.35;
 constexpr double kTurnsRound_rad = 1.9;
 constexpr double kDrivenAhead_m = 1.0;  // of nothing between two lanes
-constexpr std::size_t kMostTurned = 3;  // repairs; a road whose both ends lie at one place would be turned for ever
+constexpr std::size_t kMostTurned = 3;  // repairs; a road with both ends at one place would be turned for ever
 constexpr double kShared = 0.7;         // of the narrower lane's width, which both share
 
 const char* Word(End end) { return end == End::kEnd ? "successor" : "predecessor"; }
@@ -84,7 +84,7 @@ LaneRepairs::Passing LaneRepairs::PassingOf(const LaneEnd& from, const LaneEnd& 
   passing.kink_rad = std::fabs(std::atan2(in_W.dot(left), in_W.dot(here.out_W)));
   const Eigen::Vector2d between = there.middle_W() - here.middle_W();
   passing.aside_m = std::fabs(between.dot(left)), passing.ahead_m = std::fabs(between.dot(here.out_W));
-  // Driving into the other lane its left and right are those of whoever leaves it turned round.
+  // Driven into, the other lane has its left and right exchanged.
   const auto aside = [&](const Eigen::Vector2d& p_W) { return (p_W - here.middle_W()).dot(left); };
   const double half = 0.5 * here.width_m(), high = aside(there.right_W), low = aside(there.left_W);
   const double shared = std::min(half, high) - std::max(-half, low);

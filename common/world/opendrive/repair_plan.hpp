@@ -15,7 +15,7 @@ Repair GapRepair(Source& source, const RoadReading& road, std::size_t next);
 Repair KinkRepair(Source& source, const RoadReading& road, std::size_t next, double kink_rad);
 // An element that begins elsewhere along the line than the one before ends.
 Repair StationRepair(Source& source, const RoadReading& road, std::size_t next);
-// A cubic whose curve is not as long as its element says.
+// A cubic with a curve that is not as long as its element says.
 Repair CubicRepair(Source& source, const RoadReading& road, std::size_t element);
 Repair LengthRepair(Source& source, const RoadReading& road);
 Repair SectionRepair(Source& source, const RoadReading& road, std::size_t section);

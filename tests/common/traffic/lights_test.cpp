@@ -17,8 +17,8 @@ namespace {
 
 using network::LightColour;
 
-// Of docs/explanation/traffic.md: who can stop so far before the line by braking so hard, which changes by so much a
-// second, does.
+// Of docs/explanation/traffic.md: a car that can stop so far before the line by braking so hard, which changes by so
+// much a second, does.
 constexpr double kForAmber_mps2 = 2.9, kBefore_m = 0.6, kJerk_mps3 = 3.0;
 
 // The way of that, in small steps.

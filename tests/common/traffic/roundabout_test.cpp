@@ -95,8 +95,8 @@ Passed Measure(double circulating_per_h, double entering_per_h, const std::strin
 // Highway Capacity Manual (2016): 1380 exp(-0.00102 q).
 double Handbook(double circulating_per_h) { return 1380.0 * std::exp(-0.00102 * circulating_per_h); }
 
-// Up to 800 circulating; what it is beyond is in docs/performance.md. Who circulates goes first: a queue at the entry
-// takes nothing from him.
+// Up to 800 circulating; what it is beyond is in docs/performance.md. A circulating car goes first: a queue at the
+// entry takes nothing from it.
 TEST(Roundabout, ItsEntryCarriesWhatTheHandbookSays) {
   PlotCurve measured{"measured on roundabout.motors", "#b03020", {}},
       handbook{"1380 exp(-0.00102 q)", "#1f5f8b", {}, true};

@@ -121,7 +121,7 @@ TEST_F(TrafficSettingsFile, TheDocumentTellsOfEveryKey) {
     EXPECT_TRUE(told.contains(key)) << "docs/reference/traffic-settings.md has no row for " << key;
   for (const auto& [key, row] : told)
     EXPECT_TRUE(asked.contains(key)) << "docs/reference/traffic-settings.md tells of " << key
-                                     << ", which nobody asks for";
+                                     << ", which no reader asks for";
 }
 
 TEST_F(TrafficSettingsFile, WhatASettingIsOtherwiseIsWhatTheDocumentSays) {

@@ -242,7 +242,8 @@ TEST_F(Requests, AScenarioFilePlacesACarToo) {
   EXPECT_TRUE(verdict.value().substituted.empty());
 }
 
-// As docs/reference/view.md says: who takes requests, who is the same each time, and what is to be set for the others.
+// As docs/reference/view.md says: which files take requests, which are the same each time, and what is to be set for
+// the others.
 TEST(LaunchFiles, ThoseThatAPersonWatchesTakeRequests) {
   const auto takes = [](const std::string& name, const launch::Overrides& changes = {}) {
     const auto launch = launch::Launch::Load(std::filesystem::path(SourceDir()) / "launch" / (name + ".yaml"), changes);

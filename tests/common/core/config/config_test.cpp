@@ -269,7 +269,7 @@ TEST(Quoted, AnyTextIsReadBackAsItWas) {
     EXPECT_FALSE(Unquoted(other)) << other;
 }
 
-// The values go into recordings, whose texts are UTF-8.
+// The values go into recordings; all texts there are UTF-8.
 TEST(Utf8, AFileInAnotherEncodingIsRefusedWithItsLine) {
   const auto file = File::Parse("a: 1\nb: gr\xFC\xDF\n", "x.yaml");
   ASSERT_FALSE(file.ok());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Many seeded mutations of small files: the reader, Verify and Repair never crash, and never hand out a message that
-// was not written. Of other programs' files, whose messages may lie outside of checksums, Verify sees what was changed.
+// was not written. In other programs' files messages may lie outside of checksums: Verify sees what was changed.
 // RODEIRA_FUZZ_FILES sets how many files are tried, RODEIRA_FUZZ_FIRST with which number they begin.
 #include <gtest/gtest.h>
 

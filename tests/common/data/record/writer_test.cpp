@@ -272,7 +272,7 @@ TEST(Writer, SettingsOutOfRangeAreRefused) {
             "memory: zstd_level is 20, -7 (fastest) to 19 was expected");
 }
 
-// MCAP's texts are UTF-8: other readers refuse a file whose texts are not.
+// MCAP's texts are UTF-8: other readers refuse a file with other texts.
 TEST(Writer, TextsThatAreNotUtf8AreConverted) {
   base::Bytes bytes;
   auto writer = McapWriter::Open(std::make_unique<MemorySink>(&bytes));

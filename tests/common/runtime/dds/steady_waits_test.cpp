@@ -49,7 +49,7 @@ TEST_F(SteadyWaits, LastAsLongAsAskedFor) {
   EXPECT_EQ(::sem_timedwait(&semaphore_, &until), 0) << "what is there is taken";
 }
 
-// A moment that has passed, or one that a jump of the system time has put years away, ends nobody's wait for long.
+// A moment that has passed, or one that a jump of the system time has put years away, holds up no wait for long.
 TEST_F(SteadyWaits, AreBoundedWhateverTheSystemTimeIs) {
   constexpr auto kYear = std::chrono::milliseconds(std::chrono::hours(24 * 365));
   (void)Wait(-66 * kYear);

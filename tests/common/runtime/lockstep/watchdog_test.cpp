@@ -125,7 +125,7 @@ TEST_F(WatchdogTest, WhoLoadsMayBeSilentFiveTimesAsLong) {
   EXPECT_EQ(fault->reason, "node 'car' has said nothing for 3.05 s at step 7: it was killed, stopped or cut off");
 }
 
-// On a PC with too much work the clock comes late again and again: what it did not hear then is nobody's silence.
+// On a PC with too much work the clock comes late again and again: what it did not hear then is no node's silence.
 TEST_F(WatchdogTest, ForgivesWhatTheClockHadNoProcessorFor) {
   Hear(0, 0);
   Hear(1, 0);

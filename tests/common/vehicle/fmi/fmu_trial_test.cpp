@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An FMU whose code crashes, hangs or ends the process: in its trial it is refused by name, in a step the process ends
-// by the signal and names the FMU.
+// An FMU with code that crashes, hangs or ends the process: in its trial it is refused by name, in a step the process
+// ends by the signal and names the FMU.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>

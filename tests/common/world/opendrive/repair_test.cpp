@@ -197,7 +197,7 @@ TEST(Repair, ALaneOffsetThatJumpsIsToldAndSmoothed) {
   EXPECT_NEAR(import.network->roads()[0].CentreAt(36.0).value, -1.0, 1e-12);
 }
 
-// Two roads without a junction whose lines lie 2 m aside, and whose lanes meet.
+// Two roads without a junction: their lines lie 2 m aside, their lanes meet.
 std::string Aside(double y_m, double width_m = 3.0) {
   RoadText first = OneLane(), second = OneLane();
   first.link = R"(<successor elementType="road" elementId="2" contactPoint="start"/>)";
@@ -225,7 +225,7 @@ TEST(Repair, AWidthThatStepsBetweenRoadsIsDriven) {
   EXPECT_TRUE(beside.network->AtEnd({0, 0, -1}).empty());
 }
 
-// Road 2 runs towards road 1, whose link names the wrong one of its ends.
+// Road 2 runs towards road 1; the link of that names the wrong one of its ends.
 TEST(Repair, ARoadIsMetAtTheEndThatLiesThere) {
   RoadText first = OneLane(), second = OneLane();
   first.link = R"(<successor elementType="road" elementId="2" contactPoint="start"/>)";
@@ -270,7 +270,7 @@ TEST(Repair, ALaneThatSplitsIntoTwoHasNoGap) {
   EXPECT_EQ(MustRead(Document(road.Text()))->AtEnd({0, 0, -1}).size(), 2u);
 }
 
-// Roads 1 and 2 with a connecting road between them, whose lane says nothing of where it goes on.
+// Roads 1 and 2 with a connecting road between them; its lane says nothing of where it goes on.
 std::string Junction(const std::string& links, double y_m, double heading) {
   RoadText in = OneLane(), out = OneLane(), way = OneLane();
   in.link = R"(<successor elementType="junction" elementId="5"/>)";

@@ -317,7 +317,7 @@ TEST_P(NetworkExport, GeoReferenceIsAProjStringOfTheSamePlaces) {
   }
 }
 
-// The world of docs/tutorials/first-road.md, whose junction is called 'at the farm'.
+// The world of docs/tutorials/first-road.md; its junction is called 'at the farm'.
 TEST(NetworkExportIds, HaveNoBlanksAndNamesAreKept) {
   const std::string document =
       base::ReadText(std::filesystem::path(SourceDir()) / "docs/tutorials/first-road.md").value();

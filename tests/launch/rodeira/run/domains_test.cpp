@@ -21,7 +21,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// A name whose preferred domain fits.
+// A name with a preferred domain that fits.
 std::string NameOf(const std::string& begin, const std::function<bool(std::uint32_t)>& fits) {
   for (int i = 0;; ++i) {
     const std::string name = begin + std::to_string(i);
