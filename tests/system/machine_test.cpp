@@ -148,6 +148,21 @@ TEST_F(TwoUsers, ADomainOfALivingRunOfAnotherUserIsUsedOverUdp) {
   EXPECT_TRUE(Runs("users-one")) << "the first one goes on";
 }
 
+// A second process of a node would end the run that is going on.
+TEST_F(TwoUsers, ASecondStartOfARunByAnotherUserIsRefused) {
+  const Words domain{"--domain", std::to_string(kDomain)};
+  Started run(ForAWhile("users-same", domain));
+  ASSERT_TRUE(Runs("users-same"));
+  const Ended other = RunCommand(AsOther(RunOf("users-same", Joined(domain, {"--for", "0.5"}))));
+  EXPECT_EQ(other.status, 2) << other.out;
+  EXPECT_THAT(other.out,
+              HasSubstr("run 'users-same' in domain 219: this run is started already on this PC, by process " +
+                        std::to_string(run.pid()) + " of user 'root'; end that one first"));
+  EXPECT_TRUE(Runs("users-same")) << "the first one goes on";
+  ::kill(run.pid(), SIGINT);
+  EXPECT_EQ(run.Wait().status, 0);
+}
+
 TEST_F(TwoUsers, ADomainWithFilesOfAnotherUserIsUsedOverUdp) {
   LeaveFiles("users-dead", kDomain);
   const Ended other = RunCommand(AsOther(RunOf("users-after", {"--domain", std::to_string(kDomain), "--for", "0.5"})));

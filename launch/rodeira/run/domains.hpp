@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/core/base/result.hpp"
 #include "common/runtime/dds/shared_memory_room.hpp"
+#include "launch/rodeira/run/abstract_socket.hpp"
 
 namespace rodeira::cli {
 
@@ -20,9 +22,8 @@ struct DomainPlace {
 // The domain that a run of this name takes if it is free: 1 to 200.
 std::uint32_t PreferredDomain(const std::string& run);
 
-// A DDS domain that one run on this PC holds, against other users, too: an abstract socket, which the kernel releases
-// when the process ends, however it ends. A run in a container that shares the folder of shared memory, but not the
-// network, is seen by its ports there.
+// A DDS domain that one run on this PC holds, against other users, too. A run in a container that shares the folder of
+// shared memory, but not the network, is seen by its ports there.
 class DomainHold {
  public:
   // The first domain from the preferred one on that no run holds and that has no ports in shared memory, of any user or
@@ -31,16 +32,12 @@ class DomainHold {
   // This one; nothing if another run holds it.
   static std::optional<DomainHold> Take(std::uint32_t domain, const DomainPlace& place = {});
 
-  DomainHold(DomainHold&& other) noexcept;
-  DomainHold& operator=(DomainHold&& other) noexcept;
-  ~DomainHold();
-
   std::uint32_t domain() const { return domain_; }
 
  private:
-  DomainHold() = default;
-  std::uint32_t domain_ = 0;
-  int socket_ = -1;
+  DomainHold(std::uint32_t domain, AbstractSocket socket) : domain_(domain), socket_(std::move(socket)) {}
+  std::uint32_t domain_;
+  AbstractSocket socket_;
 };
 
 // What another user has of a domain: a sentence that names the file or the run, and the user. Nothing if there is none.

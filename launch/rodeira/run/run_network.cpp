@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/runtime/dds/network_state.hpp"
+#include "launch/rodeira/run/host_hold.hpp"
 #include "launch/rodeira/run/shared_memory.hpp"
 
 namespace rodeira::cli {
@@ -86,6 +87,9 @@ base::Result<RunNetwork> RunNetwork::Prepare(const RunOptions& options, const Pl
     network.domain = hold.value().domain();
     network.hold = std::move(hold).value();
   }
+  auto host = HoldHost(network.domain, options.run, placement.host(), place);
+  if (!host) return host.error();
+  network.host = std::move(host).value();
   if (launch.transport() == launch::Transport::kUdp) return network;
   base::Status status;
   if (const auto other = OtherUserOf(network.domain, place)) {

@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "common/runtime/dds/shared_memory_room.hpp"
+#include "launch/rodeira/run/host_hold.hpp"
 #include "launch/rodeira/run/run_network.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 
@@ -111,6 +112,23 @@ TEST_F(Domains, AnotherUserIsNamed) {
   EXPECT_EQ(OtherUserOf(210, place_), file.string() + " of domain 210 belongs to user number 61234");
   EXPECT_FALSE(OtherUserOf(209, place_));
   EXPECT_FALSE(OtherUserOf(211, place_));
+}
+
+TEST_F(Domains, AHostOfARunIsHeldOnce) {
+  const auto first = HoldHost(kWanted, "rig", "left", place_);
+  ASSERT_TRUE(first.ok()) << first.error().Text();
+  const auto again = HoldHost(kWanted, "rig", "left", place_);
+  ASSERT_FALSE(again.ok());
+  EXPECT_EQ(again.error().exit_status(), 2);
+  EXPECT_THAT(again.error().Text(),
+              ::testing::AllOf(HasSubstr("run 'rig' in domain 77: host 'left' of this run is started already on this "
+                                         "PC, by process " +
+                                         std::to_string(::getpid())),
+                               HasSubstr("of user " + UserName(::geteuid()))));
+  EXPECT_TRUE(HoldHost(kWanted, "rig", "right", place_).ok()) << "another host on the same PC";
+  EXPECT_TRUE(HoldHost(kWanted, "other", "left", place_).ok()) << "another run in the same domain";
+  EXPECT_TRUE(HoldHost(kWanted + 1, "rig", "left", place_).ok()) << "the same name in another domain";
+  EXPECT_TRUE(DomainHold::Take(kWanted, place_)) << "a domain is another thing than a host";
 }
 
 // The largest one: a step of 256 KiB more has no room.
