@@ -33,6 +33,13 @@ Words Joined(Words first, const Words& second) {
 Words RunOf(const std::string& name, const Words& more) {
   return Joined({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--run", name, "--no-record"}, more);
 }
+// The command line of a process.
+Words CommandOf(pid_t process) {
+  std::ifstream file(fmt::format("/proc/{}/cmdline", process));
+  Words words;
+  for (std::string word; std::getline(file, word, '\0');) words.push_back(word);
+  return words;
+}
 // What half a second of empty.yaml gives without any DDS.
 const std::string& ExpectedDigest() {
   static const std::string kDigest = DigestIn(RunCommand(RunOf("reference", {"--in-process", "--for", "0.5"})).out);
@@ -40,11 +47,9 @@ const std::string& ExpectedDigest() {
 }
 // The word behind `option` in a process's command line.
 std::string OptionOf(pid_t process, const std::string& option) {
-  std::ifstream file(fmt::format("/proc/{}/cmdline", process));
-  for (std::string word; std::getline(file, word, '\0');) {
-    if (word == option && std::getline(file, word, '\0')) return word;
-  }
-  return "";
+  const Words words = CommandOf(process);
+  const auto at = std::ranges::find(words, option);
+  return at == words.end() || at + 1 == words.end() ? "" : *(at + 1);
 }
 // A name of a run that prefers this domain.
 std::string NameFor(std::uint32_t domain, const std::string& begin) {
@@ -99,6 +104,19 @@ TEST(BesideOneAnother, TenRunsInProcessAndFourWithProcessesAreControlledByName) 
       EXPECT_EQ(ctl(names[i + 1], "state").status, 0) << "it ended with " << names[i];
     }
   }
+}
+
+// Two processes as one node would answer for one another: the run ends by a sentence that names both.
+TEST(BesideOneAnother, ANodeProgramStartedASecondTimeByHandEndsTheRun) {
+  Started run(RunOf("by-hand", {"--for", "1000", "--pace", "real"}));
+  ASSERT_TRUE(Runs("by-hand"));
+  const auto nodes = ProcessesWith("--run by-hand", "--node b");
+  ASSERT_EQ(nodes.size(), 1u);
+  (void)RunCommand(CommandOf(nodes.front()));
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 2) << ended.out;
+  EXPECT_THAT(ended.out, HasSubstr("node 'b' takes part twice, as process " + std::to_string(nodes.front())));
+  EXPECT_TRUE(ProcessesWith("--run by-hand").empty());
 }
 
 // --- two users ---

@@ -55,16 +55,17 @@ base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport&
     return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node,
                                         named.hello.pid, named.hello.host, status.error().Text()));
   }
-  if (named.report.phase < lockstep::Phase::kFailed) {
-    if (auto status = CheckOnce(node, named); !status) return status;
-  }
+  if (auto status = CheckOnce(node, named); !status) return status;
   return run_.clock.recovery().CheckState(named.report);
 }
 
-// Two processes as one node, of one life: somebody has started the same host twice.
+// Two processes as one node, of one incarnation: its program was started twice. The second one may fail before it has
+// said anything else; a first report that is a failure is not the node's process yet.
 base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& named) {
   const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
   Who& known = who_[node];
+  if (named.report.phase >= lockstep::Phase::kFailed && known.incarnation != now.incarnation) return {};
+  if (named.report.phase >= lockstep::Phase::kFailed && known.pid == 0) return {};
   if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
   if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return {};
   return base::WrongInput(
