@@ -180,7 +180,7 @@ TEST_F(Hosts, ScreensOnTwoPcsShowTheStepsOfOne) {
           screens);
   const std::string one = folder_.Write("one.yaml", launch("one_lab.yaml", "", "", "one")).string();
   const Ended alone = RunCommand({Bin("rodeira"), "run", one, "--no-record", "--quiet"});
-  if (alone.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << alone.out;
+  if (alone.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << "no OpenGL here: " << alone.out;
   ASSERT_EQ(alone.status, 0) << alone.out;
   const auto left = Start(0), right = Start(1);
   const Ended on_left = left->Wait(120s), on_right = right->Wait(30s);

@@ -53,7 +53,7 @@ TEST(ThreeScreens, OfARunShowTheSameSteps) {
                     "}}\n" + View("left") + View("centre") + View("right"))
           .ok());
   const Ended run = RunCommand({Bin("rodeira"), "run", file.string(), "--pace", "max", "--no-record", "--quiet"});
-  if (run.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << run.out;
+  if (run.out.find("OpenGL") != std::string::npos) GTEST_SKIP() << "no OpenGL here: " << run.out;
   ASSERT_EQ(run.status, 0) << run.out;
   const auto picture = [&](const char* screen, const char* step) {
     return nodes::ReadPng(folder.path() / screen / ("step_00000" + std::string(step) + ".png"));

@@ -29,7 +29,7 @@ class Reading : public testing::Test {
     settings_.sound = false;
     if (!display_.there()) GTEST_SKIP() << "the package xvfb is not there";
     auto surface = OpenSurface(SurfaceKind::kWindow, settings_, true);
-    if (!surface.ok()) GTEST_SKIP() << surface.error().Text();
+    if (!surface.ok()) GTEST_SKIP() << "no OpenGL here: " << surface.error().Text();
   }
   // Where bright pixels are on the display's middle row, which is the window's, from left to right: an XWD file that
   // the server writes as it draws.
