@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/traffic/map_demand.hpp"
+#include "common/traffic/demand/map_demand.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 
 namespace rodeira::editor {

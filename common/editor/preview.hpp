@@ -7,7 +7,7 @@
 
 #include "common/core/base/result.hpp"
 #include "common/editor/document.hpp"
-#include "common/traffic/lane_statistics.hpp"
+#include "common/traffic/results/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::editor {

@@ -7,8 +7,8 @@
 #include "common/core/base/assert.hpp"
 #include "common/core/base/huge_pages.hpp"
 #include "common/core/base/random.hpp"
-#include "common/traffic/each_driving.hpp"
-#include "common/traffic/road_network.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/perception/each_driving.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -13,10 +13,10 @@
 
 #include "common/core/base/log.hpp"
 #include "common/driving/scenario/event.hpp"
-#include "common/traffic/map_lights.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/network/tight_bends.hpp"
 #include "common/traffic/place_orders.hpp"
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/tight_bends.hpp"
+#include "common/traffic/signals/map_lights.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/traffic_map/heights.hpp"

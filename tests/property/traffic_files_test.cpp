@@ -11,7 +11,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
 #include "common/driving/scenario/scenario_file.hpp"
-#include "common/traffic/map_demand.hpp"
+#include "common/traffic/demand/map_demand.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "common/world/traffic_map/lane_map.hpp"

@@ -11,7 +11,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
-#include "common/traffic/map_lights.hpp"
+#include "common/traffic/signals/map_lights.hpp"
 #include "common/world/traffic_map/lane_map.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "common/world/traffic_map/map_plot.hpp"

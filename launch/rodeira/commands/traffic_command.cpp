@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "common/core/base/print_error.hpp"
-#include "common/traffic/drivetrain.hpp"
-#include "common/traffic/map_demand.hpp"
-#include "common/traffic/map_lights.hpp"
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
-#include "common/traffic/tight_bends.hpp"
+#include "common/traffic/demand/map_demand.hpp"
+#include "common/traffic/motion/drivetrain.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/network/tight_bends.hpp"
+#include "common/traffic/results/study.hpp"
+#include "common/traffic/signals/map_lights.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"

@@ -13,8 +13,8 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/core/base/writable.hpp"
-#include "common/traffic/floating_cars.hpp"
-#include "common/traffic/lane_tables.hpp"
+#include "common/traffic/results/floating_cars.hpp"
+#include "common/traffic/results/lane_tables.hpp"
 
 namespace rodeira::cli {
 namespace {

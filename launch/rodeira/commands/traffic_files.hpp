@@ -6,8 +6,8 @@
 #include <string>
 
 #include "common/core/base/result.hpp"
-#include "common/traffic/study.hpp"
-#include "common/traffic/trajectory_diagram.hpp"
+#include "common/traffic/results/study.hpp"
+#include "common/traffic/results/trajectory_diagram.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
 
 namespace rodeira::cli {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/core/base/state.hpp"
-#include "common/traffic/lane_statistics.hpp"
+#include "common/traffic/results/lane_statistics.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "tests/bench/traffic/grid.hpp"

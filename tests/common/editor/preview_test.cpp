@@ -6,7 +6,7 @@
 
 #include "common/editor/commands.hpp"
 #include "common/editor/templates.hpp"
-#include "common/traffic/arrivals.hpp"
+#include "common/traffic/demand/arrivals.hpp"
 #include "common/world/lanes/signs.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "tests/common/editor/drawing.hpp"

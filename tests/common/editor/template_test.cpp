@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "tests/common/editor/drawing.hpp"
 

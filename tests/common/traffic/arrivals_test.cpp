@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/traffic/arrivals.hpp"
+#include "common/traffic/demand/arrivals.hpp"
 #include "tests/common/traffic/distance.hpp"
 
 namespace rodeira::traffic {

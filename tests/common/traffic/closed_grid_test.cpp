@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/curves.hpp"
 #include "tests/common/traffic/exit_room.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"

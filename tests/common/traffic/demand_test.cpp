@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "common/traffic/car_of.hpp"
-#include "common/traffic/drivetrain.hpp"
+#include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/motion/drivetrain.hpp"
 
 namespace rodeira::traffic {
 namespace {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "common/traffic/car_of.hpp"
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/lanes/signs.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"

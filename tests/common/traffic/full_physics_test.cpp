@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/driving/driver/idm.hpp"
-#include "common/traffic/car_of.hpp"
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/curves.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "common/traffic/traffic_settings.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
 
 namespace rodeira::traffic {
 

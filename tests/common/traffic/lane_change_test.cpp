@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "common/core/base/files.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 #include "common/world/traffic_map/open_drive.hpp"
 #include "tests/common/traffic/demand_road.hpp"

@@ -11,9 +11,9 @@
 #include <set>
 #include <sstream>
 
-#include "common/traffic/floating_cars.hpp"
-#include "common/traffic/lane_tables.hpp"
-#include "common/traffic/trajectory_diagram.hpp"
+#include "common/traffic/results/floating_cars.hpp"
+#include "common/traffic/results/lane_tables.hpp"
+#include "common/traffic/results/trajectory_diagram.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"

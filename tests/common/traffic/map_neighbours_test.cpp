@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "common/core/base/files.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/lanes/edge_marks.hpp"
 #include "common/world/opendrive/import.hpp"
 #include "common/world/traffic_map/map_network.hpp"

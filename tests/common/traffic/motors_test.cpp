@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/traffic/motors_driver.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/motors/motors_driver.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 

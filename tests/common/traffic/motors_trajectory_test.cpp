@@ -7,7 +7,7 @@
 #include <numbers>
 #include <string>
 
-#include "common/traffic/motors_driver.hpp"
+#include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/ring.hpp"
 

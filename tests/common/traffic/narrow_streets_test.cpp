@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"

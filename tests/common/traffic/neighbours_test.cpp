@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "common/core/base/random.hpp"
-#include "common/traffic/motors_driver.hpp"
-#include "common/traffic/motors_looks.hpp"
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/motors/motors_driver.hpp"
+#include "common/traffic/motors/motors_looks.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/restored.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"

@@ -8,8 +8,8 @@
 #include <map>
 #include <numbers>
 
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/lanes/signs.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"

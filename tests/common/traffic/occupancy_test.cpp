@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Who is on each track: what a list of all that were added says.
-#include "common/traffic/occupancy.hpp"
+#include "common/traffic/perception/occupancy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "common/traffic/road_network.hpp"
+#include "common/traffic/network/road_network.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/tree.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "common/traffic/overtaking.hpp"
+#include "common/traffic/overtaking/overtaking.hpp"
 
 namespace rodeira::traffic {
 namespace {

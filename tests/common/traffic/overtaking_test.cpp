@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <map>
 
-#include "common/traffic/road_network.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/network/road_network.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
-#include "common/traffic/road_network.hpp"
+#include "common/traffic/network/road_network.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/ring.hpp"

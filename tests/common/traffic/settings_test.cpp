@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // docs/reference/traffic-settings.md tells of every setting of the traffic: its key, what it is otherwise, and from
 // where to where it goes.
-#include "common/traffic/traffic_settings.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ std::set<std::string> Asked() {
                                                     {"comfort", "comfort."},
                                                     {"enter", "entering."},
                                                     {"change", "lane_changes."}};
-  const std::string text = base::ReadText(SourceDir() + "/common/traffic/traffic_settings.cpp").value();
+  const std::string text = base::ReadText(SourceDir() + "/common/traffic/state/traffic_settings.cpp").value();
   const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\(\s*"([a-z_0-9]+)")re");
   std::set<std::string> keys;
   for (std::sregex_iterator i(text.begin(), text.end(), asked), end; i != end; ++i) {

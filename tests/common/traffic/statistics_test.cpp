@@ -7,9 +7,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "common/traffic/car_of.hpp"
-#include "common/traffic/drivetrain.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/motion/drivetrain.hpp"
+#include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/traffic/struck.hpp"
+#include "common/traffic/motion/struck.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "common/traffic/swing.hpp"
-#include "common/traffic/tight_bends.hpp"
+#include "common/traffic/network/swing.hpp"
+#include "common/traffic/network/tight_bends.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/world/lanes/swath.hpp"
 #include "tests/common/traffic/ring.hpp"

@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-#include "common/traffic/traffic_settings.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
 #include "tests/common/traffic/distance.hpp"
 
 namespace rodeira::traffic {

@@ -10,7 +10,7 @@
 
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
-#include "common/traffic/study.hpp"
+#include "common/traffic/results/study.hpp"
 #include "common/world/road/world.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"

@@ -8,7 +8,7 @@
 
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
-#include "common/traffic/traffic_settings.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

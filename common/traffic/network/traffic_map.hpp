@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/traffic/demand/demand.hpp"
+#include "common/traffic/network/track_plan.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+#include "common/world/lanes/edge_marks.hpp"
+#include "common/world/lanes/opposite.hpp"
+#include "common/world/lanes/zones.hpp"
+
+namespace rodeira::traffic {
+
+// What does not change about a traffic: the network and all that is computed from it.
+struct TrafficMap {
+  std::shared_ptr<const network::Network> network;
+  lanes::Graph graph;
+  lanes::Zones zones;
+  lanes::EdgeMarks marks;
+  std::vector<std::int64_t> opposites;  // by track
+  lanes::NoOvertaking no_overtaking;
+  std::vector<TrackPlan> plans;  // by track
+  std::vector<std::uint32_t> entries;
+  std::vector<std::uint64_t>
+      entry_keys;            // by entry: of its road's id, its lane and section, whatever else the network holds
+  std::vector<bool> enters;  // by track: somebody may begin his way there
+  std::vector<bool>
+      watched;  // by track: who is on it is in the way of who begins his, there or on one that parts from it
+  std::vector<bool> reached;  // by track: by ways from where somebody may begin; every one where the network does not
+                              // say where that is
+  std::vector<bool> zips;     // by zone: two lanes beside one another come together there without any sign, one by one
+                              // from each where it is slow
+  Demand demand;
+
+  TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
+
+  // Somebody may begin his way on this track, too.
+  void LetEnter(std::uint32_t track);
+
+  // One of the entries, each with the same chance, by lot: the one whose own draw, keyed by it and by `draw`, is the
+  // highest (rendezvous hashing; Thaler, Ravishankar 1998). An entry more takes its share of all draws and changes none
+  // of the others.
+  std::uint32_t DrawEntry(std::uint64_t draw) const;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// Deadlocks of traffic: finds a closed cycle of vehicles, each of which waits for the next one, and ends it.
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "common/traffic/right_of_way/queueing.hpp"
+#include "common/traffic/traffic_model.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+// Beyond its minimum gap: a vehicle no farther behind another one queues behind it.
+constexpr double kQueuedGap_m = 1.0;
+
+}  // namespace
+
+// Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead
+// only where it has come up to him, and else for who keeps it in its own zones.
+std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
+  if (agents_[id].speed_mps > kStandstill_mps) return -1;
+  const Ahead& ahead = ahead_[id];
+  const Passage& passage = passages_[id];
+  const bool is_in = !agents_[id].grants.empty();
+  if (is_in && ahead.id >= 0 && ahead.gap_m < traits_[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
+  const std::int64_t keeps = is_in ? KeptInZonesBy(id) : -1;
+  if (keeps >= 0) return keeps;
+  if (passage.any && passage.head && passage.due) return passage.waits_for;
+  return !is_in && ahead.any ? ahead.id : -1;
+}
+
+// The circle in which a chain closes, from where it does; empty where it does not, or comes to one that has been
+// `seen`.
+std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
+  std::vector<std::uint32_t> chain;
+  std::int64_t at = start;
+  while (at >= 0 && static_cast<std::size_t>(at) < agents_.size() && seen[static_cast<std::size_t>(at)] == 0) {
+    seen[static_cast<std::size_t>(at)] = 1;
+    chain.push_back(static_cast<std::uint32_t>(at));
+    at = WaitsFor(static_cast<std::uint32_t>(at));
+  }
+  if (at < 0) return {};
+  return {std::find(chain.begin(), chain.end(), static_cast<std::uint32_t>(at)), chain.end()};
+}
+
+// Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless
+// somebody else holds one of those it stands in: nobody counts on it in the others, and it stands where it would have
+// waited.
+bool TrafficModel::GiveBack(std::uint32_t id) {
+  Agent& agent = agents_[id];
+  if (agent.grants.empty()) return false;
+  const double front = FrontOf(id), rear = front - traits_[id].length_m, to = front - kZoneOverhang_m;
+  if (agent.granted_m <= to) return false;
+  for (const Stretch& stretch : stretches_[id]) {
+    if (stretch.begin_m > to) break;
+    if (stretch.end_m < rear || !stretch.crosses) continue;
+    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
+      if (stretch.zero_m + part.in_m >= to || stretch.zero_m + part.out_m <= rear) continue;
+      for (const Holder& holder : book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
+        if (holder.id != id) return false;
+      }
+    }
+  }
+  agent.grants.clear();
+  agent.granted_m = to;
+  FindPassage(id);
+  return true;
+}
+
+// Whether it waits at a line and might be let in now.
+bool TrafficModel::IsAtLine(std::uint32_t id) const {
+  const Passage& passage = passages_[id];
+  return passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred;
+}
+
+// Whether one of them keeps another one out of a zone.
+bool TrafficModel::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
+  std::vector<std::size_t> sides;
+  for (const std::uint32_t id : some) {
+    for (const Crossing& crossing : passages_[id].crossings) {
+      if (crossing.zone >= 0)
+        sides.push_back(
+            ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  return std::any_of(sides.begin(), sides.end(), [&](std::size_t side) {
+    return side % 2 == 0 && std::binary_search(sides.begin(), sides.end(), side + 1);
+  });
+}
+
+// Lets those of the circle in, each of whom waits for the next one, who are not in anybody's way, although they would
+// have to yield, and whether anybody was. First those for whom there is room, who has waited longest first (of equals
+// the first). Then who has none since those who stand there wait, one behind another, for one who goes now. Where
+// nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
+// else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good
+// where they wait for one whom he is in the way of.
+bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
+  struct AtLine {
+    std::uint32_t id = 0;
+    std::size_t next = 0;  // of those at a line whom those before it wait for
+    bool goes = false;
+  };
+  std::vector<AtLine> lines;
+  for (const std::uint32_t id : circle) {
+    const Passage& passage = passages_[id];
+    if (passage.any && passage.head && passage.due) lines.push_back({id, lines.size() + 1});
+  }
+  if (lines.empty()) return false;
+  lines.back().next = 0;
+  std::vector<std::size_t> order(lines.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double waited_a = agents_[lines[a].id].waited_s, waited_b = agents_[lines[b].id].waited_s;
+    return waited_a != waited_b ? waited_a > waited_b : lines[a].id < lines[b].id;
+  });
+  bool any = false;
+  const auto let_in = [&](AtLine& line) {
+    line.goes = IsAtLine(line.id) && Grant(line.id, false);
+    any = any || line.goes;
+    return line.goes;
+  };
+  for (const std::size_t i : order) {
+    if (passages_[lines[i].id].able) let_in(lines[i]);
+  }
+  std::vector<std::uint8_t> tried(lines.size(), 0);
+  for (bool more = any; more;) {
+    more = false;
+    for (const std::size_t i : order) {
+      if (tried[i] != 0 || lines[i].goes || passages_[lines[i].id].able || !lines[lines[i].next].goes) continue;
+      tried[i] = 1;
+      more = let_in(lines[i]) || more;
+    }
+  }
+  if (any) return true;
+  std::vector<std::uint32_t> all;
+  bool free = true;
+  for (const AtLine& line : lines) {
+    all.push_back(line.id);
+    free = free && IsAtLine(line.id) && !passages_[line.id].able && !IsHeld(line.id);
+  }
+  if (free && !AreInOneAnothersWay(all)) {
+    for (const std::size_t i : order) let_in(lines[i]);
+    return any;
+  }
+  for (const std::size_t i : order) {  // … or one who comes to stand in nobody's way of them
+    const Passage& passage = passages_[lines[i].id];
+    const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
+    const auto keeps_out = [&](const Crossing& mine) {
+      return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
+               const auto& theirs = passages_[other].crossings;
+               return other != lines[i].id && std::any_of(theirs.begin(), theirs.end(), [&](const Crossing& their) {
+                        return their.zone == mine.zone && their.side != mine.side;
+                      });
+             });
+    };
+    if (!passage.able && std::none_of(passage.crossings.begin(), passage.crossings.end(), keeps_out) &&
+        let_in(lines[i]))
+      return true;
+  }
+  return false;
+}
+
+// Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside:
+// first he who has come up to somebody ahead, of several he who was let in last.
+void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
+  if (LetIn(circle)) return;
+  const std::uint32_t first = circle.front();
+  std::vector<std::uint8_t> seen(agents_.size(), 0);
+  if (CircleOf(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
+  const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == ahead_[id].id; };
+  const auto number = [&](std::uint32_t id) {
+    return agents_[id].grants.empty() ? 0 : agents_[id].grants.back().number;
+  };
+  std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (is_behind(a) != is_behind(b)) return is_behind(a);
+    return number(a) != number(b) ? number(a) > number(b) : a < b;
+  });
+  for (const std::uint32_t id : circle) {
+    if (GiveBack(id)) return;
+  }
+}
+
+void TrafficModel::ResolveDeadlocks() {
+  std::vector<std::uint8_t> seen(agents_.size(), 0);  // on a chain that has been looked at
+  const auto look_from = [&](std::uint32_t start) {
+    if (seen[start] != 0) return;
+    const auto circle = CircleOf(start, seen);
+    if (!circle.empty()) OpenCircle(circle);
+  };
+  for (const std::uint32_t id : heads_) {
+    if (passages_[id].any) look_from(id);
+  }
+  for (const std::uint32_t id : held_up_) look_from(id);
+}
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/traffic/state/agent.hpp"
+
+namespace rodeira::traffic {
+
+// Conflict zones as an agent comes to them in a step, and who has or wants them.
+
+struct Crossing {
+  std::int32_t zone = -1;  // none: only a STOP line
+  std::int32_t side = 0;
+  double in_m = 0.0, out_m = 0.0;  // odometer
+};
+
+// Of what the zones of a passage were found from: as long as that is the same, and its front is before the first of
+// them, they are as well.
+struct PassageKey {
+  std::uint32_t way = 0;                  // number of the way as it was seen (TrafficModel::ways_); 0: of none
+  double granted_m = 0.0, until_m = 0.0;  // odometers: to which zones were its own; of its front
+};
+
+// The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
+struct Passage {
+  bool any = false;
+  bool due = false;   // it must know now whether it may go on
+  bool head = false;  // nobody stands between it and the line who waits himself (this, and the next: of whom must know,
+                      // and of whom others ask about)
+  bool able = false;  // there is room for it behind the zones
+  bool taken = false;      // somebody is where it would stand behind them, or on the way there, now; of whom must know
+  bool must_stop = false;  // a STOP sign
+  bool lit = false;        // there is a light in it
+  bool red = false;        // … that shows something else than green
+  bool barred = false;     // it waits before the line for people on foot
+  double line_m = 0.0;     // odometer at which its front stops
+  double end_m = 0.0;
+  PassageKey key;
+  double room_m = 0.0;     // odometer up to which who is ahead must have left
+  double lacks_m = 0.0;    // of that, at most, when all ahead have come as far as they surely do
+  double arrives_s = 0.0;  // of whom others ask about
+  double delay_s = 0.0;    // until who keeps it out is out of the way
+  double later_s = 0.0;    // so much later than it could it comes, as others are told
+  std::int64_t waits_for = -1;
+  std::vector<Crossing> crossings;
+};
+
+// What a track's plan allows at a place.
+struct PlannedAt {
+  std::uint32_t track = 0;
+  double d_m = -1e18, planned_mps = 0.0;
+};
+
+}  // namespace rodeira::traffic
