@@ -17,8 +17,8 @@
 
 namespace rodeira::dds {
 
-// What a node keeps for those who lack it, and the thread that gives it to them: while a long answer is on its way, the
-// threads that receive go on receiving. Safe for any threads.
+// What a node keeps for consumers that lack it, and the thread that sends it to them: while a long answer is on its
+// way, the threads that receive go on receiving. Safe for any threads.
 class Answers {
  public:
   // To the asker, from the answering thread, never of two answers at a time.
@@ -28,11 +28,11 @@ class Answers {
   ~Answers();
 
   void Keep(const lockstep::Sample& own);
-  // Of anybody; kept where `keeps_all`. Wrong input where another content is valid at the same step.
+  // Of any node; kept where `keeps_all`. Wrong input where another content is valid at the same step.
   base::Status Remember(const lockstep::Sample& sample);
   // One of those that it has.
   std::optional<lockstep::Sample> Kept(lockstep::SourceIndex source, lockstep::Step step);
-  // Drops what nobody can lack any more.
+  // Drops what no node can lack any more.
   void Granted(const lockstep::Grant& grant);
   // Is answered soon, or passed over where this node has nothing of it.
   void Take(const lockstep::Question& question);

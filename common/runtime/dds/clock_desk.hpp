@@ -19,7 +19,7 @@ class ClockDesk {
   void Do(const std::vector<std::string>& lines);
   // Ctrl-C in the run's terminal.
   void StopBySignal();
-  // Somebody wants the run to end; where it waits for a lost node it cannot do so in order.
+  // The run is to end; where it waits for a lost node it cannot do so in order.
   bool stop_asked() const { return stop_asked_; }
 
  private:

@@ -11,15 +11,15 @@
 
 namespace rodeira::dds {
 
-// Who takes part: which reports count for the clock, which are passed over, and which end the run because two processes
-// may not drive together.
+// Which nodes take part: which reports count for the clock, which are passed over, and which end the run because two
+// processes may not drive together.
 class ClockGate {
  public:
   ClockGate(LedRun& run, std::uint64_t clock_id);
 
   // A report as it came. What it says goes to clock, watchdog and losses.
   void Take(const base::Bytes& payload);
-  // A sentence where somebody must not take part: the run ends by it, status 2. Empty: nobody is refused.
+  // The reason for which a process must not take part: the run ends by it, status 2. Empty: none is refused.
   const std::string& refusal() const { return refusal_; }
   // Nodes that were lost by their own word or by that of another PC, each once.
   std::vector<LostNode> TakeLost();

@@ -17,7 +17,7 @@ std::optional<RunsEnd> ClockLosses::TakeLost(const LostNode& lost) {
   return Lose(node, fmt::format("node '{}' {} at about step {}", lost.node, lost.text, run_.clock.reached(node)), 1);
 }
 
-// Who failed by its own word would fail again; who has not been ready in time would not be the next time either.
+// A node that reported a failure would fail again; one that was not ready in time would not be the next time either.
 std::optional<RunsEnd> ClockLosses::Watch() {
   const auto fault = run_.watchdog.Check(run_.NowMs(), run_.clock.grant());
   if (!fault) return std::nullopt;

@@ -26,7 +26,7 @@ class ClockLosses {
   // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
   // another incarnation has taken its place.
   std::optional<RunsEnd> TakeLost(const LostNode& lost);
-  // Whom the watchdog names, if anybody.
+  // The node that the watchdog names, if any.
   std::optional<RunsEnd> Watch();
   // By the operator's word: a sentence of what is done, or why it cannot be.
   base::Result<std::string> RestartByHand(const std::string& name);

@@ -14,7 +14,7 @@
 
 namespace rodeira::dds {
 
-// A run as the clock's process leads it: who grants, who watches, and the wall clock that they are told.
+// A run as the clock's process leads it: what grants, what watches, and the wall clock that both are given.
 struct LedRun {
   LedRun(const launch::Launch& launch, const ProcessOptions& options);
 

@@ -120,7 +120,7 @@ base::Status NodeBus::Connect(Participant& participant) {
   return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
-// Whom this node sends parcels, and those for it.
+// The nodes to which this node sends parcels, and those for it.
 base::Status NodeBus::ConnectParcels(Participant& participant) {
   const auto topic_of = [&](lockstep::NodeIndex n) {
     return std::string(topics::kSampleBatches) + roster_.node(n).name;
@@ -351,7 +351,7 @@ void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds lim
   while (WallClock::now() < until) {
     lock.unlock();
     const lockstep::Grant grant = mailbox_.grant();
-    if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached nobody
+    if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached no node
     lock.lock();
     if (grant.over) return;
     if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100))

@@ -33,7 +33,7 @@ class NodeBus final : public lockstep::Bus {
     Hello hello;
     idl::TopicTable topics;  // of the launch
     bool keeps_all =
-        false;  // a recorder, in a run of which a part may be started again: answers for everybody's samples
+        false;  // a recorder, in a run of which a part may be started again: answers for all nodes' samples
     std::size_t most_parcel_bytes = 8'000;  // as Parcels
     std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
@@ -57,7 +57,8 @@ class NodeBus final : public lockstep::Bus {
   std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit);
   // Another life than the first takes samples only from then on: its mailbox must know before where it begins.
   void Listen() { listens_ = true; }
-  // This node's snapshot at `step`, from whoever keeps it: asked for until it comes; none after `limit` or an abort.
+  // This node's snapshot at `step`, from the node that keeps it: asked for until it comes; none after `limit` or an
+  // abort.
   std::optional<lockstep::Snapshot> FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit);
   // What a recorder that is started again has in its file already.
   base::Status Remember(const lockstep::Sample& sample);

@@ -18,8 +18,8 @@ namespace rodeira::dds {
 enum class Delivery {
   kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
   kForLateComers,  // reliable, transient local, the newest: world information
-  kHistory,        // reliable, transient local, the newest 256: what happens seldom and must reach everybody (triggers)
-  kObserve,        // best effort: whoever only looks on, and never slows a run (law L5)
+  kHistory,  // reliable, transient local, the newest 256: what happens seldom and must reach every node (triggers)
+  kObserve,  // best effort: observers, which never slow a run (law L5)
 };
 
 struct DomainSettings {

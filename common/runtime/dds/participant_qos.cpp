@@ -36,7 +36,7 @@ Locator_t UdpLocator(const std::string& address, std::uint16_t port) {
   return locator;
 }
 
-// Clients must know it beforehand. Drawn from run and domain: who asks the server of another run is not answered.
+// Clients must know it beforehand. Made from run and domain: the server of another run does not answer.
 GuidPrefix_t ServerPrefix(const DomainSettings& settings) {
   const base::Digest digest = base::Hash(fmt::format("{} {}", settings.domain, settings.run));
   GuidPrefix_t prefix;
@@ -89,9 +89,9 @@ void SetTransport(const DomainSettings& settings, fdds::DomainParticipantQos& qo
   if (settings.meets_later) MeetOverUdp(settings, qos);
 }
 
-// Fast DDS 2.9.1 makes a port of shared memory anew where its owner has died, while those who wrote to it go on writing
-// to the old one and are never heard again (its pull request 4728). So who takes the place of a dead process takes a
-// number whose ports nobody, dead or alive, has had.
+// Fast DDS 2.9.1 makes a port of shared memory anew where its owner has died, while its writers go on writing
+// to the old one and are never heard again (its pull request 4728). So a process that takes the place of a dead one
+// takes a number with ports that no process, dead or alive, has had.
 int UnusedParticipant(std::uint32_t domain) {
   constexpr int kFirst = 30, kNumbers = 80;  // the library counts from 0; number 119 is a domain's last
   const auto is_used = [&](int number, int which) {

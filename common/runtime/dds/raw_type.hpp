@@ -15,8 +15,8 @@ struct RawSample {
   const base::Bytes* to_send = nullptr;  // sent; lives until write() returns
 };
 
-// A type of any name whose samples travel as they were serialised: other DDS programs with the real type read them, and
-// nothing is serialised twice.
+// A type of any name with samples that travel as they were serialised: other DDS programs with the real type read them,
+// and nothing is serialised twice.
 class RawType final : public eprosima::fastdds::dds::TopicDataType {
  public:
   explicit RawType(const std::string& type_name);

@@ -65,7 +65,7 @@ void RemoteGround::Query(std::span<const ground::GroundQuery> queries, std::span
 }
 
 void RemoteGround::OnReply(base::Bytes&& payload) {
-  // Replies go to everybody who asks; who was meant stands in the first eight bytes behind the encapsulation.
+  // Replies go to all clients; the one that is meant stands in the first eight bytes behind the encapsulation.
   base::ByteReader head(payload);
   (void)head.GetRaw(4);
   if (head.Get<std::uint32_t>() != asker_ || head.Get<std::uint32_t>() != incarnation_) return;

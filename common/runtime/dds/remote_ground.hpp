@@ -19,7 +19,7 @@ class RemoteGround final : public ground::Ground {
   static base::Result<std::unique_ptr<RemoteGround>> Open(Participant& participant, lockstep::NodeIndex asker,
                                                           std::uint32_t incarnation, std::function<bool()> over);
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override;
-  // Whose heartbeat says "waits for a server" meanwhile; may be null.
+  // Its heartbeat says "waits for a server" meanwhile; may be null.
   void Follow(lockstep::Runner* runner) { runner_ = runner; }
 
  private:

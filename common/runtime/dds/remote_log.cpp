@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 namespace topics = idl::topics;
 
-// In a question, instead of a source's number: the run's log, whose batches are counted as steps are.
+// In a question, instead of a source's number: the run's log, with batches that are counted as steps are.
 constexpr lockstep::SourceIndex kLogSource = std::numeric_limits<std::uint32_t>::max();
 
 lockstep::RemarkKind KindOf(const std::string& name) {

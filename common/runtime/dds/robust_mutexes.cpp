@@ -14,7 +14,7 @@ Function* TheNext(const char* name) {
   return reinterpret_cast<Function*>(::dlsym(RTLD_NEXT, name));
 }
 
-// The state behind a mutex whose owner has died is taken as it is.
+// The state behind a mutex of a dead owner is taken as it is.
 int Recover(pthread_mutex_t* mutex, int result) {
   return result == EOWNERDEAD ? ::pthread_mutex_consistent(mutex) : result;
 }

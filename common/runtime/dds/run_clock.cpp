@@ -49,8 +49,8 @@ std::uint64_t DrawnIfNone(std::uint64_t clock_id) {
   return clock_id;
 }
 
-// The clock's process: its endpoints, its loop, and its end. Who takes part, what becomes of losses, what an operator
-// asks and how the run is told have rooms of their own (clock_*.hpp).
+// The clock's process: its endpoints, its loop, and its end. Which nodes take part, what becomes of losses, what an
+// operator asks and how the run is told have rooms of their own (clock_*.hpp).
 class ClockProcess {
  public:
   ClockProcess(const launch::Launch& launch, const ProcessOptions& options)
@@ -171,7 +171,7 @@ class ClockProcess {
     return 0;
   }
 
-  // Who is lost, as this PC, another one, or the watchdog says; and a signal to this process.
+  // The nodes that are lost, as this PC, another one, or the watchdog says; and a signal to this process.
   std::optional<RunsEnd> LookAfterLosses() {
     std::vector<LostNode> lost = gate_.TakeLost();
     for (LostNode& one : supervisor_.TakeLost()) lost.push_back(std::move(one));
@@ -234,7 +234,7 @@ class ClockProcess {
     for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
   }
 
-  // The closing words, here and to who follows on other PCs. Said again until everybody must have heard them; who has
+  // The closing words, here and to the followers on other PCs. Repeated until all must have heard them; one that has
   // gone already does not matter.
   void Close(const std::string& words) {
     lockstep::Grant last = run_.clock.grant();
@@ -252,7 +252,7 @@ class ClockProcess {
     FlushLog();
     triggers_->SayEnd(run_.clock.slowest_progress() - 1, run_.Now().utc_ns, run_.clock.grant().reason);
     Say("fault {}", OneLine(end.reason));
-    // At least some times: no process of another PC is told of it by anybody else.
+    // At least some times: no process of another PC is told of it by another way.
     for (int i = 0; i < 10 || (i < 100 && !AllSinksHaveFinished()); ++i) {
       SayGrant(run_.clock.grant());
       std::this_thread::sleep_for(10ms);

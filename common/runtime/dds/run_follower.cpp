@@ -195,7 +195,7 @@ class Follower {
     return node < now.grant.lives.size() ? now.grant.lives[node] : 0;
   }
 
-  // The clock calls for another life of a node by its grant; who starts processes on this host is told.
+  // The clock calls for another life of a node by its grant; what starts processes on this host is told.
   void TellLives(const Now& now) {
     lives_.resize(roster_.nodes().size(), 0);
     for (NodeIndex n = 0; n < lives_.size(); ++n) {

@@ -78,7 +78,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   if (auto status = information.value()->Write(service.value()->Announcement()); !status)
     return base::PrintError(program, status.error());
   std::atomic<std::uint64_t> answered = 0;
-  // The server waits for nobody, so it may answer on the receive thread itself: one thread change less in every step.
+  // The server waits for no node, so it may answer on the receive thread itself: one thread change less in every step.
   auto requests =
       participant.value()->MakeReader(topics::kGroundRequest, Delivery::kSaidAgain, [&](base::Bytes&& request) {
         auto reply = service.value()->Answer(request);
@@ -99,7 +99,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
       return 1;
     }
     if (grant.over || grant.abort) return grant.abort ? 1 : 0;
-    // The run's end is known once everybody else has finished; a server is finished whenever they are.
+    // The run's end is known once all others have finished; a server is finished whenever they are.
     if (grant.final && report.phase != lockstep::Phase::kFinished) {
       report.phase = lockstep::Phase::kFinished;
       report.steps = 0;

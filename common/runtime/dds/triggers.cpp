@@ -34,7 +34,7 @@ void Triggers::Write(std::uint32_t code, lockstep::Step step, std::int64_t utc_n
   out.code(code);
   out.run(run_);
   out.text(text);
-  (void)writer_->Write(idl::Encode(out));  // nobody of the run depends on it
+  (void)writer_->Write(idl::Encode(out));  // no node of the run depends on it
 }
 
 }  // namespace rodeira::dds

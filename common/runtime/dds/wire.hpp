@@ -55,7 +55,7 @@ base::Bytes EncodeGrant(const NumberedGrant& grant);
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
 base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question);
-// Nothing where it is of another roster or cannot be read: whoever asks will ask again.
+// Nothing where it is of another roster or cannot be read: the requester will ask again.
 std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
 
 base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples);

@@ -113,7 +113,7 @@ class Collector {
         continue;
       }
       const auto inner = config::File::Load(named);
-      if (!inner) continue;  // whoever reads it says what is wrong
+      if (!inner) continue;  // its reader says what is wrong
       if (auto status = Follow(named, inner.value(), absolute); !status) return status;
     }
     return {};

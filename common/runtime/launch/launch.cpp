@@ -134,7 +134,7 @@ std::vector<std::string> Publishers(const std::vector<NodeSpec>& specs, std::str
   return names;
 }
 
-// Wires a node's inputs: as `inputs` says, otherwise to everybody else who publishes the topic.
+// Wires a node's inputs: as `inputs` says, otherwise to every other node that publishes the topic.
 void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSpec>& specs, NodeSpec& spec) {
   const config::Map inputs = map.OptionalChild("inputs");
   for (const KindPort& port : kind.inputs) {

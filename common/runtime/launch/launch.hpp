@@ -71,7 +71,7 @@ class Launch {
   // A node that is started again begins at its snapshot and needs what others had said: both are with a recorder. Wrong
   // input where one is to be and there is none.
   base::Status CheckRecovery() const;
-  bool keeps_for_restarts() const;  // somebody may be started again: recorders answer for everybody
+  bool keeps_for_restarts() const;  // a node may be started again: recorders answer for all nodes
   const lockstep::Roster& roster() const { return *roster_; }
   // Rodeira's topics, and those that manifests of external nodes add.
   const idl::TopicTable& topics() const { return topics_; }

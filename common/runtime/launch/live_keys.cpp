@@ -20,7 +20,7 @@ void LiveKeysMemory::Hear(const LiveKeysSaid& said, double now_s) {
   const std::lock_guard lock(mutex_);
   std::erase_if(windows_, [now_s](const auto& entry) { return now_s - entry.second.heard_s > kForget_s; });
   const auto known = windows_.find(said.window);
-  if (known == windows_.end()) {  // what was pressed before we came is nobody's any more
+  if (known == windows_.end()) {  // what was pressed before we came counts no more
     windows_[said.window] = {said.number, now_s, said.keys};
     return;
   }

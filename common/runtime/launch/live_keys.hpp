@@ -7,8 +7,8 @@
 #include <mutex>
 #include <vector>
 
-// The border over which a window's keys reach whoever drives by them. No part of the lockstep: what an input node takes
-// at an activation becomes its sample, and that is what a run remembers (law L5).
+// The border over which a window's keys reach the node that drives by them. No part of the lockstep: what an input node
+// takes at an activation becomes its sample, and that is what a run remembers (law L5).
 namespace rodeira::launch {
 
 // A key of a window; the numbers are those of common/vehicle/input_devices/keys.hpp.
@@ -25,7 +25,7 @@ struct LiveKeysSaid {
   std::vector<LiveKey> keys;
 };
 
-// For who drives: all windows of the run together.
+// For the node that drives: all windows of the run together.
 struct KeysNow {
   std::map<std::uint32_t, std::uint32_t> presses;  // of each key: how often since the last time that it was asked
   std::vector<std::uint32_t> held;                 // ascending

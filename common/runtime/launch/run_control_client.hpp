@@ -13,7 +13,7 @@ class RunControlClient {
  public:
   // `rodeira run` names the socket to its processes by this variable of their environment.
   static constexpr const char* kVariable = "RODEIRA_CONTROL";
-  // Null where the variable is not set or nobody listens: the clock is on another PC.
+  // Null where the variable is not set or no clock listens: it is on another PC.
   static std::unique_ptr<RunControlClient> Open();
   ~RunControlClient();
   RunControlClient(const RunControlClient&) = delete;

@@ -20,7 +20,7 @@ class SampleDifference {
  public:
   SampleDifference(const lockstep::Roster& roster, idl::TopicTable topics)
       : roster_(roster), topics_(std::move(topics)) {}
-  // Call it for samples whose content differs (lockstep::SameContent).
+  // Call it for samples with contents that differ (lockstep::SameContent).
   decode::Difference Between(const lockstep::Sample& a, const lockstep::Sample& b);
 
  private:
@@ -31,7 +31,7 @@ class SampleDifference {
   std::map<std::string, decode::TypePtr> types_;  // by topic, as they are needed
 };
 
-// Of a node that said one thing, and another for the same step: who it is, where, and what differs.
+// Of a node that said one thing, and another for the same step: its name, where, and what differs.
 std::string ContradictionText(const lockstep::Roster& roster, const idl::TopicTable& topics,
                               const lockstep::Sample& before, const lockstep::Sample& now);
 

@@ -12,17 +12,17 @@
 namespace rodeira::lockstep {
 
 // All samples and snapshots since the one from which a lost node would go on (recovery.hpp), whether they lie in a file
-// yet or not: who is started again asks for its state and for its inputs, and the recorder answers from here. One
-// thread at a time.
+// yet or not: a node that is started again asks for its state and for its inputs, and the recorder answers from here.
+// One thread at a time.
 class Archive {
  public:
   explicit Archive(const Roster& roster) : roster_(roster), samples_(roster.sources().size()) {}
 
   // In any order, twice too. Wrong input where another sample of the source is valid at the same step.
   base::Status Add(const Sample& sample);
-  // Drops what nobody can ask for who goes on from a snapshot at or after `resume`.
+  // Drops what no node can ask for that goes on from a snapshot at or after `resume`.
   void Forget(Step resume);
-  // As KeptSamples::From; ends before the first sample that is missing, so that nobody is led to believe in a hole.
+  // As KeptSamples::From; ends before the first sample that is missing, so that no hole looks like the data.
   std::vector<Sample> From(const Gap& gap) const;
   std::size_t size() const;
 

@@ -46,7 +46,7 @@ base::Status Clock::Take(const Report& report) {
   }
   if (rebuilding_ && report.granted > grant_.through) grant_.through = report.granted;
   if (rebuilding_ && report.granted_final && report.granted == grant_.through) grant_.final = true;
-  // Nobody can have run an activation that was not granted: its next one is at most a period behind the grant.
+  // No node can have run an activation that was not granted: its next one is at most a period behind the grant.
   if (spec.role == Role::kStepped && report.progress > std::max(grant_.through, first_step_) + spec.period) {
     return refuse(fmt::format("progress {} was found, but only step {} is granted", report.progress, grant_.through));
   }

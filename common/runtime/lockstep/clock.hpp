@@ -13,7 +13,7 @@
 namespace rodeira::lockstep {
 
 // The clock only grants (law L2): through = min(slowest progress + window, what the pace allows, the last step).
-// Pure logic: reports in, a grant out; whoever holds it brings the wall time.
+// Pure logic: reports in, a grant out; the owner brings the wall time.
 class Clock {
  public:
   // last_step: the run ends there, inclusive; none: it runs until Stop(). first_step: where the nodes begin (a
@@ -27,12 +27,12 @@ class Clock {
   // that goes back) changes nothing and is refused with a sentence.
   base::Status Take(const Report& report);
 
-  // Everybody is ready: the first grant may go out.
+  // All nodes are ready: the first grant may go out.
   bool all_ready() const;
   bool all_finished() const;
-  // Everybody but the sinks has: no sample will come any more.
+  // All but the sinks have: no sample will come any more.
   bool all_sources_finished() const;
-  // Who has not come as far as `phase`; who failed never will.
+  // The nodes that have not come as far as `phase`; those that failed never will.
   std::vector<std::string> Missing(Phase phase) const;
   // The smallest next activation of all stepped nodes.
   Step slowest_progress() const;
@@ -50,7 +50,7 @@ class Clock {
   Step reached(NodeIndex node) const;
   // A node is lost: what its policy says. Where that is kRestart, its next life is expected already.
   Recovery::Decision Lose(NodeIndex node);
-  // Another life of the node takes its place; nobody is granted anything new before it is ready.
+  // Another life of the node takes its place; nothing new is granted before it is ready.
   void ExpectNextLife(NodeIndex node);
   std::uint32_t life(NodeIndex node) const { return node < grant_.lives.size() ? grant_.lives[node] : 0; }
 

@@ -25,7 +25,7 @@ struct Wall {
 Wall ReadWall();
 
 // Leads a run: the clock grants, the pacer says when, the operator says otherwise, and the log keeps what happened.
-// Pure logic: whoever holds it brings the wall time and hands on grants and log.
+// Pure logic: the owner brings the wall time and hands on grants and log.
 class Conductor {
  public:
   // The clock outlives it.
@@ -36,7 +36,7 @@ class Conductor {
   // goes on.
   void GoOn(std::int64_t begin_ns, bool paused, const Wall& now);
 
-  // The grant that holds now. The run begins at the first call with everybody ready. A paced run in which this was not
+  // The grant that holds now. The run begins at the first call with all nodes ready. A paced run in which this was not
   // called for kSleep_ns, because the PC slept or the process was stopped, is paused.
   Grant Move(const Wall& now);
   static constexpr std::int64_t kSleep_ns = 10'000'000'000;
@@ -54,7 +54,7 @@ class Conductor {
 
   bool begun() const { return begun_; }
   const Pacer& pacer() const { return pacer_; }
-  // How long to wait before the next Move where nobody reports, in wall time; 0: nothing is due by itself.
+  // How long to wait before the next Move where no node reports, in wall time; 0: nothing is due by itself.
   std::int64_t NextDueIn(const Wall& now) const;
   // Since the first grant; 0 before.
   std::int64_t RunNs(const Wall& now) const { return begun_ ? now.monotonic_ns - begin_ns_ : 0; }

@@ -137,7 +137,7 @@ class ThreadedRun {
     }
   }
   void FlushLog(const Wall& now) {
-    const auto batch = conductor_.log().Take(now.monotonic_ns);  // taken even where nobody reads it: it would only grow
+    const auto batch = conductor_.log().Take(now.monotonic_ns);  // taken even where it is not read: it would only grow
     if (batch && settings_.on_log) settings_.on_log(*batch);
   }
   void SendNews(std::unique_lock<std::mutex>& lock) {

@@ -18,7 +18,7 @@
 // The same runner, mailbox and clock as between processes, with nodes in one process: for batches and tests.
 namespace rodeira::lockstep {
 
-// A command of the operator, and whom its answer is for.
+// A command of the operator, and the client that its answer is for.
 struct Asked {
   Command command;
   std::function<void(const base::Result<std::string>&)> answer;
@@ -71,8 +71,9 @@ struct RunOutcome {
 // One thread a node. `nodes` has one entry for each of the roster's, null for services (they take no part).
 RunOutcome RunThreaded(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings);
 
-// One thread for all: every choice (who runs next, which message arrives, twice or late) is drawn from `seed`, so that
-// a seed reproduces a failure. Pace and stop_requested are not used. Says so where nobody can go on (deadlock).
+// One thread for all: every choice (which node runs next, which message arrives, twice or late) is drawn from `seed`,
+// so that a seed reproduces a failure. Pace and stop_requested are not used. Says so where no node can go on
+// (deadlock).
 RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
                        std::uint64_t seed);
 

@@ -12,7 +12,7 @@ namespace rodeira::lockstep {
 
 // Services take no part in the lockstep: for the clock they are ready and finished from the start.
 void ReportServices(const Roster& roster, Clock& clock);
-// By source: who is wired to it.
+// By source: the nodes that are wired to it.
 std::vector<std::vector<NodeIndex>> ConsumersOf(const Roster& roster);
 Runner::Settings RunnerSettings(const InProcessSettings& settings, NodeIndex node);
 RunOutcome OutcomeOf(const Clock& clock, const std::string& fault);

@@ -12,8 +12,8 @@
 namespace rodeira::lockstep {
 
 // A node's own samples that a consumer may still ask for. No acknowledgement is needed to know which: time is granted
-// at most a window beyond the slowest node (law L2), so what nobody at `through` − window can need any more has been
-// seen by everybody. One thread at a time.
+// at most a window beyond the slowest node (law L2), so what no node at `through` − window can need any more has been
+// seen by all. One thread at a time.
 class KeptSamples {
  public:
   KeptSamples(const Roster& roster, NodeIndex node);
@@ -21,8 +21,8 @@ class KeptSamples {
   void Add(const Sample& sample);
   // Drops what no consumer can ask for once `grant` is said, not even a recorder that is started again.
   void Granted(const Grant& grant);
-  // The samples of gap.source valid at or after gap.from, oldest first, at most kAtATime: who lacks more asks again.
-  // None where the source is another node's.
+  // The samples of gap.source valid at or after gap.from, oldest first, at most kAtATime: a node that lacks more asks
+  // again. None where the source is another node's.
   static constexpr std::size_t kAtATime = 64;
   std::vector<Sample> From(const Gap& gap) const;
   // Whether it is the node's own.

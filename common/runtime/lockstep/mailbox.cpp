@@ -34,7 +34,7 @@ const Mailbox::Track* Mailbox::TrackOf(SourceIndex source) const { return const_
 base::Status Mailbox::Deliver(Sample sample) {
   bool wake = false;
   auto status = Keep(std::move(sample), wake);
-  if (wake) Wake();  // without the lock: who wakes would only run into it
+  if (wake) Wake();  // without the lock: the woken thread would only run into it
   return status;
 }
 

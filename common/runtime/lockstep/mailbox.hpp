@@ -51,7 +51,7 @@ class Mailbox {
   Woken WaitForEventsThrough(Step last, std::chrono::milliseconds limit);
 
   // Instead of a thread that waits: `on_ready` is called, on the thread that delivers and with no lock held, when what
-  // the last wait timed out for is there, or the run ends. Null: nobody is called any more.
+  // the last wait timed out for is there, or the run ends. Null: no call any more.
   void OnReady(std::shared_ptr<const std::function<void()>> on_ready);
 
   // What has been delivered and not forgotten.

@@ -14,7 +14,7 @@ namespace rodeira::lockstep {
 class MissedNodes {
  public:
   void Lost(NodeIndex node, std::string reason, std::int64_t now_ns) { missed_[node] = {std::move(reason), now_ns}; }
-  // Its report has come: somebody has let its process go on. What was on its way when it was lost (0.3 s) does not
+  // Its report has come: its process was continued. What was on its way when it was lost (0.3 s) does not
   // count.
   void Heard(NodeIndex node, std::int64_t now_ns);
   // Another life takes its place.

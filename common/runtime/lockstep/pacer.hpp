@@ -30,7 +30,7 @@ class Pacer {
   // What was granted then. A pause, a step and a new pace begin there.
   void Granted(std::int64_t now_ns, Step through);
 
-  // A run that was granted through `through` by somebody else goes on now.
+  // A run that was granted through `through` by another clock goes on now.
   void GoOn(std::int64_t now_ns, Step through);
 
   void Pause(std::int64_t now_ns);  // also ends single steps that are not yet granted

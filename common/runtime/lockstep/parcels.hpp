@@ -9,11 +9,11 @@
 
 namespace rodeira::lockstep {
 
-// How a consumer gets a source's samples. Who is activated at least as often as the source publishes gets each one by
-// itself. Who is activated more seldom gets parcels: at activation k it will see, of a state, one sample alone, of
-// events, all since the activation before; so the producer keeps them together until the sample is there that is the
-// newest at a multiple of the consumer's period. That is also the one that the consumer waits for: nobody waits longer
-// than for single samples.
+// How a consumer gets a source's samples. A node that is activated at least as often as the source publishes gets each
+// one by itself. One that is activated more seldom gets parcels: at activation k it will see, of a state, one sample
+// alone, of events, all since the activation before; so the producer keeps them together until the sample is there that
+// is the newest at a multiple of the consumer's period. That is also the one that the consumer waits for: no node waits
+// longer than for single samples.
 bool GetsParcels(const Roster& roster, SourceIndex source, NodeIndex consumer);
 
 // A producer's samples on their way to those of its consumers that get parcels. A parcel that is lost is asked for, as
@@ -30,9 +30,9 @@ class Parcels {
   // The parcels that are complete with this sample, of the consumers in ascending order. `last`: the run's last step
   // where it is known, behind which nothing comes.
   std::vector<Parcel> Add(const Sample& sample, Step last);
-  // Whether somebody gets each of its samples by itself.
+  // Whether a consumer gets each of its samples by itself.
   bool IsSentAlone(SourceIndex source) const;
-  // Who gets parcels, ascending.
+  // The consumers that get parcels, ascending.
   std::vector<NodeIndex> Consumers() const;
 
  private:

@@ -15,7 +15,7 @@ class Pump {
  public:
   explicit Pump(Runner& runner) : runner_(runner) {}
 
-  // From any thread: works as long as there is work. Whoever finds another at it leaves it a note and goes.
+  // From any thread: works as long as there is work. A thread that finds another at it leaves it a note and goes.
   void Poke() {
     ++notes_;
     while (!over_ && !busy_.exchange(true)) {

@@ -10,7 +10,7 @@
 
 namespace rodeira::lockstep {
 
-// Who lacks samples, and which.
+// A node that lacks samples, and which.
 struct Question {
   NodeIndex asker = 0;
   Gap gap;

@@ -20,8 +20,8 @@ enum class Policy {
 };
 
 // Where another life than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0: from
-// its start, with everybody's samples from there on), a recorder behind what its file holds (`has_through`), another
-// sink where nobody can be behind. A run that has not begun begins for everybody alike.
+// its start, with all samples from there on), a recorder behind what its file holds (`has_through`), another
+// sink where no node can be behind. A run that has not begun begins for all alike.
 struct Beginning {
   Step snapshot = 0;
   Step sink_from = 0;
@@ -32,21 +32,21 @@ Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, 
 //
 // A node goes on from its snapshot at resume(): the newest step of which the recorder says that everything valid up to
 // then, and all that a node publishes ahead of it, lies in its file (`safe`). So two losses at once lose nothing: what
-// lies behind is still with those who made it, or they compute it again.
+// lies behind is still with its producers, or they compute it again.
 class Recovery {
  public:
   // policies: one for each node, or empty (all kStop).
   Recovery(const Roster& roster, std::vector<Policy> policies);
 
   Policy policy(NodeIndex node) const { return policies_[node]; }
-  // Somebody may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
+  // A node may be started again, by policy or by a person, and there is a recorder: nodes keep what it could lose.
   bool restarts() const { return restarts_; }
 
   // Wrong input: the node is to be started again, and says that it cannot save its state. There is no snapshot to begin
-  // at, and nobody keeps the samples of a whole run, to compute it again from its first step.
+  // at, and no node keeps the samples of a whole run, to compute it again from its first step.
   base::Status CheckState(const Report& report) const;
   void Heard(const Report& report);
-  // For the grant: kNever where nobody is started again.
+  // For the grant: kNever where no node is started again.
   Step safe() const { return restarts_ ? safe_ : kNever; }
   Step resume() const;
 
@@ -54,8 +54,8 @@ class Recovery {
     Policy policy = Policy::kStop;
     std::string why;  // of a stop that the policy did not ask for
   };
-  // The node was lost before its activation at `progress`, a server when the run was there. Who is lost four times
-  // without having got further than before will be lost there every time.
+  // The node was lost before its activation at `progress`, a server when the run was there. A node that is lost four
+  // times without having got further than before will be lost there every time.
   Decision Lost(NodeIndex node, Step progress);
 
  private:
@@ -73,7 +73,7 @@ class Recovery {
   Step every_ = 0;  // steps between snapshots; 0: there are none
   Step ahead_ = 0;  // the longest delay
   Step safe_ = -1;
-  std::vector<Step> safe_of_;  // by node, of those who keep snapshots
+  std::vector<Step> safe_of_;  // by node, of those that keep snapshots
   std::vector<Life> lives_;
 };
 

@@ -15,7 +15,7 @@ namespace rodeira::lockstep {
 // Where a node stands in its life (life.hpp says which events lead from one to the next).
 enum class Phase : std::uint32_t {
   kStarting = 0,  // alive, its model is being made
-  kReady = 1,     // published its first samples and has everybody else's
+  kReady = 1,     // published its first samples and has those of all others
   kRunning = 2,
   kFinished = 3,  // ran to the final step, everything is closed
   kFailed = 4,    // message says why
@@ -43,11 +43,11 @@ struct Report {
   std::uint64_t server_calls = 0;       // round trips to a server (SUELO)
   std::int64_t median_interval_ns = 0;  // wall time from activation to activation: half of them at most this,
   std::int64_t p99_interval_ns = 0;     // 99 of 100 at most this; both only once the node has finished
-  Step safe = -1;                       // of who keeps snapshots (a recorder): samples valid through it are in its file
-  Step granted = -1;                    // the newest grant that the node knows …
-  bool granted_final = false;           // … and whether that is the last of the run
-  bool cannot_save = false;             // its state: it has no snapshots to begin at (Node::can_save)
-  std::string message;                  // why it failed; what it refused
+  Step safe = -1;              // of a recorder, which keeps snapshots: samples valid through it are in its file
+  Step granted = -1;           // the newest grant that the node knows …
+  bool granted_final = false;  // … and whether that is the last of the run
+  bool cannot_save = false;    // its state: it has no snapshots to begin at (Node::can_save)
+  std::string message;         // why it failed; what it refused
 };
 
 // A step that no run comes to.
@@ -58,11 +58,11 @@ struct Grant {
   Step through = -1;   // inclusive; -1: nothing granted yet
   bool final = false;  // `through` is the last step of the run: run to it and finish
   bool abort = false;  // stop at once; reason says why
-  bool over = false;   // everybody has finished, whoever lingers may go
+  bool over = false;   // all have finished; a node that lingers may go
   base::Digest roster = 0;
   // Recovery (law L3, recovery.hpp).
   Step safe = kNever;                // samples valid through it need not be kept for a recorder that is started again
-  Step resume = 0;                   // who is lost goes on from its snapshot there
+  Step resume = 0;                   // a lost node goes on from its snapshot there
   std::vector<std::uint32_t> lives;  // by node: the incarnation that takes part; empty: all 0
   std::string reason;                // why it was aborted; where it is over, the clock's closing words, a line each
 };

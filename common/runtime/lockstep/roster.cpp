@@ -74,7 +74,7 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
     }
     roster.nodes_.push_back(std::move(node));
   }
-  // Behind all others, so that who keeps snapshots changes no other source's number.
+  // Behind all others, so that the node that keeps snapshots changes no other source's number.
   for (NodeIndex n = 0; n < roster.nodes_.size(); ++n) {
     if (specs[n].snapshot_every == 0) continue;
     roster.nodes_[n].snapshots = static_cast<SourceIndex>(roster.sources_.size());

@@ -60,7 +60,7 @@ struct LogBatch {
 // The clock's side: gathers entries into batches.
 class RunLog {
  public:
-  // Another life of a clock counts in numbers of its own, so that nobody takes its batches for earlier ones.
+  // Another life of a clock counts in numbers of its own, so that its batches are not taken for earlier ones.
   static constexpr std::uint64_t kBatchesOfALife = std::uint64_t{1} << 24;
   static constexpr std::uint32_t kRemarksOfALife = 100'000;
   explicit RunLog(std::uint32_t life = 0) : remarks_(life * kRemarksOfALife) { next_.number = life * kBatchesOfALife; }
@@ -84,12 +84,12 @@ class RunLog {
   bool closed_ = false;
 };
 
-// Batches that were said, for who missed some: the newest kMost of them. For one thread.
+// Batches that were said, for readers that missed some: the newest kMost of them. For one thread.
 class KeptLog {
  public:
   static constexpr std::size_t kMost = 2000;
   void Add(const LogBatch& batch);
-  // Those from `number` on, at most 64 at a time: who lacks more asks again.
+  // Those from `number` on, at most 64 at a time: a reader that lacks more asks again.
   std::vector<LogBatch> From(std::uint64_t number) const;
 
  private:

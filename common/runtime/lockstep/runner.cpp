@@ -103,7 +103,7 @@ Runner::Outcome Runner::Begin() {
                      [](const Sample& a, const Sample& b) { return a.valid() < b.valid(); });
   }
   if (auto status = PublishAll(std::move(first)); !status) return Fail(status.error());
-  // The first snapshot is, like every first sample, there before anybody is ready.
+  // The first snapshot is, like every first sample, there before any node is ready.
   begun_at_ = settings_.resume ? settings_.resume->at : next_;
   if (spec_.snapshots && begun_at_ % roster_.source(*spec_.snapshots).period == 0) {
     if (auto status = PublishSnapshot(SnapshotAt(begun_at_)); !status) return Fail(status.error());
@@ -175,8 +175,8 @@ Runner::Outcome Runner::Activate(std::chrono::milliseconds limit) {
   begun_step_ = begin;
   const base::Status status = node_.Step(info, inbox, outbox_);
   const std::int64_t took_ns = std::chrono::nanoseconds(WallClock::now() - begin).count();
-  // A server's answer may have failed to come: nothing of this counts. A sink asks nobody, and what it has written is
-  // written.
+  // A server's answer may have failed to come: nothing of this counts. A sink asks no server, and what it has written
+  // is written.
   if (!spec_.is_sink() && mailbox_.grant().abort) return FinishAborted();
   if (!status) return Fail(status.error());
   std::vector<Sample> samples =
@@ -260,7 +260,7 @@ void Runner::AskAgain() {
       gaps = mailbox_.MissingInputs(begun_at_);
       break;
     case Stage::kStepping:
-      if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that nobody owes us anything
+      if (mailbox_.IsGranted(next_)) gaps = mailbox_.Missing(next_);  // before that no sample is due
       break;
     case Stage::kEnding:
       gaps = mailbox_.MissingEvents(mailbox_.grant().through);

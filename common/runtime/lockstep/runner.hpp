@@ -43,7 +43,7 @@ class Runner {
 
   // Where the node stands, for heartbeats: any thread may ask at any time.
   Report report() const;
-  // The node waits for a server's answer (SUELO): not its own time. Called by whoever asks, on the runner's thread.
+  // The node waits for a server's answer (SUELO): not its own time. Called by the requester, on the runner's thread.
   void BeginServerCall();
   void EndServerCall();
 

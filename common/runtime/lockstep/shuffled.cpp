@@ -121,7 +121,7 @@ class ShuffledRun {
 
   std::uint64_t Draw(std::uint64_t below) { return base::RandomBits({seed_, draws_++}) % below; }
 
-  // Nobody has moved by that: who waits in vain may ask and be answered for ever.
+  // No node has moved by that: one that waits in vain may ask and be answered for ever.
   bool DeliverOne() {
     const std::size_t at = Draw(in_flight_.size());
     const Message message = in_flight_[at];
@@ -154,7 +154,7 @@ class ShuffledRun {
     return false;
   }
   void Deliver(NodeIndex to, const Sample& sample) {
-    if (runners_[to] == nullptr) return;  // nobody lives there
+    if (runners_[to] == nullptr) return;  // no node runs there
     if (auto& archive = buses_[to]->archive) {
       if (auto status = archive->Add(sample); !status) fault_ = status.error().Text();
     }

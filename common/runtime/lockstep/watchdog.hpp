@@ -11,16 +11,15 @@
 
 namespace rodeira::lockstep {
 
-// Names the node that stands still. Nodes report as a heartbeat; who is silent is dead, stopped or cut off; who says
-// that it has been computing one step for longer than its deadline hangs. Waiting is never a fault of the one who
+// Names the node that stands still. Nodes report as a heartbeat; a silent one is dead, stopped or cut off; one that
+// says that it has been computing one step for longer than its deadline hangs. Waiting is never a fault of the one that
 // waits.
 class Watchdog {
  public:
   struct Settings {
     std::int64_t silence_ms = 600;    // longest time without a report
     std::int64_t deadline_ms = 5000;  // longest wall time of one step, where the node names none of its own
-    std::int64_t start_ms =
-        60000;  // longest time until everybody is ready, and until somebody has written what it made
+    std::int64_t start_ms = 60000;    // longest time until all are ready, and until a node has written what it made
   };
   struct Fault {
     NodeIndex node = 0;
@@ -36,9 +35,9 @@ class Watchdog {
   // PC that loads a large world has no processor to spare. `grant`: what the clock says. A node that has ended though
   // the run goes on is a fault, too.
   std::optional<Fault> Check(std::int64_t now_ms, const Grant& grant);
-  // The node is started again and has as long as at the start. Until everybody is ready again nobody's silence or
-  // slowness counts: who speaks to a process that was killed may be held up for a second (Fast DDS, shared memory). A
-  // process that dies meanwhile is seen by who has started it. Who was held up may be so still when the new life is
+  // The node is started again and has as long as at the start. Until all are ready again no node's silence or
+  // slowness counts: a node that writes to a killed process may be held up for a second (Fast DDS, shared memory). A
+  // process that dies meanwhile is seen by its parent. A node that was held up may be so still when the new life is
   // there already: until it has spoken again, its silence may last kHeldUp times as long.
   void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
   // Its fault is known and a person looks after it: it is named no more until it goes on.
@@ -50,7 +49,7 @@ class Watchdog {
     std::int64_t last_ms = 0;
     Report report;
     bool excused = false;
-    bool held_up = false;  // it has not spoken since somebody was started again
+    bool held_up = false;  // it has not spoken since a node was started again
   };
   static constexpr std::int64_t kHeldUp = 5;
   static constexpr std::int64_t kStarting = 5;

@@ -80,7 +80,8 @@ void Comparison::Compare(const Sample& recorded, const Sample& computed) {
 }
 
 void Comparison::Note(const Sample& sample, std::string field, std::string recorded, std::string computed) {
-  // A snapshot at s is of the state before that step's activation, whose sample is valid later: the same order serves.
+  // A snapshot at s is of the state before that step's activation, and its sample is valid later: the same order
+  // serves.
   const std::pair at{sample.valid(), sample.source()};
   if (first_ && first_at_ <= at) return;
   first_at_ = at;

@@ -28,11 +28,11 @@ struct Difference {
 // state that it carries, and snapshots field by field. Samples of one source come in their order, sources in any.
 class Comparison {
  public:
-  // Samples valid before `from` are not compared. `trusted`: nodes whose samples come from the recording itself.
+  // Samples valid before `from` are not compared. `trusted`: nodes with samples from the recording itself.
   Comparison(const RecordedRun& run, lockstep::Step from, const std::vector<bool>& trusted);
 
   void Take(const lockstep::Sample& computed);
-  // Once everybody has stopped: samples that were recorded up to `through`, and were not computed, are a difference
+  // Once all nodes have stopped: samples that were recorded up to `through`, and were not computed, are a difference
   // too.
   void Finish(lockstep::Step through);
 

@@ -8,7 +8,7 @@
 
 namespace rodeira::replay {
 
-// Stands for a node whose inputs came from outside (wheel, keyboard): publishes the samples that were recorded of it.
+// Stands for a node with inputs from outside (wheel, keyboard): publishes the samples that were recorded of it.
 // Begins at step `from`; behind the recording's end it repeats its last samples. The run must outlive it.
 std::unique_ptr<lockstep::Node> MakeRecordedNode(const RecordedRun& run, lockstep::NodeIndex node, lockstep::Step from);
 

@@ -335,7 +335,7 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
   return Step{0};
 }
 
-// Somebody would wait for one that is missing, for ever.
+// A node would wait for one that is missing, for ever.
 base::Status RecordedRun::CheckSamples(const lockstep::Snapshot& snapshot) const {
   const lockstep::RosterNode& spec = roster().node(snapshot.node);
   for (const lockstep::SourceIndex source : spec.outputs) {
@@ -362,7 +362,7 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
     snapshots[n].node = n;
     snapshots[n].at = at;
   }
-  // From the oldest sample that anybody may still need, to the newest that was there before the snapshot.
+  // From the oldest sample that a node may still need, to the newest that was there before the snapshot.
   Step oldest = at;
   for (lockstep::SourceIndex s = 0; s < roster().sources().size(); ++s)
     oldest = std::min(oldest, roster().OldestNeeded(s, at));

@@ -84,15 +84,15 @@ class RecordedRun {
   const record::McapReader& reader() const { return reader_; }
   // Where a source's samples are recorded; nothing where they are not.
   std::optional<record::ChannelId> ChannelOf(lockstep::SourceIndex source) const;
-  // The nodes, but live input and external nodes, whose snapshots say that they could not save their state: what they
-  // did can be computed again only from the first step on.
+  // The nodes, but live input and external nodes, with snapshots that say that they could not save their state: what
+  // they did can be computed again only from the first step on.
   base::Result<std::vector<lockstep::NodeIndex>> WithoutState() const;
   // The newest step at or before `step` at which every node's snapshot was taken (of a branch: the first of its own, at
   // least); 0 where there is only the beginning, or a node without a state. Wrong input where a branch has none, or
   // such a node.
   base::Result<lockstep::Step> SnapshotAtOrBefore(lockstep::Step step) const;
   // Of every node of the roster, in its order, at such a step; sinks' and services' are without a state. Wrong input
-  // where one is missing, or a sample that somebody may ask for behind it.
+  // where one is missing, or a sample that a node may ask for behind it.
   base::Result<std::vector<lockstep::Snapshot>> Snapshots(lockstep::Step at) const;
 
  private:

@@ -41,7 +41,7 @@ base::Result<std::optional<Sample>> Tape::Find(lockstep::SourceIndex source, loc
   std::optional<Sample> best;
   const auto channel = run_.ChannelOf(source);
   if (!channel || step < 0) return best;
-  // By the step law the newest one is valid then: who finds it need not look on.
+  // By the step law the newest one is valid then: the search ends with it.
   const auto base_step_ns = static_cast<std::uint64_t>(run_.roster().base_step_ns());
   const auto wanted_ns =
       static_cast<std::uint64_t>(lockstep::FloorTo(step, run_.roster().source(source).period)) * base_step_ns;
