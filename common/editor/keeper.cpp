@@ -23,7 +23,7 @@ constexpr const char* kCompanion = "companion.yaml";
 constexpr const char* kOf = "of";  // the file that it belongs to
 constexpr const char* kLock = "lock";
 
-// The open lock, or -1 where somebody who lives holds it.
+// The open lock, or -1 where a living process holds it.
 int Lock(const fs::path& folder) {
   const int file = ::open((folder / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
   if (file < 0) return -1;
@@ -41,7 +41,7 @@ base::Result<Keeper> Keeper::Make(const fs::path& folder) {
     const fs::path own = folder / fmt::format("{}-{}", ::getpid(), number);
     if (!fs::create_directory(own, problem)) {
       if (problem) return base::Failed("unsaved work cannot be kept: " + problem.message(), own.string());
-      continue;  // somebody of our number left it
+      continue;  // a process with our number left it
     }
     const int lock = Lock(own);
     if (lock >= 0) return Keeper(folder, own, lock);

@@ -37,7 +37,7 @@ std::optional<LaneEnd> LaneEndNear(const Document& document, bool beginning, con
 Points MiddleBetween(const Document& document, const Eigen::Vector2d& from_W, const Eigen::Vector2d& to_W,
                      double radius_m);
 
-// Lanes whose ends meet (within 0.3 m and 15 degrees) and that are not connected yet: from, to; ascending.
+// Lanes with ends that meet (within 0.3 m and 15 degrees) and that are not connected yet: from, to; ascending.
 std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Document& document);
 // Of one lane alone: those that come to it or go on from it.
 std::vector<std::pair<std::int32_t, std::int32_t>> MissingConnections(const Document& document, std::int32_t lane);

@@ -40,7 +40,7 @@ class Preview {
   double time_s() const { return time_s_; }
   const traffic::TrafficModel& model() const { return *model_; }
   const traffic::LaneStatistics& statistics() const { return *statistics_; }
-  // Where somebody has been; in the order of the lanes.
+  // Where a vehicle has been; in the order of the lanes.
   std::vector<HeatPatch> Heat() const;
 
  private:

@@ -31,7 +31,7 @@ class Pyramid {
   const Pixels& level(std::size_t number) const { return levels_[number - first_]; }
   std::size_t first() const { return first_; }
   std::size_t levels() const { return first_ + levels_.size(); }
-  // The coarsest level whose pixels are no larger on the screen than a screen's pixel, or the finest there is; one of
+  // The coarsest level with pixels no larger on the screen than a screen's pixel, or the finest there is; one of
   // the picture is `pixel_px` wide there.
   std::size_t LevelFor(double pixel_px) const;
   // Pixels of a side of so many, at a level.

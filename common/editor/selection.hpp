@@ -48,7 +48,7 @@ std::optional<Eigen::Vector2d> MiddleOf(const Document& document, const Selectio
 // What lies under the pointer, the nearest within a radius.
 std::optional<Handle> HandleAt(const Document& document, const Eigen::Vector2d& p_W, double radius_m);
 std::optional<std::int32_t> CurveAt(const Document& document, const Eigen::Vector2d& p_W, double radius_m);
-// The first lane whose ground p lies on.
+// The first lane with p on its ground.
 std::optional<std::int32_t> LaneAt(const Document& document, const Eigen::Vector2d& p_W);
 // All handles at this place to a millimetre: ends that were joined.
 std::vector<Handle> HandlesTogether(const Document& document, const Eigen::Vector2d& p_W);

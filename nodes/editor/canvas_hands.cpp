@@ -50,7 +50,7 @@ void Canvas::Press(Work& work, const Eigen::Vector2d& px) {
   const bool one_curve = selection.curves.size() == 1 && selection.lanes.empty() && selection.handles.empty();
   const std::vector<editor::Handle> chosen = editor::HandlesOf(document, selection);
   const bool of_chosen = !one_curve && std::find(chosen.begin(), chosen.end(), *handle) != chosen.end();
-  // Ends that were joined stay so, but for who holds Alt.
+  // Ends that were joined stay so, unless Alt is held.
   dragged_ = of_chosen ? chosen : io.KeyAlt ? std::vector{*handle} : editor::HandlesTogether(document, grip_W_);
   const auto first = std::find(dragged_.begin(), dragged_.end(), *handle);
   std::iter_swap(dragged_.begin(), first);

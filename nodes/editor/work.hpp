@@ -57,7 +57,7 @@ struct Written {
 struct Work;
 using Action = std::function<void(Work&)>;
 
-// Everything that a person at the drawing desk has before him; the panels and the canvas draw and change it.
+// Everything that a person at the editor sees; the panels and the canvas draw and change it.
 struct Work {
   editor::Session session;
   editor::Viewport view;

@@ -19,7 +19,7 @@ namespace {
 
 namespace topics = idl::topics;
 
-// What others take up. Somebody who walks across is given the way that he goes in the next seconds, so that he is seen
+// What others take up. A pedestrian who crosses is given the way of the next seconds, so as to be seen
 // in time.
 driver::Footprint FootprintOf(const msg::TrafficAgent& agent) {
   constexpr std::uint32_t kPedestrian = 4;  // traffic.idl
@@ -73,7 +73,7 @@ class AutopilotSource final : public Source {
   }
 
  private:
-  // Lights that nobody tells of are dark.
+  // Lights without a sample are dark.
   base::Status SeeLights(const lockstep::Inbox& inbox) {
     lights_.clear();
     std::map<std::uint32_t, network::LightColour> colours;

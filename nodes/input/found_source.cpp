@@ -25,7 +25,7 @@ namespace {
 struct Search {
   std::string node;
   std::vector<input_devices::JoystickInfo> connected;
-  std::optional<input_devices::JoystickInfo> broken;  // the first device whose file cannot be used
+  std::optional<input_devices::JoystickInfo> broken;  // the first device with a file that cannot be used
 
   void Say(const std::string& sentence) const { base::Log(base::LogLevel::kInfo, node, sentence); }
 };

@@ -90,7 +90,7 @@ class JoystickSource final : public Source {
   std::unique_ptr<input_devices::Joysticks> joysticks_;
   std::vector<bool> there_;
   MotorOpener motor_;
-  std::uint64_t felt_ = 0;  // the connection of the wheel whose motor that is
+  std::uint64_t felt_ = 0;  // the connection of the wheel with that motor
   std::vector<input_devices::DeviceReading> readings_;
   input_devices::ForceDriver force_;  // before its joystick in dying
 };
@@ -181,7 +181,7 @@ base::Result<std::unique_ptr<Source>> MakeJoystickSource(const config::Map& conf
   const auto file = config.OptionalPath("wheel");
   if (!file) return MakeFoundSource(config, context);
   config.IgnoreKey("devices");
-  config.IgnoreKey("keyboard");  // for who names no wheel
+  config.IgnoreKey("keyboard");  // where no wheel is named
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   auto source = OpenWheelFile(*file, config, context.spec().name);
   if (auto status = context.launch().file().Finish(); !status) return status.error();  // GUIDs that it says

@@ -52,7 +52,7 @@ class Parked final : public Source {
     in.Get("pulls", pulls_);
   }
 
-  // Whoever takes over a car whose handbrake is pulled finds it so.
+  // A car with its handbrake pulled is taken over so.
   void InitialiseFrom(const dynamics::Controls& last, const input_devices::Signals& signals) override {
     person_->InitialiseFrom(last, signals);
     begun_ = true;

@@ -10,7 +10,7 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr std::size_t kMostPoints = 1'000'000;  // a larger batch is nobody's question
+constexpr std::size_t kMostPoints = 1'000'000;  // a larger batch is no node's question
 
 class RoadService final : public launch::Service {
  public:

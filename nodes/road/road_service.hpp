@@ -11,7 +11,7 @@ namespace rodeira::nodes {
 // The road and terrain server: loads the launch file's world, says what it is, answers SUELO.
 base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeContext& context);
 
-// What the server says of a world, and what everybody who has loaded the world himself knows too.
+// What the server says of a world, and what each process that has loaded the world knows too.
 launch::WorldSummary Summary(const road::World& world);
 
 }  // namespace rodeira::nodes

@@ -108,7 +108,7 @@ base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::s
 
 class ScenarioNode final : public lockstep::Node {
  public:
-  // `requests`: what windows ask for; null: nobody may.
+  // `requests`: what windows ask for; null: none may.
   ScenarioNode(std::string name, scenario::Scenario scenario, std::int64_t base_step_ns,
                std::shared_ptr<const road::World> world, std::vector<Gate> gates,
                std::unique_ptr<launch::LiveRequestsReceiver> requests, std::vector<std::string> vehicles)

@@ -244,12 +244,12 @@ class TrafficNode final : public lockstep::Node {
     order.value().whom = choice.value().kind == Kind::kAll    ? Whom::kAll
                          : choice.value().kind == Kind::kNext ? Whom::kNext
                                                               : Whom::kOne;
-    if (order.value().whom == Whom::kOne && agents.empty()) return {};  // nobody was ahead
+    if (order.value().whom == Whom::kOne && agents.empty()) return {};  // no vehicle was ahead
     if (order.value().whom == Whom::kOne) order.value().id = agents.front();
     orders_.Add(order.value());
     return {};
   }
-  // Nobody ahead is no mistake of the scenario's, but a person should know.
+  // No vehicle ahead is no mistake of the scenario's, but a person should know.
   std::vector<std::uint32_t> Meant(const scenario::AgentChoice& choice, const std::string& where) const {
     std::vector<std::uint32_t> agents;
     switch (choice.kind) {

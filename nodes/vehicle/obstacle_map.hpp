@@ -30,7 +30,7 @@ class ObstacleMap {
   std::span<const dynamics::Obstacle> all() const { return obstacles_; }
   // The object's or the tunnel's id in the roads' file.
   const std::string& NameOf(std::size_t number) const { return names_[number]; }
-  // Numbers, ascending, of all that a car whose B is at p_W may touch, and some around.
+  // Numbers, ascending, of all that a car with B at p_W may touch, and some around.
   std::span<const std::uint32_t> Near(const Eigen::Vector3d& p_W) const;
 
  private:
@@ -43,7 +43,7 @@ class ObstacleMap {
   // Its walls, and beside a mouth the portal.
   void AddTube(const network::TubePiece& piece);
   void AddStanding(const road::World& world, const network::Standing& standing);
-  // A thing whose foot is known; what stands at no road has no outline.
+  // A thing with a known foot; what stands at no road has no outline.
   void AddBody(const network::Placed& placed, const Eigen::Vector3d& foot_W, const network::Road* road);
   // A wall of this width between two feet.
   void AddWall(const std::string& name, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W, double width_m,

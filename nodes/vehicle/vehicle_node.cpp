@@ -129,7 +129,7 @@ class VehicleNode final : public lockstep::Node {
   dynamics::InitialCondition initial_;
   std::unique_ptr<ground::Ground> own_ground_;
   weather::WetGround ground_;             // of the newest weather: no state of its own
-  std::optional<Collisions> collisions_;  // nothing: the car touches nobody
+  std::optional<Collisions> collisions_;  // nothing: the car touches nothing
 };
 
 // The world that the road server has too: what its files answer in this process are the server's bits. `without`: the

@@ -49,7 +49,7 @@ struct ViewSettings {
   std::filesystem::path frame_log;                     // of a window's pictures; empty: none
   std::filesystem::path built;      // the folder of a database of the world; empty: its ground is built in memory
   std::filesystem::path car_model;  // of driven cars; empty: the procedural one
-  bool drives = false;              // somebody in this run drives by the keys of its windows …
+  bool drives = false;              // a person in this run drives by the keys of its windows …
   std::string driving_help;         // … by these
   int mouse_button =
       kLeftButton;  // the window's own: the first of left, right, middle that no car of the run is driven by
@@ -58,7 +58,7 @@ struct ViewSettings {
   CarNames cars;                               // wired to the view
   CarPaints paints;                            // of those among them that were given one
   CarAutopilots autopilots;                    // of those among them that one drives
-  CarStarts starts;                            // of those among them whose vehicle node says one
+  CarStarts starts;                            // of those among them with a vehicle node that says one
 };
 
 // Reads the settings. Wrong input where a frame's time is not one at which every car wired to the view has a sample,

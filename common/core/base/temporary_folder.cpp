@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLetters = 6;  // that mkdtemp asks for
 
-// The open folder, locked; -1 where it is not there or somebody holds it.
+// The open folder, locked; -1 where it is not there or another process holds it.
 int Lock(const fs::path& folder, bool wait) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   if (file < 0) return -1;
@@ -27,13 +27,13 @@ int Lock(const fs::path& folder, bool wait) {
   return -1;
 }
 
-// Who sweeps may have been faster between the making of a folder and its locking.
+// A sweeping process may have been faster between the making of a folder and its locking.
 bool IsThere(int file) {
   struct stat status {};
   return ::fstat(file, &status) == 0 && status.st_nlink > 0;
 }
 
-// Folders of this purpose that nobody holds any more.
+// Folders of this purpose that no process holds any more.
 void Sweep(const fs::path& where, const std::string& start) {
   std::error_code problem;
   for (const auto& entry : fs::directory_iterator(where, problem)) {

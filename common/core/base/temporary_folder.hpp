@@ -10,8 +10,8 @@
 namespace rodeira::base {
 
 // A folder of its own below the system's temporary one, removed with everything in it at the end. What a killed process
-// has left there is removed by the next one of this user that makes a folder for the same purpose: whoever lives keeps
-// his folder locked.
+// has left there is removed by the next one of this user that makes a folder for the same purpose: a living process
+// keeps its folder locked.
 class TemporaryFolder {
  public:
   // Its name begins with "rodeira-WHAT-". Failed where none can be made.

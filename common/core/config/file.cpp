@@ -155,7 +155,7 @@ std::vector<base::Error> File::Problems() const {
       known.insert(asked.hoped.begin(), asked.hoped.end());
       known.erase(key);  // it may stand there, but what is wrong elsewhere kept it from being read
       const Meant meant = MeantBy(key, known);
-      // Where the mapping is wrong itself whoever reads it may have stopped before this key; only what is long enough
+      // Where the mapping is wrong itself its reader may have stopped before this key; only what is long enough
       // to be a slip of the pen is told.
       if (asked.wrong && (meant.key.empty() || key.size() < kSlip)) continue;
       const std::string missing = Sub(asked.path, meant.key);
@@ -164,7 +164,7 @@ std::vector<base::Error> File::Problems() const {
           .push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
-  // What is misspelt comes before what is missing in its line, perhaps for that; what nobody asked for behind both,
+  // What is misspelt comes before what is missing in its line, perhaps for that; what no reader asked for behind both,
   // perhaps since something is missing.
   for (auto& problem : misspelt) {
     const auto missing = std::find_if(all.begin(), all.end(), [&](const auto& other) {

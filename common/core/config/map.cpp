@@ -19,7 +19,7 @@ Map::Map(std::shared_ptr<detail::Context> context, std::shared_ptr<detail::YamlN
   }
 }
 
-// Whoever asks whether a key is there knows it: it is among those named where another is misspelt.
+// A reader that asks whether a key is there knows it: it is among those named where another is misspelt.
 bool Map::Has(std::string_view key) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].hoped.emplace(key);
   return node_->present && Find(node_->node, key).IsDefined();

@@ -30,7 +30,7 @@ void OnLine(const AxisPanel& panel, AxisFeet& feet) {
   }
 }
 
-// As PlanAxis::ArcFoot, for points whose direction from the centre is told by the short series.
+// As PlanAxis::ArcFoot, for points with a direction from the centre by the short series.
 bool OnArc(const AxisPanel& panel, AxisFeet& feet) {
   const double x0 = panel.middle_W.x(), y0 = panel.middle_W.y(), k = panel.curvature_1pm;
   const double ahead_x = panel.tangent_W.x(), ahead_y = panel.tangent_W.y(), left_x = -ahead_y, left_y = ahead_x;

@@ -31,7 +31,7 @@ struct Foot {
 // A curve in plan made of lines, arcs and clothoids, each starting where the one before ends, in the same direction.
 // The pieces are cut into panels of little bend, each a power series exact to about 1e-13 m, so that a point costs no
 // trigonometry; where the panels start comes from ClothoidIntegral. Immutable: every answer is a pure function of the
-// curve, whoever asked what before.
+// curve, whatever was asked before.
 class PlanCurve {
  public:
   // reach_m: up to this distance Project() answers from a grid (about 0.1 µs), farther away from a tree.

@@ -33,7 +33,7 @@ Polyline Reversed(Polyline line);
 struct JoinRules {
   double within_m = 0.05;  // the distance in space that an end may have from the next beginning
   bool bridge = false;     // a larger one is bridged by a straight piece
-  bool turn = false;       // a line whose end is nearer than its beginning is turned round
+  bool turn = false;       // a line with its end nearer than its beginning is turned round
 };
 
 // The lines one after the other; where an end and the next beginning lie within `within_m`, the next line's point is

@@ -62,7 +62,7 @@ bool Triangulation::FixFirst(std::uint32_t& a, std::uint32_t b) {
     a = b;
     return true;
   }
-  // The triangle at a through whose far side the way leads.
+  // The triangle at a; the way leads through its far side.
   std::uint32_t at = at_[a];
   bool forward = true;
   std::size_t k = 0;

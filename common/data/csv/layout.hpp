@@ -31,7 +31,7 @@ struct Slot {
 
 struct Layout {
   bool has_header = false;  // the messages are samples of the lockstep
-  std::string rows;         // the sequence whose elements are the rows; empty: one row a message
+  std::string rows;         // the sequence with the rows as elements; empty: one row a message
   std::vector<Slot> slots;
 };
 

@@ -25,7 +25,7 @@ class ChunkBuilder {
   // The span of log times, in nanoseconds, that the chunk would have with one more message.
   std::uint64_t SpanWith(std::uint64_t log_time_ns) const;
 
-  // Appends the Chunk and its MessageIndex records to `out`, whose first byte lies at `file_offset`, empties the
+  // Appends the Chunk and its MessageIndex records to `out`, with its first byte at `file_offset`, empties the
   // builder, and returns what the chunk's index says.
   ChunkInfo Finish(std::uint64_t file_offset, base::ByteWriter& out);
 

@@ -9,7 +9,7 @@
 
 namespace rodeira::record {
 
-// Merges the chunks whose times overlap: each open chunk stands at its next message, and the earliest goes first.
+// Merges the chunks that overlap in time: each open chunk stands at its next message, and the earliest goes first.
 class MessageCursor::Walk {
  public:
   Walk(std::shared_ptr<const McapReader::Shared> shared, Query query);

@@ -53,7 +53,7 @@ struct Message {
   std::uint32_t sequence = 0;
   std::uint64_t log_time_ns = 0;
   std::uint64_t publish_time_ns = 0;
-  std::span<const std::byte> data;  // whoever hands out the message says how long these bytes live
+  std::span<const std::byte> data;  // the function that hands out the message says how long these bytes live
 };
 
 struct Metadata {

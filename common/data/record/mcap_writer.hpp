@@ -44,7 +44,7 @@ class McapWriter {
   // Creates the file and writes its header.
   static base::Result<McapWriter> Open(const std::filesystem::path& path, const WriterSettings& settings = {});
   static base::Result<McapWriter> Open(std::unique_ptr<Sink> sink, const WriterSettings& settings = {});
-  // Goes on with a recording whose writer has died, also after it was closed: behind its last whole chunk, which is
+  // Goes on with a recording of a dead writer, also after it was closed: behind its last whole chunk, which is
   // handed in with those before it as far as tail.span_ns of log time reach; what lay behind (a torn chunk, closing
   // metadata, the summary) is cut off. Nothing where it has no whole chunk yet. Wrong input where the file is no
   // recording or was written by another program, Failed where what can be read of it ends before `least_end_ns`: it is

@@ -30,7 +30,7 @@ struct RepairReport {
 // The name of the metadata record that a repaired file carries (not written where the source was whole).
 inline constexpr const char* kRepairMetadata = "rodeira.repair";
 
-// Whoever knows what the messages mean, and so at which of them a repaired recording ends: one metadata record is
+// The part that knows what the messages mean, and so at which of them a repaired recording ends: one metadata record is
 // written anew.
 class RepairEnd {
  public:

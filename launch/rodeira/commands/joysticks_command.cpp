@@ -93,7 +93,7 @@ Finding CheckJoysticks(const std::vector<input_devices::JoystickInfo>& connected
   for (const auto& entry : std::filesystem::directory_iterator(input_folder, problem)) {
     if (entry.path().filename().string().starts_with("event") && ::access(entry.path().c_str(), R_OK) != 0) ++closed;
   }
-  // Keyboards and mice are among these, and closed to everybody but root: only with no joystick at all is it worth a
+  // Keyboards and mice are among these, and closed to all users but root: only with no joystick at all is it worth a
   // word.
   if (connected.empty() && closed > 0) {
     return Warning(

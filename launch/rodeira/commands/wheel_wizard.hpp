@@ -13,7 +13,7 @@
 
 namespace rodeira::cli {
 
-// Setting up a wheel, whoever shows it, a terminal or a window: reads the devices, asks for one movement after the
+// Setting up a wheel, shown in a terminal or a window: reads the devices, asks for one movement after the
 // other, writes the file.
 class WheelWizard {
  public:

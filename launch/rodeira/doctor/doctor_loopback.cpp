@@ -37,7 +37,7 @@ const char* TransportName(launch::Transport transport) {
   return transport == launch::Transport::kSharedMemory ? "shared_memory" : "udp";
 }
 
-// Payloads move from the listener to whoever waits for them.
+// Payloads move from the listener to the thread that waits for them.
 class Queue {
  public:
   void Push(base::Bytes&& bytes) {

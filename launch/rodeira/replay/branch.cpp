@@ -149,7 +149,7 @@ std::string NodeOfKind(const launch::Launch& launch, std::string_view kind) {
   return {};
 }
 
-// Who drives anew, and who as recorded: a live input is a person's where the changes name its node.
+// Which nodes drive anew, and which as recorded: a live input is a person's where the changes name its node.
 std::vector<bool> Persons(const launch::Launch& launch, const launch::Overrides& changes) {
   std::vector<bool> persons;
   for (const launch::LaunchNode& node : launch.nodes()) {
@@ -266,7 +266,7 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
   const lockstep::RunOutcome ran = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const auto stopped = [&] { return wish.stop_requested && wish.stop_requested(); };
   const bool stopped_at_once =
-      !ran.ok && ran.last_step < wish.at && stopped();  // a fault of nobody: no step was driven yet
+      !ran.ok && ran.last_step < wish.at && stopped();  // no node's fault: no step was driven yet
   if (!ran.ok && !stopped_at_once)
     return changed.value().Named(
         base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));

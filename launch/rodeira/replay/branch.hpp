@@ -33,7 +33,7 @@ struct BranchOutcome {
   lockstep::Step last_step = 0;
   std::vector<std::string> live;                 // nodes that a person drove
   std::vector<std::string> without_state;        // cannot save it: the parent was computed again from its first step
-  std::vector<std::string> taken_over;           // nodes whose model began from what the parent had published
+  std::vector<std::string> taken_over;           // nodes with models that began from what the parent had published
   std::string recorded_by_another;               // as RecordedByAnother, of the parent
   std::optional<replay::Difference> difference;  // the parent could not be repeated: there is no branch then
 };

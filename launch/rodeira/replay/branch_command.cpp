@@ -82,7 +82,7 @@ int MakeBranch(const ReplayOptions& options) {
   if (!wish) return base::PrintError("rodeira", wish.error());
   if (needs_graphics && CanContinueInGraphics()) return ContinueInGraphics("replay --branch");
   std::unique_ptr<Operator> desk;
-  if (wish.value().pace > 0.0) {  // somebody has the time to say something
+  if (wish.value().pace > 0.0) {  // there is time to say something
     desk = std::make_unique<Operator>("branch-" + std::filesystem::path(options.record).stem().string(), options.quiet);
     wish.value().next_command = [&desk] { return NextCommand(*desk); };
   }

@@ -12,7 +12,7 @@ namespace rodeira::cli {
 using lockstep::Step;
 
 namespace {
-constexpr double kSaidAgain_s = 1.0;  // details of the traffic are said ten times a second: whoever drives is in them
+constexpr double kSaidAgain_s = 1.0;  // details of the traffic are said ten times a second: all that drive are in them
 }
 
 RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources,

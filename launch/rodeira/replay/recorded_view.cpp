@@ -127,7 +127,7 @@ std::string Rounded(const std::string& words) {
   return out;
 }
 
-// "weather rain 8", "traffic.brake ahead 4", "traffic.change_lane 3 left"; of a text that somebody wrote only that.
+// "weather rain 8", "traffic.brake ahead 4", "traffic.change_lane 3 left"; of a person's text only that.
 std::string EventText(const msg::ScenarioEvent& event) {
   if (event.name() == scenario::kMark) return Shortened(event.argument());
   const std::string argument = event.argument().empty() ? "" : " " + Rounded(event.argument());

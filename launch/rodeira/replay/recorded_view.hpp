@@ -24,7 +24,7 @@ struct Seen {
 base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& options);
 
 // The operator's marks, what failed, and the events of scenarios, those included that people asked for: weather,
-// places, texts. Of a run without a scenario only the chunks are read in which somebody remarked something. Those found
+// places, texts. Of a run without a scenario only the chunks with remarks are read. Those found
 // so far where `stop`, asked between two messages, says so.
 base::Result<std::vector<nodes::ReplayMark>> MarksOf(const replay::RecordedRun& run,
                                                      const std::function<bool()>& stop = {});

@@ -41,7 +41,7 @@ struct RecordingAudit {
   bool lossless() const;                                // and nothing is damaged
 };
 
-// Reads every message once. Messages whose channel says a period are samples of the lockstep: one a period was
+// Reads every message once. Messages of a channel with a period are samples of the lockstep: one a period was
 // expected, from step 0 to the run's end where that was reached.
 RecordingAudit Audit(const record::McapReader& reader);
 

@@ -10,7 +10,7 @@ namespace rodeira::cli {
 // "871 B", "12.3 kB", "4.5 MB", "1.2 GB".
 std::string Size(std::uint64_t bytes);
 
-// What became of the file of a run that ended at `reached_s`: its size, and where nobody closed it (its recorder died)
+// What became of the file of a run that ended at `reached_s`: its size, and where it was not closed (its recorder died)
 // how much of the run it holds and what to do; where it was closed, what the recorder's audit found. A line each; empty
 // where there is no file.
 std::string WrittenFile(const std::string& recording, double reached_s);

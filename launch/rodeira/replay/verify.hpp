@@ -46,7 +46,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
 
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
 // before `from`, and compares every sample, every state digest and every snapshot. Live input and external nodes
-// are substituted by their recorded samples, sinks by nobody. Failed where a node fails that did not fail then, and
+// are substituted by their recorded samples, sinks by nothing. Failed where a node fails that did not fail then, and
 // where it was stopped.
 base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step from,
                                   const std::function<void(lockstep::Step)>& on_progress = {},

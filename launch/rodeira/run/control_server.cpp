@@ -24,7 +24,8 @@ ControlServer::Connection::~Connection() { ::close(file); }
 
 void ControlServer::Connection::Say(const std::string& line) const {
   const std::string text = line + "\n";
-  (void)::send(file, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);  // who does not read loses answers
+  (void)::send(file, text.data(), text.size(),
+               MSG_NOSIGNAL | MSG_DONTWAIT);  // a client that does not read loses answers
 }
 
 base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::filesystem::path& socket) {

@@ -12,8 +12,8 @@
 
 namespace rodeira::cli {
 
-// A line that somebody asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later
-// and even when who asked has gone.
+// A line that a client asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later
+// and even when the client has gone.
 struct AskedLine {
   std::string line;
   std::function<void(const std::string&)> answer;
@@ -29,7 +29,7 @@ class ControlServer {
   ControlServer(const ControlServer&) = delete;
   ControlServer& operator=(const ControlServer&) = delete;
 
-  // The next complete line of anybody, in the order of arrival; nothing where there is none. Never waits.
+  // The next complete line of any client, in the order of arrival; nothing where there is none. Never waits.
   std::optional<AskedLine> Next();
 
  private:

@@ -17,14 +17,14 @@
 
 namespace rodeira::cli {
 
-// The processes of a run on this PC: the clock, or who follows it, and the nodes. Started, started again, ended.
+// The processes of a run on this PC: the clock, or its follower, and the nodes. Started, started again, ended.
 class NodeProcesses {
  public:
   // All outlive it; options.run is the run's name, options.domain is set.
   NodeProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
                 launch::Overrides overrides);
 
-  // The clock, or on the other PCs of a laboratory who follows it. First.
+  // The clock, or on the other PCs of a laboratory its follower. First.
   base::Status StartClock();
   base::Status StartNodes();
   bool has_nodes() const { return has_nodes_; }
@@ -41,7 +41,7 @@ class NodeProcesses {
   // Another life of a node; the old process is dead then. False where the node is another PC's.
   base::Result<bool> RestartNode(const std::string& name, std::uint32_t life);
 
-  // Everybody goes: by themselves where the run ended in good order, or by force before two seconds have passed since
+  // All end: by themselves where the run ended in good order, or by force before two seconds have passed since
   // Ctrl-C.
   void EndAll(bool orderly, std::optional<std::chrono::steady_clock::time_point> interrupted_at);
 

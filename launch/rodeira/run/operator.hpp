@@ -19,7 +19,7 @@ std::string CommandOfKey(char key);
 // What h shows.
 std::string_view KeyHelp();
 
-// Who runs the run: the terminal's keys and whoever comes by the control socket.
+// What controls the run: the terminal's keys and the clients of the control socket.
 class Operator {
  public:
   // Where no socket can be made the run goes without, and says so. `quiet`: keys answer nothing.
@@ -41,7 +41,7 @@ class Operator {
   std::int64_t looked_ms_ = 0;
 };
 
-// The next command of theirs for a run in this process; who asks for what cannot be read gets an answer at once.
+// The next command of theirs for a run in this process; an unreadable one is answered at once.
 std::optional<lockstep::Asked> NextCommand(Operator& desk);
 
 }  // namespace rodeira::cli

@@ -10,7 +10,7 @@
 namespace rodeira::cli {
 namespace {
 
-// Until all PCs are there: somebody walks from one to the next.
+// Until all PCs are there: a person walks from one to the next.
 constexpr const char* kStartPatience_s = "3600";
 
 base::Error BelongsToTheClock(const char* option, const launch::Lab& lab) {

@@ -196,7 +196,7 @@ class ProcessRun {
     processes_.clock().Send(fmt::format("lost {} {} {}", broken.name(), processes_.life(broken.name()), broken.Fate()));
   }
   // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
-  // number yet (0) is known to nobody: another one draws its own.
+  // number yet (0) is known to none: another one draws its own.
   bool MayRestartClock() {
     while (ReadClock(0)) {
     }

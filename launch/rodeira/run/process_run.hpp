@@ -8,7 +8,7 @@
 namespace rodeira::cli {
 
 // A run with a process for each part: starts them, shows what the clock says, hands on what the operator asks for,
-// tells the clock whom it saw die, starts again whom the clock calls for, and ends them all. The exit status of the
+// tells the clock which died, restarts those that the clock calls for, and ends them all. The exit status of the
 // program comes back.
 int RunProcesses(const RunOptions& options, const Placement& placement, const launch::Launch& launch,
                  launch::Overrides overrides);

@@ -10,7 +10,7 @@ namespace rodeira::cli {
 
 // Where the recording goes: --record, else the launch file's own, else a dated file in the user's data folder. A
 // recorder that the launch file does not have is added; --no-record takes those away that it has. On a PC of a
-// laboratory only its own recorder counts, and none is added: all PCs must agree on who takes part. What is decided is
+// laboratory only its own recorder counts, and none is added: all PCs must agree on what takes part. What is decided is
 // written into options.record and the overrides.
 base::Status ResolveRecording(const launch::Launch& launch, const Placement& placement, RunOptions& options,
                               launch::Overrides& overrides);

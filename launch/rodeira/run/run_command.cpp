@@ -35,7 +35,7 @@ std::string FreshRunName() {
   return fmt::format("{:08x}{:08x}", device(), device());
 }
 
-// A node whose program is missing would end the run after its start: it is refused before.
+// A node without its program would end the run after its start: it is refused before.
 base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& placement) {
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (!placement.Has(node)) continue;

@@ -45,8 +45,7 @@ std::vector<std::string> Words(std::string_view line, std::size_t count) {
 void RunReport::Take(std::string_view line) {
   const auto rest = [&](std::string_view start) { return std::string(line.substr(start.size())); };
   if (line.starts_with("progress ")) {
-    step = std::max(step,
-                    Number<std::int64_t>(line, "step"));  // another life of the clock has not heard everybody at once
+    step = std::max(step, Number<std::int64_t>(line, "step"));  // a restarted clock has not heard all at once
     wall_s = Number<double>(line, "wall_s");
     paused = Number<int>(line, "paused") != 0;
     pace = Number<double>(line, "pace");

@@ -20,7 +20,7 @@ struct RunReport {
     std::uint64_t server_calls = 0;
     bool cannot_save = false;  // its state
   };
-  bool met = false;  // said by who follows a clock on another PC
+  bool met = false;  // said by the follower of a clock on another PC
   bool ready = false;
   bool ended = false;
   bool ok = false;
@@ -46,7 +46,7 @@ struct RunReport {
     std::uint32_t life = 0;
     std::string reason;
   };
-  std::vector<Restart> wanted;  // taken by who starts processes
+  std::vector<Restart> wanted;  // taken by the part that starts processes
   std::vector<std::string> recovered;
   std::vector<std::string> paused_by;  // sentences
   std::vector<Node> nodes;

@@ -34,7 +34,7 @@ std::set<std::string> InUse(const std::filesystem::path& folder) {
       const std::string target = std::filesystem::read_symlink(descriptor.path(), gone).string();
       if (!gone && target.starts_with(prefix)) used.insert(target.substr(prefix.size()));
     }
-    // After the descriptors: who has just opened a file maps it, and then closes it.
+    // After the descriptors: a process that has just opened a file maps it, and then closes it.
     std::ifstream maps(process.path() / "maps");
     for (std::string line; std::getline(maps, line);) {
       const auto at = line.find(prefix);

@@ -163,7 +163,7 @@ void StartWindow::DrawWheel() {
   if (!wheel_.said().empty()) ImGui::TextWrapped("%s", wheel_.said().c_str());
 }
 
-// Who has chosen none, or the newest, has the newest.
+// Without a choice, the newest.
 void StartWindow::LookForRecordings() {
   const bool newest =
       choice_.recording.empty() || (!files_.recordings.empty() && choice_.recording == files_.recordings.front());

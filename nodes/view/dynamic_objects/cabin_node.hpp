@@ -21,7 +21,7 @@ class CabinNode {
   explicit CabinNode(Look& look);
   osg::Node* node() { return group_; }
 
-  // Of this car; null: nobody looks from inside of one.
+  // Of this car; null: no camera is inside of one.
   void Show(const scene::CarPose* car);
 
  private:

@@ -34,7 +34,7 @@ class CarNode {
   // lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's
   // lamps.
   void Wear(Look& look, osg::Node& model);
-  // Leaves away what stands in the eyes of somebody who sits in it: of a car what is above its waist, of a van, a lorry
+  // Leaves away what stands in the eyes of a person in it: of a car what is above its waist, of a van, a lorry
   // and a bus all but the shadow.
   void SeenFromInside(bool inside);
 
@@ -51,7 +51,7 @@ class CarNode {
   osg::ref_ptr<osg::Uniform> glows_, pulse_;
 };
 
-// Somebody on foot.
+// A pedestrian.
 class PersonNode {
  public:
   PersonNode(Look& look, double height_m, scene::Colour clothes);
@@ -77,8 +77,8 @@ class Fleet {
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.
   void WearModel(const std::string& file);
-  // `inside`: the number, in the moment, of whom the camera is in, or none; `chosen`: who pulses; both counted behind
-  // the cars for the traffic. `dark`: headlights are on.
+  // `inside`: the number, in the moment, of the body with the camera, or none; `chosen`: the one that pulses; both
+  // counted behind the cars for the traffic. `dark`: headlights are on.
   void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
             bool dark);
 

@@ -66,7 +66,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
   if (!at) return "";
   if (!who_->is_car) return AgentPanel(moment, moment.agents[*at - moment.cars.size()]);
   const scene::CarPose& car = moment.cars[*at];
-  if (moment.time_ns < since_ns_ || car.odometer_m < since_m_) Choose(moment, at);  // somebody went back in a recording
+  if (moment.time_ns < since_ns_ || car.odometer_m < since_m_) Choose(moment, at);  // a person went back in a recording
   const double driven_m = car.odometer_m - since_m_;
   return fmt::format(
       "{:.1f} km/h   gear {}   {:.0f} 1/min\nthrottle {:.0f} %   brake {:.0f} %\nsteering wheel {:.0f} deg\nnow "
@@ -78,7 +78,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
 
 std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent) {
   if (moment.time_ns < seen_ns_ || (agent.detail && agent.detail->fuel_used_l < since_l_))
-    Choose(moment, In(moment));  // somebody went back in a recording
+    Choose(moment, In(moment));  // a person went back in a recording
   seen_m_ += (agent.p_WB_W - seen_W_).norm();
   seen_W_ = agent.p_WB_W;
   seen_ns_ = moment.time_ns;

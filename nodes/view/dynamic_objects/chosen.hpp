@@ -12,9 +12,9 @@ namespace rodeira::nodes {
 // The vehicle that a person looks at, and what is said of it.
 class Chosen {
  public:
-  // One of the moment's cars or, numbered behind them, of its traffic; nothing: nobody any more.
+  // One of the moment's cars or, numbered behind them, of its traffic; nothing: none any more.
   void Choose(const scene::Moment& moment, std::optional<std::size_t> number);
-  // Where it is among the moment's now; nobody where it has left.
+  // Where it is among the moment's now; none where it has left.
   std::optional<std::size_t> In(const scene::Moment& moment) const;
   // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was
   // chosen); of the traffic the same where it says so, and what its driver plans. Empty where it is not there.

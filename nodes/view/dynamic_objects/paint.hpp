@@ -16,7 +16,7 @@ namespace rodeira::nodes {
 // and blue, with or without a # before them. Wrong input with the nearest name otherwise.
 base::Result<scene::Colour> PaintOf(std::string_view text);
 
-// The paints that somebody chose, by the cars' ids. The others keep theirs.
+// The paints that a person chose, by the cars' ids. The others keep theirs.
 using CarPaints = std::map<std::uint64_t, scene::Colour>;
 void PaintCars(scene::Moment& moment, const CarPaints& paints);
 

@@ -12,15 +12,15 @@
 
 namespace rodeira::nodes {
 
-// What the driver of a chosen car goes by: where his car points (green, from above its roof, as long as it would drive
-// in a second at the speed that he plans), the point that he steers for (a magenta ball on a stick) and the line to it,
-// where his path leads (yellow, from the car's front), and the point up to which he looks (a cyan post).
+// What the driver of a chosen car goes by: where the car points (green, from above its roof, as long as it would drive
+// in a second at the planned speed), the point that is steered for (a magenta ball on a stick) and the line to it,
+// where the path leads (yellow, from the car's front), and the point up to which the driver looks (a cyan post).
 class VectorsNode {
  public:
   // The world must outlive it.
   VectorsNode(Look& look, const road::World& world);
   osg::Node* node() { return group_; }
-  // Nothing where nobody is chosen, or where nothing is said of it.
+  // Nothing where none is chosen, or where nothing is said of it.
   void Show(const Picture& picture);
 
  private:

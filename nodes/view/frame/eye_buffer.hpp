@@ -5,7 +5,7 @@
 
 namespace rodeira::nodes {
 
-// Pixels of one size, with as many samples as the quality wants, that are then handed over into somebody's texture.
+// Pixels of one size, with as many samples as the quality wants, that are then handed over into another one's texture.
 // Made, used and destroyed while the same OpenGL context is current.
 class EyeBuffer {
  public:

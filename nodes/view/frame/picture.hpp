@@ -35,10 +35,11 @@ struct HeatPicture {
 
 // What the driver of a chosen vehicle goes by.
 struct DriverAim {
-  double speed_mps = 0.0;                              // that he plans
-  Eigen::Vector2d target_B = Eigen::Vector2d::Zero();  // the point that he steers for, ahead and to the left of the car
-  double path_turn_rad = 0.0;  // where his path leads beside the car, from its heading, positive to the left
-  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where he looks for what slows him
+  double speed_mps = 0.0;  // planned
+  Eigen::Vector2d target_B =
+      Eigen::Vector2d::Zero();  // the point that is steered for, ahead and to the left of the car
+  double path_turn_rad = 0.0;   // where the path leads beside the car, from its heading, positive to the left
+  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where the driver looks for what slows the car
 };
 
 // What one picture shows.
@@ -48,8 +49,8 @@ struct Picture {
   scene::Aim aim;                            // of the cameras that a hand moves
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks
   std::optional<scene::HeadsetEye> eye;      // that the driver's camera is instead
-  std::size_t followed = 0;                  // whom the camera goes with: the moment's cars, then its traffic
-  std::optional<std::size_t> chosen;         // whom a person looks at, counted likewise: it pulses
+  std::size_t followed = 0;                  // what the camera goes with: the moment's cars, then its traffic
+  std::optional<std::size_t> chosen;         // what a person looks at, counted likewise: it pulses
   std::optional<DriverAim> driver_aim;       // of the chosen one's driver, where it is a driven car; what the traffic's
                                              // drivers go by is in the moment
   std::string panel;                         // lines about it

@@ -37,7 +37,7 @@ class Surface {
   void Swap();
   // How often the display under the window is refreshed now, and whether Swap waits for it.
   scene::DisplayBeat beat() const;
-  // From now on it does not wait for the display: somebody else says when.
+  // From now on it does not wait for the display: the headset says when.
   void NeverWait();
   void ToggleFullScreen();
   // The window goes away; drawing and reading go on.

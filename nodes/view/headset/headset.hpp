@@ -23,7 +23,7 @@ class Headset {
 
   // As the runtime calls it.
   virtual const std::string& name() const = 0;
-  // Waits until the runtime wants the next pictures. False, at once, where it wants none now: nobody wears the headset
+  // Waits until the runtime wants the next pictures. False, at once, where it wants none now: the headset is not worn
   // yet, or it has gone.
   virtual bool Begin() = 0;
   using DrawEye = std::function<void(const scene::HeadsetEye& eye, const PictureTarget& target)>;

@@ -12,13 +12,13 @@ namespace {
 
 constexpr XrDuration kPatience_ns = 5'000'000'000;  // with a picture that the runtime still shows
 
-struct SwapchainImage {  // XrSwapchainImageOpenGLKHR, whose header wants the window system's
+struct SwapchainImage {  // XrSwapchainImageOpenGLKHR; its header wants the window system's
   XrStructureType type = XR_TYPE_SWAPCHAIN_IMAGE_OPENGL_KHR;
   void* next = nullptr;
   std::uint32_t image = 0;
 };
 
-// The one whose bytes mean what ours do (sRGB), else another one of eight bits; 0: none.
+// The one with bytes that mean what ours do (sRGB), else another one of eight bits; 0: none.
 std::int64_t FormatOf(XrSession session) {
   std::uint32_t count = 0;
   (void)xrEnumerateSwapchainFormats(session, 0, &count, nullptr);

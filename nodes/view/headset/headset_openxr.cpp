@@ -136,7 +136,7 @@ class OpenXrHeadset final : public Headset {
 
   // OpenXR wants to be asked before there is a session; OpenGL 3 and later are the same to us.
   void AskWhatOpenGl(XrSystemId system) {
-    struct Requirements {  // XrGraphicsRequirementsOpenGLKHR, whose header wants the window system's
+    struct Requirements {  // XrGraphicsRequirementsOpenGLKHR; its header wants the window system's
       XrStructureType type = XR_TYPE_GRAPHICS_REQUIREMENTS_OPENGL_KHR;
       void* next = nullptr;
       XrVersion least = 0, most = 0;

@@ -44,7 +44,7 @@ class Look {
   osg::StateSet* StateOf(scene::Material material);
   // The same for a model that is drawn at many places.
   osg::StateSet* StateOfRepeated(scene::Material material);
-  // The same for a sign whose picture this is; a new one.
+  // The same for a sign with this picture; a new one.
   osg::ref_ptr<osg::StateSet> StateOfFace(osg::Texture2D& picture);
   // The same for ground on which a file's picture lies. Where it cannot be read a sentence is printed, once, and the
   // state is that of the ground without it. Several threads may ask.

@@ -71,7 +71,7 @@ void Instruments::Show(const Picture& picture, const PanelSize& size, float low)
   unit_->setPosition({left + 120.0F, low + 40.0F, 0.0F});
   gear_->setText(is_car          ? GearName(moment.cars[picture.followed].gear)
                  : agent->detail ? GearName(agent->detail->gear)
-                                 : "");  // of who goes on foot nothing is said
+                                 : "");  // of a pedestrian nothing is said
   gear_->setPosition({right - 14.0F, low + 44.0F, 0.0F});
   time_->setText(fmt::format("{:.2f} s", static_cast<double>(moment.time_ns) * 1e-9));
   time_->setPosition({right - 14.0F, low + 12.0F, 0.0F});

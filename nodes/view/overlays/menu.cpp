@@ -48,7 +48,7 @@ struct Menu::Panels {
   Panels() : context(ImGui::CreateContext()) {
     ImGui::SetCurrentContext(context);
     ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr;  // where it stands is nobody's file
+    io.IniFilename = nullptr;  // where it stands is in no file
     io.MousePos = ImVec2(-FLT_MAX, -FLT_MAX);
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = ImGui::GetStyle().FrameRounding = 3.0F;

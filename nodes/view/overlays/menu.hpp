@@ -28,7 +28,7 @@ struct MenuWish {
 };
 
 // The window's menu, by Dear ImGui: what its keys do, to be clicked. Closed it draws nothing, but for its button while
-// the mouse is in the upper right corner. For the thread of the window, whose OpenGL context must live longer.
+// the mouse is in the upper right corner. For the thread of the window; its OpenGL context must live longer.
 class Menu {
  public:
   Menu();

@@ -13,7 +13,7 @@
 
 namespace rodeira::nodes {
 
-// Ground whose tiles come where the eye comes near, by the pager's threads: read from a built database, or made.
+// Ground with tiles that come where the eye comes near, by the pager's threads: read from a built database, or made.
 struct PagedWorld {
   osg::ref_ptr<osg::Group> root;      // null: there is none
   std::vector<osg::PagedLOD*> tiles;  // all below the root, however it groups them
@@ -27,9 +27,9 @@ PagedWorld PagedTree(const std::vector<TileFiles>& tiles);
 void GiveBack(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, double detail_scale);
 // How many levels of tiles are in memory.
 std::size_t HeldLevels(const PagedWorld& paged);
-// Asks for the coarsest level of the nearest few tiles that have none, wherever one looks: who turns round finds ground
-// there. What a picture itself asks for comes first. `last`: of the picture before; to be asked again with each
-// picture.
+// Asks for the coarsest level of the nearest few tiles that have none, wherever one looks: a viewer that turns round
+// finds ground there. What a picture itself asks for comes first. `last`: of the picture before; to be asked again with
+// each picture.
 void AskAhead(const PagedWorld& paged, osgDB::DatabasePager& pager, const osg::FrameStamp& last,
               const osg::Vec3d& eye_W, double far_m);
 // Whether the pager still reads, or makes, what it was asked for; what is there waits for the next picture.

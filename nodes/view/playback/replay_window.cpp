@@ -60,7 +60,7 @@ base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSetting
   if (!read) return read.error();
   ViewSettings watched = settings;
   watched.built = std::move(read.value().built);
-  watched.mouse_button = kLeftButton;  // nobody drives any more
+  watched.mouse_button = kLeftButton;  // no window drives any more
   std::shared_ptr<const road::World> world = std::move(read.value().world);
   auto screen = Screen::Open(std::move(surface).value(), watched, *world, ReplayHelp());
   if (!screen) return screen.error();

@@ -78,7 +78,7 @@ base::Result<std::unique_ptr<Painter>> PainterOf(Surface& surface, const road::W
                                                  const scene::Progress& progress = {});
 
 // One picture of a world, without a window and without a run.
-// `built`: the folder of a database whose ground is shown; empty: the ground is made in memory.
+// `built`: the folder of a database with the ground that is shown; empty: the ground is made in memory.
 base::Result<Image> RenderStill(const road::World& world, const Picture& picture, int width_px, int height_px,
                                 const std::filesystem::path& built = {}, Quality quality = Quality::kMedium);
 

@@ -16,7 +16,7 @@ constexpr float kNearOffset = 1.5F,
                 kWideOffset = 2.0F;  // in the maps' depths, by how steeply the sun falls on what throws
 constexpr double kWideBefore_m =
     0.5;  // towards the sun, of what asks the wide map: the ground there is not seen so exactly
-constexpr float kLeastLight = 0.03F;   // of the sun, below which nobody sees its shadows
+constexpr float kLeastLight = 0.03F;   // of the sun, below which its shadows are not seen
 constexpr float kLeastHeight = 0.04F;  // of the sun's direction: 2 degrees
 
 osg::ref_ptr<osg::Texture2D> MakeMap(int side_px) {

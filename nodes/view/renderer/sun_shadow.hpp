@@ -18,7 +18,7 @@ namespace rodeira::nodes {
 // beyond it.
 class SunShadow {
  public:
-  // `scene`: what throws shadows (kThrowsShadow, kGroundThrowsShadow); the cameras go below `root`, whose state all
+  // `scene`: what throws shadows (kThrowsShadow, kGroundThrowsShadow); the cameras go below `root`; its state all
   // shaders read. Nothing where the traits have no map.
   SunShadow(osg::Group& root, osg::Group& scene, const QualityTraits& traits);
 

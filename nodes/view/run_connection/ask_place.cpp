@@ -28,7 +28,7 @@ double HeadingOf(const scene::CarPose& car) {
   return std::atan2(forward.y(), forward.x());
 }
 
-// Whom a person's request is about.
+// The vehicle that a person's request is about.
 base::Result<const scene::CarPose*> CarOf(const scene::Moment& moment, std::size_t followed, const CarNames& names) {
   if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
   const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];

@@ -28,9 +28,9 @@ struct StartPlace {
 };
 StartPlace PlaceOfStart(const road::World& world, const CarStart& own);
 
-// What a person asks for who points at the ground: the followed car (of the traffic: the first driven one) there, along
-// the lane if there is one, otherwise as it stands. Wrong input where there is no car, no ground there, or not under
-// all of the car.
+// What a person asks for by pointing at the ground: the followed car (of the traffic: the first driven one) there,
+// along the lane if there is one, otherwise as it stands. Wrong input where there is no car, no ground there, or not
+// under all of the car.
 base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed,
                                          const scene::Ray& ray, const CarNames& names);
 // The same car where it began: at its own start, or the world's. Wrong input where there is no car.

@@ -11,8 +11,8 @@ union SDL_Event;
 
 namespace rodeira::nodes {
 
-// Gathers what is held in the window and says it to whoever drives: at every change, and again every kRepeat_s, because
-// a message may be lost. Without the keyboard's focus nothing is held. Used on the thread of the window.
+// Gathers what is held in the window and says it to the node that drives: at every change, and again every kRepeat_s,
+// because a message may be lost. Without the keyboard's focus nothing is held. Used on the thread of the window.
 class KeyForwarder {
  public:
   static constexpr double kRepeat_s = 0.05;

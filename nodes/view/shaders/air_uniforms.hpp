@@ -16,8 +16,8 @@ namespace rodeira::nodes {
 
 // Light, sky, fog and wetness.
 void SetAir(osg::StateSet& state, const scene::Air& air);
-// What depends on who looks: sun, zenith and headlights in the eye's frame, which `view` leads to. `car`: whose
-// headlights; null: nobody's.
+// What depends on the eye: sun, zenith and headlights in its frame, which `view` leads to. `car`: it has the
+// headlights; null: none.
 void SetEye(osg::StateSet& state, const scene::Air& air, const scene::CarPose* car, const osg::Matrixd& view);
 // Of the falling rain.
 void SetRain(osg::StateSet& state, std::int64_t time_ns, double aspect);

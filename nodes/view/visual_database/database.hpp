@@ -36,7 +36,7 @@ inline constexpr const char* kPictureFolder = "pictures/";
 
 // Writes the world as it is seen: `world.osgb` with a PagedLOD a tile, below groups of neighbouring ones (TileTree),
 // `tiles/COLUMN_ROW_LEVEL.osgb`, and `visual.txt`, which names every file with its hash and what it was made from;
-// pictures that lie on the ground are copied to `pictures/`. Tiles whose sources did not change, and whose files are as
+// pictures that lie on the ground are copied to `pictures/`. Tiles of unchanged sources, with files as
 // they were written, stay. The bytes are the same for any number of threads and whatever was there before. Wrong input
 // where a model or picture cannot be read, or the folder cannot be written.
 base::Result<DatabaseReport> WriteDatabase(const road::World& world, const DatabaseOptions& options);

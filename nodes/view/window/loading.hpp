@@ -16,7 +16,7 @@ class Loading {
   // `share` of the way, 0 to 1; `what` comes next. The system is told that the window lives; it is shown at once, but
   // for the same words within kAgain_s.
   void Show(double share, const std::string& what);
-  // Something that takes nobody knows how long has been at it so many seconds: a piece of the bar goes to and fro.
+  // Something that takes an unknown time has been at it so many seconds: a piece of the bar goes to and fro.
   // Always shown at once.
   void ShowWork(double seconds, const std::string& what);
   // The title alone again.

@@ -267,7 +267,7 @@ bool Screen::TakeMouse(const SDL_Event& event) {
   return true;
 }
 
-// Whom the next one is of all, the traffic behind the cars; also whom the person looks at, until it comes home.
+// The next one of all, the traffic behind the cars; also the one that the person looks at, until it comes home.
 void Screen::FollowNext(int step) {
   const std::size_t cars = live_.moment.cars.size(), all = cars + live_.moment.agents.size();
   if (all == 0) return;
@@ -278,7 +278,7 @@ void Screen::FollowNext(int step) {
 }
 
 void Screen::ChooseAt(int x_px, int y_px) {
-  // Nobody who is looked at from the driver's seat sits in its own way.
+  // The body with the eye at its driver's seat does not hide the view.
   const bool inside = live_.camera == scene::CameraKind::kDriver || live_.camera == scene::CameraKind::kBonnet;
   chosen_.Choose(live_.moment,
                  scene::BodyOn(live_.moment, RayAt(x_px, y_px), inside ? std::optional(live_.followed) : std::nullopt));

@@ -37,15 +37,15 @@ class Screen {
   static base::Result<std::unique_ptr<Screen>> Open(std::unique_ptr<Surface> surface, const ViewSettings& settings,
                                                     const road::World& world, std::string help);
 
-  // To whom the person's requests go (false: it takes no more). Without one a key that asks says that nobody does.
+  // Where the person's requests go (false: it takes no more). Without one a key that asks says that none does.
   void set_ask(std::function<bool(const scenario::Request&)> ask) { ask_ = std::move(ask); }
   Surface& surface() { return *surface_; }
   Painter& painter() { return *painter_; }
   // The picture changes without the world's time going on: camera, car, texts. False where the key is not the window's
-  // own. `driven`: somebody drives by this window, and s is the brake. `modifiers`: SDL's, of the moment of the press.
+  // own. `driven`: a person drives by this window, and s is the brake. `modifiers`: SDL's, of the moment of the press.
   bool TakeKey(int symbol, bool driven, int modifiers = 0);
   // The wheel brings free cameras nearer and farther; the window's own button (ViewSettings::mouse_button), held, turns
-  // the one about the car; a click of it chooses the vehicle that is seen at its place, or nobody. Behind the placing
+  // the one about the car; a click of it chooses the vehicle that is seen at its place, or none. Behind the placing
   // key, or with ctrl held, a click of the left button places the car instead. False where the event is not the
   // window's.
   bool TakeMouse(const SDL_Event& event);
@@ -54,7 +54,7 @@ class Screen {
   // Whether another picture is due although neither time nor a hand moves.
   bool is_restless() const { return menu_.is_restless(); }
   // Waits until the headset wants its next pictures; true where Show is then to draw them. False where there is none,
-  // or nobody wears it: the window is drawn as without one.
+  // or it is not worn: the window is drawn as without one.
   bool WaitForHeadset();
   bool has_headset() const { return headset_ != nullptr; }
   // How loud what is shown is heard, from 0 to 1, where there is a device and time goes on so fast: fainter in slow
@@ -91,7 +91,7 @@ class Screen {
   CarPaints paints_;
   DriverAims aims_;
   bool placing_ = false;      // the next click says where
-  bool swallows_up_ = false;  // of a button whose press was the window's
+  bool swallows_up_ = false;  // of a button with a press that was the window's
   std::size_t weather_ = 0;   // that was asked for last
   scene::HeatMap heat_;
   std::optional<scene::HeatKind> heat_shown_;
@@ -108,7 +108,7 @@ class Screen {
   Menu menu_;                         // likewise
   bool asked_to_close_ = false;
   bool headset_waits_ = false;        // for pictures
-  std::unique_ptr<FrameLog> log_;     // null: nobody wants it
+  std::unique_ptr<FrameLog> log_;     // null: it is not wanted
   std::unique_ptr<Speaker> speaker_;  // null: nothing is heard
   bool has_sound_ = false;            // otherwise it was told to be silent
   double volume_ = 0.0;
@@ -116,12 +116,12 @@ class Screen {
   std::string help_text_, title_;
   void TakePicture();
   void FollowNext(int step);
-  void Follow();  // whom the person chose, wherever it stands among the others now
+  void Follow();  // the one that the person chose, wherever it stands among the others now
 
   Picture live_;                                 // camera, followed car as the person chose
   std::optional<std::uint64_t> followed_agent_;  // of the traffic
   Chosen chosen_;
-  std::size_t home_ = 0;  // whom the window followed first: there nobody is chosen by key
+  std::size_t home_ = 0;  // what the window followed first: there none is chosen by key
   int mouse_button_ = kLeftButton;
   int dragged_px_ = 0;  // since that button went down
   static constexpr std::array<bool, scene::kMirrors> kNoMirrors{};
@@ -137,7 +137,7 @@ class Screen {
   double shown_wall_s_ = 0.0;
 };
 
-// What the mouse does in a window whose own button this is, a line each, with a line's end before each.
+// What the mouse does in a window with this own button, a line each, with a line's end before each.
 std::string MouseHelp(int mouse_button);
 // The window's own keys, and what its button of the mouse does (0: it has none), a line each.
 std::string WindowHelp(int mouse_button);

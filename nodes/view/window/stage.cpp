@@ -16,8 +16,8 @@ namespace rodeira::nodes {
 
 struct Stage::Hand {
   std::unique_ptr<Screen> screen;
-  std::unique_ptr<KeyForwarder> keys;   // null: nobody drives by this window
-  std::unique_ptr<Asker> asker;         // null: nobody takes requests
+  std::unique_ptr<KeyForwarder> keys;   // null: the window drives nothing
+  std::unique_ptr<Asker> asker;         // null: no node takes requests
   std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
   scene::PicturePace pace;
 };

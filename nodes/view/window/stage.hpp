@@ -26,8 +26,8 @@ class Stage {
  public:
   // Starts the thread and waits until everything is loaded and drawn once; a window is there before its world is read.
   // Null where the settings want no picture here: no frames, and no window or no display for one. Wrong input where a
-  // display or OpenGL is missing. `keys` is told what is held in the window; null where nobody drives by it.
-  // `requests`: what is asked for there; null where nobody takes any. `reader`: what is wrong there is the answer;
+  // display or OpenGL is missing. `keys` is told what is held in the window; null where it drives nothing.
+  // `requests`: what is asked for there; null where no node takes any. `reader`: what is wrong there is the answer;
   // called on a thread of its own, it has ended when this returns, and is not called where a window that must be cannot
   // be.
   static base::Result<std::unique_ptr<Stage>> Open(const ViewSettings& settings, WorldReader reader,
@@ -44,8 +44,8 @@ class Stage {
   void Show(scene::Moment moment);
   // What the run's scenario has said. Never waits.
   void Tell(const std::vector<scenario::Event>& events);
-  // Orders exactly this picture as a PNG file. Never waits; who orders without end drains between. The first order that
-  // failed is every later one's answer.
+  // Orders exactly this picture as a PNG file. Never waits; a caller that orders without end drains between. The first
+  // order that failed is every later one's answer.
   base::Status Order(Picture picture, std::filesystem::path file);
   // Waits until all orders are written.
   base::Status Drain();

@@ -41,8 +41,8 @@ WheelButtons::~WheelButtons() {
   SDL_QuitSubSystem(kSubsystems);
 }
 
-// The first device whose own file names a button, as the input looks for its own. Files are looked for when a device
-// has come or gone.
+// The first device with a file of its own that names a button, as the input looks for its own. Files are looked for
+// when a device has come or gone.
 void WheelButtons::FindOwn(Button& button) {
   if (button.seen == SDL_NumJoysticks()) return;
   button.seen = SDL_NumJoysticks();
