@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kCoolness = 0.99;
 
-// The constant acceleration that just avoids a leader who keeps to his.
+// The constant acceleration that just avoids a leader that keeps to its own.
 double Cah(const IdmSettings& idm, double v, double gap_m, double leader_mps, double leader_mps2) {
   const double a_l = std::min(leader_mps2, idm.acceleration_mps2), opens = leader_mps * (v - leader_mps);
   if (opens < -2.0 * gap_m * a_l) return v * v * a_l / (leader_mps * leader_mps - 2.0 * gap_m * a_l);

@@ -5,8 +5,8 @@
 
 namespace rodeira::driver {
 
-// Behind somebody who has come in before: the IDM, eased where it brakes harder than that leader's motion asks for
-// (ACC; Kesting, Treiber, Helbing, Phil. Trans. R. Soc. A 368, 4585, 2010). As soon as the leader may keep to his
+// Behind a vehicle that has come in before: the IDM, eased where it brakes harder than that leader's motion asks for
+// (ACC; Kesting, Treiber, Helbing, Phil. Trans. R. Soc. A 368, 4585, 2010). As soon as the leader may keep to its own
 // acceleration (CAH) with
 //   CAH = v² a_l/(v_l² - 2 s a_l)  if v_l (v - v_l) <= -2 s a_l and that can be said,  else  a_l - max(0, v - v_l)²/(2
 //   s),   a_l no more than the own a,

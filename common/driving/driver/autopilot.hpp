@@ -58,10 +58,11 @@ struct CarMotion {
 
 // What a driver goes by at a moment, for displays.
 struct Aim {
-  double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of him is not in it
-  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();      // the point of his way that he steers for
-  double way_heading_rad = 0.0;                            // of his way beside the car
-  Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where on his way he looks for what slows him
+  double speed_mps = 0.0;  // that limit, bends, crests and the way's end allow; what is ahead of the car is not in it
+  Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // the point of the way that is steered for
+  double way_heading_rad = 0.0;                        // of the way beside the car
+  Eigen::Vector2d look_ahead_W =
+      Eigen::Vector2d::Zero();  // up to where on the way the driver looks for what slows the car
 };
 
 // Drives a lane by steering wheel, pedals and selector alone: at the speed that limit, bends, crests and slopes allow,

@@ -14,8 +14,8 @@ struct Leader {
   double speed_mps = 0.0;  // along the lane, negative towards us
 };
 
-// The nearest of the others within `range_m` ahead whose rectangle reaches into a corridor of ±half_width_m about the
-// lane's middle. Ahead is what has its middle ahead of our own. Of equal ones the first.
+// The nearest of the others within `range_m` ahead with a rectangle that reaches into a corridor of ±half_width_m about
+// the lane's middle. Ahead is what has its middle ahead of our own. Of equal ones the first.
 std::optional<Leader> FindLeader(const Way& path, std::span<const Footprint> others, double own_middle_m,
                                  double own_front_m, double half_width_m, double range_m);
 

@@ -35,8 +35,8 @@ struct LightSettings {
   double tracking_s = 1.0;      // time in which a deviation from the braking is made good
 };
 
-// Stops at lights. At the first line ahead that does not show green it decides, once: whoever could no more stop after
-// `anticipation_s` (which pedals take) goes on.
+// Stops at lights. At the first line ahead that does not show green it decides, once: a car that could no more stop
+// after `anticipation_s` (which pedals take) goes on.
 class LightStops {
  public:
   // The acceleration that it takes to stop, where it has to; nothing where it may go on. `lights` ascending.

@@ -20,8 +20,8 @@ double EasedStop_mps2(double speed_mps, double jerk_mps3, double dt_s) {
   return step * (n + (v - 0.5 * n * (n + 1.0)) / (n + 1.0));
 }
 
-// The deceleration grows from c = -a to p and goes to 0: (2 p² - c²)/(2 j) = v. Who brakes harder than that already can
-// only let go.
+// The deceleration grows from c = -a to p and goes to 0: (2 p² - c²)/(2 j) = v. A vehicle that brakes harder than that
+// already can only let go.
 double SmoothStop_m(double speed_mps, double acceleration_mps2, double jerk_mps3) {
   const double v = std::max(0.0, speed_mps), j = jerk_mps3, c = -acceleration_mps2;
   if (c > 0.0 && c * c >= 2.0 * j * v) return j / 6.0 * std::pow(2.0 * v / j, 1.5);

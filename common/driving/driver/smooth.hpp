@@ -3,7 +3,7 @@
 
 namespace rodeira::driver {
 
-// How quickly a driver lets his acceleration change, m/s³.
+// How quickly a driver lets the acceleration change, m/s³.
 struct SmoothSettings {
   double planned_mps3 = 3.0;
   double emergency_mps3 = 15.0;

@@ -18,7 +18,7 @@ struct SpeedPlanSettings {
   double end_margin_m = 3.0;   // so far before it
 };
 
-// v² |curvature| in m/s² that a bend allows whose ground leans outward by `outward` (rise over distance towards the
+// v² |curvature| in m/s² that a bend allows with ground that leans outward by `outward` (rise over distance towards the
 // inside; below 0: inward). In the frame of the car weight and centrifugal force point tan(atan(outward) + atan(v²
 // |curvature| / g)) beside the ground's normal (a banked curve): that many g are at most lateral_mps2, and nothing is
 // gained where the ground leans inward. Where the lean alone takes up more than three quarters of it a quarter remains

@@ -16,7 +16,7 @@ struct SteeringSettings {
 
 double PreviewDistance(const SteeringSettings& settings, double speed_mps);
 
-// Pure pursuit (Coulter, CMU-RI-TR-92-01): the front wheel angle whose circle leads the middle of the rear axle,
+// Pure pursuit (Coulter, CMU-RI-TR-92-01): the front wheel angle with a circle that leads the middle of the rear axle,
 // tangent to the car, through the target: delta = atan(2 L sin(alpha) / distance), and what understeer takes on top.
 // Positive left.
 double PursuitAngle(const SteeringSettings& settings, const Eigen::Vector2d& rear_axle_W, double heading_rad,

@@ -9,18 +9,18 @@
 
 #include "common/core/base/result.hpp"
 
-// The vocabulary of scenario events, for those who publish and those who obey.
+// The vocabulary of scenario events, for publishers and for the nodes that obey.
 namespace rodeira::scenario {
 
-inline constexpr std::string_view kMark = "mark";                         // a text in the recording; nobody obeys
+inline constexpr std::string_view kMark = "mark";                         // a text in the recording; no node obeys
 inline constexpr std::string_view kTrafficBrake = "traffic.brake";        // at a deceleration down to rest, and stay
 inline constexpr std::string_view kTrafficSpeed = "traffic.speed";        // drive no faster than this
 inline constexpr std::string_view kTrafficRelease = "traffic.release";    // forget all that
-inline constexpr std::string_view kTrafficOvertake = "traffic.overtake";  // who is ahead, as soon as it is safe
+inline constexpr std::string_view kTrafficOvertake = "traffic.overtake";  // the vehicle ahead, as soon as it is safe
 inline constexpr std::string_view kTrafficChangeLane =
     "traffic.change_lane";                                            // to the lane beside, as soon as it is safe
 inline constexpr std::string_view kTrafficAppear = "traffic.appear";  // a vehicle comes onto the middle of a lane
-inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // somebody on foot comes to a crossing
+inline constexpr std::string_view kTrafficPedestrian = "traffic.pedestrian";  // a pedestrian comes to a crossing
 inline constexpr std::string_view kVehiclePlace = "vehicle.place";  // a driver's car stands elsewhere: INI there
 inline constexpr std::string_view kWeatherChange = "weather";  // becomes one that has a name, within so many seconds
 
@@ -49,7 +49,7 @@ const EventKind* FindEventKind(std::string_view name);
 
 // Which agents of the traffic are meant: a number, "all", or "ahead": the next one in front of the driver's car in its
 // lane at the moment at which the event acts. With a place ("12 at main 350") when they pass it from then on: the one,
-// each one, the one that was ahead, or "next": whoever passes first.
+// each one, the one that was ahead, or "next": the first that passes.
 struct AgentChoice {
   enum class Kind { kOne, kAll, kAhead, kNext };
   struct At {
@@ -74,8 +74,8 @@ struct PlaceChoice {
 base::Result<PlaceChoice> ParsePlace(std::string_view text);
 std::string PlaceText(const PlaceChoice& place);
 
-// The crossing of a road nearest to a station, and from which side of the road somebody comes: "main 120", "main 120
-// left"; right where no side is said.
+// The crossing of a road nearest to a station, and from which side of the road a pedestrian comes: "main 120", "main
+// 120 left"; right where no side is said.
 struct CrossingChoice {
   std::string road;
   double s_m = 0.0;

@@ -43,7 +43,7 @@ struct BicycleContact {
 };
 using BicycleContacts = std::array<BicycleContact, kWheels>;
 
-// What was found in a substep, for those who publish it: nothing that later steps depend on.
+// What was found in a substep, for publishers: nothing that later steps depend on.
 struct BicycleFindings {
   BicycleContacts contacts;
   std::array<double, kWheels> brake_Nm{};

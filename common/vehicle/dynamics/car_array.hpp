@@ -15,8 +15,8 @@
 
 namespace rodeira::dynamics {
 
-// Many cars of model `bicycle`, each with the bits that BicycleModel gives it alone, whoever else is in the array: four
-// wheels with suspension and tyres on SUELO's planes, engine, clutch, gears. Arrays of one kind of value each, one
+// Many cars of model `bicycle`, each with the bits that BicycleModel gives it alone, whatever else is in the array:
+// four wheels with suspension and tyres on SUELO's planes, engine, clutch, gears. Arrays of one kind of value each, one
 // element a car.
 class CarArray {
  public:

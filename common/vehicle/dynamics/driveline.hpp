@@ -14,7 +14,7 @@ struct ClutchSettings {
 };
 double ClutchCapacity(const ClutchSettings& clutch, double pedal);  // pedal 0 engaged … 1 disengaged
 
-// A differential whose clutch plates resist a difference of its shafts' speeds with a torque of at most this much
+// A differential with clutch plates that resist a difference of its shafts' speeds with a torque of at most this much
 // between the two shafts: preload + locking × |sum of both shafts|. All 0: open. A locking value S is |T_left -
 // T_right| / (T_left + T_right) while one wheel slips, as makers state it: without preload the better wheel gets up to
 // (1 + S)/(1 - S) of the worse one's torque.

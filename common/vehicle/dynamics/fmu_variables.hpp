@@ -42,7 +42,7 @@ struct FmuVariables {
 
 // Finds them in an FMU. `names`: ours to the FMU's own, where they differ. Wrong input, behind `context`, where one
 // that is asked for is not there, has the wrong causality or type, or is declared in another unit, or where a name of
-// `names` is nobody's.
+// `names` belongs to none.
 base::Result<FmuVariables> FindVariables(const fmi::Description& description,
                                          const std::map<std::string, std::string>& names, const std::string& context);
 

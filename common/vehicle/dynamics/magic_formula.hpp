@@ -13,7 +13,7 @@ namespace rodeira::dynamics {
 // vertical shift of Fy is scaled with friction itself. Names are those of the .tir files in lower case.
 enum class MagicFormulaVersion { k61, k52 };
 
-// The side of a car on which a tyre was measured: mounted on the other one it is its mirror image. kEither: nobody
+// The side of a car on which a tyre was measured: mounted on the other one it is its mirror image. kEither: no file
 // says.
 enum class TyreSide { kEither, kLeft, kRight };
 
@@ -67,7 +67,7 @@ struct TyreForces {
 TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction);
 
 // Slopes at zero slip, both positive: dFx/dkappa and -dFy/dtan(alpha) of a tyre without camber, in N. They do not
-// depend on friction. With shifts (PHX, PHY …) they are the formula's K, whose point lies beside the origin.
+// depend on friction. With shifts (PHX, PHY …) they are the formula's K, with its point beside the origin.
 double LongitudinalStiffness(const MagicFormulaSettings& tyre, double load_N);
 double CorneringStiffness(const MagicFormulaSettings& tyre, double load_N);
 // Peaks D = mu Fz in N.

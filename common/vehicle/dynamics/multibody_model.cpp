@@ -182,8 +182,9 @@ MultibodyModel::WheelTorques MultibodyModel::TurnWheels(const Controls& controls
   return torques;
 }
 
-// The wheels turn under the forces of the step's middle; the mechanism, whose rule takes the mean of both ends, gets
-// those of its end. Both are found from where the present accelerations lead, so that all of it is of second order.
+// The wheels turn under the forces of the step's middle; the mechanism, with a rule that takes the mean of both ends,
+// gets those of its end. Both are found from where the present accelerations lead, so that all of it is of second
+// order.
 void MultibodyModel::Substep(const Controls& controls, double dt_s) {
   for (std::size_t i = 0; i < kWheels; ++i) GiveGround(i);
   system_->Foresee(dt_s, ahead_q_, ahead_qd_);

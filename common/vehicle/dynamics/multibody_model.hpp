@@ -15,7 +15,7 @@
 
 namespace rodeira::dynamics {
 
-// A car whose body, suspensions and steering are a multibody mechanism in natural coordinates, stepped by the index-3
+// A car with body, suspensions and steering as a multibody mechanism in natural coordinates, stepped by the index-3
 // augmented Lagrangian (common/vehicle/multibody), on tyres by the Magic Formula with camber. Wheels spin as rotors
 // about their axles, coupled to the mechanism by brake reaction, drive reaction and gyroscopic torque; engine, clutch,
 // gearbox, differential and brakes are those of the other models. Longer steps than the file's longest substep are

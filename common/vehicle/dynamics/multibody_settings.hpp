@@ -22,7 +22,7 @@ struct MultibodyWheelSettings {
 
 struct MultibodySteeringSettings {
   int angle = 0;        // rotor: the column's lower end, in the steering wheel's sense (left positive)
-  double ratio = 16.0;  // for those who drive by the front wheels' angle
+  double ratio = 16.0;  // for controls by the front wheels' angle
   double limit_rad = 9.0;
   double column_Nmprad = 1000.0;  // between the driver's hands and the column's lower end
   double column_Nmsprad = 10.0;

@@ -12,7 +12,7 @@
 
 namespace rodeira::dynamics {
 
-// The car in the Open Dynamics Engine: a chassis with a box around it, and four wheels on hinge-2 joints whose springs
+// The car in the Open Dynamics Engine: a chassis with a box around it, and four wheels on hinge-2 joints; their springs
 // and dampers are the suspension's. The joints turn the steered wheels to their angles and every wheel at the speed
 // that the driveline found. Between two calls of Give everything follows from what was given and what was pushed:
 // nothing is remembered that a snapshot of the five bodies would miss (solver: dWorldStep, exact, without random

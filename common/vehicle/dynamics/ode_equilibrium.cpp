@@ -19,7 +19,7 @@ constexpr int kMaxOdeNewtonIterations = 60;
 
 }  // namespace
 
-// Works on a model whose motion is to be found. Unknowns: height of B, pitch, roll, travel of each wheel.
+// Works on a model with a motion that is to be found. Unknowns: height of B, pitch, roll, travel of each wheel.
 class OdeEquilibrium {
  public:
   OdeEquilibrium(OdeModel& model, const InitialCondition& initial) : model_(model), initial_(initial) {}

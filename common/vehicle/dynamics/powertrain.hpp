@@ -41,7 +41,7 @@ class Powertrain {
   // The engine runs; where the wheels turn fast enough it turns with them in a gear that suits.
   void Start(const PowertrainSettings& settings, double wheel_radps);
   // The same at a speed that it keeps: each driven wheel gets this torque of its shaft less the gears' losses, by an
-  // engine whose throttle is open as far as that takes. Not more than Start where the wheels turn too slowly for a
+  // engine with its throttle open as far as that takes. Not more than Start where the wheels turn too slowly for a
   // closed clutch.
   void StartSteadily(const PowertrainSettings& settings, double wheel_radps, double at_wheel_Nm);
   const DrivelineMotion& Step(const PowertrainSettings& settings, const Controls& controls,

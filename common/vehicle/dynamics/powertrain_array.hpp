@@ -7,7 +7,7 @@
 
 namespace rodeira::dynamics {
 
-// A step of many cars' powertrains: arrays of one length, one element a car, whose settings may be those of any other
+// A step of many cars' powertrains: arrays of one length, one element a car; its settings may be those of any other
 // car too. Each car gets the bits that Powertrain::Step gives it alone; nothing allocates. Its result is
 // cars[i].motion().
 void StepPowertrains(std::span<const PowertrainSettings* const> settings, std::span<const Controls> controls,

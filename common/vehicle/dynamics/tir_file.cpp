@@ -135,7 +135,7 @@ class Reader {
     return {};
   }
 
-  // Among the coefficients of the two directions and their scales there is none that nobody knows: it would be a slip
+  // Among the coefficients of the two directions and their scales there is none that is unknown: it would be a slip
   // of the pen.
   base::Status Unused(const std::string& key) const {
     const bool strict =

@@ -14,7 +14,7 @@ namespace rodeira::dynamics {
 // formula here has no use for (moments, turn slip, shape, structure) is passed over. [MODEL] FITTYP says the version:
 // 5, 6, 51 and 52 are 5.2; 60 to 62 are 6.1; TYRESIDE on which side of a car it was measured. Wrong input with file and
 // line: other units than SI, another version, a coefficient that is no number or stands twice, one among those of the
-// two directions and their scales that nobody knows, one without which there is no force (FNOMIN, PCX1, PDX1, PKX1,
+// two directions and their scales that is unknown, one without which there is no force (FNOMIN, PCX1, PDX1, PKX1,
 // PCY1, PDY1, PKY1) missing, a stiffness of the wrong sign.
 base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path);
 // The same from a text; `name` stands for the file in messages.

@@ -44,7 +44,7 @@ class Joysticks {
   virtual const std::string& name(std::size_t place) const = 0;
   // A number that differs each time the device is plugged in; 0 where it is not there. It changes in Update.
   virtual std::uint64_t connection(std::size_t place) const = 0;
-  // The motor of a device that is there; null where it has none. `inverted`: for devices whose driver turns the
+  // The motor of a device that is there; null where it has none. `inverted`: for devices with a driver that turns the
   // direction round. It must not outlive these joysticks.
   virtual std::unique_ptr<ForceDevice> OpenMotor(std::size_t place, bool inverted) = 0;
 };

@@ -56,7 +56,7 @@ dynamics::Controls WheelDriver::Step(std::span<const DeviceReading> devices, std
     ReleasePedals();
     rim_rad_.reset();
     SignalRequests nothing;
-    (void)signals_.Step(nothing, controls_.steering_wheel_rad);  // nobody's hand is on the horn
+    (void)signals_.Step(nothing, controls_.steering_wheel_rad);  // no hand is on the horn
     return controls_;
   }
   if (const auto raw = Raw(devices, WheelAxis::kSteering)) {

@@ -63,7 +63,7 @@ void BlockLdlt::Analyse(int entities, std::span<const int> free, std::span<const
     position_[static_cast<std::size_t>(free[static_cast<std::size_t>(i)])] = static_cast<int>(order_.size());
     order_.push_back(free[static_cast<std::size_t>(i)]);
   }
-  // Pattern of L: a column has its own rows and those of the columns whose first row it is.
+  // Pattern of L: a column has its own rows and those of the columns with it as first row.
   std::vector<std::set<int>> below(static_cast<std::size_t>(count));
   for (const auto& [i, j] : pattern) {
     const int p = position_[static_cast<std::size_t>(free[static_cast<std::size_t>(i)])];

@@ -33,7 +33,8 @@ class BlockLdlt {
     bool flipped = false;  // the first of the two asked is the column
   };
 
-  // `free`: the entities that have a block row, each once. `couples`: pairs of them whose block may be other than zero.
+  // `free`: the entities that have a block row, each once. `couples`: pairs of them with a block that may be other than
+  // zero.
   void Analyse(int entities, std::span<const int> free, std::span<const std::pair<int, int>> couples);
   bool IsFree(int entity) const { return position_[static_cast<std::size_t>(entity)] >= 0; }
   Place Find(int first, int second) const;

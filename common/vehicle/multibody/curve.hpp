@@ -19,7 +19,7 @@ class Curve {
 
   double Value(double x) const;
   double Slope(double x) const;
-  // Integral from 0 to x: the energy of a spring whose force the curve is.
+  // Integral from 0 to x: the energy of a spring with the curve as its force.
   double Integral(double x) const { return FromFirst(x) - FromFirst(0.0); }
   bool empty() const { return samples_.empty(); }
   const std::vector<Sample>& samples() const { return samples_; }

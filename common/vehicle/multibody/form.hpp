@@ -10,7 +10,7 @@ namespace rodeira::multibody {
 using Eigen::Vector3d;
 
 // One summand of a form: a e + b (z × e), where e is the entity's triple of coordinates. b is 0 except on planar
-// bodies, whose second axis is the first one turned.
+// bodies; their second axis is the first one turned.
 struct Term {
   int entity = 0;
   double a = 0.0;

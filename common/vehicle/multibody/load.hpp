@@ -44,8 +44,8 @@ class Sink {
 
 inline constexpr std::size_t kMostLoadEntities = 24;  // that a load stiffens against each other
 
-// Something that acts: a function of motion and time. It names the entities whose coordinates it stiffens against each
-// other (a pattern that never changes), and gets their places in the matrix. Add may not allocate.
+// Something that acts: a function of motion and time. It names the entities with coordinates that it stiffens against
+// each other (a pattern that never changes), and gets their places in the matrix. Add may not allocate.
 class Load {
  public:
   virtual ~Load() = default;

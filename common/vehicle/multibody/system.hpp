@@ -61,8 +61,8 @@ struct Contraction {
 // (2000) 55-73):
 //   M qdd + Φqᵀ(αΦ + λ) = Q,   λ += αΦ,   qd and qdd brought onto Φq qd + Φt = 0 and its derivative.
 // Coordinates stand in triples, entity after entity; those that are fixed stand among them. M is constant, the matrix
-// M + h/2 C + h²/4 (K + Φqᵀ α Φq) is made of 3 × 3 blocks whose pattern is found once. After Make, no call allocates
-// but Assemble, CheckIndependence and FindVelocities. Same calls, same bits.
+// M + h/2 C + h²/4 (K + Φqᵀ α Φq) is made of 3 × 3 blocks with a pattern that is found once. After Make, no call
+// allocates but Assemble, CheckIndependence and FindVelocities. Same calls, same bits.
 class System {
  public:
   // Compiles the drawing; nothing is solved yet. Wrong input where nothing can move or nothing has mass.

@@ -24,7 +24,7 @@ std::string GuidText(SDL_JoystickGUID guid) {
 
 std::string OrNameless(const char* name) { return name == nullptr || *name == '\0' ? "nameless" : name; }
 
-// Nobody plugs or unplugs while the list is looked at.
+// Nothing is plugged or unplugged while the list is looked at.
 class Locked {
  public:
   Locked() { SDL_LockJoysticks(); }

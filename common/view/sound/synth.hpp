@@ -33,8 +33,8 @@ struct Heard {
 };
 
 // From numbers to samples. What changes between two calls changes evenly over the samples of the later one, so that
-// nothing clicks; who comes fades in, who goes fades out. Where nothing changes, the samples do not depend on how many
-// are asked for at once.
+// nothing clicks; what comes fades in, what goes fades out. Where nothing changes, the samples do not depend on how
+// many are asked for at once.
 class Synth {
  public:
   // Left and right in turn, each in [-1, 1].

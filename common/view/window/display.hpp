@@ -3,8 +3,8 @@
 
 namespace rodeira::window {
 
-// Whether a video driver of SDL shows anything to anybody; null: no driver. Where no display answers SDL draws for
-// nobody.
+// Whether a video driver of SDL shows anything; null: no driver. Where no display answers SDL draws
+// unseen.
 bool IsDisplay(const char* driver);
 
 }  // namespace rodeira::window

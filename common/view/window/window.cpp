@@ -17,7 +17,7 @@
 namespace rodeira::window {
 namespace {
 
-constexpr float kOffscreenFrame_s = 1.0f / 60.0f;  // where nobody looks, frames follow one another evenly
+constexpr float kOffscreenFrame_s = 1.0f / 60.0f;  // without a viewer, frames follow one another evenly
 
 void AskForContext() {
   SDL_GL_ResetAttributes();
@@ -75,7 +75,7 @@ base::Status Window::Make(const Settings& settings) {
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   renderer_ = renderer != nullptr ? renderer : "";
   panels_ = ImGui::CreateContext();
-  ImGui::GetIO().IniFilename = nullptr;  // where panels stand is nobody's file
+  ImGui::GetIO().IniFilename = nullptr;  // where panels stand is in no file
   Paint();
   UseFont(settings.font);
   input_ = std::make_unique<Input>();

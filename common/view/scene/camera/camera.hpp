@@ -44,7 +44,7 @@ struct Camera {
 Camera LookFrom(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& forward, const Eigen::Vector3d& up,
                 double vertical_view_rad);
 
-// Whom a camera goes with: a driver's car, or one of the traffic.
+// What a camera goes with: a driver's car, or one of the traffic.
 struct Body {
   Body(const CarPose& car);
   Body(const AgentPose& agent);
@@ -53,7 +53,7 @@ struct Body {
   Eigen::Quaterniond q_WB;
   double length_m, front_m, width_m, height_m;  // front_m: of the front bumper from B's origin
 };
-// One of the moment's cars or, numbered behind them, of its traffic; nobody behind those.
+// One of the moment's cars or, numbered behind them, of its traffic; none behind those.
 std::optional<Body> BodyAt(const Moment& moment, std::size_t number);
 
 // What a hand on the mouse sets: where a free eye is about the car, and how much a map shows.
@@ -79,8 +79,8 @@ struct ScreenPlane {
 
 // The driver's eye, in B: 1.2 m high, below the roof of a lower car; higher in a lorry or a bus, and at its front.
 Eigen::Vector3d DriversEye_B(const Body& car);
-// Behind and above the car, without its roll. `others`: who stands in the way of the eye, as a lorry does that is close
-// behind, has it come nearer, to before its front; evenly, as they come and go.
+// Behind and above the car, without its roll. `others`: what stands in the way of the eye, as a lorry does that is
+// close behind, has it come nearer, to before its front; evenly, as they come and go.
 Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Body> others = {});
 // In the driver's seat, on the left.
 Camera DriverCamera(const Body& car);
@@ -97,7 +97,7 @@ Camera TopCamera(const Body& car, const Aim& aim);
 Camera TracksideCamera(const Body& car, const road::World& world);
 Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world,
                   std::span<const Body> others = {});
-// The camera with one of the moment's bodies, among all others of it; nothing where there is nobody of that number.
+// The camera with one of the moment's bodies, among all others of it; nothing where there is none of that number.
 std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim,
                                  const road::World& world);
 

@@ -18,7 +18,7 @@ inline constexpr std::array<Mirror, kMirrors> kAllMirrors = {Mirror::kLeft, Mirr
 std::string_view NameOf(Mirror mirror);
 std::optional<Mirror> MirrorOf(std::string_view name);
 
-// Which mirrors belong on one of the screens about a driver: each on the screen whose middle is nearest, by its level
+// Which mirrors belong on one of the screens about a driver: each on the screen with the nearest middle, by its level
 // angle, to where it is looked for, 45 degrees to the left and to the right, the inside one 5 degrees to the right; of
 // screens equally near on the first one. `which`: of `screens`.
 std::array<bool, kMirrors> MirrorsOn(std::span<const ScreenPlane> screens, std::size_t which);

@@ -18,7 +18,7 @@ constexpr double kOutside_m = 5.0;  // of a way where no ground is known
 constexpr double kMet_m = 1e-4;
 constexpr int kHalvings = 40;
 
-// How high a point is over the ground on whose level it is; nothing outside of the world.
+// How high a point is over the ground of its level; nothing outside of the world.
 std::optional<double> Over(ground::Ground& ground, const Vector3d& p_W) {
   const ground::GroundPoint at = ground.At(p_W.x(), p_W.y(), p_W.z());
   if (at.inside) return p_W.z() - at.z_m;

@@ -16,7 +16,7 @@ constexpr double kLattice_m = 80.0;       // posts where there is none
 constexpr double kAside_m = 1.5;          // of the road's edge
 constexpr double kMostAside_m = 30.0;
 constexpr double kFarOff_m = 60.0;        // from there on no road is near
-constexpr double kEye_m = 1.9;            // over the ground: somebody on a box
+constexpr double kEye_m = 1.9;            // over the ground: a person on a box
 constexpr double kTracksideView_m = 7.0;  // of the world at the car, from the picture's lower to its upper edge
 constexpr double kNarrowest_rad = 0.05, kWidest_rad = 1.1;
 

@@ -33,7 +33,7 @@ inline constexpr double kHeatShare = 0.7;  // of that colour, over 0.3 of the gr
 // What a square of the ground has seen: sums over all vehicles' middles (Edie 1963).
 struct HeatCell {
   double time_s = 0.0, distance_m = 0.0;
-  double fuel_l = 0.0, fuel_distance_m = 0.0;  // of those whose consumption is known
+  double fuel_l = 0.0, fuel_distance_m = 0.0;  // of those with a known consumption
   double limit_mps = 0.0;                      // of the lane there; 0: none is known
   double height_ms = 0.0;                      // the integral of the height over the time
 };
@@ -60,8 +60,8 @@ class HeatMap {
   };
   const std::map<Key, HeatCell>& cells() const { return cells_; }
   // In the scale's unit: flow q = distance / (side · time), density k = time / (side · time), mean speed v = distance /
-  // time in per cent of the limit (100 km/h where none is known), consumption. Nothing where nobody was, or nobody
-  // whose consumption is known.
+  // time in per cent of the limit (100 km/h where none is known), consumption. Nothing where none was, or none
+  // with a known consumption.
   std::optional<double> Value(HeatKind kind, const HeatCell& cell) const;
 
  private:

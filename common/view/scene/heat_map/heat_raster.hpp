@@ -14,7 +14,7 @@ namespace rodeira::scene {
 struct HeatRaster {
   double west_m = 0.0, south_m = 0.0;    // its lower left corner
   double lowest_m = 0.0, range_m = 1.0;  // of its heights
-  std::size_t columns = 0, rows = 0;     // none: nobody has been anywhere
+  std::size_t columns = 0, rows = 0;     // none: no vehicle has been anywhere
   // Rows from the south, four numbers a square: of the lower surface its share of the scale (0 red … 65535 green) and
   // its height (0: there is none; 65535 is lowest_m + range_m), and both of the upper one.
   std::vector<std::uint16_t> texels;
@@ -22,8 +22,8 @@ struct HeatRaster {
   const std::uint16_t* At(std::size_t column, std::size_t row) const { return &texels[4 * (row * columns + column)]; }
 };
 
-// On a square, ways whose heights differ by less lie on one surface; and what is less far from it in height belongs to
-// it.
+// On a square, ways with heights that differ by less lie on one surface; and what is less far from it in height belongs
+// to it.
 inline constexpr double kHeatSurface_m = 2.5;
 inline constexpr std::int64_t kHeatReach = 1024;  // squares on each side of a place, at most: 4 km
 

@@ -10,7 +10,7 @@ double PicturePace::Next(double begin_s, const DisplayBeat& beat) {
     due_s_.reset();
     return begin_s + kHeldShare * period_s;
   }
-  // From when it was due, not from when it began: who wakes a little late each time does not become slower.
+  // From when it was due, not from when it began: a thread that wakes a little late each time does not become slower.
   const bool in_time = due_s_ && begin_s < *due_s_ + 0.5 * period_s;
   due_s_ = (in_time ? *due_s_ : begin_s) + period_s;
   return *due_s_;

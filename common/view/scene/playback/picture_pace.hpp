@@ -26,7 +26,7 @@ class PicturePace {
   double Next(double begin_s, const DisplayBeat& beat);
 
  private:
-  std::optional<double> due_s_;  // when this picture was to begin; nothing where nobody but the display said so
+  std::optional<double> due_s_;  // when this picture was to begin; nothing where only the display said so
 };
 
 }  // namespace rodeira::scene

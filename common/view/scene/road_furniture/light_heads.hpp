@@ -9,7 +9,7 @@
 
 namespace rodeira::scene {
 
-// A traffic light as it is drawn, and whose times it follows.
+// A traffic light as it is drawn, and the times that it follows.
 struct LightHead {
   std::uint32_t controller = 0;  // index into the network's controllers; it has times
   Stand stand;                   // of the model (TrafficLightModel): its lower edge

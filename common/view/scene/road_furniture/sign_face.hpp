@@ -28,7 +28,7 @@ Raster DrawFace(std::string_view face);
 // The plate's corners, counter-clockwise as its reader sees it, in its box from (0, 0) to (1, 1). Convex.
 std::vector<Eigen::Vector2d> PlateOutline(std::string_view face);
 
-// Width and height of a plate whose file says none.
+// Width and height of a plate without a size in its file.
 Eigen::Vector2d UsualPlate_m(std::string_view face);
 
 }  // namespace rodeira::scene

@@ -14,7 +14,7 @@
 // What the outlines of objects look like: what fills them, and the frames within their edges.
 namespace rodeira::scene {
 
-// Of what fills an outline; nothing where nobody says it.
+// Of what fills an outline; nothing where it is not said.
 std::optional<Colour> FillColour(std::string_view fill);
 // Of a frame: "concrete", or "curb".
 Colour BorderColour(std::string_view type);

@@ -23,7 +23,7 @@ constexpr double kParkingLine_m = 0.12;
 
 void Lay(const std::vector<Polygon2>& shape, const Spot& spot, TilePaint& paint, Colour colour = PaintColour("white")) {
   for (const Polygon2& polygon : shape) {
-    // In quadrangles from its first corner; the last may be a triangle, whose third corner stands twice.
+    // In quadrangles from its first corner; the last may be a triangle, with its third corner twice.
     for (std::size_t i = 1; i + 1 < polygon.size(); i += 2) {
       const std::size_t last = std::min(i + 2, polygon.size() - 1);
       AddPaint({{spot.ToWorld(polygon[0]), spot.ToWorld(polygon[i]), spot.ToWorld(polygon[i + 1]),
@@ -160,7 +160,7 @@ void LayFrame(const Polygon2& corners, bool closed, std::span<const std::size_t>
     Lay({Polygon2(piece.corners.begin(), piece.corners.end())}, spot, paint, colour);
 }
 
-// White lines along the edges of a parking place whose file says no marks of it.
+// White lines along the edges of a parking place without marks in its file.
 void PaintParkingPlace(const network::Road& road, const network::Placed& placed, TilePaint& paint) {
   const network::Object& object = *placed.object;
   const Spot own = Spot::At(road, placed.s_m, placed.t_m, placed.heading_rad);

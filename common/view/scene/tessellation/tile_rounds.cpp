@@ -35,7 +35,7 @@ constexpr std::array<BendRange, kGroundLevels> kVerges = {
     {{0.0023, 0.02, 4.0}, {0.015, 0.25, 4.0}, {0.075, 0.5, 4.0}, {0.375, 1.0, 4.0}}};
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kEdgeInset_m = 1e-3;
-constexpr double kBesideLine_m = 0.01;  // beside a deck's edge, whose drawn line is a chord
+constexpr double kBesideLine_m = 0.01;  // beside a deck's edge; its drawn line is a chord
 constexpr std::size_t kMostOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0},

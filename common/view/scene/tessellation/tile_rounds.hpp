@@ -16,7 +16,7 @@ struct Followed {
   bool decks = false;   // what lies below bridges
 };
 
-// Puts points into a plan, whose faces are known, where its triangles are farther from SUELO's ground than the level
+// Puts points into a plan, with known faces, where its triangles are farther from SUELO's ground than the level
 // allows.
 void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
 

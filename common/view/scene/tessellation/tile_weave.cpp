@@ -20,9 +20,9 @@ using tessellation::Triangulation;
 constexpr double kApron_m = 0.9;     // of a bridge's side, and as deep its underside lies
 constexpr double kMaxKerb_m = 0.35;  // lower steps are stone, higher ones earth
 constexpr std::size_t kNobody = 99;
-// A picture's samples may lie outside the triangle whose light they take: thinner than a pixel, it would be lit as the
-// ground at the far end of a change that goes on and on. Where normals change by more than this a metre a triangle has
-// one normal: its own, or where it is too thin to have a good one, the mean.
+// A picture's samples may lie outside the triangle that they take the light of: thinner than a pixel, it would be lit
+// as the ground at the far end of a change that goes on and on. Where normals change by more than this a metre a
+// triangle has one normal: its own, or where it is too thin to have a good one, the mean.
 constexpr double kBend_1pm = 0.6;
 constexpr double kThin_m = 0.05;  // ten times what heights may be off
 
@@ -67,7 +67,7 @@ class Weaver {
     return {p.x(), p.y(), z_m};
   }
 
-  // The point's on that face whose normal is so near to the given one, or a new one with it.
+  // The point's on that face with a normal so near to the given one, or a new one with it.
   std::uint32_t Vertex(Mesh& mesh, std::uint32_t point, std::uint32_t face, std::size_t level,
                        const Eigen::Vector3d& normal_W, double near) {
     for (std::uint32_t i = first_[point]; i != Triangulation::kNone; i = vertices_[i].next) {

@@ -24,7 +24,7 @@ struct WovenTile {
 Eigen::Vector3d TileOrigin(const TileKey& key, double z_m);
 
 // The plan's triangles at SUELO's heights. Where SUELO steps between two faces there is a wall, and where a level ends
-// in the air (a bridge's side) an apron hangs from it; a deck over another level has an underside, whose normals look
+// in the air (a bridge's side) an apron hangs from it; a deck over another level has an underside; its normals look
 // down. Nothing where no ground is known.
 WovenTile WeaveTile(const road::World& world, const TilePlan& plan);
 

@@ -22,7 +22,7 @@ class PostLines {
   bool Holds(const TileKey& tile) const;
   // The same, and none of the posts in it or around it is void.
   bool HoldsAll(const TileKey& tile) const;
-  // The places, within the tile, of columns of posts, and of rows; those whose number is a multiple of `every`.
+  // The places, within the tile, of columns of posts, and of rows; those with a number that is a multiple of `every`.
   // Ascending.
   std::vector<std::int32_t> Columns(const TileKey& tile, int every) const;
   std::vector<std::int32_t> Rows(const TileKey& tile, int every) const;

@@ -36,7 +36,7 @@ class TileEdges {
 
  private:
   struct Edge {
-    TileKey tile;  // whose west or south edge it is
+    TileKey tile;  // with this west or south edge
     bool west = false;
 
     auto operator<=>(const Edge&) const = default;

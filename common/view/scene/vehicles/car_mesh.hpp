@@ -37,7 +37,7 @@ struct CarMeshes {
   void AddLamp(Lamp lamp, Mesh part);
 };
 CarMeshes BuildCar(const CarShape& shape, Colour paint);
-// Of any kind but somebody on foot.
+// Of any kind but a pedestrian.
 CarMeshes BuildVehicle(AgentKind kind, const CarShape& shape, Colour paint);
 
 }  // namespace rodeira::scene

@@ -27,7 +27,7 @@ WheelPose BetweenWheels(const WheelPose& a, const WheelPose& b, double alpha, do
   return wheel;
 }
 
-// Somebody has put it elsewhere: no car drives so far.
+// It was put elsewhere: no car drives so far.
 bool WasPlaced(const CarPose& a, const CarPose& b, double interval_s) {
   constexpr double kFastest_mps = 150.0, kLeast_m = 1.0;
   return (b.p_WB_W - a.p_WB_W).norm() > kLeast_m + kFastest_mps * interval_s;

@@ -61,17 +61,17 @@ struct AgentDetail {
   Eigen::Vector2d look_ahead_W = Eigen::Vector2d::Zero();  // up to where it looks for what slows it
 };
 
-// A car of the traffic, or somebody on foot: B's origin is the middle of its footprint, between the axles, on the
+// A car of the traffic, or a pedestrian: B's origin is the middle of its footprint, between the axles, on the
 // ground.
 struct AgentPose {
-  std::uint64_t id = 0;  // of one appearance: who leaves and enters again elsewhere has another
+  std::uint64_t id = 0;  // of one appearance: a vehicle that enters again elsewhere has another
   AgentKind kind = AgentKind::kCar;
   Colour colour;
   Eigen::Vector3d p_WB_W = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
   double speed_mps = 0.0;
   double steer_rad = 0.0;       // of the front wheels
-  double wheel_spin_rad = 0.0;  // of somebody on foot: a turn in two steps
+  double wheel_spin_rad = 0.0;  // of a pedestrian: a turn in two steps
   CarLights lights;
   double length_m = 4.0, width_m = 1.7, height_m = 1.45, wheelbase_m = 2.5, wheel_radius_m = 0.3;
   std::optional<AgentDetail> detail;  // as it was said last; none where nothing is said of it
@@ -97,7 +97,7 @@ struct Moment {
 
 // (1 - alpha) a + alpha b with the same alpha for everything; alpha in [0, 1], 0 is exactly a and 1 exactly b.
 // Attitudes turn on the shortest way, wheels turn on as fast as they did; lights and weather are a's below 0.5, and so
-// is a car that was placed elsewhere in between. Who is only in one of the two is not in the result, unless alpha is 0
+// is a car that was placed elsewhere in between. What is only in one of the two is not in the result, unless alpha is 0
 // or 1.
 Moment Interpolate(const Moment& a, const Moment& b, double alpha);
 

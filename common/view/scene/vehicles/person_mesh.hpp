@@ -15,7 +15,7 @@ struct Limb {
   Mesh mesh;            // about its joint
 };
 
-// Somebody on foot in the frame B: x forward, y left, z up, between the feet on the ground.
+// A pedestrian in the frame B: x forward, y left, z up, between the feet on the ground.
 struct PersonMeshes {
   Mesh trunk;                 // with head
   std::array<Limb, 4> limbs;  // left leg, right leg, left arm, right arm
@@ -26,7 +26,7 @@ PersonMeshes BuildPerson(double height_m, Colour clothes);
 // How far a leg swings forward (positive, by turning about -y) where the feet have gone so far: a wheel of that radius,
 // as the traffic publishes it, turns once in two steps.
 double LegSwing_rad(double wheel_spin_rad, double wheel_radius_m, double leg_m);
-// The legs' length of somebody of that height.
+// The legs' length of a person of that height.
 inline double LegLength_m(double height_m) { return 0.47 * height_m; }
 
 }  // namespace rodeira::scene
