@@ -80,8 +80,8 @@ WheelSettings ReadWheel(const config::Map& root);
 base::Result<WheelSettings> LoadWheel(const std::filesystem::path& path);
 // 32 hexadecimal digits.
 bool IsGuid(std::string_view text);
-// The wheel of an input node that names this file, the launch file may say GUIDs in place of its own: `other_guid`
-// of a device's name, if it does. Nothing where the file cannot be read: that is the input's to say.
+// The wheel of an input node that names this file. The launch file may say other GUIDs: `other_guid`, by a
+// device's name, says which. Nothing where the file cannot be read: that is the input's to say.
 std::optional<WheelSettings> PeekWheel(const std::filesystem::path& path,
                                        const std::function<std::optional<std::string>(const std::string&)>& other_guid);
 

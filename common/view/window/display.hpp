@@ -3,7 +3,7 @@
 
 namespace rodeira::window {
 
-// Whether a video driver of SDL shows anything; null: no driver. Where no display answers SDL draws
+// Whether a video driver of SDL shows anything; null: no driver. Where no display answers, SDL draws
 // unseen.
 bool IsDisplay(const char* driver);
 

@@ -19,7 +19,7 @@ constexpr double kBeside_m = 0.5;  // of the outermost lane's edge
 
 std::optional<std::string> PutLight(network::RoadSpec& spec, network::End end) {
   const bool starts = end == network::End::kStart;
-  const bool right_side = spec.left_hand ? starts : !starts;  // where those who come stand
+  const bool right_side = spec.left_hand ? starts : !starts;  // where oncoming traffic stands
   const network::LaneSection& section = starts ? spec.sections.front() : spec.sections.back();
   const int outermost = right_side ? -static_cast<int>(section.right.size()) : static_cast<int>(section.left.size());
   const double s = starts ? kLine_m : spec.length_m - kLine_m;

@@ -56,7 +56,7 @@ void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, Junctio
   const std::vector<std::string> names = junction.lights->Names();
   std::vector<std::string> roads;
   for (const Meeting& meeting : junction.meetings) roads.push_back(designs[meeting.road].spec.id);
-  bool all_known = true;  // or who is green in no phase may be who is misspelt
+  bool all_known = true;  // or the one that is green in no phase may be the misspelt one
   for (const std::string& name : names) {
     if (std::find(roads.begin(), roads.end(), name) != roads.end()) continue;
     map.Problem("phases",

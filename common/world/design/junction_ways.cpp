@@ -172,7 +172,7 @@ std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector
 void MarkArm(network::RoadSpec& spec, network::End end, Control control, bool major) {
   const bool starts = end == network::End::kStart;
   const int incoming = starts ? -1 : 1;
-  const bool right_side = spec.left_hand ? starts : !starts;  // where those who come stand
+  const bool right_side = spec.left_hand ? starts : !starts;  // where oncoming traffic stands
   const auto& section = spec.sections[0];
   const int outermost = right_side ? -static_cast<int>(section.right.size()) : static_cast<int>(section.left.size());
   const auto put = [&](const char* name, double away_m) {

@@ -14,8 +14,8 @@ namespace rodeira::design {
 network::Road WayAlong(const network::Road& whole, double from_s_m, double to_s_m, const std::string& id,
                        const std::string& junction, const JunctionSurface& surface);
 
-// A way of one lane from a lane of an arm to one of another, on the junction's surface: lane -1 of a road whose axis is
-// the lane's left edge. nullopt where no curve leads there.
+// A way of one lane from a lane of an arm to one of another, on the junction's surface: lane -1 of a road with an axis
+// that is the lane's left edge. nullopt where no curve leads there.
 std::optional<network::Road> WayBetween(const ArmLane& from, const Eigen::Vector2d& inward_W, const ArmLane& to,
                                         const Eigen::Vector2d& outward_W, const std::string& id,
                                         const std::string& junction, const JunctionSurface& surface,

@@ -60,7 +60,7 @@ void Paint(double s_m, double length_m, double road_m, const Edges& edges, netwo
 }
 
 // Stripes along the road, spread evenly about the middle of all that is driven on; and an object that names the place,
-// whose paint they are.
+// that the paint belongs to.
 void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double length = item.Number("length_m", {1.0, 20.0}, 4.0);
   Edges all{1e9, -1e9};
@@ -84,7 +84,7 @@ void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec&
   spec.objects.push_back(std::move(object));
 }
 
-// Before those who come along, or against, where no lane is said.
+// Before the traffic that comes along, or against, where no lane is said.
 void ReadStopLine(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double thickness = item.Number("length_m", {0.1, 2.0}, kStopLine_m);
   const int direction = item.Choice("for", {"along", "against"}, "along") == "along" ? 1 : -1;

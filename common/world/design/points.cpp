@@ -66,7 +66,7 @@ void Smooth(const Points& points, AxisReading& axis) {
   }
 }
 
-// Straight pieces whose corners are rounded by arcs that pass the point within the distance given.
+// Straight pieces with corners rounded by arcs that pass the point within the distance given.
 void AsTheyAre(const Points& points, double within_m, AxisReading& axis) {
   const auto plan = [&](std::size_t i) { return Eigen::Vector2d(points[i].head<2>()); };
   double s = 0.0, cut = 0.0;  // how much of the piece the corner before took

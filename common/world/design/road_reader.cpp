@@ -136,7 +136,7 @@ void CheckBends(const RoadDesign& design, const network::Road& road) {
   const auto folds = [&](const geometry::PlanElement& element, double s, double k) {
     const double inner = k > 0.0 ? left.Value(s) : right.Value(s);
     if (k * inner <= kSharpest) return false;
-    // A corner between points is rounded by an arc: one whose radius is large enough passes its point farther away.
+    // A corner between points is rounded by an arc: one with a large enough radius passes its point farther away.
     std::string help;
     if (points && element.kind == geometry::PlanElement::Kind::kClothoid) {
       const double turn = std::fabs(k) * element.length_m, radius = std::fabs(inner) / kSharpest;

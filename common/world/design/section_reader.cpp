@@ -157,7 +157,7 @@ Keys FindKeys(const Map& road, const Context& context) {
   if (name.empty()) return {section, section.OptionalChild("template")};
   const auto found = context.templates.find(name);
   if (found != context.templates.end()) {
-    // A road may say all of a template's keys itself: they are known even where nobody asks for them.
+    // A road may say all of a template's keys itself: they are known even where none asks for them.
     const Map other = found->second.Child(name);
     const std::vector<std::string> known = {"lanes",    "crossfall", "crossfalls", "shoulders", "verge",
                                             "offset_m", "offsets",   "slopes",     "lines"};

@@ -17,7 +17,7 @@ using network::Marking;
 constexpr double kEvery_m = 2.0;
 constexpr double kAtEdge_m = 0.6;  // lines so near to an edge are the edge's
 
-// The lane on whose outer edge two neighbours meet: the inner one of two on one side, else the centre.
+// The lane with the outer edge on which two neighbours meet: the inner one of two on one side, else the centre.
 int EdgeLane(int a, int b) {
   if ((a > 0) != (b > 0)) return 0;
   return std::abs(a) < std::abs(b) ? a : b;

@@ -18,10 +18,10 @@ constexpr double kUsual_m = 4.0;  // along the road, where nothing is said
 constexpr double kStep_m = 0.25;  // along tracks
 constexpr double kBody_m = 0.3;   // half of a person, and what a car may be beside its path
 constexpr double kSpare_m = 0.3;
-constexpr double kKerb_m = 0.2;          // from cars to who waits
+constexpr double kKerb_m = 0.2;          // from cars to a waiting pedestrian
 constexpr double kFarthestKerb_m = 6.0;  // from the crossing's paint
 constexpr double kBeyond_m = 4.0;        // people are seen so far from the kerb, if no car comes there
-constexpr double kEdge_m = 0.4;          // of the paint, where nobody walks
+constexpr double kEdge_m = 0.4;          // of the paint, where no person walks
 constexpr double kLightBefore_m = 20.0, kLightNear_m = 6.0;
 constexpr double kShortEdge_m = 0.5;
 
@@ -249,7 +249,7 @@ class Finder {
   LargestCar car_;
 };
 
-// A controller with times whose light for people on foot stands beside the crossing.
+// A controller with times and a light for pedestrians that stands beside the crossing.
 std::int64_t LightOnFoot(const network::Network& network, std::uint32_t road, double s_m) {
   for (const network::Signal& signal : network.roads()[road].spec().signals) {
     if (signal.type != network::kPedestrianSignal || std::fabs(signal.s_m - s_m) > kLightNear_m) continue;

@@ -15,8 +15,8 @@ namespace rodeira::lanes {
 struct FootPass {
   std::uint32_t track = 0;
   double in_m = 0.0,
-         out_m = 0.0;  // along the track: a car with no part of it between them touches nobody on the crossing
-  double from_m = 0.0, to_m = 0.0;  // along the walk: who is beside them is touched by no car on the track
+         out_m = 0.0;               // along the track: a car with no part of it between them touches no pedestrian
+  double from_m = 0.0, to_m = 0.0;  // along the walk: a pedestrian beside them is touched by no car on the track
   std::int64_t light =
       -1;  // controller of the light that the track's traffic waits at before the crossing; below 0: none
 };
@@ -41,7 +41,7 @@ struct FootCrossing {
   Eigen::Vector2d left_W() const { return {-across_W.y(), across_W.x()}; }
 };
 
-// Those that lead across any track of the graph, by road, then as they are written. One whose kerb would lie within 6 m
+// Those that lead across any track of the graph, by road, then as they are written. One with a kerb within 6 m
 // under cars on every side is none.
 std::vector<FootCrossing> FindFootCrossings(const Graph& graph, const LargestCar& car);
 

@@ -65,7 +65,7 @@ class Graph {
   // `d_m` of this one; beyond the ends as far as there.
   double Across(std::uint32_t track, double d_m, std::uint32_t beside) const;
 
-  // The track whose traffic comes towards this one's beside it on the left (in left-hand traffic: on the right).
+  // The track with traffic that comes towards this one's beside it on the left (in left-hand traffic: on the right).
   std::optional<std::uint32_t> Oncoming(std::uint32_t track) const;
 
   // Every node within radius of (x, y), by track and node.

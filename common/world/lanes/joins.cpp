@@ -32,8 +32,8 @@ void Graph::AddLink(std::uint32_t from, std::uint32_t to, double to_d_m, bool jo
   next.push_back(link);
 }
 
-// A lane without successor whose end lies on its neighbour goes on as the neighbour does; a lane without predecessor
-// whose beginning lies on its neighbour is entered by whoever enters that one.
+// A lane without successor that ends on its neighbour goes on as the neighbour does; a lane without predecessor
+// that begins on its neighbour is entered by the vehicles that enter that one.
 void Graph::LinkEndingLanes() {
   struct Wanted {
     std::uint32_t from, to;

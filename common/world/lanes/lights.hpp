@@ -11,7 +11,7 @@
 
 namespace rodeira::lanes {
 
-// A light for the traffic of a lane: the line at which who may not go stands.
+// A light for the traffic of a lane: the line at which a vehicle waits.
 struct LaneLight {
   double s_m = 0.0;              // of the road
   std::uint32_t controller = 0;  // index into the network's controllers; it has times
@@ -24,7 +24,7 @@ struct LaneLight {
 std::vector<LaneLight> LightsOfLane(const network::Network& network, const network::LaneKey& lane, bool along,
                                     double low_s_m, double high_s_m);
 
-// A light for the traffic of a track: the line at which who may not go stands.
+// A light for the traffic of a track: the line at which a vehicle waits.
 struct LightPlace {
   double d_m = 0.0;
   std::uint32_t controller = 0;  // index into the network's controllers; it has times
@@ -47,9 +47,9 @@ struct GreenTogether {
 // The first such two; nothing where there are none.
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
-// Wrong input where two lights are green or amber together whose ways come from different sides and cross or merge. Who
-// turns across the way of those who come towards him may be green with them: he yields. The two are named, with the
-// line of the later one's green where that is known.
+// Wrong input where two lights are green or amber together with ways that come from different sides and cross or merge.
+// A vehicle that turns across the way of oncoming vehicles may be green with them: it yields. The two are named, with
+// the line of the later one's green where that is known.
 base::Status CheckLights(const Graph& graph, const Zones& zones);
 
 }  // namespace rodeira::lanes

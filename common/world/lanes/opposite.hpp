@@ -8,8 +8,8 @@
 
 namespace rodeira::lanes {
 
-// By track: the one beside it whose traffic comes towards it, on a road of one lane a direction; below 0: none. It lies
-// to the left, in left-hand traffic to the right. Junctions have none.
+// By track: the one beside it with traffic that comes towards it, on a road of one lane a direction; below 0: none. It
+// lies to the left, in left-hand traffic to the right. Junctions have none.
 std::vector<std::int64_t> Opposites(const Graph& graph);
 
 // Where a sign forbids to overtake: from one of 276 on to one of 280 or 282, or the next junction.

@@ -37,8 +37,8 @@ int NamedBy(const network::Junction& junction, const std::string& id_a, const st
   return -1;
 }
 
-// The side whose road a junction names as higher than the other's, or -1. Past a junction in the middle of a road that
-// road goes first, if the junction does not say otherwise.
+// The side with the road that a junction names as higher than the other's, or -1. Past a junction in the middle of a
+// road that road goes first, if the junction does not say otherwise.
 int NamedFirst(const Graph& graph, const Zone& zone) {
   const Track &a = graph[zone.track[0]], &b = graph[zone.track[1]];
   const auto junctions = graph.network().junctions();
@@ -77,7 +77,8 @@ int FirstByRule(const Graph& graph, const Zone& zone) {
     return 0;
   }
   if (std::fabs(turned) > kHeadOn_rad) {
-    if (std::fabs(left_a - left_b) > kSameTurn_rad) return left_a < left_b ? 0 : 1;  // who turns left yields
+    if (std::fabs(left_a - left_b) > kSameTurn_rad)
+      return left_a < left_b ? 0 : 1;  // the vehicle that turns left yields
     return 0;
   }
   return (turned > 0.0) != a.left_hand ? 1 : 0;

@@ -10,7 +10,7 @@
 
 namespace rodeira::lanes {
 
-// What is said to who drives on a track, in the order of growing right.
+// The signs for vehicles on a track, in the order of growing right.
 enum class Sign : std::uint8_t { kStop = 0, kGiveWay = 1, kNone = 2, kPriority = 3 };
 
 struct SignPlace {

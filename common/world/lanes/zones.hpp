@@ -16,7 +16,7 @@ namespace rodeira::lanes {
 enum class ZoneKind : std::uint8_t {
   kCross,    // they cross, or run too close beside one another
   kMerge,    // they lead into one another's continuation
-  kDiverge,  // they begin together: who drives there follows who is ahead, on whichever of them
+  kDiverge,  // they begin together: a vehicle there follows the one ahead, on either of them
 };
 
 // A stretch of two tracks on which a car on the one and a car on the other may touch.

@@ -11,7 +11,7 @@
 
 namespace rodeira::lights {
 
-// Who is green in a phase: the names mean what the file says (roads, lanes).
+// What is green in a phase: the names mean what the file says (roads, lanes).
 struct Phase {
   std::vector<std::string> green;
   double green_s = 20.0;
@@ -19,7 +19,7 @@ struct Phase {
 };
 
 // The lights of one junction as a person writes them: phases one after the other, each with its green; between two of
-// them amber and red for all. Who is green in a phase and in the next one stays green between them.
+// them amber and red for all. What is green in a phase and in the next one stays green between them.
 struct LightPlan {
   double offset_s = 0.0;  // when the first phase begins
   double amber_s = 3.0;

@@ -45,7 +45,7 @@ class BandIndex {
   // The corners of a box that holds all bands; the origin without any.
   Eigen::Vector2d low_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].low; }
   Eigen::Vector2d high_W() const { return nodes_.empty() ? Eigen::Vector2d::Zero() : nodes_[0].high; }
-  // Visits every band whose rectangle holds (x, y), and maybe a few others; ascending.
+  // Visits every band with (x, y) in its rectangle, and maybe a few others; ascending.
   template <class Visit>
   void Around(const Eigen::Vector2d& p_W, const Visit& visit) const {
     const double column = (p_W.x() - origin_W_.x()) / cell_m_, row = (p_W.y() - origin_W_.y()) / cell_m_;
@@ -57,8 +57,8 @@ class BandIndex {
       if ((band.parts & here) != 0) visit(band.band);
     }
   }
-  // The one band whose rectangle holds all of a box that is no wider than kWidest_m, where no other band holds any of
-  // it; otherwise nothing, and maybe nothing too where a band's edge is near.
+  // The one band with a rectangle that holds all of a box that is no wider than kWidest_m, where no other band holds
+  // any of it; otherwise nothing, and maybe nothing too where a band's edge is near.
   static constexpr double kWidest_m = 2.0;
   std::optional<std::uint32_t> OnlyOne(const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W) const;
 
@@ -73,7 +73,7 @@ class BandIndex {
   struct Node {
     Eigen::Vector2d low, high;
     std::uint32_t first = 0;  // of order_
-    std::uint32_t count = 0;  // 0: an inner node, whose left child follows it
+    std::uint32_t count = 0;  // 0: an inner node; its left child follows it
     std::uint32_t right = 0;
 
     double Distance(const Eigen::Vector2d& p_W) const { return (low - p_W).cwiseMax(p_W - high).cwiseMax(0.0).norm(); }
@@ -87,7 +87,7 @@ class BandIndex {
   // So many cells a side are a block. Most blocks of a large map hold nothing, and have no cells.
   static constexpr std::size_t kBlock = 4;
 
-  // Of the cell's block, whose cells' numbers follow one another; 0 where nothing lies in the whole block.
+  // Of the cell's block; its cells' numbers follow one another; 0 where nothing lies in the whole block.
   std::size_t CellOf(double column, double row) const {
     const auto x = static_cast<std::size_t>(column), y = static_cast<std::size_t>(row);
     const std::uint32_t block = blocks_[y / kBlock * block_columns_ + x / kBlock];

@@ -19,7 +19,7 @@ geometry::PlanPoint EndOf(const geometry::PlanAxis& axis, const geometry::AxisPa
   return axis.At(panel, last ? panel.half_m : -panel.half_m);
 }
 
-// All bands whose rectangles touch a box, ascending; false where there are more than a few.
+// All bands with rectangles that touch a box, ascending; false where there are more than a few.
 bool Touching(const BandIndex& index, const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W,
               std::array<std::uint32_t, kMostBands>& bands, std::size_t& count) {
   const Eigen::Vector2d size = high_W - low_W, middle = low_W + 0.5 * size;

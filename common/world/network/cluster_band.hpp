@@ -21,7 +21,7 @@ struct ClusterBand {
 std::optional<ClusterBand> FindBand(const BandIndex& index, std::span<const Road> roads, const Eigen::Vector2d& low_W,
                                     const Eigen::Vector2d& high_W);
 
-// Whether the neighbours say nothing of any of the points, whose places on the band are known: all of them lie before,
+// Whether the neighbours say nothing of any of the points, with known places on the band: all of them lie before,
 // or behind, the line across the road where the neighbour begins by kApart_m or more, and it does not turn back to
 // them.
 bool IsApart(const ClusterBand& found, const BandIndex& index, const Road& road, const Cluster& cluster);

@@ -84,7 +84,7 @@ void FindNextSteps(const Line line, const Cluster& __restrict cluster, const Ste
   }
 }
 
-// Whoever has arrived stays.
+// What has arrived stays.
 void Take(const Steps& next, std::size_t count, Steps& steps) {
   for (std::size_t i = 0; i < count; ++i) {
     if (std::fabs(steps.last_m[i]) <= kLastLeanStep_m) continue;

@@ -43,7 +43,7 @@ struct Signal {
   double h_offset_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   std::vector<LaneValidity> validity;
   std::vector<std::string> depends_on;  // ids of signals
-  std::string priority;  // what it means for who may go first, whatever its country calls it: stop, yield, priorityRoad
+  std::string priority;  // what it means for the priority, whatever its country calls it: stop, yield, priorityRoad
                          // …; empty: not said
   std::variant<std::monostate, SeenAtRoad, SeenInWorld> seen;
   // Of a sign or a display on a board: the board's signal. Its own place is the board's, and the middle of its lower
@@ -141,7 +141,7 @@ struct Object {
   std::vector<ObjectBorder> borders;
   std::vector<SkeletonLine> skeleton;
   ObjectMaterial material;
-  std::string access;  // who may use it, of a parking place: all, car, women, handicapped, bus, truck, electric,
+  std::string access;  // the users of a parking place: all, car, women, handicapped, bus, truck, electric,
                        // residents; empty: not said
 };
 

@@ -31,7 +31,7 @@ struct JunctionPriority {
 struct Junction {
   std::string id, name;
   std::string type = "default";  // default, direct, virtual, crossing
-  std::string main_road;         // of a virtual junction: the road whose middle it lies at; empty: none
+  std::string main_road;         // of a virtual junction: the road at the middle of which it lies; empty: none
   std::vector<JunctionConnection> connections;
   std::vector<JunctionPriority> priorities;
   std::vector<std::string> controllers;

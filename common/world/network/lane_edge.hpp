@@ -5,7 +5,7 @@
 
 namespace rodeira::network {
 
-// The outer edge of a lane as t, whose inner one is given; sign 1: to the left of the centre. `edge` is its border,
+// The outer edge of a lane as t, where its inner one is given; sign 1: to the left of the centre. `edge` is its border,
 // which is t itself, or its width; a width below 0, or a border within the inner edge, is none.
 inline geometry::CubicPoint OuterEdgeBy(bool bordered, const geometry::CubicPoint& edge, double sign,
                                         const geometry::CubicPoint& inner) {

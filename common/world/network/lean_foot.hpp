@@ -5,7 +5,7 @@
 
 #include "common/world/network/lean.hpp"
 
-// Where a leaning road's surface stands over a point whose foot in plan is known: at the station, u further on, whose
+// Where a leaning road's surface stands over a point with a known foot in plan: at the station, u further on, where the
 // section's left e points to it. With the point's place as seen from there, `ahead` along T and `left` along N, and e =
 // left_e N - back_e T, that is where
 //   G(u) = ahead + m left = 0,   m = back_e / left_e,
@@ -24,7 +24,7 @@ struct StraightOn {
   Onward operator()(double u_m, double) const { return {u_m, 0.0, 1.0, 0.0}; }
   bool Holds(double, double) const { return true; }
 };
-// On a line whose curvature k changes by k' a metre: what follows is below 1e-13 u while it turns by less than
+// On a line with a curvature k that changes by k' a metre: what follows is below 1e-13 u while it turns by less than
 // kMostTurn_rad, and k' u² is less than kMostTwist.
 struct BentOn {
   double rate_1pm2 = 0.0;

@@ -27,7 +27,7 @@ struct Network::Hit {
   double outside_m = 0.0;   // across, without the height
   bool has_height = false;  // place.z_m is known already
   LaneSpan span;            // without its lane where the road is flat
-  geometry::PlanPoint at;   // the reference line at place.s_m; of its heading nobody asks
+  geometry::PlanPoint at;   // the reference line at place.s_m; its heading is not used
 };
 
 Network::Hit Network::Try(const Eigen::Vector2d& p_W, std::uint32_t band_index) const {

@@ -111,11 +111,11 @@ class Network {
   std::span<const Controller> controllers() const { return spec_.controllers; }
   std::optional<std::uint32_t> FindRoad(std::string_view id) const;
   std::optional<std::uint32_t> FindJunction(std::string_view id) const;
-  // The ground of the junction whose boundary holds a point; null where none does.
+  // The ground of the junction with a boundary that holds a point; null where none does.
   const JunctionGround* GroundAt(const Eigen::Vector2d& p_W) const;
 
   // The lane at (x, y), on the level of z (without z: the top one). Of several that overlap, as in a junction: a
-  // drivable one, then the one whose middle is nearest, then the first road. Beside all roads: the nearest. Nothing
+  // drivable one, then the one with the nearest middle, then the first road. Beside all roads: the nearest. Nothing
   // where there is no road, or a coordinate is not finite or beyond kFarthest_m.
   std::optional<Place> Locate(double x_m, double y_m, std::optional<double> z_m = std::nullopt,
                               Hint* hint = nullptr) const;
@@ -129,7 +129,7 @@ class Network {
   // quickly.
   bool Together(Cluster& cluster) const;
 
-  // Visits the panels of all roads whose lanes may lie within reach_m of (x, y): visit(road, panel of its axis).
+  // Visits the panels of all roads with lanes that may lie within reach_m of (x, y): visit(road, panel of its axis).
   template <class Visit>
   void Near(const Eigen::Vector2d& p_W, double reach_m, const Visit& visit) const {
     index_.Nearest(p_W, reach_m,

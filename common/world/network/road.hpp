@@ -65,7 +65,7 @@ struct RoadSpec {
   std::optional<Earthwork> earthwork;  // none: the verge goes on level
 };
 
-// The lane section of the other road whose end a link meets. It has at least one.
+// The lane section of the other road at the end that a link meets. It has at least one.
 std::uint32_t SectionMet(const RoadLink& link, const RoadSpec& other);
 
 // A point of the road's surface and how it moves with s and with t: the upward normal is their cross product.
@@ -100,7 +100,7 @@ class Road {
   std::size_t SectionIndex(double s_m) const;
   const LaneSection& SectionAt(double s_m) const { return spec_.sections[SectionIndex(s_m)]; }
   geometry::CubicPoint CentreAt(double s_m) const { return spec_.lane_offset.Evaluate(s_m); }
-  // s held within a section. Its end is the last s before the next one begins, whose lanes may lie elsewhere.
+  // s held within a section. Its end is the last s before the next one begins; its lanes may lie elsewhere.
   double Held(std::size_t section, double s_m) const;
   // A lane at s, which is held within its section. Nothing for the centre and unknown lanes.
   std::optional<LaneSpan> SpanAt(std::size_t section, int lane, double s_m) const;
@@ -115,7 +115,7 @@ class Road {
   // On a rolled road: moves (s, t), found in plan, to where the surface stands over (x, y), with s held in [low, high].
   // Returns how far that is from (x, y): 0 but where s is held. FootOnLean does the same sooner where it can.
   double Settle(const Eigen::Vector2d& p_W, double low_s_m, double high_s_m, double& s_m, double& t_m) const;
-  // Where a leaning section that no lane is exempt from stands over a point that lies alongside the panel, whose foot
+  // Where a leaning section that no lane is exempt from stands over a point that lies alongside the panel; its foot
   // in plan is known: the same place as Settle's, but for rounding. Nothing where that is not within [low, high], or
   // too far from the foot to be told so quickly.
   struct LeanFoot {

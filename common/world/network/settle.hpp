@@ -5,7 +5,7 @@
 
 #include "common/world/network/road.hpp"
 
-// Road::Settle and Road::DistanceToEdge along one panel of the axis, whose stations other panels of the road may have
+// Road::Settle and Road::DistanceToEdge along one panel of the axis; its stations other panels of the road may have
 // too: an OpenDRIVE file that is read with a wide tolerance may say where a stretch lies twice. Without a panel s tells
 // it, as Road::Surface does.
 namespace rodeira::network {

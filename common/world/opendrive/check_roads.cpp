@@ -97,7 +97,7 @@ struct RoadChecker {
     if (kink > kTurned_rad) Judge(std::move(finding), kink > tolerance.kink_rad, "it is driven as it lies");
   }
 
-  // A road whose end goes on into another road.
+  // A road with an end that goes on into another road.
   void RoadToRoad(std::size_t index, End end, std::size_t other_index, End contact) const {
     const Road& road = network.roads()[index];
     const Road& other = network.roads()[other_index];
@@ -178,7 +178,7 @@ struct RoadChecker {
   }
 
   void Ambiguous() const {
-    // Who, outside of junctions, goes on into which end.
+    // The roads, outside of junctions, that go on into each end.
     std::map<std::pair<std::uint32_t, End>, std::vector<std::size_t>> claims;
     for (std::size_t i = 0; i < network.roads().size(); ++i) {
       const Road& road = network.roads()[i];

@@ -40,7 +40,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
 void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
 // Widths and lane offsets that jump within a lane section, under lanes that are driven on.
 void CheckJumps(const RoadReading& road, const Tolerance& tolerance, Findings& findings);
-// One warning for each road whose reference line has jumps of curvature, also where it goes on into another road
+// One warning for each road with a reference line that has jumps of curvature, also where it goes on into another road
 // outside of junctions: at the largest of them.
 void TellCurvatureJumps(const network::Network& network, std::span<const RoadLines> lines, Findings& findings);
 // One road's surface: heights that jump between records of elevation, bank and cross-section; edges that fold in bends;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to a junction and to no road of it: objects beside its own line, and the paths of those who cross it on
-// foot. It is given to the road beside which it lies.
+// What belongs to a junction and to no road of it: objects beside its own line, and the paths of pedestrians who cross
+// it on foot. It is given to the road beside which it lies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ struct Host {
   double s_m = 0.0, t_m = 0.0;
 };
 
-// The road whose reference line lies nearest beside a point; nothing where the point lies beside none.
+// The road with the reference line nearest beside a point; nothing where the point lies beside none.
 template <class Takes>
 std::optional<Host> HostOf(const std::vector<Road>& roads, const Vector2d& p_W, const Takes& takes) {
   std::optional<Host> best;

@@ -22,7 +22,7 @@ std::vector<network::LaneValidity> ReadValidity(const Node& node) {
   return validity;
 }
 
-// A sign of another catalogue, or a limit without its number, is no error: a plate stands there that nobody can read.
+// A sign of another catalogue, or a limit without its number, is no error: a plate stands there that cannot be read.
 void CheckSign(const Node& node, const network::Signal& signal) {
   constexpr double kFlat_m = 0.05;  // what is no higher is paint
   const bool painted = signal.type == "1000003" || (signal.height_m > 0.0 && signal.height_m <= kFlat_m);
@@ -90,7 +90,7 @@ network::Signal ReadSignal(const Node& node) {
 
 constexpr double kUsualSign_m = 0.6;  // on a board, where a file says no measures
 
-// What lies on a board has the board's place, and for whom it is unless it says so itself.
+// What lies on a board has the board's place and its addressees unless it says so itself.
 network::Signal OnBoard(const Node& node, const network::Signal& board) {
   network::Signal sign;
   sign.s_m = board.s_m, sign.t_m = board.t_m, sign.z_offset_m = board.z_offset_m;
@@ -328,7 +328,7 @@ const std::vector<std::string>& ObjectTypes() {
   return types;
 }
 
-// A type that nobody knows is no error: it stands as a plain body.
+// An unknown type is no error: it stands as a plain body.
 void CheckType(const Node& node, const network::Object& object) {
   const auto& types = ObjectTypes();
   if (object.type == "-1" || std::find(types.begin(), types.end(), object.type) != types.end())

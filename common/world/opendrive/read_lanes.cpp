@@ -295,7 +295,7 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Aro
   return lanes;
 }
 
-// Borders are t of the road; what a lane offset beside them means nobody says.
+// Borders are t of the road; what a lane offset beside them means is not said.
 void TellBorders(const Node& section_node, const LaneSection& section, const Around& around) {
   if (!around.offset) return;
   for (const auto* side : {&section.left, &section.right}) {

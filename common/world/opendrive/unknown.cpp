@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a file OpenDRIVE does not have: elements and attributes whose names it does not know, words that it does not
-// allow, elements that may stand once and stand twice. A misspelt name would otherwise be passed over in silence.
+// What of a file OpenDRIVE does not have: elements and attributes with names that it does not know, words that it does
+// not allow, elements that may stand once and stand twice. A misspelt name would otherwise be passed over in silence.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -61,7 +61,7 @@ class Walk {
       const pugi::xml_node node = open.back();
       open.pop_back();
       const KnownElement* known = FindKnown(node.parent().name(), node.name());
-      if (known == nullptr) continue;  // told of by whoever knows its parent, or not read at all
+      if (known == nullptr) continue;  // told of by the reader of its parent, or not read at all
       Attributes(node, *known);
       Children(node, *known);
       if (std::string_view(node.name()) == "lane") Width(node);

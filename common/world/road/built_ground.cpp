@@ -134,7 +134,7 @@ SurfacePoint BuiltGround::OnJunction(const design::JunctionSurface& junction, co
 }
 
 // The cut before a tunnel's mouth slopes up from the road's own edges: over the tunnel it would begin at the road, and
-// who drives in would climb it. So there the hill stays, up to its roof.
+// a car that drives in would climb it. So there the hill stays, up to its roof.
 void BuiltGround::KeepTunnels(std::span<const network::Surfacing> surfaces, const SurfacePoint& bare,
                               SurfacePoint& ground) const {
   for (const network::Surfacing& surfacing : surfaces) {

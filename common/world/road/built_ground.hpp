@@ -34,7 +34,7 @@ class BuiltGround {
   std::shared_ptr<const BuiltGround> With(SurfaceDetail detail) const;
 
   SurfacePoint At(double x_m, double y_m, double z_hint_m) const;
-  // The same of points close to one another, where they lie on one road alone, whose surface then answers whatever the
+  // The same of points close to one another, where they lie on one road alone; its surface then answers whatever the
   // hints: to the bit what At says of each. False, and then nothing is written, where that is not so or not told so
   // quickly. Spans of equal length, of Cluster::kMost at most.
   bool Together(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const;

@@ -72,7 +72,7 @@ class Earthworks {
   std::vector<Reach> reaches_;                      // of all panels of roads with slopes
   std::vector<std::vector<Heights>> edge_heights_;  // by junction and free edge
   std::vector<Heights> junction_heights_;           // of all of its edges
-  SquareLists near_;                                // reaches_ whose slopes may be there, and behind them junctions
+  SquareLists near_;                                // reaches_ with slopes that may be there, and behind them junctions
 };
 
 }  // namespace rodeira::road

@@ -14,8 +14,8 @@
 namespace rodeira::road {
 
 // For each small square of the plane something that is made when a point in it is first asked for, by whichever thread
-// asks, and then stays: a pure function of the square, so that nobody can tell who made it. The squares part those of a
-// grid evenly.
+// asks, and then stays: a pure function of the square, so that it does not matter which thread made it. The squares
+// part those of a grid evenly.
 template <class Made>
 class LazySquares {
  public:

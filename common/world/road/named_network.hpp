@@ -8,7 +8,7 @@
 
 namespace rodeira::road {
 
-// A world file whose `network` is an OpenDRIVE file: that file's roads under the name and with the friction that `said`
+// A world file with an OpenDRIVE file as `network`: that file's roads under the name and with the friction that `said`
 // has. The car starts where the file wishes it, in a pose or on a lane of a road; where it says nothing, where it
 // starts without a world file.
 WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::path& network_file, WorldSpec said,

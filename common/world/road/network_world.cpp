@@ -74,7 +74,7 @@ StartPose StartOn(const network::Network& network) {
   }
   if (longest == nullptr) return {};
   StartPose start = PoseOn(network, *longest, StationIn(network, *longest));
-  start.road = -1;  // nobody named one
+  start.road = -1;  // none was named
   return start;
 }
 

@@ -20,13 +20,14 @@ bool IsOpenDrive(const std::filesystem::path& file);
 // Of a file that by its name is something that world files name (an elevation file, a measured surface, a CSV of a
 // line): a sentence that says under which key. Nothing of others.
 std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file);
-// The OpenDRIVE file whose roads a world is: the file itself, or the `network` of a world file. Empty: of neither kind.
+// The OpenDRIVE file with the roads of a world: the file itself, or the `network` of a world file. Empty: of neither
+// kind.
 std::filesystem::path OpenDriveOf(const std::filesystem::path& world_file);
 
 // In the middle of a lane, facing its traffic.
 StartPose PoseOn(const network::Network& network, const network::LaneKey& key, double s_m);
 
-// Where the car starts on roads of whom nobody has said it: on the drivable lane that is longest in one lane section
+// Where the car starts on roads that do not say it: on the drivable lane that is longest in one lane section
 // outside of junctions, of those that lead on if there are any, 10 m behind its beginning (or in its middle), where it
 // is 2 m wide; at the origin where there is none.
 StartPose StartOn(const network::Network& network);

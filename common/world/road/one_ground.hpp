@@ -34,7 +34,7 @@ struct Weight {
 struct Layer {
   std::vector<const network::Surfacing*> roads;  // what counts; one alone is the ground as it is
   const network::Surfacing* named =
-      nullptr;  // whose lane it is: of those that count the one that Network::Locate would name
+      nullptr;  // with this lane: of those that count the one that Network::Locate would name
   double z_m = 0.0;
 
   // Of these heights of each of the roads.

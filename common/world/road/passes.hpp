@@ -22,9 +22,9 @@ struct Pass {
 // One for each pair of roads that have any, where a walk along the upper one meets it first.
 std::vector<Pass> FindPasses(const network::Network& network);
 
-// A tunnel over whose lanes the terrain, as it is without roads, lies by no more than the step that a car is taken to
-// climb (ground::kMaxAboveHint_m): it would drive on the terrain. Where the terrain lies under the road the road itself
-// answers.
+// A tunnel with lanes over which the terrain, as it is without roads, lies by no more than the step that a car is taken
+// to climb (ground::kMaxAboveHint_m): it would drive on the terrain. Where the terrain lies under the road the road
+// itself answers.
 struct OpenTunnel {
   std::uint32_t road = 0;
   double from_s_m = 0.0, to_s_m = 0.0;  // of the tunnel

@@ -11,7 +11,7 @@ namespace rodeira::road {
 // For XML.
 std::string EscapedText(std::string_view text);
 
-// Words on a picture, none over another. Whoever comes first has the better place; the same calls give the same places.
+// Words on a picture, none over another. The first has the better place; the same calls give the same places.
 class PlotLabels {
  public:
   // Within a picture of this size, in SVG units.

@@ -76,7 +76,7 @@ class Section {
   double blend_right_m() const { return verge_right_m() - spec_.blend_m; }
   double reach_m() const;  // the farther of the two blends' outer edges
 
-  // The band at t; beyond the verges the outermost one, whose slope goes on.
+  // The band at t; beyond the verges the outermost one; its slope goes on.
   const Band& BandAt(double t_m) const;
 
  private:

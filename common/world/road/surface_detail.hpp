@@ -41,7 +41,7 @@ class SurfaceDetail {
   SurfaceDetail AsSeen() const;
   // Whether that is something else.
   bool IsFine() const;
-  // Of every number of the measured surfaces, whose places are the network's, and of what is laid. 0: there are none.
+  // Of every number of the measured surfaces, with places in the network, and of what is laid. 0: there are none.
   base::Digest digest() const { return digest_; }
   // Of what lies on a road between two stations, whole where it reaches in: a measured surface's numbers and place,
   // made roughness, patches and bumps. 0: nothing.
@@ -59,9 +59,9 @@ class SurfaceDetail {
                   double t_m, Share& left) const;
   // The heights of all bumps at (s, t), as they are away from the road's edges.
   network::Bump::Height RaisedAt(std::uint32_t road, double s_m, double t_m) const;
-  // A sentence for each measured surface whose heights are added to a road's, and which begins or ends 10 cm or more
-  // above or below it in the mean of the lanes that are driven on: there is a wall, climbed within the metre over which
-  // it passes into nothing. It names the offset that would lay it on the road.
+  // A sentence for each measured surface with heights that are added to a road's, and which begins or ends 10 cm or
+  // more above or below it in the mean of the lanes that are driven on: there is a wall, climbed within the metre over
+  // which it passes into nothing. It names the offset that would lay it on the road.
   std::vector<std::string> Walls(const network::Network& network) const;
   // A patch at (s, t) takes the place of the ground.
   void Cover(std::uint32_t road, double s_m, double t_m, LaneGround& ground) const;

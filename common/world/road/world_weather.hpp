@@ -9,7 +9,7 @@
 
 namespace rodeira::road {
 
-// The weather that a world file of version 2 says for runs whose scenario says no other, as a change at the run's
+// The weather that a world file of version 2 says for runs with a scenario that says no other, as a change at the run's
 // beginning; nothing where it says none, as OpenDRIVE files do. It is no part of the content hash: SUELO does not know
 // it, a scenario publishes it. Wrong input where the file cannot be read.
 base::Result<std::optional<weather::Change>> WeatherOf(const std::filesystem::path& world_file);

@@ -14,7 +14,7 @@ struct CrgFoot {
   Eigen::Vector2d v_slope_W = Eigen::Vector2d::UnitY();  // dv/d(x, y)
 };
 
-// The reference line of a curved regular grid: a polyline whose points stand every step_m of u. A point at (u, v) lies
+// The reference line of a curved regular grid: a polyline with points every step_m of u. A point at (u, v) lies
 // at the distance v beside the segment of u; where two segments meet, the crossing line bisects their corner, and
 // between two crossing lines u grows evenly. Beyond its ends the line goes on straight. (ASAM OpenCRG 1.2, evaluation.)
 // Every answer is a pure function of the line: there is no history.
@@ -29,8 +29,8 @@ class CrgReferenceLine {
   const std::vector<Eigen::Vector2d>& points_W() const { return points_; }
 
   Eigen::Vector2d Position(double u_m, double v_m) const;
-  // The way back: the nearest segment, or a neighbour of it on whose side of the crossing lines (x, y) lies. Unique
-  // where v is smaller than the radius of the line's bends.
+  // The way back: the nearest segment, or a neighbour of it, where (x, y) lies on its side of the crossing lines.
+  // Unique where v is smaller than the radius of the line's bends.
   CrgFoot Project(double x_m, double y_m) const;
   // The direction of the segment at u.
   Eigen::Vector2d DirectionAt(double u_m) const;

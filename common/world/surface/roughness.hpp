@@ -29,7 +29,7 @@ struct RoughnessPoint {
 
 // An uneven surface z(s, t): a sum of plane waves from 0.01 to 10.24 cycles a metre along s, twelve an octave. A wave's
 // frequency along s is drawn within its twelfth of an octave, its amplitude carries exactly the power of that twelfth,
-// and it goes at an angle a to s, with sin a drawn evenly: the directions of the waves of a surface without grain whose
+// and it goes at an angle a to s, with sin a drawn evenly: the directions of the waves of a surface without grain; its
 // tracks have G(n) ~ n^-2. So every track along s has exactly the spectrum, and the coherence of two tracks d apart is
 // 2 pi n d K1(2 pi n d), as for an isotropic road (Kamash and Robson, J. Sound and Vibration 54, 1977). Waves shorter
 // than kShortest_m in any direction are left out, as a tyre's patch cannot follow them.

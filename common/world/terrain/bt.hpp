@@ -42,7 +42,7 @@ bool ExtentsHold(double west, double south, double east, double north, int colum
 // Whether the bytes begin as a .bt does, whatever follows.
 bool LooksLikeBt(std::span<const std::byte> bytes);
 // Wrong input where it is no header that can be used: unknown version, sizes or units, extents that enclose nothing.
-// The context is left for the caller, who knows the file's name.
+// The context is left for the caller, which knows the file's name.
 base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes);
 
 // The 256 bytes of a version 1.3 header that says the same.

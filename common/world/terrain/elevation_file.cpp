@@ -160,7 +160,7 @@ base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registrat
   return FrameWithin(columns, rows, west, south, east, north, registration == Registration::kPosts);
 }
 
-// The header of a .bt whose heights are all there; nothing where the file is no .bt.
+// The header of a .bt with all its heights; nothing where the file is no .bt.
 base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, const fs::path& path) {
   if (!LooksLikeBt(start.head)) return std::optional<BtHeader>();
   const auto header = ParseBtHeader(start.head);

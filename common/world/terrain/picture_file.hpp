@@ -31,7 +31,7 @@ struct PicturePlace {
 
 struct PictureFacts {
   int width_px = 0, height_px = 0;
-  std::optional<PicturePlace> place;  // none where nobody says, or it is turned
+  std::optional<PicturePlace> place;  // none where it is not said, or it is turned
 };
 
 struct PictureFile {

@@ -104,7 +104,7 @@ void CheckSigns(const MapFile& map, const Heights& heights, Findings& findings) 
   }
 }
 
-// Who goes first at a lane's end is said once; a STOP flag of a connection is a sign, too.
+// The priority at a lane's end is said once; a STOP flag of a connection is a sign, too.
 void CheckPriorities(const MapFile& map, const Heights& heights, Findings& findings) {
   std::map<std::int32_t, const LaneSign*> first;
   for (const LaneSign& sign : heights.signs) {

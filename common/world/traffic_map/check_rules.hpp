@@ -44,7 +44,7 @@ class Findings {
   std::vector<Finding> all_;
 };
 
-// Numbers that are there twice, or are named and not there; start and end lanes; curves that nobody uses.
+// Numbers that are there twice, or are named and not there; start and end lanes; curves that are not used.
 void CheckNumbers(const MapFile& map, const Heights& heights, Findings& findings);
 // Where no vehicle gets to, or away from.
 void CheckWays(const MapFile& map, Findings& findings);

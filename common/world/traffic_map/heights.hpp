@@ -45,11 +45,11 @@ struct LaneFlow {
 // 0.
 struct Heights {
   std::vector<CurveHeights> curves;       // by ascending number, each once
-  std::vector<lights::LightPlan> lights;  // of each junction; names are numbers of lanes, at whose end a light stands
+  std::vector<lights::LightPlan> lights;  // of each junction; names are numbers of lanes, with a light at their end
   std::vector<LaneSign> signs;
   std::vector<LaneFlow> flows;  // by ascending number, each once
   bool left_hand =
-      false;  // the map's traffic keeps to the left: who comes from the left has priority, signs stand on the left
+      false;  // the map's traffic keeps to the left: a vehicle from the left has priority, signs stand on the left
 
   std::array<double, 4> Of(std::int32_t curve) const;
 };

@@ -19,7 +19,7 @@ std::array<double, 4> Mean(const std::array<double, 4>& a, const std::array<doub
   return mean;
 }
 
-// How far to the left of p the border crosses the perpendicular through p: the crossing whose parameter is next to t.
+// How far to the left of p the border crosses the perpendicular through p: the crossing with the parameter next to t.
 double Offset(const Cubic& border, const LanePoint& at) {
   const auto ahead = [&](double u) { return (border.At(u) - at.p_W).dot(at.tangent_W); };
   const auto left = [&](double u) { return (border.At(u) - at.p_W).dot(at.left_W()); };

@@ -31,8 +31,8 @@ struct LanePoint {
   double width_m() const { return left_m - right_m; }
 };
 
-// The ground between two borders that run in the direction of the traffic. Its middle is the cubic whose control points
-// are the means of the borders' (MOTORS, appendix A.48 with equal weights).
+// The ground between two borders that run in the direction of the traffic. Its middle is the cubic with control points
+// that are the means of the borders' (MOTORS, appendix A.48 with equal weights).
 class LaneShape {
  public:
   LaneShape(const Border& left, const Border& right);

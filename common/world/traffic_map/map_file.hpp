@@ -22,7 +22,7 @@ enum class BorderType : std::int8_t {
   kDashedSame = 4,       // between lanes of the same direction
   kDashedSpeedCtrl = 5,  // dense: a lane that enters a slower or faster road
   kDashedWarn = 6,       // dense: a danger ahead
-  kDoubleDashed = 7,     // lanes about to split, or whose direction is reversed at times
+  kDoubleDashed = 7,     // lanes about to split, or with a direction that is reversed at times
 };
 constexpr int kBorderTypes = 8;
 
@@ -65,8 +65,8 @@ struct Lane {
   bool operator==(const Lane&) const = default;
 };
 
-// Line `c`: who reaches the end of lane `from` may go on in lane `to`. Figure 18 shows three more numbers, always zero,
-// that appendix A.15 does not write; nobody knows what they stood for.
+// Line `c`: a vehicle at the end of lane `from` may go on in lane `to`. Figure 18 shows three more numbers, always
+// zero, that appendix A.15 does not write; their meaning is unknown.
 struct Connection {
   std::int32_t from = 0;
   std::int32_t to = 0;

@@ -11,7 +11,7 @@ base::Result<std::shared_ptr<const network::Network>> ToNetwork(const LaneMap& m
   if (!drive) return base::WrongInput(drive.error().message, name);
   const auto import = opendrive::Read(drive.value().xml, name, opendrive::Tolerance::Unrepaired());
   if (!import) return import.error();
-  // A line of the OpenDRIVE in between would say nothing to whoever wrote the map; its roads have the numbers of the
+  // A line of the OpenDRIVE in between would say nothing to the author of the map; its roads have the numbers of the
   // lanes.
   if (!import.value().errors.empty()) return base::WrongInput(import.value().errors.front().Text(), name);
   return import.value().network;

@@ -39,7 +39,7 @@ struct PlannedRoad {
   std::int32_t id = 0;  // a lane's own road has the lane's number
   std::string name;
   std::vector<RoadPart> parts;
-  std::size_t own = kNoRoad;  // which of the parts is the lane whose number it has; that one's signals stand here
+  std::size_t own = kNoRoad;           // which of the parts is the lane with its number; that one's signals stand here
   std::size_t junction = kNoJunction;  // that it is a connecting road of
   PlannedLink before, behind;
 };
