@@ -33,7 +33,7 @@ void ExpectRestorable(const std::string& launch_file) {
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-restore-" + std::to_string(::getpid()));
   const auto launch = launch::Launch::Load(launch_file);
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
-  // Steps that are no round numbers, and no multiples of anybody's period.
+  // Steps that are no round numbers, and no multiples of any period.
   const lockstep::Step every =
       1500 + static_cast<lockstep::Step>(base::RandomBits({static_cast<std::uint64_t>(::getpid())}) % 997);
   auto nodes = cli::LocalNodes::Make(launch.value());

@@ -9,7 +9,7 @@
 namespace rodeira::idl {
 namespace {
 
-// Fills the stack with rubbish, so that a byte that nobody writes would show.
+// Fills the stack with rubbish, so that a byte that is never written would show.
 [[gnu::noinline]] void Dirty(unsigned char with) {
   volatile unsigned char rubbish[16384];
   for (auto& byte : rubbish) byte = with;

@@ -112,7 +112,7 @@ std::map<std::string, base::Digest> HashesWith(const std::string& before, const 
   return hashes;
 }
 
-// The topics whose hash is another one after the replacement.
+// The topics with another hash after the replacement.
 std::vector<std::string> ChangedBy(const std::string& before, const std::string& after) {
   std::vector<std::string> changed;
   for (const auto& [topic, hash] : HashesWith(before, after)) {

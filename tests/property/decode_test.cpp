@@ -21,7 +21,7 @@ namespace {
 using property::Draw;
 using property::Setting;
 
-// A change that a broken disk, a wrong length or somebody's malice makes.
+// A change that a broken disk, a wrong length or malice makes.
 void Break(base::Bytes& bytes, Draw& draw) {
   if (bytes.empty()) return;
   const std::size_t at = draw.Below(bytes.size());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small OpenDRIVE files, mutated, as they are drawn (tests/property/fuzz.hpp): what a reader takes must not break, or
-// hold up for ever, whoever draws it.
+// hold up for ever, on any thread.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -22,10 +22,10 @@ class Draw {
   std::uint64_t count_ = 0;
 };
 
-// A number as somebody may write it down who means no good: zero, huge, tiny, none, with a comma.
+// A number as a malicious author may write it: zero, huge, tiny, none, with a comma.
 std::string_view EdgeNumber(Draw& draw);
 
-// One change such as a slip of the hand, a broken transfer or somebody's malice makes: bytes flipped, put in, cut out
+// One change such as a slip of the hand, a broken transfer or malice makes: bytes flipped, put in, cut out
 // or cut off; pieces said twice; lines swapped, doubled, lost or shifted; numbers replaced by ones at an edge; brackets
 // without end.
 void Mutate(std::string& text, Draw& draw);

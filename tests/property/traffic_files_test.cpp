@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What says who drives where: files of traffic, the companions of traffic maps with their lights, and scenarios,
+// What says which cars drive where: files of traffic, the companions of traffic maps with their lights, and scenarios,
 // mutated by bytes and by structure (tests/property/fuzz.hpp) and taken all the way: to traffic that drives, or to one
 // sentence.
 #include <gtest/gtest.h>

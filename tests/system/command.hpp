@@ -42,7 +42,7 @@ class Started {
 
 Ended RunCommand(const std::vector<std::string>& command);
 
-// Living processes whose command line holds both texts (the run's name, "--node a").
+// Living processes with a command line that holds both texts (the run's name, "--node a").
 std::vector<pid_t> ProcessesWith(const std::string& first, const std::string& second = "");
 
 // Waits until a run of separate processes goes on; false where it does not within `limit`.

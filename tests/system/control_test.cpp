@@ -74,7 +74,7 @@ TEST_F(Control, WhatAnOperatorDoesChangesNoSampleAndIsRecorded) {
   ASSERT_GT(samples.size(), 4u * 1500u);
   for (const bool in_process : {false, true}) {
     const std::string name = in_process ? "one" : "many";
-    // The pause is longer than any node may compute (0.6 s): who waits for the operator does not hang.
+    // The pause is longer than any node may compute (0.6 s): a node that waits for the operator does not hang.
     std::vector<std::string> more{"--pace", "0.1", "--record", Path(name + ".mcap")};
     if (in_process) more.push_back("--in-process");
     Started run(Run(name, with(more)));

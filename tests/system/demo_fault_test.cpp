@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each process of the demo killed and stopped in turn while it drives: named within a second, status 1, nobody left,
-// and the recording readable.
+// Each process of the demo killed and stopped in turn while it drives: named within a second, status 1, no process
+// left, and the recording readable.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>

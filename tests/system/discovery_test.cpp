@@ -193,7 +193,7 @@ TEST_F(DeadRun, IsClearedAwayByTheNextStartAndALivingRunIsNot) {
   EXPECT_NE(ended.out.find("faults  none"), std::string::npos) << ended.out;
 }
 
-// In a container with the same /dev/shm nobody sees the processes outside; what they have locked is theirs all the
+// In a container with the same /dev/shm no process sees those outside; what they have locked is theirs all the
 // same.
 TEST_F(DeadRun, ALivingRunOutsideTheContainerIsLeftAlone) {
   const std::vector<std::string> inside{"/usr/bin/unshare", "--pid", "--fork", "--mount-proc"};
@@ -217,7 +217,7 @@ TEST_F(DeadRun, ALivingRunOutsideTheContainerIsLeftAlone) {
   EXPECT_EQ(living.Wait(10s).status, 0);
 }
 
-// Runs that start and end all the time beside each other: nobody takes a file that another one has just made.
+// Runs that start and end all the time beside each other: none takes a file that another one has just made.
 TEST_F(DeadRun, RunsThatStartTogetherLeaveEachOtherAlone) {
   std::vector<std::thread> rounds;
   for (int i = 0; i < 3; ++i) {

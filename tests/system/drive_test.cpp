@@ -131,7 +131,7 @@ TEST_F(Drive, AutopilotAndTrafficOnN222GiveTheSameDigestHoweverTheyRun) {
   EXPECT_NE(digest({"--seed", "6"}), first);
 }
 
-// A world file of version 2, whose roads are a network: autopilot, traffic and car drive on it, as processes and in
+// A world file of version 2, with a network of roads: autopilot, traffic and car drive on it, as processes and in
 // one.
 TEST_F(Drive, AutopilotAndTrafficDriveOnHaste) {
   const auto run = [&](std::vector<std::string> more) {

@@ -39,7 +39,7 @@ double NumberBehind(const std::string& text, const std::string& word) {
   return at == std::string::npos ? -1.0 : std::strtod(text.c_str() + at + word.size(), nullptr);
 }
 
-// --- the recorder dies, and nobody starts it again ---
+// --- the recorder dies, and is not started again ---
 
 class RecorderKilled : public Endurance {
  protected:
@@ -61,7 +61,7 @@ class RecorderKilled : public Endurance {
             "--set",
             "limits.silence_s=30",
             "--set",
-            "limits.step_s=30"};  // whoever else is slow meanwhile is no fault
+            "limits.step_s=30"};  // another slow node meanwhile is no fault
   }
   // Waits until the recorder's process is there, or until the first second lies in its file.
   static pid_t Find(const std::string& name, const std::string& recording, bool driving) {

@@ -53,7 +53,7 @@ TEST(Fault, AFailingNodeIsNamedWithItsReason) {
   EXPECT_NE(ended.out.find("node 'd' failed at step 300: told to fail here"), std::string::npos) << ended.out;
 }
 
-// Without a parent that sees processes die, the clock's own watch names who is silent.
+// Without a parent that sees processes die, the clock's own watch names the silent node.
 TEST(Fault, TheClockItselfNotesASilentNode) {
   std::vector<std::unique_ptr<Started>> nodes;
   for (const char* node : {"a", "b", "c", "d"}) {

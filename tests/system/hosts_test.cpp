@@ -48,7 +48,7 @@ class Hosts : public ::testing::Test {
     return std::make_unique<Started>(Command(host, more));
   }
   std::string DigestOfOneHost() const {
-    // In a laboratory nobody adds a recorder that the launch file does not have.
+    // In a laboratory no recorder is added that the launch file does not have.
     std::vector<std::string> command{Bin("rodeira"), "run", launch_, "--in-process"};
     if (base::ReadText(launch_).value().find("kind: recorder") == std::string::npos) command.push_back("--no-record");
     const Ended ended = RunCommand(command);

@@ -22,7 +22,7 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-// struct virtio_net_hdr of the kernel, whose own header is no C++.
+// struct virtio_net_hdr of the kernel; its own header is no C++.
 struct FrameHeader {
   std::uint8_t flags, gso_type;
   std::uint16_t header_length, gso_size, checksum_start, checksum_offset;

@@ -104,7 +104,7 @@ TEST_F(Live, KeysOfAWindowInAnotherProcessBecomeRecordedControls) {
   EXPECT_EQ(controls.back().steering_wheel_rad(), 0.0);
   const auto states = Recorded<msg::VehicleState>(Path("live.mcap"), idl::topics::kVehicleState);
   EXPECT_GT(states.back().odometer_m(), 1.0);
-  // Computed again with nobody at the keys: what was pressed is in the recording.
+  // Computed again without a person at the keys: what was pressed is in the recording.
   const Ended verified = RunCommand({Bin("rodeira"), "replay", Path("live.mcap"), "--verify"});
   EXPECT_EQ(verified.status, 0) << verified.out;
   EXPECT_NE(verified.out.find("live input taken from the recording: driver"), std::string::npos) << verified.out;

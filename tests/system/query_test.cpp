@@ -76,7 +76,8 @@ TEST(Query, OnARealElevationFileItIsTheOraclesPoint) {
   EXPECT_EQ(Value(Query(world.string(), 500000, 4754000), "inside"), "false");
 }
 
-// N222 begins with a straight under 20 degrees whose lanes fall by 2.5 % to both sides of the axis (its world file).
+// N222 begins with a straight under 20 degrees with lanes that fall by 2.5 % to both sides of the axis (its world
+// file).
 TEST(Query, TheRoadShowsItsCrossfall) {
   const double heading = 20.0 * std::numbers::pi / 180.0;
   const Eigen::Vector2d along(std::cos(heading), std::sin(heading)), left(-along.y(), along.x());
@@ -199,7 +200,7 @@ TEST_F(Ground, SeveralClientsOfTheRoadServerAreAnsweredAtOnce) {
   EXPECT_EQ(heights.size(), starts.size());
 }
 
-// A terrain of 100 m × 100 m whose eastern edge a car drives over.
+// A terrain of 100 m × 100 m; a car drives over its eastern edge.
 TEST_F(Ground, BeyondTheTerrainsEdgeTheFlagIsClear) {
   const auto world =
       folder_.Write("small.yaml",

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 class Recordings : public ::testing::Test {
  protected:
   std::string Path(const std::string& name) const { return (folder_.path() / name).string(); }
-  // A run whose folder of recordings is this test's.
+  // A run with this test's folder of recordings.
   Ended Run(std::vector<std::string> more) const {
     more.insert(more.begin(), {"XDG_DATA_HOME=" + Path("data"), Bin("rodeira"), "run"});
     return RunCommand(more);

@@ -68,7 +68,7 @@ void AwaitItsMark(const std::string& recording) {
 class Recovery : public ::testing::Test {
  protected:
   std::string File(const std::string& name) const { return (folder_.path() / name).string(); }
-  // At a pace: a fast machine's run would be over before anybody was killed.
+  // At a pace: a fast machine's run would be over before a node was killed.
   std::vector<std::string> Command(const std::string& run, const std::string& recording, const std::string& seconds,
                                    const std::string& policy) const {
     return {Bin("rodeira"),
@@ -198,7 +198,7 @@ TEST_F(Recovery, OfAKilledClockTheWallTimesThatWentWithItAreCounted) {
   EXPECT_GT(lost_at, 0);
 }
 
-// It may die before anybody has heard of it: in its first moment, while it looks for other clocks, while the nodes
+// It may die before any process has heard of it: in its first moment, while it looks for other clocks, while the nodes
 // start.
 TEST_F(Recovery, AClockThatDiesWhileTheRunStartsIsStartedAgain) {
   Undisturbed("2");
@@ -272,7 +272,7 @@ TEST_F(Recovery, AKilledViewThatWritesPicturesLeavesNoneOut) {
   EXPECT_EQ(pictures, 4u);
 }
 
-// Whoever had wanted to say something to it is held up by its memory for a while: that is nobody's fault.
+// Writers to it are held up by its memory for a while: that is no node's fault.
 TEST_F(Recovery, AStoppedRecorderAloneIsNamed) {
   Undisturbed("20");
   const std::string run_name = "recovery-recorder-" + std::to_string(::getpid());
@@ -368,7 +368,7 @@ TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
   EXPECT_LT(std::stod(ended.out.substr(begin)), 4.0) << "less than it had run before: " << ended.out;
 }
 
-// The whole run restarts whom it loses; only without its traffic it is to end.
+// The whole run restarts the nodes that it loses; only without its traffic it is to end.
 TEST_F(Recovery, EachNodeMayHaveAPolicyOfItsOwn) {
   const std::string run_name = "recovery-own-" + std::to_string(::getpid());
   std::vector<std::string> command = Command(run_name, File("own.mcap"), "1000", "restart");
@@ -389,7 +389,7 @@ TEST_F(Recovery, EachNodeMayHaveAPolicyOfItsOwn) {
   EXPECT_NE(ended.out.find("node 'traffic' was killed by signal 9"), std::string::npos) << ended.out;
 }
 
-// Nobody has to restart a dead node only to be able to stop.
+// A dead node need not be restarted only to be able to stop.
 TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
   const std::string run_name = "recovery-stop-" + std::to_string(::getpid());
   Started run(Command(run_name, File("stop.mcap"), "60", "pause"));
@@ -425,7 +425,7 @@ TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
   EXPECT_TRUE(ProcessesWith("--run " + run_name).empty());
 }
 
-// Its other life computes what it has said already: whoever kept that notices, and the node is named, not who noticed.
+// Its other life computes what it has said already: the keeper of that notices, and the node is named, not the keeper.
 TEST_F(Recovery, WhoReadsAClockIsFoundOutWhenItIsStartedAgain) {
   const auto launch = folder_.Write(
       "broken.yaml",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who stands in a lane is not touched: the driver's car stopped, its followers stop behind it; the queue blocks the
-// lane, and the autopilot stops behind the queue. Read from the recording of a whole run.
+// A car that stands in a lane is not touched: the driver's car stopped, its followers stop behind it; the queue blocks
+// the lane, and the autopilot stops behind the queue. Read from the recording of a whole run.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ bool Touch(const Box& a, const Box& b) {
   return a.rear_m < b.front_m && b.rear_m < a.front_m && a.right_m < b.left_m && b.right_m < a.left_m;
 }
 
-// Everybody at one time: the wreck, the autopilot's car, the agents.
+// All at one time: the wreck, the autopilot's car, the agents.
 std::vector<Box> Everybody(const msg::VehicleState& wreck, const msg::VehicleState& ego,
                            const msg::TrafficState& traffic) {
   std::vector<Box> boxes{BoxOf(wreck), BoxOf(ego)};

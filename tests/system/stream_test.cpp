@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One launch file, ten runs: in one process, message by message in a drawn order with losses, as processes beside
-// programs that leave them no processor, and on two PCs whose network delays and overtakes. One stream of digests.
+// programs that leave them no processor, and on two PCs with a network that delays and overtakes. One stream of
+// digests.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -67,7 +68,7 @@ class Streams : public ::testing::Test {
     ExpectTheSame(Ordered(SamplesOf(recording)), which);
     std::filesystem::remove(recording);
   }
-  // Every choice is drawn: who runs next, which message arrives, twice, late or never.
+  // Every choice is drawn: which node runs next, which message arrives, twice, late or never.
   void RunDrawn(std::uint64_t seed) {
     const auto launch = launch::Launch::Load(launch_);
     ASSERT_TRUE(launch.ok()) << launch.error().Text();

@@ -13,7 +13,7 @@ struct Shown {
   double eye_x_m = 0.0, eye_y_m = 0.0, eye_z_m = 0.0;
 };
 
-// The lines of a log whose simulated time lies between these two. Ends the program with a sentence where it cannot be
+// The lines of a log with a simulated time between these two. Ends the program with a sentence where it cannot be
 // read.
 std::vector<Shown> ReadShown(const std::filesystem::path& file, double from_s, double to_s);
 

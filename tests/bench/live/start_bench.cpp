@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From `rodeira run launch/keyboard.yaml` to a car that can be driven: somebody holds the throttle from the beginning;
+// From `rodeira run launch/keyboard.yaml` to a car that can be driven: the throttle is held from the beginning;
 // when is the first picture on the display, when does the car move? start_bench [STARTS] [KEY=VALUE …]
 #include <fmt/format.h>
 #include <unistd.h>

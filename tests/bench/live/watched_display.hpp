@@ -12,7 +12,7 @@
 
 namespace rodeira::bench {
 
-// A display of its own (Xvfb) whose pixels lie in this process's memory as they are shown: watching them costs the run
+// A display of its own (Xvfb) with its pixels in this process's memory as they are shown: watching them costs the run
 // nothing but reading.
 class WatchedDisplay {
  public:

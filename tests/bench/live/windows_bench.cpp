@@ -27,7 +27,7 @@ constexpr std::array kScreens = {"left", "centre", "right"};
 constexpr double kFrom_s = 3.0;
 
 // How far two windows are apart at each picture of the first: what the other one shows at that time of the wall; and
-// their clocks, between whose pictures time goes evenly.
+// their clocks, with time that goes evenly between their pictures.
 struct Apart {
   std::vector<double> shown_ms, clocks_ms;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a person waits who watches a recording: to another place in an hour's file, and from picture to picture.
-// The hour is a real recording again and again (RODEIRA_RECORDING=FILE, whose view, cars and traffic are looked at),
+// How long the viewer of a recording waits: to another place in an hour's file, and from picture to picture.
+// The hour is a real recording again and again (RODEIRA_RECORDING=FILE; its view, cars and traffic are shown),
 // or, without one, a car at 1 kHz and twenty others at 100 Hz that were never computed. It needs 2 to 5 GB in the
 // temporary folder.
 #include <benchmark/benchmark.h>
@@ -30,7 +30,7 @@ constexpr const char* kLaunch =
     "traffic}\n  "
     "picture: {kind: view}\n";
 
-// Numbers whose low bits are as good as random, as a vehicle's are.
+// Numbers with low bits as good as random, as a vehicle's are.
 base::Bytes Payload(const lockstep::Source& source, Step step) {
   const auto n = static_cast<std::uint64_t>(step);
   const auto noise = [n](std::uint64_t which) { return base::RandomUniform({which, n % 4000}); };

@@ -77,7 +77,7 @@ TEST(Preview, SignsAreObeyed) {
   }
 }
 
-// Nobody is there before somebody has arrived, and who arrives is whom the flow's own law says.
+// No vehicle is there before one has arrived, and the arrivals are those of the flow's own law.
 TEST(Preview, FlowsOfStartLanesBringTheVehicles) {
   const Document document = Parsed(traffic_map::GoodMap(), "rodeira: motors/1\nflows_vehph: {1: 600}\n");
   auto preview = Preview::Start(document, {20, 5});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a person is told who mistypes a command, an option or a value.
+// The message for a mistyped command, option or value.
 #include "launch/rodeira/option_errors.hpp"
 
 #include <gmock/gmock.h>
@@ -85,7 +85,7 @@ TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
               HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
 }
 
-// A folder that nobody made is no place to write into: it is more likely mistyped.
+// A missing folder is no place to write into: it is more likely mistyped.
 TEST(OptionErrors, NoFolderIsMadeForAFile) {
   const TemporaryFolder folder;
   const std::string missing = (folder.path() / "no/such").string();

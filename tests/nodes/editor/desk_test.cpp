@@ -66,7 +66,7 @@ TEST_F(ADesk, TheThesisExampleIsDrawnByHand) {
   Press(SDL_SCANCODE_RETURN);
   EXPECT_EQ(Said(), "no lane was made: the left curve 5 does not exist");
   EXPECT_FALSE(work().session.said().good);
-  // The second pair, whose ends catch the first, and the end lane.
+  // The second pair, with ends that catch the first, and the end lane.
   Press(SDL_SCANCODE_C);
   Press(SDL_SCANCODE_C);
   place(2, 3.0, 0.0, 40.0);
@@ -308,7 +308,7 @@ TEST_F(ADesk, ABrokenFileAndAPictureThatIsNoneAreSaidInTheStatusLine) {
   EXPECT_NE(Said().find("this is no picture"), std::string::npos) << Said();
   EXPECT_FALSE(work().session.said().good);
   EXPECT_TRUE(work().session.history().CanRedo());
-  // A map whose background is none opens, and says so.
+  // A map with a wrong background opens, and says so.
   ASSERT_TRUE(base::WriteWhole(At("odd.motors"), traffic_map::GoodMap() + "no picture at all").ok());
   Sit(At("odd.motors"));
   EXPECT_EQ(document().map.lanes.size(), 3u);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What drives where no wheel is named: a wheel that was set up, a game pad, a device whose file is broken, the window's
+// What drives where no wheel is named: a wheel that was set up, a game pad, a device with a broken file, the window's
 // keys.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -118,7 +118,7 @@ TEST_F(FoundSource, AWheelThatNobodyHasSetUpDrivesAtOnce) {
   EXPECT_EQ(told.drive.controls.at(100).throttle(), 0.0);
   EXPECT_GT(told.drive.controls.at(110).throttle(), 0.99);
   EXPECT_NEAR(told.drive.controls.at(210).steering_wheel_rad(), 7.85, 1e-6);
-  // Who sits at a wheel meant the wheel, not the pad beside it.
+  // A person at a wheel meant the wheel, not the pad beside it.
   VirtualPad pad;
   wheel.Axis(2, 32767), wheel.Axis(0, 0);
   EXPECT_THAT(Drive("{source: joystick}", 10, nullptr).said, HasSubstr("drives by a guess"));
@@ -140,7 +140,7 @@ TEST_F(FoundSource, WithoutAnyDeviceTheWindowsKeysDriveWhereTheyAreNamed) {
   EXPECT_THAT(window_keys(std::string("{source: joystick, keyboard: ") + kKeys + "}"),
               HasSubstr("no wheel that was set up (`rodeira input setup`) and no game pad is there (no device is "
                         "connected); the windows' keys drive"));
-  // A device of one axis, whose file is broken: there is nothing to guess.
+  // A device of one axis, with a broken file: there is nothing to guess.
   const int lever = SDL_JoystickAttachVirtual(SDL_JOYSTICK_TYPE_WHEEL, 1, 0, 0);
   ASSERT_GE(lever, 0);
   char guid[33] = {};

@@ -67,7 +67,7 @@ class LoggedMotor final : public input_devices::ForceDevice {
   MotorLog& log_;
 };
 
-// A vehicle that is lost at a step: in its place nobody answers any more.
+// A vehicle that is lost at a step: in its place no node answers any more.
 class Mortal final : public lockstep::Node {
  public:
   Mortal(lockstep::Node& whole, lockstep::Step dies_at, std::atomic<double>& died_s)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A branch whose new driver is a person: recorded up to T, then another source goes on where the first one left the
+// A branch with a person as its new driver: recorded up to T, then another source goes on where the first one left the
 // hands.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@
 namespace rodeira {
 namespace {
 
-// On N222, whose start is on a grade.
+// On N222, with its start on a grade.
 LiveDrive DriveOnAHill(const KeyScript& script, lockstep::Step last, const std::string& start = "") {
   return DriveByKeys(
       "rodeira: launch/1\nworld: ../configs/worlds/n222.yaml\nnodes:\n  road: {kind: road}\n  driver: {kind: input, "

@@ -29,7 +29,7 @@ struct Seen {
   nodes::CarSeen car;
 };
 
-// Along the lane from its beginning to its end, as an input node sees the car; nobody steers.
+// Along the lane from its beginning to its end, as an input node sees the car; it is not steered.
 std::vector<Seen> DriveStraight() {
   const auto folder = base::TemporaryFolder::Make("road_feel");
   EXPECT_TRUE(folder.ok());

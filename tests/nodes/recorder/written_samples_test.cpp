@@ -9,7 +9,7 @@ namespace {
 using lockstep::Role;
 using lockstep::Step;
 
-// Two sources, one each step and one each third, and who writes them down.
+// Two sources, one each step and one each third, and their writer.
 lockstep::Roster MakeRoster() {
   return lockstep::Roster::Create(
              1'000'000, 100,

@@ -23,7 +23,7 @@ namespace {
 class Context final : public launch::NodeContext {
  public:
   using launch::NodeContext::NodeContext;
-  ground::Ground& Ground() override { std::abort(); }  // who serves it does not ask for it
+  ground::Ground& Ground() override { std::abort(); }  // its server does not ask for it
   base::Result<launch::WorldSummary> World() override {
     return base::Failed("nobody asks the server for its own world", "");
   }

@@ -145,7 +145,7 @@ TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
   ExpectIdenticalFrom({0, 1200, 1511, 2000});
 }
 
-// What a window asks for whose person wants to begin again (nodes/view/run_connection/ask_place): the pose of the run's
+// What a window asks for to begin again (nodes/view/run_connection/ask_place): the pose of the run's
 // first sample.
 TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   const auto world = N222();
@@ -217,7 +217,7 @@ TEST_F(Requests, TheWeatherChangesFromTheStepOfItsEventOn) {
   ExpectIdenticalFrom({0, 1000, 2000});
 }
 
-// The words of a scenario file do the same, without anybody asking; then it is computed again, not taken from the
+// The words of a scenario file do the same, without a request; then it is computed again, not taken from the
 // recording.
 TEST_F(Requests, AScenarioFilePlacesACarToo) {
   const auto path = folder_.path() / "story.yaml";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenario events in runs of one process: at their exact step, to everybody, with what the traffic makes of them.
+// Scenario events in runs of one process: at their exact step, to all nodes, with what the traffic makes of them.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -176,7 +176,7 @@ TEST_F(Scenario, AConditionalEventComesOnePeriodAfterTheCarHasPassed) {
   EXPECT_LT(station(valid - 20), 45.0) << "and not by the one before";
 }
 
-// On a world file of version 1 at the same step as on the same road in version 2, whose hills are others.
+// On a world file of version 1 at the same step as on the same road in version 2, which has other hills.
 TEST_F(Scenario, AStationIsPassedOnARoadOfVersion1Too) {
   const std::string text = Text(File("  - {when: {road: n222, passes_m: 45}, name: mark, text: passed}\n"));
   std::string older = text;
@@ -227,7 +227,7 @@ TEST_F(Scenario, StationsGoOnThroughAJunction) {
       << Complaint(text);
 }
 
-// Who is in front is found a second time here, by the road's own coordinates: lane -1 lies right of the axis and goes
+// The car in front is found a second time here, by the road's own coordinates: lane -1 lies right of the axis and goes
 // along it.
 TEST_F(Scenario, TheOneAheadIsTheOneInFrontOfTheDriver) {
   std::string text = Text(File("  - {at_s: 6, name: traffic.brake, agent: ahead, deceleration_mps2: 9}\n"));

@@ -113,7 +113,7 @@ TEST(TrafficAlone, IsTheSameAsInARunOnATrafficMap) {
 }
 
 // What stands beside a map is driven on, so that what is the same above says something of it: its lights are on and
-// somebody waits at them, its heights are climbed.
+// a car waits at them, its heights are climbed.
 TEST(TrafficAlone, LightsAndHeightsOfATrafficMapAreThere) {
   traffic::StudySettings study;
   study.traffic.seed = 5;

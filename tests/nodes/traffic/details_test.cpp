@@ -19,8 +19,8 @@ namespace rodeira {
 namespace {
 
 // Ten times a second of each car that the traffic state of that step has, empty between. The engine turns as the wheels
-// and the gears of MOTORS say; nobody brakes and pushes at once; the fuel used is the integral of the flow; the point
-// that he steers for lies before him, 0.7 s ahead of his rear axle.
+// and the gears of MOTORS say; no driver brakes and pushes at once; the fuel used is the integral of the flow; the
+// point that is steered for lies ahead, 0.7 s before the rear axle.
 TEST(TrafficDetails, AreSaidTenTimesASecondAndAgreeWithTheMotion) {
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/lights.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"

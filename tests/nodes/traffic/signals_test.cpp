@@ -59,7 +59,7 @@ TEST(Signals, AreTheProgramOfTheWorldAndTheAutopilotObeysThem) {
     if (controllers[i].id.ends_with("main")) main = i;
   }
   ASSERT_LT(main, 2u);
-  double line_x = -1e9;  // of the light for who comes from the west
+  double line_x = -1e9;  // of the light for traffic from the west
   for (const network::Road& road : world->network()->roads()) {
     for (const network::Signal& signal : road.spec().signals) {
       const Eigen::Vector3d at = road.Surface(signal.s_m, 0.0).p_W;

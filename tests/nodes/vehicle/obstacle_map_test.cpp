@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a world stops a car, against where its file says that it stands; and that who asks near something is told of
+// What of a world stops a car, against where its file says that it stands; and that a query near something is told of
 // it.
 #include "nodes/vehicle/obstacle_map.hpp"
 
@@ -57,7 +57,7 @@ TEST(ObstacleMap, HousesTreesAndRailsStandWhereTheirFileSays) {
   EXPECT_NEAR(rail_m, 500.0, 1e-6);
 }
 
-// In bends and on hills too: whoever is in reach of a box has it among those near.
+// In bends and on hills too: a car in reach of a box has it among those near.
 TEST(ObstacleMap, WhatIsInReachIsNear) {
   for (const char* file : {"tests/data/wall_ahead.yaml", "configs/worlds/haste.yaml", "configs/worlds/motorway.yaml"}) {
     const ObstacleMap map = MapOf(file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Into the walls of a tunnel: who leaves its road is held by them, and stays on its floor.
+// Into the walls of a tunnel: a car that leaves its road is held by them, and stays on its floor.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -92,7 +92,7 @@ scene::Moment CarAndTwoOthers() {
 }
 
 // The key goes from vehicle to vehicle: the camera goes with each, it pulses, and its panel stands there; back at the
-// window's own car nobody is chosen.
+// window's own car none is chosen.
 TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
   ASSERT_NO_FATAL_FAILURE(Open(640, 360));
   scene::Moment moment = CarAndTwoOthers();
@@ -136,7 +136,7 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
     for (const int button : {kLeftButton, kRightButton, kMiddleButton}) {
       EXPECT_EQ(Click(at, button), button == own);
       EXPECT_EQ(shown() != before, button == own) << button << " of " << own;
-      (void)Click({320.0, 8.0}, button);  // on nobody
+      (void)Click({320.0, 8.0}, button);  // on none
       SDL_Event drawn{};
       drawn.type = SDL_MOUSEMOTION;
       drawn.motion.state = static_cast<Uint32>(SDL_BUTTON(button));
@@ -275,7 +275,7 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   EXPECT_LT(aim.speed_mps, 70.0 / 3.6) << "N222's limit";
   EXPECT_TRUE(Click({480.0, 20.0}));
   EXPECT_EQ(Shown(moment).rgb, before.rgb);
-  // Nobody knows what a person goes by.
+  // What a person goes by is unknown.
   moment.cars[0].id = 5;
   (void)Shown(moment);
   ASSERT_TRUE(Click(*camera.Project(at(20.0, 0.9), 960, 540)));
@@ -283,7 +283,7 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   EXPECT_EQ(none, ProbeAt(before, camera, at(rear_m + 13.5, high_m), 0));
 }
 
-// Whose file and lane are the autopilot's: those of the input that is wired to the car, where it is one.
+// The file and lane of the autopilot: those of the input that is wired to the car, where it is one.
 TEST(DriverAims, AreOfTheInputThatDrivesTheCar) {
   const auto of = [](const std::string& launch_file, const launch::Overrides& overrides = {}) {
     const auto launch = launch::Launch::Load(SourceDir() + "/launch/" + launch_file, overrides);

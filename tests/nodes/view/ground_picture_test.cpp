@@ -73,7 +73,7 @@ class GroundPicture : public testing::Test {
 
 bool IsGreen(const Probe& p) { return p.green > 1.8 * p.red && p.green > 1.8 * p.blue && p.green > 60.0; }
 
-// The middles of the four fields of a picture whose corner is there, and which is so wide.
+// The middles of the four fields of a picture with its corner there, and so wide.
 std::vector<Eigen::Vector2d> Fields(double west, double south, double size) {
   const double a = 0.25 * size, b = 0.75 * size;
   return {{west + a, south + a}, {west + b, south + a}, {west + a, south + b}, {west + b, south + b}};

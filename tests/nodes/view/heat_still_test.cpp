@@ -47,8 +47,8 @@ class HeatStill : public DriverStill {
                  y = raster.south_m + kSquare_m * (static_cast<double>(row) + 0.5);
     return {x, y, world_->At(x, y).z_m};
   }
-  // Whether its eight neighbours look as this pixel does: at the edge of a line or a car how much of a pixel is whose
-  // may differ between two shaders of one graphics card.
+  // Whether its eight neighbours look as this pixel does: at the edge of a line or a car how much of a pixel belongs to
+  // which may differ between two shaders of one graphics card.
   static bool OfOneKind(const Image& image, int column_px, int row_px) {
     const std::uint8_t* here = image.At(column_px, row_px);
     for (int y = row_px - 1; y <= row_px + 1; ++y) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written on a sign, read pixel by pixel: from left to right by those who come, reversed in their mirrors once
+// What is written on a sign, read pixel by pixel: from left to right by oncoming traffic, reversed in its mirrors once
 // they have passed.
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ constexpr int kWidth = 1280, kHeight = 720;
 constexpr double kSign_s_m = 60.0, kSign_t_m = 1.0, kWide_m = 2.2, kHigh_m = 1.1;
 constexpr double kLow_m = 0.5;  // the roof's lower side hides in the inside mirror what is higher than 1.7 m there
 
-// A road to the east with the sign of a town on its left, for those who come from the east.
+// A road to the east with the sign of a town on its left, for traffic from the east.
 class Lettering : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -46,7 +46,7 @@ class Lettering : public ::testing::Test {
   // A place of the sign's face; u from its left edge to its right one as it is written, v upward.
   static Eigen::Vector3d OnSign(double u, double v) {
     return {kSign_s_m + 0.042, kSign_t_m + (u - 0.5) * kWide_m,
-            kLow_m + v * kHigh_m};  // who comes from the east has the south on the left
+            kLow_m + v * kHigh_m};  // traffic from the east has the south on the left
   }
   static double Brightness(scene::Colour c) { return 0.3 * c.red + 0.6 * c.green + 0.1 * c.blue; }
   // What is written about a place, over as much as a pixel of a mirror shows.

@@ -105,7 +105,7 @@ TEST_F(LightsStill, OfABus) {
   ExpectLampsShine();
 }
 
-// Towards evening nobody needs headlights yet; a driver who switches them on sees the road before him brighter.
+// Towards evening no car needs headlights yet; with them on the road ahead is brighter.
 TEST_F(LightsStill, TheDriverSwitchesHisHeadlightsOn) {
   picture_.moment.weather.hour = 17.5;
   Car() = CarAt({12.0, 7.0, 0.0}, 0.6);
@@ -120,7 +120,7 @@ TEST_F(LightsStill, TheDriverSwitchesHisHeadlightsOn) {
   EXPECT_EQ(green_ahead({}), without);
 }
 
-// A pedestrian's legs part as he walks and meet again where a step is done.
+// A pedestrian's legs part in a step and meet again where a step is done.
 TEST_F(LightsStill, LegsMoveWithTheWayThatIsWalked) {
   Stand(scene::AgentKind::kPedestrian, 0.5, 0.5, 1.75);
   Agent().colour = scene::Colour::Of(0xd02020);
@@ -138,7 +138,7 @@ TEST_F(LightsStill, LegsMoveWithTheWayThatIsWalked) {
     return ProbeAt(image, camera, Agent().p_WB_W + Agent().q_WB * Eigen::Vector3d(ahead_m, 0.0, up_m), 1);
   };
   EXPECT_TRUE(at(standing, 0.0, 1.25).IsRed()) << at(standing, 0.0, 1.25);
-  // Half a step before and behind are feet in a stride, and ground where he stands.
+  // Half a step before and behind are feet in a stride, and ground at a stand.
   for (const Image* image : {&stride, &other}) {
     for (const double side : {1.0, -1.0}) {
       EXPECT_LT(at(*image, side * 0.27, 0.12).green, at(standing, side * 0.27, 0.12).green - 25.0) << side;

@@ -86,7 +86,7 @@ TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
   }
 }
 
-// Who stands and looks at nothing but the sky still has ground about him when he turns round.
+// A viewer that looks at nothing but the sky still finds ground when it turns round.
 TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
   world_ = scene::OpenDriveWorld(
       "<road id=\"1\" length=\"1500\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0.1\" "

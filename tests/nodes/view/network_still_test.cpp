@@ -77,7 +77,7 @@ TEST(NetworkStill, ASignIsReadByThoseWhomItIsForAndGreyFromBehind) {
   EXPECT_LT(back.red, 200.0) << back;
 }
 
-// Above green, amber and red the same place is dark or shines, as the moment says; who comes from behind sees none of
+// Above green, amber and red the same place is dark or shines, as the moment says; traffic from behind sees none of
 // it.
 TEST(NetworkStill, LightsShineAsTheMomentSays) {
   RODEIRA_NEEDS_PICTURES();

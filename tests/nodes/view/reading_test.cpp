@@ -99,7 +99,7 @@ TEST_F(Reading, WhatIsWrongWithTheWorldIsTheAnswer) {
   EXPECT_EQ(stage.error().exit_status(), 2);
 }
 
-// Where a window must be and cannot, nobody waits for a world.
+// Where a window must be and cannot, no world is waited for.
 TEST(ReadingNothing, WithoutADisplay) {
   ::unsetenv("DISPLAY");
   ::unsetenv("WAYLAND_DISPLAY");

@@ -242,7 +242,7 @@ TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
   EXPECT_EQ(status.error().Text(), "a mark is damaged");
 }
 
-// A damaged place holds the player; who goes past it sees the rest, and the error is told at the end.
+// A damaged place holds the player; past it the rest is seen, and the error is told at the end.
 TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml");

@@ -47,7 +47,7 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   EXPECT_NE(screen.value()->painter().Read().rgb, seen.rgb) << "the window says where it is";
 }
 
-// Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whoever drives; the
+// Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whatever drives; the
 // next one does not.
 TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   RODEIRA_NEEDS_PICTURES();

@@ -25,7 +25,7 @@ TEST(TileTree, HasSquaresOfSquares) {
   const TilesBelow below(*tree);
   EXPECT_EQ(std::set<osg::PagedLOD*>(below.tiles.begin(), below.tiles.end()).size(), parts.size());
   EXPECT_LE(below.most_children, 4u);
-  // What touches a ball of 600 m is found by a fraction of all groups and tiles: those whose own balls touch it.
+  // What touches a ball of 600 m is found by a fraction of all groups and tiles: those with balls that touch it.
   struct Touch : osg::NodeVisitor {
     osg::BoundingSphere about{osg::Vec3(5'000.0F, 7'000.0F, 0.0F), 600.0F};
     std::size_t looked = 0, tiles = 0;

@@ -23,7 +23,7 @@ class VirtualDisplay {
     if (pid_ == 0) {
       ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // it does not outlive a test that ends at once
       ::dup2(told[1], 3);
-      ::close_range(4, ~0U, 0);  // nobody waits for what it holds open
+      ::close_range(4, ~0U, 0);  // what it holds open is not waited for
       std::vector<std::string> words = {"Xvfb", "-noreset", "-displayfd", "3", "-screen", "0", "640x480x24"};
       words.insert(words.end(), more.begin(), more.end());
       std::vector<char*> argv;

@@ -26,7 +26,7 @@ class WeatherStill : public DriverStill {
     picture_.moment.weather = weather;
     return Drawn();
   }
-  // The road's surface so far ahead of the driver, in his lane and the other one.
+  // The road's surface so far ahead of the driver, in the own lane and the other one.
   Probe Road(const Image& image, double ahead_m, double t_m = -1.45) {
     return ProbeAt(image, camera_, N222Road().Position(60.0 + ahead_m, t_m), 2);
   }

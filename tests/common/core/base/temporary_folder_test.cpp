@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Purposes of this test alone, so that nobody else's folders are touched.
+// Purposes of this test alone, so that no other folders are touched.
 const std::string kPurpose = "test-folder" + std::to_string(::getpid());
 
 TEST(TemporaryFolder, GoesWithItsOwner) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who waits for what since when.
+// What waits for what since when.
 #include "common/core/base/wait.hpp"
 
 #include <gmock/gmock.h>

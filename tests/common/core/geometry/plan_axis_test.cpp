@@ -73,7 +73,7 @@ TEST(PlanAxis, ClothoidsToAKilometreAndATenthOfCurvature) {
   }
 }
 
-// A cubic that is exactly a parabola v = c u^2, whose length is known: (x sqrt(1 + x^2) + asinh x) / (4 c), x = 2 c u.
+// A cubic that is exactly a parabola v = c u^2, with a known length: (x sqrt(1 + x^2) + asinh x) / (4 c), x = 2 c u.
 TEST(PlanAxis, AGraphGoesByItsOwnLength) {
   PlanElement element;
   element.kind = PlanElement::Kind::kCubic;

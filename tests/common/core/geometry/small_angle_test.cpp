@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short series against the library, whose functions are right to half a bit or a little more.
+// The short series against the library, with functions that are right to half a bit or a little more.
 #include "common/core/geometry/small_angle.hpp"
 
 #include <gtest/gtest.h>

@@ -101,7 +101,7 @@ TEST_F(ExportTest, TrafficIsOneRowAnAgentAndEventsOneRowAnEvent) {
   const auto traffic = recording.Channel(idl::topics::kTrafficState, "traffic");
   const auto story = recording.Channel(idl::topics::kScenarioEvents, "story");
   msg::TrafficState state;
-  recording.Put(traffic, state, 0);  // nobody: no row
+  recording.Put(traffic, state, 0);  // no vehicle: no row
   state.agents().resize(3);
   for (std::uint32_t i = 0; i < 3; ++i) {
     state.agents()[i].id(i + 7);

@@ -67,8 +67,8 @@ class GoOn : public testing::Test {
   std::vector<std::uint32_t> handed_;
 };
 
-// At every byte where the first writer may have ended, its last one among them: the file becomes that of one who wrote
-// it all.
+// At every byte where the first writer may have ended, its last one among them: the file becomes that of one writer
+// that wrote it all.
 TEST_F(GoOn, WhereverTheFirstOneEndedTheFileIsTheSame) {
   const base::Bytes whole = Whole(57);
   int gone_on = 0, closed = 0;
@@ -105,7 +105,7 @@ TEST_F(GoOn, WhatWasDamagedMeanwhileIsLeftAsItIs) {
   EXPECT_EQ(refused.error().exit_status(), 1);
   EXPECT_THAT(refused.error().Text(), testing::HasSubstr("it was damaged meanwhile"));
   EXPECT_EQ(base::ReadBytes(file_).value(), bytes) << "what lies behind the damage can still be repaired";
-  // Who may lose what lies there says so.
+  // A caller that may lose what lies there says so.
   const auto taken = Go(0);
   ASSERT_TRUE(taken.ok());
   ASSERT_TRUE(taken.value().has_value());

@@ -95,7 +95,7 @@ Passage Come(const Street& street, double gap_m) {
 }
 
 // v²/(2 b) with b = 2.8 m/s² and half a second for the pedals decides (Gazis, Herman, Maradudin 1960): with three
-// seconds of amber at 50 km/h whoever goes on has passed the line before red.
+// seconds of amber at 50 km/h a car that goes on has passed the line before red.
 TEST(LightStops, InACarStopsAtAmberWhereItCanAndElsePassesBeforeRed) {
   const Street street;
   int stopped = 0, passed = 0;

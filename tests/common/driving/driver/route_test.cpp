@@ -18,7 +18,7 @@ using opendrive::Document;
 using opendrive::MustRead;
 using opendrive::RoadText;
 
-// A straight of 100 m, then an arc of 50 m radius to the left, of 60 m, whose lanes are numbered the other way.
+// A straight of 100 m, then an arc of 50 m radius to the left, of 60 m, with lanes numbered the other way.
 std::string Bend() {
   RoadText straight, arc;
   straight.link = R"(<successor elementType="road" elementId="2" contactPoint="end"/>)";

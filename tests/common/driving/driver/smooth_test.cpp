@@ -50,7 +50,7 @@ TEST(Smooth, TheWayOfASmoothStopIsThatOfItsMotion) {
   }
 }
 
-// dv/dx v = -a all along the profile, whose deceleration rises by the jerk and no more, and is constant before.
+// dv/dx v = -a all along the profile; its deceleration rises by the jerk and no more, and is constant before.
 TEST(Smooth, AStopsProfileIsAMotion) {
   constexpr double kBraking = 2.0, kJerk = 3.0, kEased_m = 8.0 / 54.0;
   for (double x = 1e-3; x < 40.0; x *= 1.1) {
@@ -66,7 +66,7 @@ TEST(Smooth, AStopsProfileIsAMotion) {
   EXPECT_EQ(StopIn(-1.0, kBraking, kJerk).speed_mps, 0.0);
 }
 
-// From 14 m/s without braking yet: 3 m/s² can be had smoothly, 8 m/s² cannot; and nobody hurries for the last of a
+// From 14 m/s without braking yet: 3 m/s² can be had smoothly, 8 m/s² cannot; and no car hurries for the last of a
 // stop.
 TEST(Smooth, HasteIsWhereSmoothBrakingComesTooLate) {
   EXPECT_FALSE(NeedsHaste(-3.0, 14.0, 0.0, 3.0));

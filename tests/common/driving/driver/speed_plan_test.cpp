@@ -55,7 +55,7 @@ TEST(SpeedPlan, ABendThatLeansOutwardIsFeltAsOneOnTheLevel) {
   }
 }
 
-// Leaning inward nobody is told to drive faster than on the level.
+// Leaning inward no car is told to drive faster than on the level.
 TEST(SpeedPlan, ABendThatLeansInwardIsDrivenAsOnTheLevel) {
   const SpeedPlanSettings settings;
   for (const double curvature : {0.01, -0.05}) {

@@ -49,7 +49,8 @@ TEST(Launch, TheSameFileGivesTheSameHashAndAnOverrideAnother) {
   EXPECT_NE(hash({}), hash({{"nodes.traffic.period_s", "0.01"}}));
 }
 
-// Who begins at a snapshot must find the recorder beginning there too: otherwise it waits for an earlier one, for ever.
+// A node that begins at a snapshot must find the recorder beginning there too: otherwise it waits for an earlier one,
+// for ever.
 TEST(Launch, SnapshotsAreTakenWhereAllPeriodsMeetTheRecordersToo) {
   const auto every = [](const Overrides& overrides) {
     const Launch launch = Launch::Parse(kDrive, "x.yaml", overrides).value();

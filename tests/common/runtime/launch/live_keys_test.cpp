@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The border between a window's keys and who drives by them.
+// The border between a window's keys and the node that drives by them.
 #include "common/runtime/launch/live_keys.hpp"
 
 #include <gtest/gtest.h>

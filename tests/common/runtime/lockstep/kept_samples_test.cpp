@@ -47,7 +47,7 @@ TEST_F(KeptSamplesTest, KeepsWhatTheSlowestConsumerMayStillNeed) {
   for (Step v = 0; v <= 60; v += 2) kept_.Add(Make(0, v));
   kept_.Granted(Through(20));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 0);
-  // Granted 43: somebody may stand at 23, whose next activation is at 25 and sees the events in (20, 25].
+  // Granted 43: a node may stand at 23; its next activation is at 25 and sees the events in (20, 25].
   kept_.Granted(Through(43));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 22);
   EXPECT_EQ(kept_.size(), 20u);

@@ -25,7 +25,7 @@ InProcessSettings Tracing(Contents& contents, Step last) {
   return settings;
 }
 
-// Everything that the reference has up to the last step; what lies behind it belongs to nobody's run.
+// Everything that the reference has up to the last step; what lies behind it belongs to no run.
 void ExpectLawful(const Roster& roster, const Contents& contents, Step last) {
   const Contents reference = law::Reference(roster, last);
   for (const auto& [key, content] : reference) {

@@ -61,7 +61,7 @@ TEST_F(MailboxTest, CallsWhenWhatTheLastWaitLackedIsThere) {
   ASSERT_TRUE(mailbox_.Deliver(Make(1, 0, 1)).ok());
   EXPECT_EQ(calls, 1);
   ASSERT_EQ(mailbox_.WaitForInputs(0, 0ms), Mailbox::Woken::kReady);
-  ASSERT_TRUE(mailbox_.Deliver(Make(1, 2, 1)).ok());  // nobody waits for it
+  ASSERT_TRUE(mailbox_.Deliver(Make(1, 2, 1)).ok());  // no node waits for it
   EXPECT_EQ(calls, 1);
 }
 

@@ -128,7 +128,7 @@ TEST(Pacer, StepsThatWaitForSlowNodesAreLateBySoMuch) {
 }
 
 // A node that is started again pulls the window below what was granted. Time stands meanwhile, whatever came before: a
-// pause, a new pace, another life of the clock; and goes on from what was granted at once when everybody is there
+// pause, a new pace, a restarted clock; and goes on from what was granted at once when all are there
 // again.
 TEST(Pacer, WhileANodeComputesAgainTimeStandsAndNoMoreIsGivenUpThanPassed) {
   for (const char* before : {"nothing", "a pause", "a new pace", "another clock"}) {

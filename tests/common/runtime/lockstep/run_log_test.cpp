@@ -36,7 +36,7 @@ TEST(RunLog, WallTimesWaitForCompanyAndRemarksDoNot) {
   EXPECT_TRUE(log.closed());
 }
 
-// Batches are lost, doubled and overtaken; who asks for what is missing has all of them, once, in order.
+// Batches are lost, doubled and overtaken; a reader that asks for what is missing has all of them, once, in order.
 TEST(RunLog, TheReceiverHasEverythingInOrderWhateverIsLost) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     KeptLog kept;

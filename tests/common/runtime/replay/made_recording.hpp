@@ -17,7 +17,7 @@
 
 namespace rodeira::replay {
 
-// A whole recording without a run: what a recorder would have written of a launch text whose sources say `payload`.
+// A whole recording without a run: what a recorder would have written of a launch text with sources that say `payload`.
 struct MadeRecording {
   std::string launch_text;
   lockstep::Step last_step = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many cars at once: each has the bits that it has alone, on any number of threads, whoever else is there, and from a
+// Many cars at once: each has the bits that it has alone, on any number of threads, whatever else is there, and from a
 // snapshot.
 #include "common/vehicle/dynamics/car_array.hpp"
 
@@ -47,7 +47,7 @@ Controls Hands(std::size_t car, int step) {
   return controls;
 }
 
-// The cars whose numbers are given, every third of them a van.
+// The cars with the given numbers, every third of them a van.
 struct Cars {
   explicit Cars(std::vector<std::size_t> of, ground::Ground& on) : numbers(std::move(of)), ground(on) {
     const auto small = array.AddKind(DefaultSettings()), van = array.AddKind(Van());

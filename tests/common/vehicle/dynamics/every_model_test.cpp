@@ -302,13 +302,13 @@ TEST_P(EveryBody, AtASpeedItBeginsSteadily) {
     controls.throttle = s.throttle;
     EXPECT_GT(s.throttle, 0.01);
     EXPECT_LT(s.throttle, 0.99);
-    // On a slope across the slip that holds the car begins to relax within the step, whose end the mechanism goes by.
+    // On a slope across the slip that holds the car begins to relax within the step; the mechanism goes by its end.
     if (GetParam().is_mechanism && slope_y != 0.0) continue;
     car->Step(controls, ground, kStep);
     const double solved = GetParam().is_mechanism ? 1e-3 : 1e-6;
     EXPECT_LE(car->state().a_WB_W.norm(), solved);
     EXPECT_LE(car->state().alpha_WB_B.norm(), 2.0 * solved);
-    if (slope_y != 0.0) continue;  // from here on somebody must steer
+    if (slope_y != 0.0) continue;  // from here on the car must be steered
     DriveFor(*car, ground, controls, 2.0);
     EXPECT_NEAR(car->state().speed_mps(), speed_mps, 1e-3);
     EXPECT_NEAR(car->state().p_WB_W.y(), -7.0, 1e-3);

@@ -332,7 +332,7 @@ TEST(Gearbox, ByHandAGearNeedsTheClutchAndReverseNeedsPatience) {
   EXPECT_EQ(ShiftByHand(gearbox, -1, 1, 1.0, -5.0), 0);
 }
 
-// Forty cars of two kinds in one array, and each by itself, backward through the array: the same bits, whoever stands
+// Forty cars of two kinds in one array, and each by itself, backward through the array: the same bits, whatever stands
 // beside it.
 TEST(PowertrainArray, EachCarHasTheBitsThatItHasAlone) {
   constexpr std::size_t kCars = 40;

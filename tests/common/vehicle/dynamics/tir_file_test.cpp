@@ -144,7 +144,7 @@ RC_GTEST_PROP(TirFile, ARealFileOfVersion52IsReadAndComputed, (std::uint32_t see
 }
 
 // On the other side of the car than it was measured on a tyre is its mirror image: conicity and ply steer push to the
-// other side. What nobody says the side of is the same on both.
+// other side. A tyre without a side is the same on both.
 TEST(TirFile, TheSideThatATyreWasMeasuredOnIsMirroredOnTheOther) {
   const auto wheels_of = [](const std::string& line) {
     TyreSettings tyre;

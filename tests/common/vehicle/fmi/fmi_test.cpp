@@ -113,8 +113,8 @@ TEST_F(Fmi, WhatIsNoFmuOfThisPlatformIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path().parent_path() / "outside.txt"));
 }
 
-// Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: nobody can try foreign
-// code.
+// Cut short or with bytes changed: a sentence or an FMU, never a crash. The binary is left out: foreign code cannot be
+// tried code.
 TEST_F(Fmi, DamagedArchivesAreRefused) {
   const auto file = folder_.path() / "car.fmu";
   WriteZip(file, {{"modelDescription.xml", FmuFolder::Description()}, {"resources/note.txt", "of no use"}});

@@ -138,7 +138,7 @@ TEST(WheelDriver, AButtonHeldIsOnePress) {
 }
 
 // Buttons for lamps, horn and R N D: presses count once each, the horn sounds while its button is down, and where the
-// wheel is unplugged nobody holds it.
+// wheel is unplugged it is free.
 TEST(WheelDriver, ButtonsForLampsHornAndGearsDoWhatTheySay) {
   WheelSettings settings = Settings();
   const std::array uses{WheelButton::kIndicateLeft, WheelButton::kHeadlights, WheelButton::kHorn,

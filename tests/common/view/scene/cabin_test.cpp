@@ -66,7 +66,7 @@ TEST(Cabin, TheInstrumentsAreSeenAndTheRoadToo) {
   }
 }
 
-// Nobody sits in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one
+// No eye is in a post: nothing is nearer to the eye than a hand, and the left half of the body is the right one
 // mirrored at the car's middle.
 TEST(CabinBody, LeavesRoomForAHeadAndIsTheSameOnBothSides) {
   for (const auto& [width_m, height_m] : {std::pair(1.65, 1.42), std::pair(1.9, 1.9), std::pair(1.55, 1.15)}) {

@@ -276,7 +276,7 @@ TEST(Camera, WhatIsSeenThroughAScreenLiesOnTheRayThroughIt) {
   }
 }
 
-// Three screens whose edges touch: what is cut by the seam leaves one where it enters the other.
+// Three screens with edges that touch: what is cut by the seam leaves one where it enters the other.
 TEST(Camera, ThreeScreensHaveNoSeam) {
   const CarPose car = CarAt(0.0, 0.0, 0.0, 0.3);
   const double width = 1.2, distance = 0.9, angle = 2.0 * std::atan(0.5 * width / distance);

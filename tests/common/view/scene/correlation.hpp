@@ -80,7 +80,7 @@ inline double FromNearest(const road::World& world, const Eigen::Vector3d& p) {
   return nearest_m;
 }
 
-// A point of the triangles whose areas add up to these sums: one of many that are spread evenly over all of them.
+// A point of the triangles with areas that add up to these sums: one of many that are spread evenly over all of them.
 inline Eigen::Vector3d PointIn(const std::vector<std::array<Eigen::Vector3d, 3>>& triangles,
                                const std::vector<double>& sums, std::uint64_t seed, std::uint64_t n) {
   const auto draw = [&](std::uint64_t what) { return base::RandomUniform({seed, n, what}, 0.0, 1.0); };

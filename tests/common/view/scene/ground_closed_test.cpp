@@ -107,7 +107,7 @@ struct Flaws {
   std::vector<Eigen::Vector3d>
       met;         // the same where some go back, but not as many: more than two sheets meet in a line
   int free = 0;    // lower sides and ends of walls, which hang: aprons of bridges, cliffs beside them
-  int turned = 0;  // triangles of the ground that face down, or whose corners' normals do
+  int turned = 0;  // triangles of the ground that face down, or with corners' normals that do
 };
 
 Flaws FlawsOf(const GroundTile& tile, std::size_t level) {

@@ -18,7 +18,7 @@ constexpr double kWidth_m = 0.5;  // of what a pixel sees of the ground, some 25
 
 struct Lit {
   int triangles = 0,
-      creased = 0;  // creased: from whose own normal that of some corner differed, had they kept their corners'
+      creased = 0;  // creased: those with a normal that differed from some corner's, had they kept their corners'
   double worst_change = 0.0;     // of the normal over half a metre across a triangle
   double worst_apart_rad = 0.0;  // of a creased triangle's normal from SUELO's at its middle
 };

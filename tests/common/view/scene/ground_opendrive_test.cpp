@@ -70,7 +70,7 @@ TEST(Ground, IsWhereTheTyresAreOnRealFilesButAtTheirSteps) {
   }
 }
 
-// A road over a crest and through a hollow, along whose left lane the edge between two tiles runs: both draw it where
+// A road over a crest and through a hollow, with the edge between two tiles along its left lane: both draw it where
 // SUELO is, in a world without a terrain too.
 TEST(Ground, IsWhereTheTyresAreOnTheEdgesOfTiles) {
   const std::string lane = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";

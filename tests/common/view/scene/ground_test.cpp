@@ -340,7 +340,7 @@ TEST(Ground, TheSameBitsForAnyNumberOfThreads) {
   }
 }
 
-// On a crossing, about a bridge, and on bare land, whose levels are alike where it has every post.
+// On a crossing, about a bridge, and on bare land, with levels that are alike where it has every post.
 TEST(Ground, ALevelAloneIsThatOfTheWholeTile) {
   const auto land = road::World::Parse(
       "rodeira: world/2\nname: land\nterrain:\n  generate: {seed: 4, columns: 49, rows: 61, spacing_m: 20, west_m: "

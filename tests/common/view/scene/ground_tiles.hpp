@@ -29,7 +29,7 @@ inline std::array<Eigen::Vector3d, 3> CornersOf(const Mesh& mesh, std::size_t tr
           mesh.PositionW(mesh.triangles[3 * triangle + 2])};
 }
 
-// Real files whose ground is looked at as a whole, RODEIRA_GROUND_FILES (2) of them.
+// Real files with ground that is looked at as a whole, RODEIRA_GROUND_FILES (2) of them.
 inline std::vector<std::string> RealGrounds() {
   std::vector<std::string> names{"esmini_curves_elevation", "esmini_fabriksgatan", "esmini_e6mini",
                                  "esmini_highway_exit",     "carla_Town04",        "esmini_multi_intersections",

@@ -65,7 +65,7 @@ TEST(HeatMap, SumsAreWhatWasDrivenAndFlowIsDensityTimesSpeed) {
   EXPECT_EQ(*map.Value(HeatKind::kSpeed, stood), 0.0);
 }
 
-// 7.2 l/h at 72 km/h is 10 l for 100 km, in every square; who says nothing of its fuel counts for the other statistics
+// 7.2 l/h at 72 km/h is 10 l for 100 km, in every square; a car without its fuel counts for the other statistics
 // alone.
 TEST(HeatMap, WhatTheTrafficSaysThatItBurns) {
   const auto world = PlaneWithRoad();

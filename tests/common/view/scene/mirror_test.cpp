@@ -33,7 +33,7 @@ TEST(Mirror, ShowsWhatIsBehind) {
   EXPECT_NEAR(At(Mirror::kInside, 40.0, 0.0).value(), 150.0, 1e-6);
   EXPECT_GT(At(Mirror::kInside, 40.0, 5.0).value(), 200.0);
   EXPECT_LT(At(Mirror::kInside, 40.0, -5.0).value(), 100.0);
-  // Who overtakes beside the car's end is out of the inside mirror and in the left one.
+  // A car that overtakes beside the car's end is out of the inside mirror and in the left one.
   EXPECT_FALSE(At(Mirror::kInside, 6.0, 3.2));
   EXPECT_TRUE(At(Mirror::kLeft, 6.0, 3.2));
   EXPECT_FALSE(At(Mirror::kRight, 6.0, 3.2));

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const fs::path kExample =
     fs::path(SourceDir()) / "configs/worlds/example";  // worn.png has 64 x 64 pixels, fields.png 256 x 208
 
-// A road on a plane, whose lanes may be of a material with a picture.
+// A road on a plane; its lanes may be of a material with a picture.
 std::shared_ptr<const road::World> Plane(const std::string& ground, const std::string& lanes = "", double x_m = 0.0) {
   const auto world = road::World::Parse(
       fmt::format("rodeira: world/2\nname: pictures\nground: {{kind: plane, z_m: 1, surface: grass{}}}\nmaterials: "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far the building of a world's picture has come, as it is told to who waits for it.
+// How far the building of a world's picture has come, as it is told to the waiting part.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,8 @@ TEST(Progress, TheShareNeverFallsAndIsWholeAtLast) {
   }
 }
 
-// Who waits hears of a tile at least as often as this thread has built one; with 6 of them none is a leap to the end.
+// The waiting part hears of a tile at least as often as this thread has built one; with 6 of them none is a leap to the
+// end.
 TEST(Progress, ItGoesTileByTile) {
   WorldScene scene;
   const Heard heard = ShareOf("lights.yaml", &scene);

@@ -187,8 +187,8 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
   EXPECT_TRUE(Things(*world).tiles().empty());
 }
 
-// Whoever parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height that a
-// file gives it makes no body of it.
+// A driver who parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height
+// that a file gives it makes no body of it.
 TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
   const auto world = WorldWith(
       R"(<objects><object id="p" type="parkingSpace" s="50" t="0" length="5" width="2.5" height="4"><material roadMarkColor="yellow"/></object></objects>)");
@@ -275,7 +275,7 @@ TEST(RoadPaint, ArrowsPointToTheLeftOfTheirTraffic) {
   const auto world = WorldWith(
       R"(<signals><signal id="a" s="40" t="1.75" zOffset="0" orientation="-" dynamic="no" type="-1" subtype="-1" country="OpenDRIVE" name="SgRMArrowLeft.flt" height="0.03" width="0.75"/></signals>)");
   ASSERT_NE(world, nullptr);
-  const Painted west = PaintOf(*world);  // against s: to the west, whose left is the south
+  const Painted west = PaintOf(*world);  // against s: to the west, with the south on the left
   ExpectBox(west, 47.5, 21.75 - 0.375, 52.5, 21.75 + 0.075);
   EXPECT_NEAR(west.area_m2, AreaOf(ArrowShape({true, false, false}, 5.0, 0.75)), 5e-3);
   EXPECT_LT(west.middle.y(), 21.75);

@@ -48,7 +48,7 @@ std::size_t Triangles(const Things& things, int level) {
   return count;
 }
 
-// Of a body whose lower face lies on z = 0, and is missing: the flux of (0, 0, z).
+// Of a body with its lower face on z = 0, and is missing: the flux of (0, 0, z).
 double Volume(const Mesh& mesh) {
   double volume = 0.0;
   for (std::size_t i = 0; i < mesh.triangle_count(); ++i) {
@@ -92,8 +92,8 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
     ASSERT_EQ(mesh.on_face.size(), mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
       const Vector3d p = mesh.PositionW(i);
-      EXPECT_NEAR(p.x(), 60.0 - 0.042, 1e-5);  // before its post, where those who come along s see it
-      // Who drives to the east has the south on the right: the picture's left edge lies north.
+      EXPECT_NEAR(p.x(), 60.0 - 0.042, 1e-5);  // before its post, where traffic along s sees it
+      // A car to the east has the south on the right: the picture's left edge lies north.
       EXPECT_NEAR(p.y(), 20.0 - 5.0 + 0.6 * (0.5 - static_cast<double>(mesh.on_face[i].x())), 1e-5);
       EXPECT_NEAR(p.z(), 5.0 + 2.0 + 0.6 * static_cast<double>(mesh.on_face[i].y()), 1e-5);
       EXPECT_NEAR((mesh.normals[i] - Eigen::Vector3f(-1.0F, 0.0F, 0.0F)).norm(), 0.0F, 1e-6F);
@@ -107,7 +107,7 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
   EXPECT_EQ(faces, 1);
 }
 
-// A board of two signs and a display for those who drive to the east: it stands on its posts, what is on it lies a
+// A board of two signs and a display for traffic to the east: it stands on its posts, what is on it lies a
 // centimetre before it, to the left or right as its readers see it, on no post of its own.
 TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
   const auto world = WorldWith(
@@ -152,7 +152,7 @@ TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
   EXPECT_NEAR(sign.stand.foot_W.z(), 7.0, 1e-9);
   EXPECT_NEAR(sign.above_m, 5.5, 1e-9);
   EXPECT_NEAR(sign.stand.foot_W.x(), 40.0, 1e-12);
-  EXPECT_NEAR(sign.stand.x_W.x(), -1.0, 1e-12);  // it looks at who drives to the east
+  EXPECT_NEAR(sign.stand.x_W.x(), -1.0, 1e-12);  // it faces traffic to the east
 }
 
 TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {

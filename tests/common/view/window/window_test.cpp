@@ -172,7 +172,7 @@ TEST(Window, ADisplayThatDoesNotAnswerIsNamed) {
   const char* wayland = std::getenv("WAYLAND_DISPLAY");
   const std::string kept = set != nullptr ? set : "", kept_wayland = wayland != nullptr ? wayland : "";
   ::unsetenv("WAYLAND_DISPLAY");
-  ::setenv("DISPLAY", ":5517", 1);  // nobody has so many
+  ::setenv("DISPLAY", ":5517", 1);  // no display has such a number
   const auto opened = Window::Open({Kind::kWindow, kWidth, kHeight, "test"});
   if (kept.empty())
     ::unsetenv("DISPLAY");

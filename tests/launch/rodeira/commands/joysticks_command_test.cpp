@@ -44,7 +44,7 @@ TEST(JoysticksCommand, TheDoctorNamesThemAndTheDevicesThatMayNotBeRead) {
   EXPECT_EQ(CheckJoysticks({kWheel}, folder.path()).verdict, Verdict::kOk);
   EXPECT_THAT(CheckJoysticks({kWheel}, folder.path()).sentence, HasSubstr(kWheel.guid));
   EXPECT_EQ(CheckJoysticks({}, folder.path()).verdict, Verdict::kOk);
-  // Root may read everything, so the device leads nowhere: that cannot be read by anybody.
+  // Root may read everything, so the device leads nowhere: that no user can read.
   std::filesystem::create_symlink("nowhere", folder.path() / "event3");
   const Finding closed = CheckJoysticks({}, folder.path());
   EXPECT_EQ(closed.verdict, Verdict::kWarning);

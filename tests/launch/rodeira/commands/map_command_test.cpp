@@ -112,7 +112,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   EXPECT_THAT(said.errors, testing::ContainsRegex(
                                "a[.]motors[.]yaml:[0-9]+: lights: the lights .* and .* are green or amber together"));
   EXPECT_THAT(said.out, HasSubstr("found        1 errors"));
-  // … in the second phase: there it is said, also to who wants to drive.
+  // … in the second phase: there it is said, also before a drive.
   ASSERT_TRUE(base::WriteWhole(beside, good.substr(0, good.find("lights:")) +
                                            "lights:\n  - phases:\n      - {green: [], for_s: 10}\n      - {green: [" +
                                            lanes + "], for_s: 20}\n")
@@ -126,7 +126,7 @@ TEST(MapCommand, FindsWhatCannotBeDriven) {
   const Said driven = SaidBy(TrafficRun, drive);
   EXPECT_EQ(driven.status, 2);
   EXPECT_THAT(driven.errors, HasSubstr(there));
-  // A lane that turns on the spot: nobody finds its errors at the place of another file.
+  // A lane that turns on the spot: its errors are not found at the place of another file.
   std::string sharp = traffic_map::kGoodLines;
   sharp.replace(sharp.find("p,5,30,1,1.5,34,1,1.5,38.5,1,6,38.5,1,10"), 40, "p,5,30,1,1.5,30.1,1,1.5,29,1,1.5,29,1,2");
   sharp.replace(sharp.find("36,1,-1.5,41.5,1,4,41.5,1,10"), 28, "32,1,-1.5,33,1,0,33,1,2");
@@ -166,7 +166,7 @@ TEST(MapCommand, WritesAWorldOfThisProject) {
   EXPECT_EQ(made.value()->name(), "over");
   EXPECT_GE(made.value()->network()->roads().size(), 20u);
   EXPECT_THAT(said.out, HasSubstr(": " + std::to_string(made.value()->network()->roads().size()) + " roads in "));
-  // The same again is no mistake; a file of somebody else's is kept.
+  // The same again is no mistake; another one's file is kept.
   EXPECT_EQ(Asked({"convert", kCrossing, world}).status, 0);
   ASSERT_TRUE(base::WriteWhole(folder.path() / "mine.xodr", "mine").ok());
   const Said kept = Asked({"convert", kCrossing, folder.path() / "mine.yaml"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `rodeira traffic run` as a user sees it: how much traffic there is, and who is refused.
+// `rodeira traffic run` as a user sees it: how much traffic there is, and what is refused.
 #include "launch/rodeira/commands/traffic_command.hpp"
 
 #include <fmt/format.h>

@@ -71,7 +71,7 @@ const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml
 const char* const kIntervals =
     "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
 
-// Ten cars for a minute and a half on the ramp's map, whose name is one that XML has to spell otherwise.
+// Ten cars for a minute and a half on the ramp's map, with a name that XML has to spell otherwise.
 class TrafficFilesTest : public testing::Test {
  protected:
   TrafficFilesTest() {
@@ -121,7 +121,7 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   int empty = 0;
   for (const auto& row : lanes) {
     EXPECT_NEAR(Number(row, "length_m"), 1.0, 0.2);
-    EXPECT_EQ(row.at("speed_mps").empty(), row.at("density_vehpkm") == "0.000") << row.at("road");  // nobody was there
+    EXPECT_EQ(row.at("speed_mps").empty(), row.at("density_vehpkm") == "0.000") << row.at("road");  // no car was there
     lanes_m += Number(row, "length_m");
     EXPECT_GT(Number(row, "free_mps"), 2.0);
     if (row.at("speed_mps").empty()) {
@@ -136,11 +136,11 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     fuel_l += 1e-6 * Number(row, "fuel_mlpkm") * Number(row, "flow_vehph") / 3600.0 * Number(row, "length_m") *
               options_.duration_s;
     EXPECT_LE(Number(row, "speed_mps"),
-              1.001 * Number(row, "free_mps") + 0.5);  // nobody here drives faster than the plan
+              1.001 * Number(row, "free_mps") + 0.5);  // no car here drives faster than the plan
   }
   EXPECT_GT(empty, 0);
-  // The closing table: who was there, came and left are those who are there; the fuel is that of the table, but for
-  // what an idling engine burns at rest.
+  // The closing table: those that were there, came and left add up to those that are there; the fuel is that of the
+  // table, but for what an idling engine burns at rest.
   const auto told = [&](const char* name) {
     std::istringstream line(said.out.substr(said.out.find(std::string("\n") + name) + 18));
     std::vector<double> numbers;
@@ -167,8 +167,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
   }
   EXPECT_EQ(queues.size(), 19u);
   EXPECT_NEAR(queues_m, lanes_m, 0.2);
-  // Who came onto each lane and left it: as many are there as the last rows of the cars say, and as many came into the
-  // network and left it as the closing table does.
+  // The cars that came onto each lane and left it: as many are there as the last rows of the cars say, and as many came
+  // into the network and left it as the closing table does.
   std::map<std::string, double> last_on, there_on;
   for (const auto& row : cars) {
     if (row.at("time_s") == "180.00") last_on[row.at("road")] += 1.0;
@@ -198,7 +198,7 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     EXPECT_GT(Number(row, "travel_time_s"), 1.0);
     EXPECT_GT(Number(row, "fuel_ml"), 0.1);
     EXPECT_GT(Number(row, "delay_s"),
-              -0.05 * Number(row, "travel_time_s"));  // nobody is faster than the free speeds of his way, but where
+              -0.05 * Number(row, "travel_time_s"));  // no car is faster than the free speeds of its way, but where
                                                       // they change within a metre
     EXPECT_LT(Number(row, "delay_s"), 0.5 * Number(row, "travel_time_s"));
     EXPECT_EQ(row.at("flow"), "");

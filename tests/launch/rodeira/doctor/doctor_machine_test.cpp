@@ -96,7 +96,7 @@ TEST(Sockets, SmallBuffersAreNamedWithTheCommandThatRaisesThem) {
   EXPECT_EQ(CheckSockets(proc.path()).verdict, Verdict::kOk);
 }
 
-// A socket in the file system that somebody listens on, as a display server does.
+// A socket in the file system that a process listens on, as a display server does.
 class Server {
  public:
   explicit Server(const std::filesystem::path& file) : socket_(::socket(AF_UNIX, SOCK_STREAM, 0)) {

@@ -25,7 +25,7 @@ TEST(SharedMemory, AFolderThatIsMissingOrRefusesIsAFaultOneThatIsFullAWarning) {
   EXPECT_EQ(missing.verdict, Verdict::kFault);
   EXPECT_THAT(missing.sentence,
               HasSubstr("there is no folder " + (folder.path() / "shm").string() + "; a tmpfs was expected there"));
-  const Finding refused = CheckSharedMemory("/proc");  // takes no files from anybody, root included
+  const Finding refused = CheckSharedMemory("/proc");  // takes no files from any user, root included
   EXPECT_EQ(refused.verdict, Verdict::kFault);
   EXPECT_THAT(refused.sentence, HasSubstr("/proc takes no files"));
   const Finding full = CheckSharedMemory(folder.path(), ~0ull);
@@ -57,7 +57,7 @@ TEST(SharedMemory, WhatDeadProcessesLeftIsCountedWhatLivingOnesUseIsNot) {
   EXPECT_THAT(CheckSharedMemory(folder.path(), 1).sentence, HasSubstr("3 files"));
 }
 
-// A UDP port of this PC that nobody else gets.
+// A UDP port of this PC that no other process gets.
 class Taken {
  public:
   explicit Taken(int port) : socket_(::socket(AF_INET, SOCK_DGRAM, 0)) {

@@ -58,7 +58,7 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
   EXPECT_EQ(end.at("missing"), "0");
 }
 
-// Whoever stops it is told that he has, also where no step was driven yet.
+// A person who stops it is told so, also where no step was driven yet.
 TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
   const std::string file = Drive();
   for (const lockstep::Step at : {0, 1500}) {
@@ -252,7 +252,7 @@ TEST_F(BranchTest, ABranchMayHaveAnotherTrafficSeed) {
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();
 }
 
-// Unchanged, it goes on itself, to the bit: nobody could make another one that stands where it stood.
+// Unchanged, it goes on itself, to the bit: no other one could stand where it stood.
 TEST_F(BranchTest, ANodeWithoutAStateGoesOnInABranch) {
   const std::string file =
       Record("without.mcap", LaunchFile("empty.yaml"),

@@ -146,7 +146,7 @@ TEST_F(ReplayTest, ARepairedFileIsARunUpToWhereItIsWhole) {
   EXPECT_TRUE(Branch({good, 500, {{"seed", "2"}}, std::nullopt, (folder_.path() / "branch.mcap").string()}).ok());
 }
 
-// A byte anywhere behind the first bytes, also where nobody reads it otherwise: metadata, embedded files.
+// A byte anywhere behind the first bytes, also where it is not read otherwise: metadata, embedded files.
 TEST_F(ReplayTest, AChangedByteOutsideOfTheSamplesIsFoundToo) {
   const std::string file =
       Record("drive.mcap", LaunchFile("first_drive.yaml"), {"--for", "1", "--meta", "participant=P07"});
@@ -208,7 +208,7 @@ TEST_F(ReplayTest, ANodeWithoutAStateIsComputedFromTheStart) {
       HasSubstr("node 'c' cannot save its state: all is computed again from step 0\nidentical: 1500 steps, 4 nodes"));
   EXPECT_THAT(RunCommand({Bin("rodeira"), "info", file}).out,
               HasSubstr("state   node 'c' cannot save its state: replayed from the first step"));
-  // Its digests are compared like everybody's: a change of another node reaches it.
+  // Its digests are compared like all others: a change of another node reaches it.
   const auto changed = VerifyFile(file, 1200, {{"nodes.c.config.broken", "clock"}});
   ASSERT_TRUE(changed.ok()) << changed.error().Text();
   ASSERT_TRUE(changed.value().difference.has_value());

@@ -27,6 +27,6 @@ struct FakeHeadset {
   int width_px = 0, height_px = 0;
   std::array<std::vector<std::uint8_t>, 2> rgba{};  // of the last one with a layer; rows from below
   std::array<XrView, 2> said{};                     // from where the view says that they were drawn
-  int living = 0;  // instances, sessions, spaces and swapchains that nobody has destroyed
+  int living = 0;  // instances, sessions, spaces and swapchains that were not destroyed
   int wrong = 0;   // calls in an order that OpenXR forbids
 };

@@ -235,7 +235,7 @@ TEST_F(InTheHeadset, ALostOneIsNamed) {
   EXPECT_EQ(Fake().living, 0);
 }
 
-// Nothing is drawn for a head of which nobody knows where it is; the frame is ended all the same.
+// Nothing is drawn for a head at an unknown place; the frame is ended all the same.
 TEST_F(InTheHeadset, NobodyKnowsWhereTheHeadIs) {
   const auto screen = Opened();
   Fake().knows_where = false;
