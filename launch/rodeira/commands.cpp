@@ -475,8 +475,7 @@ int RunCommandLine(int argc, char** argv) {
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(problem);  // --help, --version
-    std::cerr << "rodeira: " << OptionSentence(app, problem)
-              << "\n'rodeira --help' and 'rodeira COMMAND --help' say more\n";
+    std::cerr << OptionSentence(app, problem) << "\n";
     return 2;
   }
   if (!shell.command.empty()) return Shell(shell, app);

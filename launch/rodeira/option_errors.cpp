@@ -47,7 +47,7 @@ std::vector<std::string> OptionsOf(const CLI::App& command) {
 }
 
 // The parser says "Could not convert: NAME = VALUE"; nothing where it says something else.
-std::string ConversionSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+std::string ConversionSentence(const CLI::App& command, const std::string& said) {
   constexpr std::string_view kSaid = "Could not convert: ", kIs = " = ";
   const std::size_t equals = said.find(kIs);
   if (!said.starts_with(kSaid) || equals == std::string::npos) return "";
@@ -57,7 +57,7 @@ std::string ConversionSentence(const CLI::App& command, const std::string& calle
     if (option->get_name() == name || option->check_name(name)) type = option->get_type_name();
   }
   const bool whole = type.starts_with("INT") || type.starts_with("UINT");
-  return fmt::format("{} of '{}' is '{}'; a {} was expected", name, called, value, whole ? "whole number" : "number");
+  return fmt::format("{}: '{}' was found; a {} was expected", name, value, whole ? "whole number" : "number");
 }
 
 // A sentence where the text is a number that does not pass; what is no number is left to the conversion.
@@ -71,7 +71,7 @@ std::string WhyNot(const std::string& text, const Passes& passes, const std::str
 
 // The parser says "NAME: At least N required but received M", or "at most" and "exactly"; nothing where it says
 // something else.
-std::string CountSentence(const CLI::App& command, const std::string& called, const std::string& said) {
+std::string CountSentence(const CLI::App& command, const std::string& said) {
   const std::size_t colon = said.find(':'), received = said.find("received ");
   if (colon == std::string::npos || received == std::string::npos) return "";
   const std::string name = said.substr(0, colon), count = said.substr(received + std::string_view("received ").size());
@@ -81,7 +81,7 @@ std::string CountSentence(const CLI::App& command, const std::string& called, co
     const std::string expected = least == most                                   ? fmt::format("{}", least)
                                  : most >= CLI::detail::expected_max_vector_size ? fmt::format("{} or more", least)
                                                                                  : fmt::format("{} to {}", least, most);
-    return fmt::format("{} of '{}' has {} value{}; {} were expected", name, called, count, count == "1" ? "" : "s",
+    return fmt::format("{}: {} value{} found; {} were expected", name, count, count == "1" ? " was" : "s were",
                        expected);
   }
   return "";
@@ -163,38 +163,44 @@ CLI::Validator NewFile() {
       "FILE");
 }
 
-std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
-  const Reading reading = Deepest(app);
-  // A word before the command that was read: 'trafic run' is not 'run'.
-  const std::vector<std::string> before = app.remaining(false);
-  if (reading.command != &app && !before.empty() && before.front().front() != '-')
-    return fmt::format("'{}' is no command of '{}'{}", before.front(), app.get_name(),
-                       base::DidYouMean(before.front(), CommandsOf(app)));
+namespace {
+
+// What is wrong with the command that was read.
+std::string Problem(const Reading& reading, const CLI::ParseError& problem) {
   const std::vector<std::string> extras = reading.command->remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
-    return fmt::format("'{}' is no option of '{}'{}", name, reading.name,
-                       base::DidYouMean(name, OptionsOf(*reading.command)));
+    return fmt::format("unknown option '{}'{}", name, base::DidYouMean(name, OptionsOf(*reading.command)));
   }
   const std::vector<std::string> commands = CommandsOf(*reading.command);
   if (!commands.empty() && !extras.empty())
-    return fmt::format("'{}' is no command of '{}'{}", extras.front(), reading.name,
-                       base::DidYouMean(extras.front(), commands));
+    return fmt::format("unknown command '{}'{}", extras.front(), base::DidYouMean(extras.front(), commands));
   if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr)
-    return fmt::format("'{}' needs a command; known are {}", reading.name, fmt::join(commands, ", "));
-  if (!extras.empty()) return fmt::format("'{}' was not expected by '{}'", extras.front(), reading.name);
+    return fmt::format("a command is missing; expected {}", fmt::join(commands, ", "));
+  if (!extras.empty()) return fmt::format("unexpected argument '{}'", extras.front());
   if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
-    if (const std::string sentence = ConversionSentence(*reading.command, reading.name, problem.what());
-        !sentence.empty())
+    if (const std::string sentence = ConversionSentence(*reading.command, problem.what()); !sentence.empty())
       return sentence;
   }
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr) {
-    if (const std::string sentence = CountSentence(*reading.command, reading.name, problem.what()); !sentence.empty())
+    if (const std::string sentence = CountSentence(*reading.command, problem.what()); !sentence.empty())
       return sentence;
   }
   return problem.what();
+}
+
+}  // namespace
+
+std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
+  const Reading reading = Deepest(app);
+  // A word before the command that was read: 'trafic run' is not 'run'.
+  const std::vector<std::string> before = app.remaining(false);
+  if (reading.command != &app && !before.empty() && before.front().front() != '-')
+    return fmt::format("{0}: unknown command '{1}'{2} (see '{0} --help')", app.get_name(), before.front(),
+                       base::DidYouMean(before.front(), CommandsOf(app)));
+  return fmt::format("{0}: {1} (see '{0} --help')", reading.name, Problem(reading, problem));
 }
 
 }  // namespace rodeira::cli

@@ -25,8 +25,8 @@ CLI::Validator WholeNumber();
 // A file to be written, in a folder that is there.
 CLI::Validator NewFile();
 
-// One line without its end: the word that no command or option is called, of which command, and the nearest that there
-// is; otherwise the parser's own words.
+// One line without its end, "COMMAND: what is wrong (see 'COMMAND --help')": an unknown word with the nearest known
+// one; otherwise the parser's own words.
 std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);
 
 }  // namespace rodeira::cli

@@ -362,9 +362,9 @@ TEST_F(Recovery, AtAPaceARestartAfterAPauseCostsItsOwnTimeOnly) {
   }
   const Ended ended = run.Wait(30s);
   ASSERT_EQ(ended.status, 0) << ended.out;
-  const auto given_up = ended.out.find(" s given up");
-  ASSERT_NE(given_up, std::string::npos) << ended.out;
-  const auto begin = ended.out.rfind(' ', given_up - 1);
+  const auto dropped = ended.out.find(" s dropped");
+  ASSERT_NE(dropped, std::string::npos) << ended.out;
+  const auto begin = ended.out.rfind(' ', dropped - 1);
   EXPECT_LT(std::stod(ended.out.substr(begin)), 4.0) << "less than it had run before: " << ended.out;
 }
 

@@ -40,15 +40,16 @@ ParsedOptions ParseOptions(const std::string& program, bool is_clock, int argc, 
     app.add_option("--pace", pace, "max, real or a factor");
     app.add_option("--for", duration_s, "simulated seconds")->check(Positive);
     app.add_flag("--listen", options.listen, "take lines 'lost NODE TEXT' and 'do NUMBER COMMAND' from standard input");
-    app.add_option("--incarnation", options.incarnation, "which life of the clock");
-    app.add_option("--clock-id", options.clock_id, "number of the run's clock; another life has that of the first");
-    app.add_option("--begun-ns", options.begun_ns, "another life: when the run began, on the monotonic clock");
-    app.add_flag("--paused", options.paused, "another life: begin paused");
+    app.add_option("--incarnation", options.incarnation, "which incarnation of the clock");
+    app.add_option("--clock-id", options.clock_id,
+                   "number of the run's clock; another incarnation has that of the first");
+    app.add_option("--begun-ns", options.begun_ns, "another incarnation: when the run began, on the monotonic clock");
+    app.add_flag("--paused", options.paused, "another incarnation: begin paused");
     app.add_option("--follow", options.follow,
                    "name of this host: grant nothing, say what the run's clock on another host says");
   } else {
     app.add_option("--node", options.node, "name of the node in the launch file")->required();
-    app.add_option("--incarnation", options.incarnation, "which life of the node");
+    app.add_option("--incarnation", options.incarnation, "which incarnation of the node");
   }
   try {
     app.parse(argc, argv);

@@ -26,7 +26,7 @@ Step Pacer::Limit(std::int64_t now_ns, Step window_limit) {
   if (paused_) return hold_;
   if (pace_ <= 0.0) return std::numeric_limits<Step>::max();
   const Step due = Due(now_ns);
-  // A node that was started again computes what had been granted long ago: no time is given up over that.
+  // A node that was started again computes what had been granted long ago: no time is dropped for that.
   const Step reachable = std::max(window_limit, granted_);
   if (due <= reachable) return std::min(due, window_limit);
   const auto slip_ns = static_cast<std::int64_t>(static_cast<double>((due - reachable) * base_step_ns_) / pace_);

@@ -40,7 +40,7 @@ class Pacer {
 
   // Wall time from `now_ns` until the step behind Limit() is due; 0 where nothing is to be waited for.
   std::int64_t NextDueIn(std::int64_t now_ns) const;
-  std::int64_t slipped_ns() const { return slipped_ns_; }  // wall time given up, all together
+  std::int64_t slipped_ns() const { return slipped_ns_; }  // wall time dropped, all together
   std::uint64_t slips() const { return slips_; }
   const Lateness& lateness() const { return lateness_; }
   std::int64_t late_ns() const { return late_ns_; }  // of the step granted last; 0 where none was due

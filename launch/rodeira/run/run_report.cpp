@@ -102,14 +102,14 @@ std::string RunReport::Table(double base_step_s, const std::string& recording) c
                                  wall_s > 0.0 ? simulated_s / wall_s : 0.0);
   if (paused_s > 0.0) text += fmt::format(", of it paused {:.2f} s", paused_s);
   if (paced_steps > 0) {
-    text += fmt::format("\nlate    mean {:.3f} ms, worst {:.3f} ms, {} of {} steps late, {:.3f} s given up",
+    text += fmt::format("\nlate    mean {:.3f} ms, worst {:.3f} ms, {} of {} steps late, {:.3f} s dropped",
                         late_mean_s * 1e3, late_worst_s * 1e3, late_steps, paced_steps, slipped_s);
   }
   std::size_t width = 4;
   for (const Node& node : nodes) width = std::max(width, node.name.size());
   // Computing a step, and from one step to the next.
   text += fmt::format("\n{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "node", width, "steps", "mean µs",
-                      "worst µs", "apart µs", "99 % µs", "server calls");
+                      "worst µs", "period µs", "99 % µs", "server calls");
   for (const Node& node : nodes) {
     text += fmt::format("{:<{}}  {:>9}  {:>9.2f}  {:>9.1f}  {:>9.1f}  {:>9.1f}  {:>12}\n", node.name, width, node.steps,
                         node.mean_us, node.worst_us, node.apart_us, node.apart_p99_us, node.server_calls);

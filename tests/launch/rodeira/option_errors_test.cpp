@@ -28,61 +28,78 @@ std::string Refused(std::vector<std::string> words) {
 
 TEST(OptionErrors, NameTheCommandThatWasMeant) {
   EXPECT_THAT(Refused({"wrold", "check", "a.yaml"}),
-              HasSubstr("rodeira: 'wrold' is no command of 'rodeira'; did you mean 'world'?\n"));
+              HasSubstr("rodeira: unknown command 'wrold'; did you mean 'world'? (see 'rodeira --help')\n"));
   EXPECT_THAT(Refused({"trafic", "run", "a.motors"}),
-              HasSubstr("rodeira: 'trafic' is no command of 'rodeira'; did you mean 'traffic'?\n"));
-  EXPECT_THAT(Refused({"world", "chekc", "a.yaml"}),
-              HasSubstr("rodeira: 'chekc' is no command of 'rodeira world'; did you mean 'check'?\n"));
-  EXPECT_THAT(Refused({"map"}), HasSubstr("rodeira: 'rodeira map' needs a command; known are check, convert\n"));
+              HasSubstr("rodeira: unknown command 'trafic'; did you mean 'traffic'? (see 'rodeira --help')\n"));
+  EXPECT_THAT(
+      Refused({"world", "chekc", "a.yaml"}),
+      HasSubstr("rodeira world: unknown command 'chekc'; did you mean 'check'? (see 'rodeira world --help')\n"));
+  EXPECT_THAT(Refused({"map"}),
+              HasSubstr("rodeira map: a command is missing; expected check, convert (see 'rodeira map --help')\n"));
 }
 
 TEST(OptionErrors, NameTheOptionThatWasMeant) {
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--vehicels", "4"}),
-              HasSubstr("rodeira: '--vehicels' is no option of 'rodeira traffic run'; did you mean '--vehicles'?\n"));
-  EXPECT_THAT(Refused({"run", "a.yaml", "--recrod=x"}),
-              HasSubstr("rodeira: '--recrod' is no option of 'rodeira run'; did you mean '--record'?\n"));
+              HasSubstr("rodeira traffic run: unknown option '--vehicels'; did you mean '--vehicles'? (see 'rodeira "
+                        "traffic run --help')\n"));
+  EXPECT_THAT(
+      Refused({"run", "a.yaml", "--recrod=x"}),
+      HasSubstr("rodeira run: unknown option '--recrod'; did you mean '--record'? (see 'rodeira run --help')\n"));
   EXPECT_THAT(Refused({"info", "a.mcap", "b.mcap"}),
-              HasSubstr("rodeira: 'b.mcap' was not expected by 'rodeira info'\n"));
+              HasSubstr("rodeira info: unexpected argument 'b.mcap' (see 'rodeira info --help')\n"));
 }
 
 TEST(OptionErrors, SayWhatAValueShouldBe) {
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--driver", "moters"}),
-              HasSubstr("rodeira: --driver: 'moters' was found; did you mean 'motors'?\n"));
+              HasSubstr("rodeira traffic run: --driver: 'moters' was found; did you mean 'motors'? (see 'rodeira "
+                        "traffic run --help')\n"));
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--seed", "-1"}),
-              HasSubstr("rodeira: --seed: '-1' was found; a whole number from 0 on was expected\n"));
+              HasSubstr("rodeira traffic run: --seed: '-1' was found; a whole number from 0 on was expected (see "
+                        "'rodeira traffic run --help')\n"));
   EXPECT_THAT(Refused({"polyline", "scale", "a.csv", "-o", "b.csv", "--by", "0"}),
-              HasSubstr("rodeira: --by: '0' was found; a number above 0 was expected\n"));
+              HasSubstr("rodeira polyline scale: --by: '0' was found; a number above 0 was expected (see 'rodeira "
+                        "polyline scale --help')\n"));
   EXPECT_THAT(Refused({"run", "a.yaml", "--for", "nan"}),
-              HasSubstr("'nan' was found; a positive number of seconds was expected\n"));
+              HasSubstr("'nan' was found; a positive number of seconds was expected (see 'rodeira run --help')\n"));
 }
 
 TEST(OptionErrors, SayWhatIsNoNumber) {
-  EXPECT_THAT(Refused({"world", "query", "a.yaml", "a", "2"}),
-              HasSubstr("rodeira: X of 'rodeira world query' is 'a'; a number was expected\n"));
+  EXPECT_THAT(
+      Refused({"world", "query", "a.yaml", "a", "2"}),
+      HasSubstr("rodeira world query: X: 'a' was found; a number was expected (see 'rodeira world query --help')\n"));
   EXPECT_THAT(Refused({"world", "build", "a.yaml", "-o", "b", "--threads", "many"}),
-              HasSubstr("rodeira: --threads of 'rodeira world build' is 'many'; a whole number was expected\n"));
+              HasSubstr("rodeira world build: --threads: 'many' was found; a whole number was expected (see 'rodeira "
+                        "world build --help')\n"));
 }
 
 TEST(OptionErrors, SayThatNoNumberIsMeantByNan) {
   EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "nan", "2"}),
-              HasSubstr("rodeira: --by: 'nan' was found; a finite number was expected\n"));
+              HasSubstr("rodeira polyline translate: --by: 'nan' was found; a finite number was expected (see 'rodeira "
+                        "polyline translate --help')\n"));
   EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "inf"}),
-              HasSubstr("rodeira: --deg: 'inf' was found; a finite number was expected\n"));
+              HasSubstr("rodeira polyline rotate: --deg: 'inf' was found; a finite number was expected (see 'rodeira "
+                        "polyline rotate --help')\n"));
   EXPECT_THAT(Refused({"polyline", "offset", "a.csv", "-o", "b.csv", "--left", "nan"}),
-              HasSubstr("rodeira: --left: 'nan' was found; a finite number was expected\n"));
+              HasSubstr("rodeira polyline offset: --left: 'nan' was found; a finite number was expected (see 'rodeira "
+                        "polyline offset --help')\n"));
   EXPECT_THAT(Refused({"polyline", "join", "a.csv", "b.csv", "-o", "c.csv", "--within", "nan"}),
-              HasSubstr("rodeira: --within: 'nan' was found; a number from 0 on was expected\n"));
+              HasSubstr("rodeira polyline join: --within: 'nan' was found; a number from 0 on was expected (see "
+                        "'rodeira polyline join --help')\n"));
   EXPECT_THAT(Refused({"world", "query", "a.yaml", "nan", "0"}),
-              HasSubstr("rodeira: X: 'nan' was found; a finite number was expected\n"));
+              HasSubstr("rodeira world query: X: 'nan' was found; a finite number was expected (see 'rodeira world "
+                        "query --help')\n"));
 }
 
 TEST(OptionErrors, SayHowManyValuesThereShouldBe) {
   EXPECT_THAT(Refused({"polyline", "translate", "a.csv", "-o", "b.csv", "--by", "1"}),
-              HasSubstr("rodeira: --by of 'rodeira polyline translate' has 1 value; 2 to 3 were expected\n"));
+              HasSubstr("rodeira polyline translate: --by: 1 value was found; 2 to 3 were expected (see 'rodeira "
+                        "polyline translate --help')\n"));
   EXPECT_THAT(Refused({"polyline", "rotate", "a.csv", "-o", "b.csv", "--deg", "9", "--about", "1"}),
-              HasSubstr("rodeira: --about of 'rodeira polyline rotate' has 1 value; 2 were expected\n"));
+              HasSubstr("rodeira polyline rotate: --about: 1 value was found; 2 were expected (see 'rodeira polyline "
+                        "rotate --help')\n"));
   EXPECT_THAT(Refused({"traffic", "run", "a.motors", "--step", "0.5"}),
-              HasSubstr("rodeira: --step: '0.5' was found; a number from 0.001 to 0.1 was expected\n"));
+              HasSubstr("rodeira traffic run: --step: '0.5' was found; a number from 0.001 to 0.1 was expected (see "
+                        "'rodeira traffic run --help')\n"));
 }
 
 // A missing folder is no place to write into: it is more likely mistyped.
@@ -91,7 +108,7 @@ TEST(OptionErrors, NoFolderIsMadeForAFile) {
   const std::string missing = (folder.path() / "no/such").string();
   const auto says = [&](std::vector<std::string> words) {
     EXPECT_THAT(Refused(std::move(words)),
-                HasSubstr("'" + missing + "/it' was found; there is no folder '" + missing + "'\n"));
+                HasSubstr("'" + missing + "/it' was found; there is no folder '" + missing + "' (see 'rodeira "));
   };
   says({"world", "map", "a.yaml", "-o", missing + "/it"});
   says({"world", "export", "a.yaml", "-o", missing + "/it"});
