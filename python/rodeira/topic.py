@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: Apache-2.0
+"""A topic of a recording: its times and its columns as arrays."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .columns import Path, columns_of, pick, resolve
+from .decode import ENCAPSULATION, PADDING, BadMessage, Decoder
+from .errors import Error, RecordingWarning
+from .idl_types import Struct
+from .layout import Layouts, truth_paths
+from .mcap import Block, McapFile, gather
+from .mcap_records import HEAD_BYTES, MESSAGE_HEAD_BYTES, Channel
+from .nodes import Node, concatenate, finished, take
+
+if TYPE_CHECKING:
+    import pandas
+
+_HEAD = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2"), ("sequence", "<u4"), ("log_time", "<u8"),
+                  ("publish_time", "<u8")])
+_HEADER = ("step", "time_ns", "source", "incarnation", "state_digest")
+
+
+@dataclass
+class _Batch:
+    """Messages of one block, or of all; `values` by path, () for all values."""
+    log_time_ns: np.ndarray
+    channel: np.ndarray
+    values: dict[Path, Node]
+
+
+class Topic:
+    """Reads nothing before it is asked for times or values. `topic["speed_mps"]` reads all columns once and keeps them;
+    `topic.read([...])` reads the named columns alone and keeps nothing."""
+
+    def __init__(self, file: McapFile, name: str, full_name: str, kind: Struct, channels: list[Channel]) -> None:
+        self.name = name
+        self.full_name = full_name
+        self.type = kind
+        self.channels = tuple(channels)
+        self._file = file
+        self._layouts = Layouts()
+        self._units = columns_of(kind)
+        self._all: _Batch | None = None
+        first = kind.members[0].type
+        self.has_header = (isinstance(first, Struct) and first.name == "rodeira::msg::SampleHeader" and
+                           tuple(member.name for member in first.members) == _HEADER)
+
+    # What there is.
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns, as in the tables of `rodeira export`: 'wheels[2].load_n', 'agents.id'."""
+        return tuple(self._units)
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column; '' for a number without one, and where the type names none."""
+        return dict(self._units)
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """The nodes that published it."""
+        return tuple(dict.fromkeys(channel.source for channel in self.channels))
+
+    def __len__(self) -> int:
+        return len(self._loaded().log_time_ns)
+
+    def __repr__(self) -> str:
+        return f"<rodeira.Topic '{self.name}' of {', '.join(self.sources)}: {len(self._units)} columns>"
+
+    def __contains__(self, column: object) -> bool:
+        return column in self._units
+
+    # Values.
+    def __getitem__(self, column: str) -> Any:
+        """The values of a column, one a sample, sorted by time.
+
+        Numbers are an array. Columns of a sequence ('agents.id') are a Ragged: offsets and values. 'wheels.load_n' has
+        an axis more for the four wheels. A structure ('position_w_m') is a structured array.
+        """
+        return finished(pick(self._loaded().values[()], self._resolve(column)))
+
+    def read(self, columns: Iterable[str]) -> dict[str, Any]:
+        """The named columns in one pass over the file, of which nothing else is kept. `time_s` and `source` give the
+        samples' times and nodes, if the type has no column of that name."""
+        special = {"time_s": lambda batch: self._time_ns(batch) / 1e9, "source": self._source}
+        wanted = list(columns)
+        paths = {column: self._resolve(column) for column in wanted if column in self._units or column not in special}
+        header: tuple[Path, ...] = (("header", "time_ns"),) if self.has_header else ()
+        batch = self._load((*paths.values(), *header))
+        return {column: finished(batch.values[paths[column]]) if column in paths else special[column](batch)
+                for column in wanted}
+
+    def array(self) -> np.ndarray:
+        """All samples as one structured array. Raises Error for a topic with texts or sequences."""
+        values = self._loaded().values[()]
+        if not isinstance(values, np.ndarray):
+            raise Error(f"{self._file.path}: {self.name}: has texts or sequences, so that it is not one array; "
+                        "topic[COLUMN] and topic.table() were expected")
+        return values
+
+    @property
+    def time_ns(self) -> np.ndarray:
+        """Simulated time in nanoseconds; of other programs' recordings the log time."""
+        return self._time_ns(self._loaded())
+
+    @property
+    def time_s(self) -> np.ndarray:
+        """Simulated time in seconds."""
+        return self.time_ns / 1e9
+
+    @property
+    def source(self) -> np.ndarray:
+        """The node that published each sample."""
+        return self._source(self._loaded())
+
+    def table(self) -> dict[str, Any]:
+        """The table that `rodeira export --csv` writes, by column (docs/reference/tables.md)."""
+        from .table import table_of
+        return table_of(self)
+
+    def frame(self) -> "pandas.DataFrame":
+        """The table as a frame of pandas; `frame.attrs["units"]` has the unit of each column."""
+        from .table import frame_of
+        return frame_of(self, self._file.path)
+
+    # Reading.
+    def _resolve(self, column: str) -> Path:
+        return resolve(self.type, column, f"{self._file.path}: {self.name}")
+
+    def _time_ns(self, batch: _Batch) -> np.ndarray:
+        if not self.has_header:
+            return batch.log_time_ns.astype(np.int64)
+        path = ("header", "time_ns")
+        return np.ascontiguousarray(batch.values[path] if path in batch.values else pick(batch.values[()], path))
+
+    def _source(self, batch: _Batch) -> np.ndarray:
+        names = np.array([channel.source for channel in self.channels])
+        if len(self.channels) == 1:
+            return np.full(len(batch.channel), names[0])
+        ids = np.array([channel.id for channel in self.channels])
+        order = np.argsort(ids)
+        return names[order][np.searchsorted(ids[order], batch.channel)]
+
+    def _loaded(self) -> _Batch:
+        if self._all is None:
+            self._all = self._load(((),))
+        return self._all
+
+    def _load(self, paths: tuple[Path, ...]) -> _Batch:
+        ids = {channel.id for channel in self.channels}
+        file = self._file
+        blocks = [block for block in file.blocks if file.expected(block, ids) != 0]
+        out = self._room(blocks, ids) if paths == ((),) else None
+        with ThreadPoolExecutor(max_workers=min(8, os.cpu_count() or 1)) as pool:
+            begins = np.cumsum([0, *(file.expected(block, ids) or 0 for block in blocks)]).tolist()
+            jobs = [pool.submit(self._read_block, block, ids, paths,
+                                None if out is None else out[begins[i]:begins[i + 1]])
+                    for i, block in enumerate(blocks)]
+            batches, lost = [], []
+            try:
+                for job in jobs:
+                    found = job.result()
+                    if isinstance(found, _Batch):
+                        batches.append(found)
+                    else:
+                        lost.append(found)
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+        if not lost:
+            lost += self._missing(ids, sum(len(batch.log_time_ns) for batch in batches))
+        for sentence in lost:
+            if sentence not in file.damage:
+                file.damage.append(sentence)
+                warnings.warn(sentence, RecordingWarning, stacklevel=4)
+        return self._together(batches, out if not lost else None, paths)
+
+    def _room(self, blocks: list[Block], ids: set[int]) -> np.ndarray | None:
+        """Where the values of all messages go, if their number and size are known beforehand."""
+        counts = [self._file.expected(block, ids) for block in blocks]
+        if None in counts or not self._layouts.is_fixed(self.type):
+            return None
+        return np.empty(sum(count or 0 for count in counts), dtype=self._layouts.dtype(self.type))
+
+    def _missing(self, ids: set[int], found: int) -> list[str]:
+        if self._file.counts is None:
+            return []
+        said = sum(self._file.counts.get(channel, 0) for channel in ids)
+        return [] if said == found else [
+            f"{self._file.path}: {self.name}: {found} messages were found; the summary names {said}"]
+
+    def _together(self, batches: list[_Batch], out: np.ndarray | None, paths: tuple[Path, ...]) -> _Batch:
+        if not batches:
+            empty = np.empty(0, dtype=np.int64)
+            node = Decoder(self.type, self._layouts).decode(b"", empty, empty)
+            return _Batch(empty.astype(np.uint64), empty, {path: pick(node, path) for path in paths})
+        log_time_ns = np.concatenate([batch.log_time_ns for batch in batches])
+        channel = np.concatenate([batch.channel for batch in batches])
+        values = {path: out if out is not None else concatenate([batch.values[path] for batch in batches])
+                  for path in paths}
+        if (log_time_ns[1:] < log_time_ns[:-1]).any():  # several sources: one block after the other
+            order = np.argsort(log_time_ns, kind="stable")
+            log_time_ns, channel = log_time_ns[order], channel[order]
+            values = {path: take(node, order) for path, node in values.items()}
+        return _Batch(log_time_ns, channel, values)
+
+    def _read_block(self, block: Block, ids: set[int], paths: tuple[Path, ...],
+                    out: np.ndarray | None) -> _Batch | str:
+        """The block's messages, into `out` if there is one; a sentence if the block is lost."""
+        try:
+            records = self._file.records(block)
+        except Error as problem:
+            return str(problem)
+        at = self._file.offsets(block, records, ids)
+        head = gather(records, at, _HEAD)
+        start = at + HEAD_BYTES + MESSAGE_HEAD_BYTES
+        end = at + HEAD_BYTES + head["length"].astype(np.int64)
+        if (end > len(records)).any():
+            return f"{self._file.path}: byte {block.offset}: a message that ends behind its chunk lies there"
+        batch = _Batch(head["log_time"].copy(), head["channel"].copy(), {})
+        try:
+            picked = self._fixed_columns(records, start, end, paths)
+            if picked is None:
+                node = Decoder(self.type, self._layouts).decode(records, start, end)
+                if out is not None and len(out) == len(at):
+                    out[:] = node
+                    picked = {(): out}
+                else:
+                    picked = {path: _own(pick(node, path)) for path in paths}
+        except BadMessage as bad:
+            channel = next(c for c in self.channels if c.id == head["channel"][bad.message])
+            raise Error(f"{self._file.path}: {self.name} of '{channel.source}' at "
+                        f"{int(head['log_time'][bad.message]) / 1e9:.9g} s: {bad.sentence}") from None
+        batch.values = picked
+        return batch
+
+    def _fixed_columns(self, records: bytes | memoryview, start: np.ndarray, end: np.ndarray,
+                       paths: tuple[Path, ...]) -> dict[Path, Node] | None:
+        """A few columns of messages of one size, without their other bytes; nothing where another way is needed."""
+        if () in paths or not self._layouts.is_fixed(self.type) or len(start) == 0 or truth_paths(self.type):
+            return None
+        dtype = self._layouts.dtype(self.type)
+        left = end - start - ENCAPSULATION - dtype.itemsize
+        if (left < 0).any() or (left > PADDING).any() or (gather(records, start, ">u2") != 1).any():
+            return None  # the decoder says what is wrong
+        count = len(records) - dtype.itemsize - ENCAPSULATION + 1
+        every = np.ndarray((count,), dtype=dtype, buffer=records, offset=ENCAPSULATION, strides=(1,))
+        return {path: pick(every, path)[start] for path in paths}
+
+
+def _own(node: Node) -> Node:
+    """The values without the block's other bytes."""
+    return np.ascontiguousarray(node) if isinstance(node, np.ndarray) else node
