@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What is installed, and where. Components: headless (front door, nodes, worlds, vehicles, launch files), graphics
-# (view, editor, start window), development (libraries and headers for nodes of one's own), documentation.
+# (view, editor, start window), development (libraries and headers for nodes of one's own), documentation,
+# python (recordings in Python).
 # cmake/RodeiraPackage.cmake makes Debian packages of them.
 
 include(GNUInstallDirs)
@@ -61,6 +62,9 @@ function(rodeira_install_files)
   install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/CONTRIBUTING.md ${CMAKE_SOURCE_DIR}/SECURITY.md
           ${CMAKE_SOURCE_DIR}/CITATION.cff DESTINATION share/doc/rodeira-doc COMPONENT documentation)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION share/doc/rodeira-doc COMPONENT documentation)
+  # Where Debian's Python looks, whatever the version.
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/python/rodeira DESTINATION lib/python3/dist-packages COMPONENT python
+          FILES_MATCHING PATTERN *.py PATTERN py.typed PATTERN __pycache__ EXCLUDE)
   rodeira_install_kit()
   # Everything that is installed, and nothing else.
   get_property(installed GLOBAL PROPERTY RODEIRA_INSTALLED)

@@ -5,8 +5,9 @@
 #   rodeira           view, editor, start window
 #   rodeira-dev       libraries and headers for nodes and vehicles of one's own
 #   rodeira-doc       documents
+#   python3-rodeira   recordings in Python
 #
-# Every package depends on rodeira-headless of the same version.
+# rodeira and rodeira-dev depend on rodeira-headless of the same version.
 
 set(RODEIRA_MAINTAINER "Rodeira developers <developers@rodeira.invalid>" CACHE STRING "Maintainer of the packages")
 
@@ -32,7 +33,7 @@ set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/packages)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
-set(CPACK_COMPONENTS_ALL headless development documentation)
+set(CPACK_COMPONENTS_ALL headless development documentation python)
 if(RODEIRA_VIEW)
   list(APPEND CPACK_COMPONENTS_ALL graphics)
 endif()
@@ -84,5 +85,18 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SECTION doc)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_DESCRIPTION "distributed driving simulator, documents
 Tutorials, references and explanations of Rodeira as Markdown with pictures.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-rodeira)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-pandas, python3-zstandard")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-lz4, python3-matplotlib, rodeira-headless")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/packaging/python3/postinst;\
+${CMAKE_SOURCE_DIR}/packaging/python3/prerm")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "distributed driving simulator, recordings in Python
+Reads recordings of Rodeira, and other MCAP files with OMG IDL schemas, as
+NumPy arrays and pandas frames: topics, times, columns with their units,
+events, marks, metadata and embedded files. Needs no other part of Rodeira.")
 
 include(CPack)

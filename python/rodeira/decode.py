@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from .idl_types import Array, Plain, Sequence, Struct, Text, Type
-from .layout import Layouts, truth_paths
+from .layout import Layouts
 from .mcap import gather
-from .nodes import Node, Ragged, Texts, spread
+from .nodes import Node, Ragged, Texts, concatenate, spread, take
 
 ENCAPSULATION = 4
 PADDING = 3  # of a transport, behind the last value
@@ -53,7 +53,6 @@ class Decoder:
         if little.all() or not little.any():
             order = "<" if little.all() else ">"
             return self._all(Bodies(data, start + ENCAPSULATION, end, which, order))
-        from .nodes import concatenate, take
         parts = [self._all(Bodies(data, start + ENCAPSULATION, end, which, order).take(rows))
                  for order, rows in (("<", which[little]), (">", which[~little]))]
         return take(concatenate(parts), np.argsort(np.concatenate([which[little], which[~little]]), kind="stable"))
@@ -130,7 +129,7 @@ class Decoder:
         dtype = self.layouts.dtype(kind, residue, bodies.order)
         self._check_room(bodies, at, dtype.itemsize)
         found = gather(bodies.data, at, dtype)
-        for path in truth_paths(kind):
+        for path in self.layouts.truth_paths(kind):
             truth = found
             for name in path:
                 truth = truth[name]

@@ -21,6 +21,7 @@ class Layouts:
         self._keep: dict[int, Type] = {}  # an id stays that of its type
         self._fixed: dict[int, bool] = {}
         self._least: dict[int, int] = {}
+        self._truth: dict[int, list[tuple[str, ...]]] = {}
         self._dtypes: dict[tuple[int, int, str], np.dtype] = {}
 
     def alignment(self, kind: Type) -> int:
@@ -117,13 +118,15 @@ class Layouts:
             sizes = np.concatenate([sizes, np.resize(period, count - len(sizes))])
         return np.concatenate([np.zeros(1, dtype=np.int64), np.cumsum(sizes)])
 
-
-def truth_paths(kind: Type) -> list[tuple[str, ...]]:
-    """The names that lead to the truth values of a fixed type; () for a truth value itself."""
-    if isinstance(kind, Plain):
-        return [()] if kind.code == "b1" else []
-    if isinstance(kind, Array):
-        return truth_paths(kind.element)
-    if isinstance(kind, Struct):
-        return [(member.name, *path) for member in kind.members for path in truth_paths(member.type)]
-    return []
+    def truth_paths(self, kind: Type) -> list[tuple[str, ...]]:
+        """The names that lead to the truth values of a fixed type; () for a truth value itself."""
+        if isinstance(kind, Plain):
+            return [()] if kind.code == "b1" else []
+        if isinstance(kind, Array):
+            return self.truth_paths(kind.element)
+        if id(kind) not in self._truth:
+            self._keep[id(kind)] = kind
+            assert isinstance(kind, Struct)
+            self._truth[id(kind)] = [(member.name, *path) for member in kind.members
+                                     for path in self.truth_paths(member.type)]
+        return self._truth[id(kind)]

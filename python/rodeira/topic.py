@@ -16,7 +16,7 @@ from .columns import Path, columns_of, pick, resolve
 from .decode import ENCAPSULATION, PADDING, BadMessage, Decoder
 from .errors import Error, RecordingWarning
 from .idl_types import Struct
-from .layout import Layouts, truth_paths
+from .layout import Layouts
 from .mcap import Block, McapFile, gather
 from .mcap_records import HEAD_BYTES, MESSAGE_HEAD_BYTES, Channel
 from .nodes import Node, concatenate, finished, take
@@ -232,7 +232,8 @@ class Topic:
             if picked is None:
                 node = Decoder(self.type, self._layouts).decode(records, start, end)
                 if out is not None and len(out) == len(at):
-                    out[:] = node
+                    assert isinstance(node, np.ndarray)
+                    out.view(np.uint8)[:] = node.view(np.uint8)  # one copy; by fields it would be one each
                     picked = {(): out}
                 else:
                     picked = {path: _own(pick(node, path)) for path in paths}
@@ -246,7 +247,7 @@ class Topic:
     def _fixed_columns(self, records: bytes | memoryview, start: np.ndarray, end: np.ndarray,
                        paths: tuple[Path, ...]) -> dict[Path, Node] | None:
         """A few columns of messages of one size, without their other bytes; nothing where another way is needed."""
-        if () in paths or not self._layouts.is_fixed(self.type) or len(start) == 0 or truth_paths(self.type):
+        if () in paths or not self._layouts.is_fixed(self.type) or len(start) == 0 or self._layouts.truth_paths(self.type):
             return None
         dtype = self._layouts.dtype(self.type)
         left = end - start - ENCAPSULATION - dtype.itemsize
