@@ -50,7 +50,7 @@ class Layouts:
         return self._least[id(kind)]
 
     def is_fixed(self, kind: Type) -> bool:
-        """True for a type without texts and sequences whose arrays have one stride: it has a dtype."""
+        """True for a type without texts and sequences, with arrays of one stride: it has a dtype."""
         if isinstance(kind, Plain):
             return True
         if isinstance(kind, (Text, Sequence)):

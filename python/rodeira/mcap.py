@@ -59,7 +59,8 @@ class McapFile:
         try:
             with open(self.path, "rb") as file:
                 size = os.fstat(file.fileno()).st_size
-                self.data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)) if size else memoryview(b"")
+                data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if size else b""
+                self.data = memoryview(data)
         except OSError as problem:
             raise Error(f"{self.path}: cannot open: {(problem.strerror or str(problem)).lower()}") from None
         if bytes(self.data[:len(MAGIC)]) != MAGIC:

@@ -166,7 +166,7 @@ class Recording:
 def open(path: str | os.PathLike[str]) -> Recording:  # noqa: A001
     """Opens a recording of Rodeira, or another MCAP file with CDR messages and OMG IDL schemas.
 
-    Raises rodeira.Error if the file cannot be opened or is not MCAP. Damage, and topics that cannot be read, are told as
+    Raises rodeira.Error if the file cannot be opened or is not MCAP. Damage, and topics that cannot be read, are
     warnings (rodeira.RecordingWarning); everything else is read.
     """
     return Recording(path)

@@ -247,7 +247,9 @@ class Topic:
     def _fixed_columns(self, records: bytes | memoryview, start: np.ndarray, end: np.ndarray,
                        paths: tuple[Path, ...]) -> dict[Path, Node] | None:
         """A few columns of messages of one size, without their other bytes; nothing where another way is needed."""
-        if () in paths or not self._layouts.is_fixed(self.type) or len(start) == 0 or self._layouts.truth_paths(self.type):
+        if () in paths or len(start) == 0 or not self._layouts.is_fixed(self.type):
+            return None
+        if self._layouts.truth_paths(self.type):  # they need to be checked
             return None
         dtype = self._layouts.dtype(self.type)
         left = end - start - ENCAPSULATION - dtype.itemsize

@@ -14,7 +14,8 @@ const SLICE_BYTES = 1 << 20;
 
 function plain(value) {
   if (typeof value === "bigint") return String(value);
-  if (typeof value === "number") return Number.isFinite(value) && !Object.is(value, -0) ? value : Object.is(value, -0) ? "-0" : String(value);
+  if (Object.is(value, -0)) return "-0";
+  if (typeof value === "number" && !Number.isFinite(value)) return String(value);
   if (ArrayBuffer.isView(value) || Array.isArray(value)) return Array.from(value, plain);
   if (value !== null && typeof value === "object") {
     return Object.fromEntries(Object.entries(value).map(([key, inner]) => [key, plain(inner)]));
