@@ -8,48 +8,70 @@ import ctypes.util
 import threading
 from typing import Any
 
+import numpy as np
+
 from .errors import Error
 
-try:
-    import zstandard as _zstandard
-except ImportError:  # libzstd itself serves then
-    _zstandard = None
 try:
     import lz4.frame as _lz4
 except ImportError:
     _lz4 = None
 
-_local = threading.local()
 MAX_BYTES = 1 << 30  # no chunk or attachment that claims more is decompressed
+_local = threading.local()
 
 
-def _libzstd() -> Any:
-    if not hasattr(_libzstd, "library"):
-        name = ctypes.util.find_library("zstd") or "libzstd.so.1"
-        library = ctypes.CDLL(name)
-        library.ZSTD_decompress.restype = ctypes.c_size_t
-        library.ZSTD_decompress.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_char_p, ctypes.c_size_t]
-        _libzstd.library = library  # type: ignore[attr-defined]
-    return _libzstd.library  # type: ignore[attr-defined]
-
-
-def _zstd(data: bytes | memoryview, size: int) -> bytes:
-    if _zstandard is not None:
-        if not hasattr(_local, "zstd"):
-            _local.zstd = _zstandard.ZstdDecompressor()  # one a thread
-        try:
-            return bytes(_local.zstd.decompress(data, max_output_size=size))
-        except _zstandard.ZstdError as problem:
-            raise Error(f"the zstd data is damaged: {problem}") from None
+def _find_libzstd() -> Any:
     try:
-        library = _libzstd()
-    except OSError:
-        raise Error("the data is compressed with zstd; the Python package zstandard was expected "
-                    "(Debian: python3-zstandard)") from None
-    out = ctypes.create_string_buffer(max(size, 1))
-    if library.ZSTD_decompress(out, size, bytes(data), len(data)) != size:
+        library = ctypes.CDLL(ctypes.util.find_library("zstd") or "libzstd.so.1")
+        library.ZSTD_decompress.restype = ctypes.c_size_t
+        library.ZSTD_decompress.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t]
+        return library
+    except (OSError, AttributeError):
+        return None
+
+
+def _find_zstandard() -> Any:
+    try:
+        import zstandard
+        return zstandard
+    except ImportError:
+        return None
+
+
+_libzstd = _find_libzstd()
+_zstandard = _find_zstandard()
+
+
+def _by_libzstd(data: bytes | memoryview, size: int) -> memoryview:
+    """Into the thread's own buffer, which the next call overwrites."""
+    if not hasattr(_local, "room") or len(_local.room) < size:
+        _local.room = np.empty(max(size, 1 << 20), dtype=np.uint8)
+    stored = np.frombuffer(data, dtype=np.uint8)
+    room = _local.room
+    if _libzstd.ZSTD_decompress(room.ctypes.data, size, stored.ctypes.data, len(stored)) != size:
         raise Error("the zstd data is damaged")
-    return out.raw[:size]
+    return memoryview(room)[:size]
+
+
+def _by_zstandard(data: bytes | memoryview, size: int) -> bytes:
+    if not hasattr(_local, "zstd"):
+        _local.zstd = _zstandard.ZstdDecompressor()  # one a thread
+    try:
+        return bytes(_local.zstd.decompress(data, max_output_size=size))
+    except _zstandard.ZstdError as problem:
+        raise Error(f"the zstd data is damaged: {problem}") from None
+
+
+def _zstd(data: bytes | memoryview, size: int) -> bytes | memoryview:
+    if size == 0:
+        return b""
+    if _libzstd is not None:
+        return _by_libzstd(data, size)
+    if _zstandard is not None:
+        return _by_zstandard(data, size)
+    raise Error("the data is compressed with zstd; the library libzstd or the Python package zstandard was expected "
+                "(Debian: python3-zstandard)")
 
 
 def _lz4_frame(data: bytes | memoryview) -> bytes:
@@ -62,13 +84,16 @@ def _lz4_frame(data: bytes | memoryview) -> bytes:
 
 
 def decompress(kind: str, data: bytes | memoryview, size: int) -> bytes | memoryview:
-    """The `size` bytes of `data`; `kind` is '', 'zstd' or 'lz4', as in a chunk of MCAP. Raises Error."""
+    """The `size` bytes of `data`; `kind` is '', 'zstd' or 'lz4', as in a chunk of MCAP. Raises Error.
+
+    They are valid until the thread's next call.
+    """
     if size > MAX_BYTES:
         raise Error(f"{size} uncompressed bytes are named; at most {MAX_BYTES} were expected")
     if kind == "":
         out: bytes | memoryview = data
     elif kind == "zstd":
-        out = _zstd(data, size) if size else b""
+        out = _zstd(data, size)
     elif kind == "lz4":
         out = _lz4_frame(data)
     else:

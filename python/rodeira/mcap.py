@@ -23,6 +23,8 @@ from .mcap_records import (ATTACHMENT, CHANNEL, CHUNK, CHUNK_INDEX, DATA_END, FO
                            seconds)
 
 _HEAD = struct.Struct("<BQ")
+MESSAGE_HEAD = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2"), ("sequence", "<u4"),
+                         ("log_time", "<u8"), ("publish_time", "<u8")])  # of a record, before its data
 
 
 @dataclass(frozen=True)
@@ -226,39 +228,47 @@ class McapFile:
             return None
         return sum(len(index) // 16 for channel, index in block.indexes.items() if channel in channels)
 
-    def offsets(self, block: Block, records: bytes | memoryview, channels: set[int]) -> np.ndarray:
-        """Where in `records` the messages of these channels begin (their opcode), in file order."""
-        found = self._indexed(block, records, channels) if block.head is not None and block.indexes else None
-        if found is None:
-            if block.head is None:
-                found = np.array(block.offsets, dtype=np.int64)
-            else:
-                found = np.array([offset for offset, opcode, length in walk(records)
-                                  if opcode == MESSAGE and length >= MESSAGE_HEAD_BYTES], dtype=np.int64)
-            if len(found):
-                of = gather(records, found + HEAD_BYTES, "<u2")
-                found = found[np.isin(of, np.array(sorted(channels), dtype=np.uint16))]
-        return found
+    def messages(self, block: Block, records: bytes | memoryview, channels: set[int]) -> tuple[np.ndarray, np.ndarray]:
+        """Where in `records` the messages of these channels begin, in file order, and their heads (MESSAGE_HEAD)."""
+        offsets = self._indexed(block, channels)
+        if offsets is not None:
+            heads = self._heads(records, offsets)
+            if heads is not None and self._are_messages(heads, channels):
+                return offsets, heads
+        if block.head is None:
+            offsets = np.array(block.offsets, dtype=np.int64)
+        else:
+            offsets = np.array([offset for offset, opcode, length in walk(records)
+                                if opcode == MESSAGE and length >= MESSAGE_HEAD_BYTES], dtype=np.int64)
+        heads = gather(records, offsets, MESSAGE_HEAD)
+        wanted = np.isin(heads["channel"], np.array(sorted(channels), dtype=np.uint16))
+        return offsets[wanted], heads[wanted]
 
-    def _indexed(self, block: Block, records: bytes | memoryview, channels: set[int]) -> np.ndarray | None:
-        """By the message indexes; nothing if they do not fit to the records."""
-        found = []
-        for channel in channels & block.indexes.keys():
-            index = block.indexes[channel]
-            if len(index) % 16:
-                return None
-            offsets = np.frombuffer(index, dtype="<u8")[1::2].astype(np.int64)
-            last = len(records) - HEAD_BYTES - MESSAGE_HEAD_BYTES
-            if len(offsets) and (offsets.min() < 0 or offsets.max() > last):
-                return None
-            is_message = gather(records, offsets, "u1") == MESSAGE
-            if not (is_message & (gather(records, offsets + HEAD_BYTES, "<u2") == channel)).all():
-                return None
-            found.append(offsets)
+    def _indexed(self, block: Block, channels: set[int]) -> np.ndarray | None:
+        """What the message indexes say; nothing without them."""
+        if block.head is None or not block.indexes or any(len(index) % 16 for index in block.indexes.values()):
+            return None
+        found = [np.frombuffer(block.indexes[channel], dtype="<i8")[1::2]
+                 for channel in channels & block.indexes.keys()]
         if not found:
             return np.empty(0, dtype=np.int64)
-        together = found[0] if len(found) == 1 else np.concatenate(found)
-        return together if (together[1:] > together[:-1]).all() else np.unique(together)
+        offsets = found[0].astype(np.int64) if len(found) == 1 else np.concatenate(found)
+        return offsets if (offsets[1:] > offsets[:-1]).all() else np.unique(offsets)
+
+    @staticmethod
+    def _heads(records: bytes | memoryview, offsets: np.ndarray) -> np.ndarray | None:
+        """The heads at these sorted places; nothing if one lies outside of the records."""
+        if len(offsets) and (offsets[0] < 0 or offsets[-1] > len(records) - MESSAGE_HEAD.itemsize):
+            return None
+        return gather(records, offsets, MESSAGE_HEAD)
+
+    @staticmethod
+    def _are_messages(heads: np.ndarray, channels: set[int]) -> bool:
+        if not ((heads["opcode"] == MESSAGE) & (heads["length"] >= MESSAGE_HEAD_BYTES)).all():
+            return False
+        if len(channels) == 1:
+            return bool((heads["channel"] == next(iter(channels))).all())
+        return bool(np.isin(heads["channel"], np.array(sorted(channels), dtype=np.uint16)).all())
 
 
 def gather(data: bytes | memoryview, offsets: np.ndarray, dtype: str | np.dtype) -> np.ndarray:

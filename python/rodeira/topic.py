@@ -17,15 +17,13 @@ from .decode import ENCAPSULATION, PADDING, BadMessage, Decoder
 from .errors import Error, RecordingWarning
 from .idl_types import Struct
 from .layout import Layouts
-from .mcap import Block, McapFile, gather
-from .mcap_records import HEAD_BYTES, MESSAGE_HEAD_BYTES, Channel
+from .mcap import MESSAGE_HEAD, Block, McapFile, gather
+from .mcap_records import HEAD_BYTES, Channel
 from .nodes import Node, concatenate, finished, take
 
 if TYPE_CHECKING:
     import pandas
 
-_HEAD = np.dtype([("opcode", "u1"), ("length", "<u8"), ("channel", "<u2"), ("sequence", "<u4"), ("log_time", "<u8"),
-                  ("publish_time", "<u8")])
 _HEADER = ("step", "time_ns", "source", "incarnation", "state_digest")
 
 
@@ -220,41 +218,44 @@ class Topic:
             records = self._file.records(block)
         except Error as problem:
             return str(problem)
-        at = self._file.offsets(block, records, ids)
-        head = gather(records, at, _HEAD)
-        start = at + HEAD_BYTES + MESSAGE_HEAD_BYTES
-        end = at + HEAD_BYTES + head["length"].astype(np.int64)
+        at, heads = self._file.messages(block, records, ids)
+        start = at + MESSAGE_HEAD.itemsize
+        end = at + HEAD_BYTES + heads["length"].astype(np.int64)
         if (end > len(records)).any():
             return f"{self._file.path}: byte {block.offset}: a message that ends behind its chunk lies there"
-        batch = _Batch(head["log_time"].copy(), head["channel"].copy(), {})
+        if out is not None and len(out) != len(at):
+            out = None
+        batch = _Batch(heads["log_time"].copy(), heads["channel"].copy(), {})
         try:
-            picked = self._fixed_columns(records, start, end, paths)
-            if picked is None:
+            batch.values = self._of_one_size(records, start, end, paths, out)
+            if not batch.values:
                 node = Decoder(self.type, self._layouts).decode(records, start, end)
-                if out is not None and len(out) == len(at):
-                    assert isinstance(node, np.ndarray)
-                    out.view(np.uint8)[:] = node.view(np.uint8)  # one copy; by fields it would be one each
-                    picked = {(): out}
-                else:
-                    picked = {path: _own(pick(node, path)) for path in paths}
+                batch.values = {path: _own(pick(node, path)) for path in paths}
         except BadMessage as bad:
-            channel = next(c for c in self.channels if c.id == head["channel"][bad.message])
-            raise Error(f"{self._file.path}: {self.name} of '{channel.source}' at "
-                        f"{int(head['log_time'][bad.message]) / 1e9:.9g} s: {bad.sentence}") from None
-        batch.values = picked
+            head = heads[bad.message]
+            channel = next(channel for channel in self.channels if channel.id == head["channel"])
+            raise Error(f"{self._file.path}: {self.name} of '{channel.source}' at {int(head['log_time']) / 1e9:.9g} s: "
+                        f"{bad.sentence}") from None
+        if out is not None and (values := batch.values[()]) is not out:
+            out[:] = values
         return batch
 
-    def _fixed_columns(self, records: bytes | memoryview, start: np.ndarray, end: np.ndarray,
-                       paths: tuple[Path, ...]) -> dict[Path, Node] | None:
-        """A few columns of messages of one size, without their other bytes; nothing where another way is needed."""
-        if () in paths or len(start) == 0 or not self._layouts.is_fixed(self.type):
-            return None
-        if self._layouts.truth_paths(self.type):  # they need to be checked
-            return None
+    def _of_one_size(self, records: bytes | memoryview, start: np.ndarray, end: np.ndarray, paths: tuple[Path, ...],
+                     out: np.ndarray | None) -> dict[Path, Node]:
+        """The values of little-endian messages of one size, into `out` if there is one. Nothing where the messages are
+        of another kind or wrong: the decoder says what."""
+        if len(start) == 0 or not self._layouts.is_fixed(self.type) or self._layouts.truth_paths(self.type):
+            return {}
         dtype = self._layouts.dtype(self.type)
         left = end - start - ENCAPSULATION - dtype.itemsize
-        if (left < 0).any() or (left > PADDING).any() or (gather(records, start, ">u2") != 1).any():
-            return None  # the decoder says what is wrong
+        if left.min() < 0 or left.max() > PADDING or (gather(records, start, ">u2") != 1).any():
+            return {}
+        if paths == ((),):
+            found = gather(records, start + ENCAPSULATION, dtype)
+            if out is None:
+                return {(): found}
+            out.view(np.uint8)[:] = found.view(np.uint8)  # one copy; by fields it would be one each
+            return {(): out}
         count = len(records) - dtype.itemsize - ENCAPSULATION + 1
         every = np.ndarray((count,), dtype=dtype, buffer=records, offset=ENCAPSULATION, strides=(1,))
         return {path: pick(every, path)[start] for path in paths}
