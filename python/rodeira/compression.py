@@ -43,13 +43,17 @@ _libzstd = _find_libzstd()
 _zstandard = _find_zstandard()
 
 
+def _address(array: np.ndarray) -> int:
+    return int(array.__array_interface__["data"][0])
+
+
 def _by_libzstd(data: bytes | memoryview, size: int) -> memoryview:
     """Into the thread's own buffer, which the next call overwrites."""
     if not hasattr(_local, "room") or len(_local.room) < size:
         _local.room = np.empty(max(size, 1 << 20), dtype=np.uint8)
     stored = np.frombuffer(data, dtype=np.uint8)
     room = _local.room
-    if _libzstd.ZSTD_decompress(room.ctypes.data, size, stored.ctypes.data, len(stored)) != size:
+    if _libzstd.ZSTD_decompress(_address(room), size, _address(stored), len(stored)) != size:
         raise Error("the zstd data is damaged")
     return memoryview(room)[:size]
 
