@@ -12,7 +12,7 @@ docs/how-to/export.md shows more.
 from .errors import Error, RecordingWarning
 from .mcap import Attachment
 from .nodes import Ragged
-from .recording import Event, Recording, Remark, open
+from .recording import Event, Mark, Recording, Remark, open
 from .topic import Topic
 
-__all__ = ["Attachment", "Error", "Event", "Ragged", "Recording", "RecordingWarning", "Remark", "Topic", "open"]
+__all__ = ["Attachment", "Error", "Event", "Mark", "Ragged", "Recording", "RecordingWarning", "Remark", "Topic", "open"]

@@ -27,13 +27,20 @@ class Event(NamedTuple):
 
 
 class Remark(NamedTuple):
-    """An action of the operator or the clock, or a fault; `kind` is 'mark' for a mark."""
+    """An action of the operator or the clock, or a fault: start, end, mark, pause, resume, step, pace, stop, fault."""
     time_s: float
     step: int
     kind: str
     text: str
     utc_ns: int
     pace: float
+
+
+class Mark(NamedTuple):
+    """A mark of the operator ('clock' is the source) or of the scenario."""
+    time_s: float
+    text: str
+    source: str
 
 
 class Recording:
@@ -158,9 +165,11 @@ class Recording:
         return [Remark(*row) for row in rows]
 
     @property
-    def marks(self) -> list[Remark]:
-        """The marks that were set during the run (`rodeira ctl mark`, a key)."""
-        return [remark for remark in self.remarks if remark.kind == "mark"]
+    def marks(self) -> list[Mark]:
+        """The marks that the operator set during the run, and those of the scenario, by time."""
+        marks = [Mark(remark.time_s, remark.text, "clock") for remark in self.remarks if remark.kind == "mark"]
+        marks += [Mark(event.time_s, event.argument, event.source) for event in self.events if event.name == "mark"]
+        return sorted(marks, key=lambda mark: mark.time_s)
 
 
 def open(path: str | os.PathLike[str]) -> Recording:  # noqa: A001

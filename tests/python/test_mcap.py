@@ -222,6 +222,29 @@ class Files(unittest.TestCase):
         self.assertEqual(drive.files, {})
         self.assertIn("the attachment 'launch.yaml' is damaged", said[0])
 
+    def test_marks_of_the_operator_and_of_the_scenario_by_time(self):
+        folder = pathlib.Path(__file__).parents[2] / "idl"
+        text = (folder / "sample_header.idl").read_text() + (folder / "run_log.idl").read_text() + (
+            folder / "scenario.idl").read_text()
+        idl = "".join(line for line in text.splitlines(True) if not line.startswith("#"))
+        data = [handmade.schema(1, "rodeira::msg::Remark", idl), handmade.channel(1, 1, "rodeira/remarks", "clock"),
+                handmade.schema(2, "rodeira::msg::ScenarioEvents", idl),
+                handmade.channel(2, 2, "rodeira/scenario_events", "story")]
+        for time_ns, kind, words in ((0, "start", ""), (2_500_000_000, "mark", "calibrated"),
+                                     (9_000_000_000, "mark", "")):
+            cdr = Cdr().put("q", time_ns // 1_000_000, time_ns, 17, 18).put("d", 1).text(kind).text(words).put("I", 1, 0)
+            data.append(handmade.message(1, time_ns, cdr.payload()))
+        for time_ns, name in ((1_000_000_000, "mark"), (4_000_000_000, "weather"), (5_000_000_000, "mark")):
+            cdr = Cdr().put("q", time_ns // 1_000_000, time_ns).put("I", 0, 0).put("Q", 5).put("I", 1)
+            cdr.text(name).text("a word").put("d", 0.5).put("I", 0, 0, 0)
+            data.append(handmade.message(2, time_ns, cdr.payload()))
+        drive, said = self.open(handmade.mcap(b"".join(data)))
+        self.assertEqual(said, [])
+        self.assertEqual(drive.marks, [(1.0, "a word", "story"), (2.5, "calibrated", "clock"), (5.0, "a word", "story"),
+                                       (9.0, "", "clock")])
+        self.assertEqual(drive.remarks[1], (2.5, 2500, "mark", "calibrated", 17, 1.0))
+        self.assertEqual(drive.events[1], (4.0, "story", "weather", "a word", 0.5))
+
     def test_flipped_bytes_never_crash(self):
         head = b"".join(definitions())
         whole = handmade.mcap(handmade.chunk(head + samples(0, 4), "", True) + samples(4, 6), head)

@@ -135,7 +135,7 @@ class OfTheProgram(unittest.TestCase):
                 self.assertEqual(data, on_disk.read_bytes(), name)
         self.assertEqual([remark.kind for remark in drive.remarks], ["start", "end"])
         self.assertEqual(drive.remarks[-1].time_s, 2.5)
-        self.assertEqual(drive.marks, [])
+        self.assertEqual(drive.marks, [rodeira.Mark(1.0, "instruction: follow the car in front", "story")])
         # The scenario's first event, as configs/scenarios/car_ahead_brakes.yaml says.
         self.assertEqual(drive.events, [rodeira.Event(1.0, "story", "mark", "instruction: follow the car in front", 0)])
         self.assertEqual(drive.metadata["rodeira"]["seed"], "4")
