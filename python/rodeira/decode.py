@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +78,7 @@ class Decoder:
         self._check(left <= PADDING, bodies, at, lambda i: f"{left[i]} bytes are left behind the last value")
         return node
 
-    def _check(self, good, bodies: Bodies, at: np.ndarray, sentence) -> None:  # type: ignore[no-untyped-def]
+    def _check(self, good: np.ndarray, bodies: Bodies, at: np.ndarray, sentence: Callable[[int], str]) -> None:
         if not good.all():
             worst = int(np.argmin(good))
             path = f" ('{'.'.join(self._path)}')" if self._path else ""
@@ -134,9 +136,11 @@ class Decoder:
             for name in path:
                 truth = truth[name]
             number = np.asarray(truth).view(np.uint8).reshape(len(at), -1).max(axis=1, initial=0)
-            self._check(number <= 1, bodies, at, lambda i, number=number: (
-                f"a boolean of {number[i]} was found; 0 or 1 was expected"))
+            self._check_truth(number, bodies, at)
         return found, at + dtype.itemsize
+
+    def _check_truth(self, number: np.ndarray, bodies: Bodies, at: np.ndarray) -> None:
+        self._check(number <= 1, bodies, at, lambda i: f"a boolean of {number[i]} was found; 0 or 1 was expected")
 
     def _count(self, bodies: Bodies, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         at = self._aligned(4, bodies, at)
@@ -160,7 +164,7 @@ class Decoder:
         return length, at, at + length
 
     def _array(self, kind: Array, bodies: Bodies, at: np.ndarray) -> tuple[Node, np.ndarray]:
-        elements = []
+        elements: list[Any] = []
         self._check_room(bodies, at, self.layouts.least_bytes(kind))
         for _ in range(kind.length):
             element, at = self._value(kind.element, bodies, at)
@@ -233,6 +237,7 @@ class Decoder:
             for member in kind.members:
                 at = self._after(member.type, bodies, at)
             return at
+        assert isinstance(kind, Sequence)
         length, at = self._length(kind, bodies, at)
         if isinstance(kind.element, Plain):
             at = np.where(length > 0, self._aligned(kind.element.size, bodies, at), at)

@@ -61,8 +61,9 @@ class McapFile:
         try:
             with open(self.path, "rb") as file:
                 size = os.fstat(file.fileno()).st_size
-                data = mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) if size else b""
-                self.data = memoryview(data)
+                self.data = memoryview(b"")
+                if size:
+                    self.data = memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
         except OSError as problem:
             raise Error(f"{self.path}: cannot open: {(problem.strerror or str(problem)).lower()}") from None
         if bytes(self.data[:len(MAGIC)]) != MAGIC:
@@ -277,7 +278,7 @@ def gather(data: bytes | memoryview, offsets: np.ndarray, dtype: str | np.dtype)
     count = len(data) - kind.itemsize + 1
     if len(offsets) == 0 or count <= 0:
         return np.empty(len(offsets), dtype=kind)
-    every = np.ndarray((count,), dtype=np.dtype(("V", kind.itemsize)), buffer=data, strides=(1,))
+    every: np.ndarray = np.ndarray((count,), dtype=np.dtype(("V", kind.itemsize)), buffer=data, strides=(1,))
     return every[offsets].view(kind)
 
 

@@ -50,7 +50,7 @@ class Fields:
         block = self.raw(self.number("I"))
         if len(block) % 10:
             raise Short
-        return dict(struct.iter_unpack("<HQ", block))
+        return {int(channel): int(count) for channel, count in struct.iter_unpack("<HQ", block)}
 
 
 @dataclass(frozen=True)

@@ -98,7 +98,7 @@ def take(node: Node, rows: np.ndarray) -> Node:
     return node[rows]
 
 
-def concatenate(nodes: list[Node]) -> Node:
+def concatenate(nodes: list[Any]) -> Node:
     """The rows of all nodes, which are of one type."""
     first = nodes[0]
     if len(nodes) == 1:

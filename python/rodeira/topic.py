@@ -257,8 +257,9 @@ class Topic:
             out.view(np.uint8)[:] = found.view(np.uint8)  # one copy; by fields it would be one each
             return {(): out}
         count = len(records) - dtype.itemsize - ENCAPSULATION + 1
-        every = np.ndarray((count,), dtype=dtype, buffer=records, offset=ENCAPSULATION, strides=(1,))
-        return {path: pick(every, path)[start] for path in paths}
+        every: np.ndarray = np.ndarray((count,), dtype=dtype, buffer=records, offset=ENCAPSULATION, strides=(1,))
+        columns = {path: pick(every, path) for path in paths}
+        return {path: column[start] for path, column in columns.items() if isinstance(column, np.ndarray)}
 
 
 def _own(node: Node) -> Node:
