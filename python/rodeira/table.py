@@ -9,8 +9,8 @@ import numpy as np
 
 from .columns import unit_of_name
 from .errors import Error
-from .idl_types import OCTET, Array, Plain, Sequence, Struct, Text, Type
-from .nodes import Node, Ragged, finished
+from .idl_types import OCTET, Array, Plain, Sequence, Struct, Type
+from .nodes import Node, Ragged
 
 if TYPE_CHECKING:
     import pandas
@@ -61,12 +61,11 @@ class _Builder:
             self._put(kind, node, path, in_rows)
 
     def _put(self, kind: Type, node: Node, path: str, in_rows: bool) -> None:
-        values = finished(node)
-        if not isinstance(kind, (Plain, Text)):  # one object a cell
+        values: Any = node
+        if isinstance(kind, (Array, Sequence)):  # one object a cell
             cells = np.empty(len(values), dtype=object)
-            cells[:] = None
             for i, cell in enumerate(values):
-                cells[i] = cell.tobytes() if getattr(kind, "element", None) == OCTET else cell
+                cells[i] = cell.tobytes() if kind.element == OCTET else cell
             values = cells
         self.columns[path or "value"] = (values, in_rows)
 
@@ -88,7 +87,7 @@ class _Builder:
 def table_of(topic: "Topic") -> dict[str, Any]:
     """Columns by name; all have the same number of rows."""
     builder = _Builder(topic)
-    builder.add(topic.type, topic._loaded().values[()], "", (), False)
+    builder.add(topic.type, topic.values(), "", (), False)
     return builder.finish()
 
 

@@ -105,6 +105,10 @@ class Topic:
                         "topic[COLUMN] and topic.table() were expected")
         return values
 
+    def values(self) -> Any:
+        """All values: a structured array, or a dict by member for a type with texts or sequences."""
+        return finished(self._loaded().values[()])
+
     @property
     def time_ns(self) -> np.ndarray:
         """Simulated time in nanoseconds; of other programs' recordings the log time."""
