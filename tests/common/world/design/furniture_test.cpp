@@ -24,7 +24,7 @@ std::string RoadWith(const std::string& keys, const std::string& section = "") {
 
 const network::RoadSpec& SpecOf(const Design& design) { return design.network->roads()[0].spec(); }
 
-// Seen from above, x to the east: whom a sign is for looks against its face.
+// Seen from above, x to the east: the traffic of a sign looks against its face.
 double Turned(double heading_rad) { return std::remainder(heading_rad, 2.0 * geometry::kPi); }
 
 TEST(Signs, LookAtThoseWhomTheyAreFor) {
@@ -43,7 +43,7 @@ TEST(Signs, LookAtThoseWhomTheyAreFor) {
   EXPECT_NEAR(Turned(placed.things[1].heading_rad), 0.0, 1e-12);
   EXPECT_TRUE(placed.things[2].both_sides && !placed.things[0].both_sides && !placed.things[1].both_sides);
   EXPECT_NEAR(Turned(placed.things[3].heading_rad), Turned(geometry::kPi + geometry::kPi / 6.0), 1e-12);
-  // Each on the side of those who read it, 0.3 m within the outermost edge; the other side may be said.
+  // Each on the side of its readers, 0.3 m within the outermost edge; the other side may be said.
   EXPECT_NEAR(signals[0].t_m, -3.7, 1e-12);
   EXPECT_NEAR(signals[1].t_m, 4.2, 1e-12);
   const Design left = SoundDesign(
@@ -148,7 +148,7 @@ TEST(Objects, OnLanesThatAreDrivenOnAreWarnings) {
       warnings("objects: [{type: house, t_m: 0, s_m: 50}]"),
       testing::ElementsAre(testing::HasSubstr(
           "made.yaml:7: the house of road 'a' at s = 50.0 m, t = 0.00 m stands on lane 1, which is driven on")));
-  // The house is 9 m deep: half of it reaches the lane, whose edge lies at 3.5 m.
+  // The house is 9 m deep: half of it reaches the lane with its edge at 3.5 m.
   EXPECT_THAT(warnings("objects: [{type: house, t_m: 7.9, s_m: 50}]"), testing::SizeIs(1));
   EXPECT_THAT(warnings("objects: [{type: house, t_m: 8.1, s_m: 50}]"), testing::IsEmpty());
   EXPECT_THAT(

@@ -71,7 +71,7 @@ TEST(Junction, RoadsAreCutAndJoined) {
   EXPECT_EQ(network.Successors({*network.FindRoad("end/1"), 0, 1}).size(), 2u);
 }
 
-// Whoever follows the lanes finds no step and no kink at any of their joints.
+// Along the lanes there is no step and no kink at any of their joints.
 TEST(Junction, LanesGoOnWithoutAStep) {
   const network::Network& network = *Made().network;
   int joints = 0;
@@ -250,7 +250,7 @@ TEST(Junction, WhatDoesNotMeetIsTold) {
               HasSubstr("there is no road 'ent'; did you mean 'end'?"));
 }
 
-// Five roads that all begin at one junction, 20 m of which lie in it or so: nobody said where to start, so it is 10 m
+// Five roads that all begin at one junction, 20 m of which lie in it or so: no start is given, so it is 10 m
 // behind the junction.
 std::string FiveRoads(const std::string& start) {
   std::string text = "rodeira: world/2\n" + start + "roads:\n", meetings;

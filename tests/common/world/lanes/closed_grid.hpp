@@ -14,7 +14,7 @@
 #include "common/world/traffic_map/heights.hpp"
 #include "common/world/traffic_map/map_network.hpp"
 
-// A closed town of count × count crossings, streets of 200 m, priority to the right, no way out: who is there stays
+// A closed town of count × count crossings, streets of 200 m, priority to the right, no way out: its cars stay
 // there.
 namespace rodeira::lanes {
 

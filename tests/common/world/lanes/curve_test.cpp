@@ -32,7 +32,7 @@ TEST(LaneCurve, IsTheMiddleOfTheLane) {
   }
 }
 
-// d is the length: the sum of short chords, whose own error is h²κ²/24 of it. The maps' pieces are fitted within 5 mm,
+// d is the length: the sum of short chords, with an error of h²κ²/24 of it. The maps' pieces are fitted within 5 mm,
 // and where two meet the direction may jump.
 TEST(LaneCurve, MeasuresItsOwnLength) {
   const auto network = MapNetwork("roundabout");

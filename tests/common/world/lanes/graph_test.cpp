@@ -59,7 +59,7 @@ TEST(LaneGraph, BeginsAndEndsWhereItsLanesSay) {
   EXPECT_EQ(wrong.errors.front().message, "of the lane's traffic 'sleeps' was found; 'begins' or 'ends' was expected");
 }
 
-// Whoever goes over a link stays where it is.
+// Over a link a place stays where it is.
 TEST(LaneGraph, LinksMeetWithinTheFilesGaps) {
   if (RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
   for (const auto& file : RealFiles()) {
@@ -78,7 +78,7 @@ TEST(LaneGraph, LinksMeetWithinTheFilesGaps) {
   }
 }
 
-// A driving lane that a file leaves to buses is none for cars: nobody is beside it, and nobody goes on into it.
+// A driving lane that a file leaves to buses is none for cars: no lane is beside it, and none goes on into it.
 TEST(LaneGraph, LanesThatAreClosedToCarsAreNotDriven) {
   opendrive::RoadText road;
   const auto lane = [](int id, const std::string& access) {

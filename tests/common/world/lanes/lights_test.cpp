@@ -13,7 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// The crossing with lights, whose lanes 1, 3, 5 and 7 come from the east, north, west and south.
+// The crossing with lights, with lanes 1, 3, 5 and 7 that come from the east, north, west and south.
 std::shared_ptr<const network::Network> Crossing(const std::string& lights) {
   const auto file = traffic_map::LoadMap(std::filesystem::path(SourceDir()) / "configs/maps/lights.motors");
   const auto heights = traffic_map::ParseHeights("rodeira: motors/1\nlights:\n" + lights, "lights.motors.yaml");
@@ -48,7 +48,7 @@ TEST(Lights, StandAtTheEndsOfTheirLanes) {
   EXPECT_EQ(lit, 4u);
 }
 
-// Who comes towards one may be green, too; who comes from the side may not, not even at the other's amber.
+// Oncoming traffic may be green, too; traffic from the side may not, not even at the other's amber.
 TEST(Lights, ConflictingGreensAreNamed) {
   EXPECT_EQ(Said(*Crossing("- phases: [{green: [1, 5], for_s: 20}, {green: [3, 7], for_s: 20}]\n")), "");
   EXPECT_EQ(Said(*Crossing("- phases: [{green: [1], for_s: 9}, {green: [3], for_s: 9}, {green: [5], for_s: 9}, {green: "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has the right of way where two lanes meet, by signs, by the file, and by the rules of right-hand and of left-hand
-// traffic.
+// Which lane has the right of way where two meet, by signs, by the file, and by the rules of right-hand and of
+// left-hand traffic.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct Made {
   explicit Made(std::shared_ptr<const network::Network> from)
       : network(std::move(from)), graph(*network), zones(graph) {}
   const std::string& RoadOf(std::uint32_t track) const { return network->roads()[graph[track].lane.road].id(); }
-  // Zones of two ways through a junction, by which the one who drives on the one has to wait for the other.
+  // Zones of two ways through a junction, by which traffic on the one has to wait for the other.
   template <class Tell>
   void EachMeeting(const Tell& tell) const {
     for (const Zone& zone : zones.zones()) {
@@ -114,7 +114,7 @@ TEST_P(Crossing, SignsGoBeforeTheRules) {
   }
 }
 
-// Two give-way signs say nothing of who of the two goes first.
+// Two give-way signs say nothing of which of the two goes first.
 TEST_P(Crossing, BetweenTwoEqualSignsTheRulesDecide) {
   Drawn plain(MapText("lights", false)), drawn(MapText("lights", false));
   for (int arm = 0; arm < 4; ++arm) drawn.Sign(ComesBy(arm), "205");

@@ -98,7 +98,7 @@ TEST(Zones, KnowWhoSwingsOutToTheirSide) {
     };
     EXPECT_FALSE(meet({}));
     EXPECT_FALSE(meet({needs - 0.05, needs - 0.05}));
-    EXPECT_TRUE(meet({needs + 0.05, 0.0}));  // right-hand traffic: who comes is on the left
+    EXPECT_TRUE(meet({needs + 0.05, 0.0}));  // right-hand traffic: oncoming traffic is on the left
     EXPECT_FALSE(meet({0.0, needs + 0.05}));
   }
 }
@@ -137,7 +137,7 @@ TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
   }
 }
 
-// Who comes from a STOP sign yields to who does not.
+// A way with a STOP sign yields to one without.
 TEST(Zones, WhoHasAStopIsNotFirst) {
   const auto network = MapNetwork("crossing");
   const Graph graph(*network);

@@ -12,7 +12,7 @@ namespace rodeira::network {
 
 // Where a point lies, told from an OpenDRIVE file alone by other means than Network: nothing of the product's code is
 // in it. Reference lines are curves of heading and length, integrated numerically and sampled each half metre; a foot
-// is sought between samples by halving, on every element of every road. For files without superelevation, whose roads
+// is sought between samples by halving, on every element of every road. For files without superelevation; their roads
 // have widths (no borders) and heights by `elevation` alone.
 class FileOracle {
  public:

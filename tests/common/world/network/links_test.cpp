@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes on into what, by a small network whose answers can be seen: a road that splits in a junction.
+// What goes on into what, by a small network with visible answers: a road that splits in a junction.
 #include <gtest/gtest.h>
 
 #include "tests/common/world/opendrive/sample.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of paint against circles, whose lengths are known, and against the marks' own words.
+// Lines of paint against circles of known lengths, and against the marks' own words.
 #include "common/world/network/marking.hpp"
 
 #include <gtest/gtest.h>

@@ -153,7 +153,7 @@ TEST(Surface, LocateLeadsBackAlsoWhereTheRoadIsRolled) {
   }
 }
 
-// A line, a bend and a clothoid of 40 m each, whose lines an integration of the heading gives, and whose sections are
+// A line, a bend and a clothoid of 40 m each, with lines by an integration of the heading, and with sections that are
 // turned by rotations.
 Eigen::Vector3d Turned(double k0, double rate, double s, double t, const geometry::Cubic& height,
                        const geometry::Cubic& roll) {

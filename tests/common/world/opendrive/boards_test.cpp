@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boards that hold several signs: ASAM OpenDRIVE 1.8, 14.7. What is on one has its place and is for whom the board is,
+// Boards that hold several signs: ASAM OpenDRIVE 1.8, 14.7. What is on one has its place and its traffic,
 // unless it says so itself.
 #include <gmock/gmock.h>
 

@@ -328,7 +328,7 @@ TEST(OpenDrive, AnUnknownTypeOfObjectIsToldWithTheNearestRightOne) {
   EXPECT_GT(import.warnings[0].line, 0u);
 }
 
-// A plate that nobody can read is told of; what is known, hangs as a light, or is paint is not.
+// An unreadable plate is told of; what is known, hangs as a light, or is paint is not.
 TEST(OpenDrive, ASignThatIsNotKnownIsTold) {
   RoadText road;
   const auto sign = [](const std::string& id, const std::string& rest) {
@@ -401,7 +401,7 @@ TEST(OpenDrive, FramesFillingsSkeletonsAndMaterialsAreRead) {
       <polyline id="2"><vertexLocal u="0" v="0" z="3" width="0.2" length="0.1"/><vertexLocal u="0" v="-2" z="3.5" width="0.2" length="0.1"/></polyline></skeleton></object></objects>
     <signals><signal id="1" s="5" t="-4" type="r1-1" subtype="-1" country="US"><semantics><priority type="stop"/></semantics></signal></signals>)";
   const Import import = MustImport(Document(road.Text()));
-  ASSERT_EQ(import.warnings.size(), 1u);  // the plate's face, which nobody knows
+  ASSERT_EQ(import.warnings.size(), 1u);  // the plate's unknown face
   const network::RoadSpec& spec = import.network->roads()[0].spec();
   const auto& island = spec.objects[0];
   EXPECT_EQ(island.outlines[0].id, "3");

@@ -22,7 +22,7 @@ std::vector<std::string> WarningsOf(const std::string& text) {
   return said;
 }
 
-// Whoever looks what becomes of an element finds it: each has its place in the document.
+// What becomes of an element is documented: each has its place in the document.
 TEST(Unknown, EveryKnownElementStandsInTheTable) {
   const std::string text = base::ReadText(std::filesystem::path(SourceDir()) / "docs/reference/opendrive.md").value();
   const std::size_t begin = text.find("\n## Elements\n"), end = text.find("\n## ", begin + 5);

@@ -100,7 +100,7 @@ TEST(VirtualJunction, TheMainRoadIsAsItWas) {
   for (double s = 0.5; s < 100.0; s += 1.0) EXPECT_EQ(stroke_at(a, s), stroke_at(b, s)) << s;
 }
 
-// Who is on the main road goes first, unless the junction says otherwise.
+// The main road has priority, unless the junction says otherwise.
 TEST(VirtualJunction, TheMainRoadGoesFirst) {
   for (const bool turned : {false, true}) {
     Yard yard;

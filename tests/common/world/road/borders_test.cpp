@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lanes with borders: against the same road written with widths, whose polynomials are worked out here, and SUMO's
+// Lanes with borders: against the same road written with widths from polynomials that are worked out here, and SUMO's
 // netconvert.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -198,7 +198,7 @@ TEST_F(Borders, LieWhereNetconvertFindsTheirWidths) {
   ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(folder_ / "log").value();
   pugi::xml_document document;
   ASSERT_TRUE(document.load_file((folder_ / "it.net.xml").c_str()));
-  // Its edges: -1 along s, whose lane 0 is the outermost, and 1 against s.
+  // Its edges: -1 along s, with lane 0 as the outermost, and 1 against s.
   const std::map<std::string, int> lanes = {{"-1_0", -2}, {"-1_1", -1}, {"1_0", 1}};
   std::size_t found = 0;
   for (const pugi::xml_node& edge : document.child("net").children("edge")) {

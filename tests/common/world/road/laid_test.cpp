@@ -244,7 +244,7 @@ TEST(Laid, WhatIsWrongIsSaid) {
               HasSubstr("narrower than twice its 'side_m'"));
 }
 
-// A patch of a world file in OpenDRIVE, and of an OpenDRIVE file of somebody else's: along the road, by its outline,
+// A patch of a world file in OpenDRIVE, and of another one's OpenDRIVE file: along the road, by its outline,
 // and repeated; friction is that of the material.
 TEST(Laid, PatchesOfOpenDriveHaveTheirFriction) {
   const auto folder = std::filesystem::temp_directory_path() / ("rodeira-laid-" + std::to_string(::getpid()));

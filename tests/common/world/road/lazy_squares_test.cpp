@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made of a square when it is first asked for: the same for whoever asks, and for every point of the square.
+// What is made of a square when it is first asked for: the same for every caller, and for every point of the square.
 #include "common/world/road/lazy_squares.hpp"
 
 #include <gtest/gtest.h>

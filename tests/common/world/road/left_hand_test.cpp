@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Worlds whose vehicles keep left: the mirror image of a world whose vehicles keep right, in everything. And what the
-// known templates give.
+// Worlds with vehicles that keep left: the mirror image of worlds with vehicles that keep right, in everything. And
+// what the known templates give.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

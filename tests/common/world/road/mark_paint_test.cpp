@@ -16,8 +16,8 @@
 namespace rodeira::road {
 namespace {
 
-// A straight road to the east whose middle has dashes of 3 m every 12 m, 0.16 m wide, and whose right edge, 3.5 m off,
-// a solid line of 0.2 m.
+// A straight road to the east with dashes of 3 m every 12 m, 0.16 m wide, in its middle, and with a right edge
+// that, 3.5 m off, a solid line of 0.2 m.
 TEST(MarkPaint, DashesAreRoadMarkWhereTheyAreByClosedForm) {
   const cli::TemporaryFolder folder;
   const auto file = folder.Write("straight.xodr",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// World files whose roads are an OpenDRIVE file's: the same world under a name of its own.
+// World files with the roads of an OpenDRIVE file: the same world under a name of its own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

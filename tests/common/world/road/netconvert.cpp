@@ -195,7 +195,7 @@ void ExpectEveryLane(const std::filesystem::path& folder, const Network& network
   EXPECT_EQ(compared, theirs.size());
 }
 
-// Who can go where: through junctions and from road to road. SUMO adds that one may turn round at the end of an edge.
+// What leads where: through junctions and from road to road. SUMO adds that one may turn round at the end of an edge.
 void ExpectEveryWay(const std::filesystem::path& folder, const Network& network, const std::vector<std::string>& ids) {
   using Way = std::pair<SumoLane, SumoLane>;
   std::set<Way> ours, theirs;

@@ -11,7 +11,7 @@ namespace rodeira::road {
 
 bool HasNetconvert();
 
-// A network's roads as the network itself calls them; whose ids an export had to change are asked by those of what is
+// A network's roads as the network itself calls them; ids that an export had to change are asked by those of what is
 // read again.
 std::vector<std::string> IdsOf(const network::Network& network);
 
@@ -20,7 +20,7 @@ std::vector<std::string> IdsOf(const network::Network& network);
 void ExpectEveryEdge(const std::filesystem::path& folder, const network::Network& network,
                      const std::vector<std::string>& ids, int at_least);
 
-// Of what ExpectEveryEdge wrote: each edge's lanes with their widths, and who can go where.
+// Of what ExpectEveryEdge wrote: each edge's lanes with their widths, and what leads where.
 void ExpectEveryLane(const std::filesystem::path& folder, const network::Network& network,
                      const std::vector<std::string>& ids);
 void ExpectEveryWay(const std::filesystem::path& folder, const network::Network& network,

@@ -236,7 +236,7 @@ TEST(NetworkLand, GoesThroughUnderADeck) {
   EXPECT_EQ(world->At(50.0, 40.0, -20.0).z_m, 6.0);  // on the ground: nothing lies under it
 }
 
-// What lies at a place for who stands on it at a height.
+// What lies at a place under a point at a height.
 struct Spot {
   Vector2d p_W = Vector2d::Zero();
   SurfacePoint ground;
@@ -304,7 +304,7 @@ bool IsOverDeck(const World& world, const Spot& spot) {
   });
 }
 
-// Straight walks across real files, off their roads and over them. Who comes to a deck from the side goes through under
+// Straight walks across real files, off their roads and over them. A walk to a deck from the side goes through under
 // it or stands before it: that is no step.
 TEST(NetworkLand, NoWalkBesideTheRoadsOfARealFileMeetsAStep) {
   const auto files = opendrive::RealFiles();

@@ -60,7 +60,7 @@ std::string TwoLevels() {
 TEST_F(NetworkWorld, SueloIsThePlaneOfALeaningRoad) {
   const auto world = MustLoad(TwoLevels());
   auto ground = world->MakeGround();
-  // The plane through the axis (1, 0, 0.1) whose section leans by 0.05 about it.
+  // The plane through the axis (1, 0, 0.1) with a section that leans by 0.05 about it.
   const double c = 1.0 / std::sqrt(1.01);
   const Eigen::Vector3d along(c, 0.0, 0.1 * c), up(-0.1 * c, 0.0, c);
   const Eigen::Vector3d normal = std::cos(0.05) * up - std::sin(0.05) * Eigen::Vector3d::UnitY();
@@ -207,7 +207,7 @@ TEST_F(NetworkWorld, AHeadersOffsetMovesItOnTheEarth) {
   EXPECT_NEAR((back.value() - Eigen::Vector2d(100.0, 0.0)).norm(), 0.0, 1e-3);  // nine digits of a degree
 }
 
-// A file whose geoReference PROJ does not know still loads, as nothing that drives needs it.
+// A file with a geoReference that PROJ does not know still loads, as nothing that drives needs it.
 TEST_F(NetworkWorld, AGeoReferenceThatIsNoneIsToldByTheCheck) {
   const auto with = [](const std::string& earth) {
     std::string text = Document(RoadText().Text());

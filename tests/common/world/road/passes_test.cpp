@@ -42,7 +42,7 @@ std::string Crossing(double over_m, const std::string& low, const std::string& h
       low, over_m, high);
 }
 
-// Of the places looked at every metre of `high`, whose lanes lie 3.5 m to either side, those at s = 97 m are the first
+// Of the places looked at every metre of `high`, with lanes 3.5 m to either side, those at s = 97 m are the first
 // over a lane of `low`, which begins at y = -3.5 m.
 TEST(Passes, ARoadOverAnotherWithoutABridgeIsToldWithBothStations) {
   EXPECT_THAT(Said(Crossing(6.0, "", "")),

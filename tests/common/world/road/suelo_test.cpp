@@ -186,8 +186,8 @@ RC_GTEST_PROP(Suelo, BatchOrderAndHistoryChangeNoBit, (std::uint64_t seed)) {
   for (std::size_t i = 0; i < order.size(); ++i) RC_ASSERT(SameBits(points[i], batch[order[i]]));
 }
 
-// A grid larger than the processor's caches, whose heights are fetched ahead of the questions: at its edges and beyond
-// too.
+// A grid larger than the processor's caches, with heights that are fetched ahead of the questions: at its edges and
+// beyond too.
 TEST(Suelo, ALargeGridIsItselfInABatch) {
   constexpr int kColumns = 1300, kRows = 900;
   std::vector<float> heights;

@@ -70,7 +70,7 @@ roads:
   }
 }
 
-// Under a plane 20 m over a tunnel that climbs, bends and goes over into another bend: with a hint of somebody in it
+// Under a plane 20 m over a tunnel that climbs, bends and goes over into another bend: with a hint of a car in it
 // there is a floor for 5 m beside its road, which goes on level across from the road's edge and along with it; without
 // one and with one on the hill the hill is as it is. Nothing is there before the mouths, nor farther away.
 TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
@@ -106,7 +106,7 @@ TEST(Tunnel, BesideATunnelsRoadItsFloorGoesOnUnderTheHill) {
         EXPECT_NEAR(slope.dot(axis.tangent_W),
                     0.02 / (1.0 - side * axis.curvature_1pm * (std::fabs(side > 0.0 ? left : right) + beside)), 1e-6)
             << s;
-        // Nothing else is changed: who asks without a hint, or from the hill, is on the hill.
+        // Nothing else is changed: a query without a hint, or from the hill, is on the hill.
         const SurfacePoint top = world->At(p.x(), p.y());
         EXPECT_EQ(top.surface, ground::Surface::kGrass);
         EXPECT_EQ(world->At(p.x(), p.y(), top.z_m).z_m, top.z_m);

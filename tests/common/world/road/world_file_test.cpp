@@ -170,7 +170,7 @@ TEST(WorldFile, AllProblemsAreToldInTheOrderOfLines) {
   std::filesystem::remove_all(folder);
 }
 
-// Whoever gives the file that a world names instead of the world is told where it belongs, whatever is in it.
+// The file that a world names, given instead of the world, is refused with its place, whatever is in it.
 TEST(WorldFile, WhatAWorldNamesIsToldToBeNone) {
   for (const auto& [file, key] :
        {std::pair("hills.bt", "terrain: {file: …}"), std::pair("hills.bt.gz", "terrain: {file: …}"),

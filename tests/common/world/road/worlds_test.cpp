@@ -38,7 +38,7 @@ TEST(Haste, HasFiveVillagesWithTheirSignsAndLimits) {
   const auto world = Of("haste.yaml");
   const network::Network& network = *world->network();
   const RoadChain main = ChainsOf(network)[0];
-  // By village: where along the main road its signs stand, for those who come one way and the other.
+  // By village: where along the main road its signs stand, for traffic of either way.
   std::map<std::string, std::map<std::string, double>> villages;
   int limits = 0;
   for (const RoadChain::Part& part : main.parts) {

@@ -92,7 +92,7 @@ TEST(CrgFile, TheHandMadeStraightHasItsGapsFilled) {
 }
 
 TEST(CrgFile, AFileMayNameAnotherRelativeToItself) {
-  if (fs::exists(kFolder / "testOptionBorderMode.crg")) {  // it names a file that nobody has
+  if (fs::exists(kFolder / "testOptionBorderMode.crg")) {  // it names a missing file
     const auto file = LoadCrg(kFolder / "testOptionBorderMode.crg");
     ASSERT_FALSE(file.ok());
     EXPECT_EQ(file.error().exit_status(), 2);

@@ -117,7 +117,7 @@ TEST_F(Rasters, RegistrationIsWhatIsSaid) {
   EXPECT_NEAR(posts.value()->spacing_x_m(), 70.0 / 6.0, 1e-12);
   const auto cells = LoadElevation(folder_ / "a.tif", Registration::kCells);
   EXPECT_EQ(cells.value()->frame().west_m, kWest + 5.0);
-  // A .bt by GDAL says the edges of its cells, though a .bt's extents are posts: who knows that says so.
+  // A .bt by GDAL says the edges of its cells, though a .bt's extents are posts: the caller says so.
   ASSERT_TRUE(Write("BT", folder_ / "a.bt"));
   EXPECT_EQ(LoadElevation(folder_ / "a.bt").value()->frame().west_m, kWest);
   const auto bt = LoadElevation(folder_ / "a.bt", Registration::kCells);
@@ -256,7 +256,7 @@ TEST_F(Rasters, ABtInDegreesComesIntoItsUtmZone) {
                {kWest_deg + kSpan_deg - 0.002, kSouth_deg + kSpan_deg - 0.002});
 }
 
-// Formats that nobody thought of are read too; what only names other files, or servers, is not.
+// Unforeseen formats are read too; what only names other files, or servers, is not.
 TEST_F(Rasters, WhateverGdalReadsFromAFileIsRead) {
   ASSERT_TRUE(Write("PCIDSK", folder_ / "a.pix"));
   const auto loaded = LoadElevation(folder_ / "a.pix");

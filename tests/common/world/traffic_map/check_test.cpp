@@ -92,7 +92,7 @@ TEST(Check, Ways) {
                           "and those of the other where it begins; at most 0.05 m are closed"));
   EXPECT_THAT(Found(And("c,1,1,False\n")),
               ElementsAre("E x.motors:12 connection 1 to 1: it leads back into the lane that it comes from"));
-  // A second start lane whose vehicles circle for ever with another lane, which no start lane but it leads to.
+  // A second start lane with vehicles that circle for ever with another lane, which no start lane but it leads to.
   const std::string circle = And("l,4,1,False,3,2,False,1,1\nl,5,1,False,3,2,False,1,0\nc,4,5,False\nc,5,4,False\n");
   EXPECT_THAT(Found(circle), testing::IsSupersetOf({"E x.motors:12 lane 4: no end lane can be reached from it",
                                                     "W x.motors:13 lane 5: no end lane can be reached from it"}));

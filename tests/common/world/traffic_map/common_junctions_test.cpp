@@ -81,7 +81,7 @@ TEST_P(CommonJunctions, EveryLaneIsThereWhole) {
   }
 }
 
-// From a lane's own road, through connecting roads that are nobody's own, one comes to the lanes that its connections
+// From a lane's own road, through connecting roads that are no lane's own, one comes to the lanes that its connections
 // say.
 TEST_P(CommonJunctions, WaysLeadWhereConnectionsSay) {
   const auto own = [&](std::uint32_t road) { return road < map_.lanes.size(); };  // the lanes' roads come first

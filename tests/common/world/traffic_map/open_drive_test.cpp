@@ -27,7 +27,7 @@ namespace {
 
 using V = Eigen::Vector2d;
 
-// The last child whose start (`s` or `sOffset`) is not behind s.
+// The last child with a start (`s` or `sOffset`) not behind s.
 pugi::xml_node ChildAt(pugi::xml_node parent, const char* name, const char* start, double s) {
   pugi::xml_node found;
   for (const pugi::xml_node node : parent.children(name)) {

@@ -45,7 +45,7 @@ TEST(WeatherPlan, IsWhatTheFileSays) {
   EXPECT_EQ(plan.value().At(60.0).rain_mmph, 30.0);
 }
 
-// Whoever asks: the same time has the same weather, and a change that comes amid another begins where that one is.
+// For every query: the same time has the same weather, and a change that comes amid another begins where that one is.
 TEST(WeatherPlan, AChangeAmidAnotherGoesOnFromThere) {
   const auto plan = Read("  - {at_s: 0, over_s: 10, wetness: 1}\n  - {at_s: 5, over_s: 5, wetness: 0}\n");
   ASSERT_TRUE(plan.ok()) << plan.error().Text();
