@@ -394,10 +394,7 @@ struct RecordingOptions {
 void AddRecording(CLI::App& app, RecordingOptions& options) {
   CLI::App* info = app.add_subcommand("info", "what a recording holds, and whether every sample is there");
   info->add_option("FILE.mcap", options.info_file, "recording")->required();
-  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
-  tables->add_option("--csv", options.exported.csv, "new folder, one CSV file a topic")->required();
-  tables->add_option("FILE.mcap", options.exported.recording, "recording")->required();
-  tables->add_flag("--quiet", options.exported.quiet, "no progress, no list");
+  AddExport(app, options.exported);
   CLI::App* repair = app.add_subcommand("repair", "write what is left of a damaged recording as a whole one");
   repair->add_option("FILE.mcap", options.repair_file, "recording")->required();
   repair->add_option("--out", options.repair_out, "the new file")->required();

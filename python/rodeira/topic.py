@@ -24,6 +24,7 @@ from .nodes import Node, concatenate, finished, take
 if TYPE_CHECKING:
     import pandas
 
+LARGE_BYTES = 512 << 20  # a topic with more is read by columns, and not as a whole for the first of them
 _HEADER = ("step", "time_ns", "source", "incarnation", "state_digest")
 
 
@@ -36,8 +37,9 @@ class _Batch:
 
 
 class Topic:
-    """Reads nothing before it is asked for times or values. `topic["speed_mps"]` reads all columns once and keeps them;
-    `topic.read([...])` reads the named columns alone and keeps nothing."""
+    """Reads nothing before it is asked for times or values, and keeps what it has read. `topic["speed_mps"]` reads all
+    columns at once; of a topic with more than LARGE_BYTES only this one. `topic.read([...])` reads several columns in
+    one pass and keeps nothing."""
 
     def __init__(self, file: McapFile, name: str, full_name: str, kind: Struct, channels: list[Channel]) -> None:
         self.name = name
@@ -48,6 +50,7 @@ class Topic:
         self._layouts = Layouts()
         self._units = columns_of(kind)
         self._all: _Batch | None = None
+        self._columns: dict[Path, _Batch] = {}  # of a large topic
         first = kind.members[0].type
         self.has_header = (isinstance(first, Struct) and first.name == "rodeira::msg::SampleHeader" and
                            tuple(member.name for member in first.members) == _HEADER)
@@ -69,7 +72,7 @@ class Topic:
         return tuple(dict.fromkeys(channel.source for channel in self.channels))
 
     def __len__(self) -> int:
-        return len(self._loaded().log_time_ns)
+        return len(self._messages().log_time_ns)
 
     def __repr__(self) -> str:
         return f"<rodeira.Topic '{self.name}' of {', '.join(self.sources)}: {len(self._units)} columns>"
@@ -84,7 +87,7 @@ class Topic:
         Numbers are an array. Columns of a sequence ('agents.id') are a Ragged: offsets and values. 'wheels.load_n' has
         an axis more for the four wheels. A structure ('position_w_m') is a structured array.
         """
-        return finished(pick(self._loaded().values[()], self._resolve(column)))
+        return finished(self._value(self._resolve(column)))
 
     def read(self, columns: Iterable[str]) -> dict[str, Any]:
         """The named columns in one pass over the file, of which nothing else is kept. `time_s` and `source` give the
@@ -112,7 +115,9 @@ class Topic:
     @property
     def time_ns(self) -> np.ndarray:
         """Simulated time in nanoseconds; of other programs' recordings the log time."""
-        return self._time_ns(self._loaded())
+        if not self.has_header:
+            return self._messages().log_time_ns.astype(np.int64)
+        return np.ascontiguousarray(self._value(("header", "time_ns")))
 
     @property
     def time_s(self) -> np.ndarray:
@@ -122,7 +127,7 @@ class Topic:
     @property
     def source(self) -> np.ndarray:
         """The node that published each sample."""
-        return self._source(self._loaded())
+        return self._source(self._messages())
 
     def table(self) -> dict[str, Any]:
         """The table that `rodeira export --csv` writes, by column (docs/reference/tables.md)."""
@@ -151,6 +156,32 @@ class Topic:
         ids = np.array([channel.id for channel in self.channels])
         order = np.argsort(ids)
         return names[order][np.searchsorted(ids[order], batch.channel)]
+
+    def _value(self, path: Path) -> Node:
+        if self._all is None and self._is_large():
+            return self._column(path).values[path]
+        return pick(self._loaded().values[()], path)
+
+    def _messages(self) -> _Batch:
+        """A batch of all messages, with the values that are the least to read."""
+        if self._all is None and self._is_large():
+            first = next(iter(self._columns), None)
+            return self._column(first or (("header", "time_ns") if self.has_header else (self.type.members[0].name,)))
+        return self._loaded()
+
+    def _is_large(self) -> bool:
+        counts = [self._file.expected(block, {channel.id for channel in self.channels}) for block in self._file.blocks]
+        if None in counts or not self._layouts.is_fixed(self.type):
+            return False
+        return sum(count or 0 for count in counts) * self._layouts.dtype(self.type).itemsize > LARGE_BYTES
+
+    def _column(self, path: Path) -> _Batch:
+        if path not in self._columns:
+            batch = self._load((path,))
+            for other in self._columns.values():  # one copy of the times is enough
+                batch.log_time_ns, batch.channel = other.log_time_ns, other.channel
+            self._columns[path] = batch
+        return self._columns[path]
 
     def _loaded(self) -> _Batch:
         if self._all is None:

@@ -12,6 +12,7 @@ import subprocess
 import tempfile
 import unittest
 import warnings
+from unittest import mock
 
 import numpy as np
 import rodeira
@@ -99,8 +100,7 @@ class OfTheProgram(unittest.TestCase):
             topic = drive[name]
             messages.sort(key=lambda message: int(message["time"]))
             self.assertEqual([message["source"] for message in messages], topic.source.tolist())
-            whole = topic._loaded().values[()]
-            self.compare([message["value"] for message in messages], rodeira.nodes.finished(whole), name)
+            self.compare([message["value"] for message in messages], topic.values(), name)
 
     def compare(self, wanted, got, place):
         """Objects as JSON gives them against columns, member by member."""
@@ -121,6 +121,39 @@ class OfTheProgram(unittest.TestCase):
             if got.dtype.itemsize == 8 and got.dtype.kind in "iu":
                 wanted = [int(one) for one in wanted]
             np.testing.assert_array_equal(got, np.array(wanted, dtype=got.dtype).reshape(got.shape), place)
+
+    def test_a_part_as_tables_is_that_part_of_the_columns(self):
+        folder = pathlib.Path(self.folder.name) / "part"
+        run("export", "--csv", folder, "--topics", "vehicle_state,traffic_state,scenario_events", "--columns",
+            "position_w_m,wheels.load_n,agents.id,events.name", "--rate", 50, "--from", 0.5, "--to", 2, self.path)
+        drive = rodeira.open(self.path)
+        self.assertEqual({file.stem for file in folder.glob("*.csv")},
+                         {"vehicle_state", "traffic_state", "scenario_events"})
+        wanted = {"vehicle_state": ["position_w_m.x", "position_w_m.y", "position_w_m.z",
+                                    *(f"wheels[{i}].load_n" for i in range(4))],
+                  "traffic_state": ["agents.id"], "scenario_events": ["events.name"]}
+        for name, columns in wanted.items():
+            with open(folder / f"{name}.csv", newline="", encoding="utf-8") as text:
+                names, *rows = csv.reader(text)
+            self.assertEqual(names, ["time_s", "step", "source", *columns])
+            table = drive[name].table()
+            step = table["step"]
+            kept = (step >= 500) & (step < 2000) & ((step % 20 == 0) | (name == "scenario_events"))
+            self.assertGreater(kept.sum(), 0)
+            for i, column in enumerate(names):
+                got = table[column][kept]
+                np.testing.assert_array_equal(np.array([row[i] for row in rows], dtype=got.dtype), got, column)
+
+    def test_a_part_that_does_not_exist_is_refused(self):
+        for words, sentence in ((["--columns", "odometer"], "unknown column 'odometer'; did you mean 'odometer_m'?"),
+                                (["--topics", "vehicle"], "unknown topic 'vehicle'"),
+                                (["--from", "2", "--to", "1"], "--to: 1 s was found; a time after 2 s was expected"),
+                                (["--rate", "0"], "--rate")):
+            done = subprocess.run([PROGRAM, "export", "--csv", self.path.with_name("none"), *words, self.path],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(sentence, done.stderr)
+            self.assertFalse(self.path.with_name("none").exists())
 
     def test_events_marks_meta_and_files(self):
         drive = rodeira.open(self.path)
@@ -155,6 +188,22 @@ class OfTheProgram(unittest.TestCase):
                     np.testing.assert_array_equal(both[0].offsets, both[1].offsets)
                     both = (both[0].values, both[1].values)
                 np.testing.assert_array_equal(*both, f"{name}: {column}")
+
+    def test_a_large_topic_is_read_by_columns(self):
+        small = rodeira.open(self.path)
+        with mock.patch("rodeira.topic.LARGE_BYTES", 0):
+            for name in ("vehicle_state", "traffic_state", "weather_state"):
+                topic = rodeira.open(self.path)[name]
+                self.assertEqual(len(topic), len(small[name]))
+                np.testing.assert_array_equal(topic.time_s, small[name].time_s)
+                np.testing.assert_array_equal(topic.source, small[name].source)
+                for column in [*topic.columns][5:40]:
+                    got, wanted = topic[column], small[name][column]
+                    if isinstance(got, rodeira.Ragged):
+                        got, wanted = got.values, wanted.values
+                    np.testing.assert_array_equal(got, wanted, column)
+                self.assertEqual(topic._all is None, name != "traffic_state", "a topic of one size is read by columns")
+                np.testing.assert_array_equal(topic.table()["time_s"], small[name].table()["time_s"])
 
     def test_groups_of_columns(self):
         state = rodeira.open(self.path)["vehicle_state"]

@@ -17,6 +17,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/put_in_place.hpp"
+#include "common/core/base/suggest.hpp"
 #include "common/data/csv/table_writer.hpp"
 #include "common/data/decode/idl_reader.hpp"
 
@@ -97,16 +98,19 @@ std::string FileName(std::string_view topic, std::set<std::string>& taken) {
 class Exporter {
  public:
   Exporter(const record::McapReader& reader, const fs::path& folder, const decode::Aliases& aliases,
-           const ExportProgress& progress)
-      : reader_(reader), aliases_(aliases), progress_(progress), workplace_(folder) {}
+           const ExportProgress& progress, const Selection& selection)
+      : reader_(reader), aliases_(aliases), progress_(progress), selection_(selection), workplace_(folder) {}
 
   base::Result<ExportReport> Run() {
+    const auto times = TimesOf(selection_);
+    if (!times) return times.error();
     if (auto status = workplace_.Begin(); !status) return status.error();
     report_.losses = reader_.condition().findings;
     for (const auto& [id, channel] : reader_.channels()) {
       if (auto status = Open(channel); !status) return status.error();
     }
-    if (auto status = Copy(); !status) return status.error();
+    if (auto status = CheckNames(); !status) return status.error();
+    if (auto status = Copy(times.value()); !status) return status.error();
     for (const auto& table : tables_) {
       if (auto status = table->writer->Close(); !status) return status.error();
       const TableWriter& writer = *table->writer;
@@ -119,6 +123,9 @@ class Exporter {
  private:
   // Channels of one topic and schema share a table.
   base::Status Open(const record::Channel& channel) {
+    const std::string topic(aliases_.Topic(channel.topic));
+    topics_.insert(topic);
+    if (!selection_.topics.empty() && !HasTopic(selection_.topics, topic)) return {};
     for (const auto& [key, table] : table_of_) {
       if (key.first == channel.topic && key.second == channel.schema) {
         of_channel_[channel.id] = table;
@@ -139,8 +146,10 @@ class Exporter {
     const decode::TypePtr type = aliases_.Renamed(recorded.value());
     auto layout = LayoutOf(*type);
     if (!layout) return base::WrongInput(layout.error().Text(), channel.topic);
+    for (std::string& name : ColumnsOf(layout.value())) columns_.insert(std::move(name));
+    if (KeepColumns(selection_.columns, layout.value()) == 0 && !selection_.columns.empty()) return {};
     auto table = std::make_shared<Table>();
-    table->topic = aliases_.Topic(channel.topic);
+    table->topic = topic;
     table->file = FileName(table->topic, names_);
     table->type = type;
     auto file = CsvFile::Create(workplace_.path() / table->file);
@@ -153,11 +162,31 @@ class Exporter {
     return {};
   }
 
-  base::Status Copy() {
-    record::Query query;
+  // Every name of the selection names something.
+  base::Status CheckNames() const {
+    for (const std::string& name : selection_.topics) {
+      if (std::ranges::any_of(topics_, [&](const auto& topic) { return HasTopic({name}, topic); })) continue;
+      std::vector<std::string> known;
+      for (const std::string& topic : topics_) known.emplace_back(ShortTopic(topic));
+      return base::WrongInput(fmt::format("unknown topic '{}'{}", name, base::DidYouMean(name, known)), "--topics");
+    }
+    for (const std::string& name : selection_.columns) {
+      if (std::ranges::any_of(columns_, [&](const auto& column) { return Names(name, column); })) continue;
+      const std::vector<std::string> known(columns_.begin(), columns_.end());
+      return base::WrongInput(fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, known)), "--columns");
+    }
+    return {};
+  }
+
+  base::Status Copy(record::Query query) {
     query.order = record::Query::Order::kFile;  // one chunk at a time
     query.channels.emplace();
-    for (const auto& [channel, table] : of_channel_) query.channels->insert(channel);
+    std::map<record::ChannelId, Thinning> thinned;
+    for (const auto& [channel, table] : of_channel_) {
+      query.channels->insert(channel);
+      if (selection_.rate_hz > 0.0 && !selection_.events.contains(table->topic))
+        thinned.emplace(channel, Thinning(selection_.rate_hz));
+    }
     auto cursor = reader_.Messages(query);
     for (std::uint64_t count = 0;; ++count) {
       const auto message = cursor.Next();
@@ -166,7 +195,9 @@ class Exporter {
         continue;
       }
       if (!message.value()) return {};
-      if (auto status = Put(*message.value()); !status) return status;
+      const auto thinning = thinned.find(message.value()->channel);
+      const bool keeps = thinning == thinned.end() || thinning->second.Keeps(message.value()->log_time_ns);
+      if (auto status = keeps ? Put(*message.value()) : base::Status(); !status) return status;
       if (count % kMessagesBetweenProgress != 0 || GoesOn(count)) continue;
       return base::Failed("the export was broken off; nothing is left of it");
     }
@@ -196,9 +227,12 @@ class Exporter {
   const record::McapReader& reader_;
   const decode::Aliases& aliases_;
   const ExportProgress& progress_;
+  const Selection& selection_;
   Workplace workplace_;
   ExportReport report_;
   std::set<std::string> names_;
+  std::set<std::string> topics_;   // of the recording, by today's names
+  std::set<std::string> columns_;  // of the chosen topics
   std::vector<std::shared_ptr<Table>> tables_;
   std::vector<std::pair<std::pair<std::string, record::SchemaId>, std::shared_ptr<Table>>> table_of_;
   std::map<record::ChannelId, std::shared_ptr<Table>> of_channel_;
@@ -207,10 +241,11 @@ class Exporter {
 }  // namespace
 
 base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const fs::path& folder,
-                                     const decode::Aliases& aliases, const ExportProgress& progress) {
+                                     const decode::Aliases& aliases, const ExportProgress& progress,
+                                     const Selection& selection) {
   fs::path plain = folder.lexically_normal();  // "tables/" names the folder "tables"
   if (!plain.has_filename()) plain = plain.parent_path();
-  return Exporter(reader, plain, aliases, progress).Run();
+  return Exporter(reader, plain, aliases, progress, selection).Run();
 }
 
 }  // namespace rodeira::csv

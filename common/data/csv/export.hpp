@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
+#include "common/data/csv/selection.hpp"
 #include "common/data/decode/aliases.hpp"
 #include "common/data/record/mcap_reader.hpp"
 
@@ -32,9 +33,10 @@ using ExportProgress = std::function<bool(double share)>;
 
 // Writes one table a topic (docs/reference/tables.md), with today's names by `aliases`, into `folder`, which must not
 // exist and appears with whole tables or not at all. Messages are read one chunk after the other. Wrong input where the
-// folder is there already, or where a message is not what its schema says; failed where the disk does not take the
-// tables.
+// folder is there already, where the selection names no topic or column of the recording, or where a message is not
+// what its schema says; failed where the disk does not take the tables.
 base::Result<ExportReport> ExportCsv(const record::McapReader& reader, const std::filesystem::path& folder,
-                                     const decode::Aliases& aliases = {}, const ExportProgress& progress = {});
+                                     const decode::Aliases& aliases = {}, const ExportProgress& progress = {},
+                                     const Selection& selection = {});
 
 }  // namespace rodeira::csv

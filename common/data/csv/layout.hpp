@@ -23,15 +23,16 @@ struct Slot {
     kSource,
     kIncarnation,
     kDigest,   // of the header of a sample
-    kDropped,  // "end"
+    kDropped,  // "end", and what is not chosen
   };
   Use use = Use::kCell;
   std::string name;  // of the column
 };
 
 struct Layout {
-  bool has_header = false;  // the messages are samples of the lockstep
-  std::string rows;         // the sequence with the rows as elements; empty: one row a message
+  bool has_header = false;    // the messages are samples of the lockstep
+  bool writes_digest = true;  // of the header; false: the column is left out
+  std::string rows;           // the sequence with the rows as elements; empty: one row a message
   std::vector<Slot> slots;
 };
 

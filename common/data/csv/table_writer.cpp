@@ -54,7 +54,7 @@ void TableWriter::PutHeaderLine() {
     out += ',';
     AppendCell(slot.name.empty() ? "value" : slot.name, out);
   }
-  out += layout_.has_header ? ",state_digest\n" : "\n";
+  out += layout_.has_header && layout_.writes_digest ? ",state_digest\n" : "\n";
 }
 
 base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t log_time_ns, std::string_view source) {
@@ -78,7 +78,7 @@ base::Status TableWriter::Put(std::span<const std::byte> payload, std::uint64_t 
     out += before_;
     if (!layout_.rows.empty()) out += row_cells_[row];
     out += after_;
-    if (layout_.has_header) base::AppendFormat(out, ",{:016x}", digest_);
+    if (layout_.has_header && layout_.writes_digest) base::AppendFormat(out, ",{:016x}", digest_);
     out += '\n';
     ++rows_;
   }
@@ -132,9 +132,11 @@ void TableWriter::OnSequenceEnd(const decode::Path&) {
   if (list_depth_ > 0) {
     if (--lists_open_ > 0) return;
     list_depth_ = 0;
-    std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
-    cells += ',';
-    AppendCell(list_, cells);
+    if (layout_.slots[slot_].use != Slot::Use::kDropped) {
+      std::string& cells = in_rows_ ? row_cells_.back() : slot_ < row_slot_ ? before_ : after_;
+      cells += ',';
+      AppendCell(list_, cells);
+    }
     ++slot_;
     EndRow();
     return;

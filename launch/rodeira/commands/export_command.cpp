@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 #include "common/core/base/print_error.hpp"
 #include "common/data/csv/export.hpp"
 #include "idl/aliases.hpp"
+#include "idl/topics.hpp"
 #include "launch/rodeira/interrupt.hpp"
+#include "launch/rodeira/option_errors.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
 namespace rodeira::cli {
@@ -37,7 +42,46 @@ class ExportProgress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+std::vector<std::string> SplitAtCommas(const std::string& text) {
+  std::vector<std::string> names;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    if (end > begin) names.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return names;
+}
+
+csv::Selection SelectionOf(const ExportOptions& options) {
+  csv::Selection selection;
+  selection.topics = SplitAtCommas(options.topics);
+  selection.columns = SplitAtCommas(options.columns);
+  selection.rate_hz = options.rate_hz;
+  for (const std::string_view topic :
+       {idl::topics::kScenarioEvents, idl::topics::kCollisions, idl::topics::kRemarks, idl::topics::kWallTime}) {
+    selection.events.emplace(topic);
+  }
+  selection.from_s = options.from_s;
+  selection.to_s = options.to_s;
+  return selection;
+}
+
 }  // namespace
+
+void AddExport(CLI::App& app, ExportOptions& options) {
+  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
+  tables->add_option("--csv", options.csv, "new folder, one CSV file a topic")->required();
+  tables->add_option("--topics", options.topics, "topics, separated by commas; default: all");
+  tables->add_option("--columns", options.columns,
+                     "columns or groups, separated by commas (position_w_m,wheels.load_n); default: all");
+  tables->add_option("--rate", options.rate_hz, "samples a second of each source, at most; events are all written")
+      ->check(Above0("a positive number of samples a second"));
+  tables->add_option("--from", options.from_s, "simulated seconds; from this time on")->check(From0());
+  tables->add_option("--to", options.to_s, "simulated seconds; before this time")->check(From0());
+  tables->add_option("FILE.mcap", options.recording, "recording")->required();
+  tables->add_flag("--quiet", options.quiet, "no progress, no list");
+}
 
 int Export(const ExportOptions& options) {
   CatchInterrupts();
@@ -45,8 +89,9 @@ int Export(const ExportOptions& options) {
   const auto report = [&]() -> base::Result<csv::ExportReport> {
     if (!reader) return reader.error();
     ExportProgress progress(options.quiet);
-    return csv::ExportCsv(reader.value(), options.csv, idl::Aliases(),
-                          [&progress](double share) { return progress.Show(share); });
+    return csv::ExportCsv(
+        reader.value(), options.csv, idl::Aliases(), [&progress](double share) { return progress.Show(share); },
+        SelectionOf(options));
   }();
   if (!report) return base::PrintError("rodeira", report.error());
   if (!options.quiet) {
