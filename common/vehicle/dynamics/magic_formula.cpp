@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "common/vehicle/dynamics/magic_formula_parts.hpp"
+
 namespace rodeira::dynamics {
 namespace {
 
@@ -96,26 +98,36 @@ double CamberY(const S& t, const TyreSlip& slip) {
   return t.version == MagicFormulaVersion::k52 ? slip.camber_rad * t.lgay : slip.camber_rad;
 }
 
-double PureLongitudinal(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
+// A force of one direction alone, and what the friction ellipse needs of its curve.
+struct Pure {
+  double force_N;
+  double slip;        // with the horizontal shift
+  double vertical_N;  // vertical shift
+  double stiffness_N, peak_N;
+};
+
+Pure PureLongitudinal(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
   const double kappa = slip.kappa + (t.phx1 + t.phx2 * o.dfz) * t.lhx;
   const double c = t.pcx1 * t.lcx;
   const double d = Mux(t, o, CamberX(t, slip), friction) * o.fz;
   const double e =
       std::min(1.0, (t.pex1 + t.pex2 * o.dfz + t.pex3 * o.dfz * o.dfz) * (1.0 - t.pex4 * Sign(kappa)) * t.lex);
-  const double b = Kx(t, o) / (c * d + kTiny);
+  const double k = Kx(t, o);
+  const double b = k / (c * d + kTiny);
   const double vertical = o.fz * (t.pvx1 + t.pvx2 * o.dfz) * t.lvx * ShiftFactor(t, t.lmux * friction);
-  return d * std::sin(Angle(b, c, e, kappa)) + vertical;
+  return {d * std::sin(Angle(b, c, e, kappa)) + vertical, kappa, vertical, k, d};
 }
 
-double PureLateral(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
+Pure PureLateral(const S& t, const Operating& o, const TyreSlip& slip, double friction) {
   const double gamma = CamberY(t, slip);
   const double shift_factor = ShiftFactor(t, t.lmuy * friction);
   const double k = Ky(t, o, gamma);
   const double camber_shift = o.fz * (t.pvy3 + t.pvy4 * o.dfz) * gamma * t.lkyc * shift_factor;
   const double camber_stiffness = o.fz * (t.pky6 + t.pky7 * o.dfz) * (1.0 + t.ppy5 * o.dpi) * t.lkyc;
   const double k_safe = std::fabs(k) < kTiny ? -kTiny : k;
-  const double shift_by_camber =
-      t.version == MagicFormulaVersion::k52 ? t.phy3 * gamma : (camber_stiffness * gamma - camber_shift) / k_safe;
+  const double shift_by_camber = t.version == MagicFormulaVersion::k52
+                                     ? t.phy3 * gamma * t.lkyc
+                                     : (camber_stiffness * gamma - camber_shift) / k_safe;
   const double alpha = slip.tan_alpha + (t.phy1 + t.phy2 * o.dfz) * t.lhy + shift_by_camber;
   const double c = t.pcy1 * t.lcy;
   const double d = Muy(t, o, gamma, friction) * o.fz;
@@ -123,7 +135,7 @@ double PureLateral(const S& t, const Operating& o, const TyreSlip& slip, double 
   const double e = std::min(1.0, (t.pey1 + t.pey2 * o.dfz) * bend * t.ley);
   const double b = k / (c * d + kTiny);
   const double vertical = o.fz * (t.pvy1 + t.pvy2 * o.dfz) * t.lvy * shift_factor + camber_shift;
-  return d * std::sin(Angle(b, c, e, alpha)) + vertical;
+  return {d * std::sin(Angle(b, c, e, alpha)) + vertical, alpha, vertical, k, d};
 }
 
 // Weight of Fx by the slip angle: 1 at none.
@@ -150,6 +162,21 @@ double InducedLateral(const S& t, const Operating& o, const TyreSlip& slip, doub
   return size * std::sin(t.rvy5 * std::atan(t.rvy6 * slip.kappa)) * t.lvyka;
 }
 
+// Combined slip without coefficients of its own (Adams/Tire, PAC2002, "Combined slip: friction ellipse"): the slip
+// points along tan(beta) = sin(alpha) / kappa, and each force is cut to an ellipse of its own value and the other's
+// peak. Where a slip vanishes, force over slip is its stiffness.
+TyreForces OnEllipse(const Pure& x, const Pure& y) {
+  const double kappa = x.slip + x.vertical_N / (std::fabs(x.stiffness_N) < kTiny ? kTiny : x.stiffness_N);
+  const double alpha = y.slip + y.vertical_N / (std::fabs(y.stiffness_N) < kTiny ? -kTiny : y.stiffness_N);
+  const double along = std::fabs(kappa), across = std::fabs(std::sin(alpha));
+  const auto slope = [](const Pure& pure, double slip) {
+    return slip < kTiny ? std::fabs(pure.stiffness_N) : std::fabs(pure.force_N - pure.vertical_N) / slip;
+  };
+  const double x_share = 1.0 / std::hypot(1.0, slope(x, along) * across / std::max(y.peak_N, kTiny));
+  const double y_share = 1.0 / std::hypot(1.0, slope(y, across) * along / std::max(x.peak_N, kTiny));
+  return {x.force_N * x_share, y.force_N * y_share};
+}
+
 }  // namespace
 
 std::span<const MagicFormulaCoefficient> MagicFormulaCoefficients() { return kCoefficients; }
@@ -159,9 +186,36 @@ TyreForces SteadyForces(const MagicFormulaSettings& tyre, const TyreSlip& mounte
   const double side = tyre.mirrored ? -1.0 : 1.0;
   const TyreSlip slip{mounted.kappa, side * mounted.tan_alpha, side * mounted.camber_rad};
   const Operating o = At(tyre, load_N);
-  return {PureLongitudinal(tyre, o, slip, friction) * WeightLongitudinal(tyre, o, slip),
-          side * (PureLateral(tyre, o, slip, friction) * WeightLateral(tyre, o, slip) +
-                  InducedLateral(tyre, o, slip, friction))};
+  const Pure x = PureLongitudinal(tyre, o, slip, friction);
+  const Pure y = PureLateral(tyre, o, slip, friction);
+  if (tyre.friction_ellipse) {
+    const TyreForces forces = OnEllipse(x, y);
+    return {forces.longitudinal_N, side * forces.lateral_N};
+  }
+  return {x.force_N * WeightLongitudinal(tyre, o, slip),
+          side * (y.force_N * WeightLateral(tyre, o, slip) + InducedLateral(tyre, o, slip, friction))};
+}
+
+MagicFormulaParts PartsOf(const MagicFormulaSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+  const Operating o = At(tyre, load_N);
+  const Pure x = PureLongitudinal(tyre, o, slip, friction), y = PureLateral(tyre, o, slip, friction);
+  const Pure upright = PureLateral(tyre, o, {slip.kappa, slip.tan_alpha, 0.0}, friction);
+  MagicFormulaParts parts;
+  parts.slip_stiffness_N = x.stiffness_N;
+  parts.cornering_stiffness_N = std::fabs(y.stiffness_N) < kTiny ? -kTiny : y.stiffness_N;
+  parts.stiffness_over_peak = y.stiffness_N / std::max(y.peak_N, kTiny);
+  parts.shift_horizontal = y.slip - slip.tan_alpha;
+  parts.shift_vertical_N = y.vertical_N;
+  if (tyre.friction_ellipse) {
+    parts.forces = OnEllipse(x, y);
+    parts.trail_lateral_N = parts.forces.lateral_N;
+    return parts;
+  }
+  const double weight = WeightLateral(tyre, o, slip);
+  parts.forces = {x.force_N * WeightLongitudinal(tyre, o, slip),
+                  y.force_N * weight + InducedLateral(tyre, o, slip, friction)};
+  parts.trail_lateral_N = weight * (tyre.version == MagicFormulaVersion::k52 ? y.force_N : upright.force_N);
+  return parts;
 }
 
 double LongitudinalStiffness(const MagicFormulaSettings& tyre, double load_N) {

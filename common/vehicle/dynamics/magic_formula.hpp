@@ -20,11 +20,12 @@ enum class TyreSide { kEither, kLeft, kRight };
 struct MagicFormulaSettings {
   MagicFormulaVersion version = MagicFormulaVersion::k61;
   TyreSide measured_on = TyreSide::kEither;
-  bool mirrored = false;       // it is mounted on the other side
-  double fnomin = 4000.0;      // nominal load, N
-  double fzmax = 20000.0;      // above it the formula is evaluated at this load, N
-  double nompres = 220000.0;   // Pa
-  double inflpres = 220000.0;  // Pa
+  bool mirrored = false;          // it is mounted on the other side
+  bool friction_ellipse = false;  // PAC2002: combined slip by the friction ellipse, not by the r coefficients
+  double fnomin = 4000.0;         // nominal load, N
+  double fzmax = 20000.0;         // above it the formula is evaluated at this load, N
+  double nompres = 220000.0;      // Pa
+  double inflpres = 220000.0;     // Pa
   // Scale factors.
   double lfzo = 1.0, lcx = 1.0, lmux = 1.0, lex = 1.0, lkx = 1.0, lhx = 1.0, lvx = 1.0;
   double lcy = 1.0, lmuy = 1.0, ley = 1.0, lky = 1.0, lkyc = 1.0, lhy = 1.0, lvy = 1.0;

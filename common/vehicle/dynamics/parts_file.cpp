@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "common/core/geometry/angle.hpp"
-#include "common/vehicle/dynamics/tir_file.hpp"
+#include "common/vehicle/dynamics/tyre_file.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -195,11 +195,17 @@ TyreSettings ReadTyre(const Map& map) {
   }
   // From a file of its maker, by coefficients that stand here, or by both: what stands here counts.
   if (const auto tir = map.OptionalPath("tir")) {
-    auto formula = LoadTir(*tir);
-    if (formula)
-      tyre.formula = formula.value();
-    else
-      map.Problem("tir", formula.error().Text());
+    auto file = LoadTyreFile(*tir);
+    if (!file) {
+      map.Problem("tir", file.error().Text());
+    } else {
+      tyre.formula = file.value().formula;
+      tyre.model = file.value().model;
+      if (tyre.model && map.Has("magic_formula"))
+        map.Problem("magic_formula", fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
+                                                 "such coefficients",
+                                                 file.value().kind));
+    }
   }
   const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");
   for (const MagicFormulaCoefficient& coefficient : MagicFormulaCoefficients()) {

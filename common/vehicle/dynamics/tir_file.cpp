@@ -5,10 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -19,37 +18,33 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr std::size_t kMostBytes = 1u << 20;
-constexpr auto kNeeded =
-    std::to_array<std::string_view>({"FITTYP", "FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
+constexpr double kMostLoad_N = 1e7;      // ten times what the largest tyre of an aircraft or a mine bears
+constexpr double kLoadsOfNominal = 4.0;  // a file without FZMAX holds for loads up to this many times FNOMIN
+constexpr auto kNeeded = std::to_array<std::string_view>({"FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
 constexpr auto kUnits = std::to_array<std::pair<std::string_view, std::string_view>>(
     {{"LENGTH", "meter"}, {"FORCE", "newton"}, {"ANGLE", "radians"}, {"MASS", "kg"}, {"TIME", "second"}});
 
+// Other names of coefficients, as PAC2002 has them.
+constexpr auto kAliases = std::to_array<std::pair<std::string_view, std::string_view>>(
+    {{"IP", "INFLPRES"}, {"IP_NOM", "NOMPRES"}, {"LKYG", "LKYC"}, {"LKZG", "LKZC"}, {"LMR", "LRES"}});
+
 // Coefficients of the directions and scales that the forces here have no use for: relaxation, moments, turn slip,
 // structure.
-constexpr auto kUnused =
-    std::to_array<std::string_view>({"PTX1", "PTX2", "PTX3", "PTY1", "PTY2", "LCZ", "LGAZ", "LGYR", "LKZC", "LMP",
-                                     "LMUV", "LMX", "LMY", "LRES", "LS", "LSGAL", "LSGKP", "LTR", "LVMX"});
+constexpr auto kUnused = std::to_array<std::string_view>(
+    {"PTX1", "PTX2",  "PTX3", "PTX4", "PTY1", "PTY2", "PTY3", "LCZ", "LGAZ",  "LGYR",  "LKZC", "LKZG", "LKG",
+     "LMP",  "LMPHI", "LMR",  "LMUV", "LMX",  "LMY",  "LRES", "LS",  "LSGAL", "LSGKP", "LTR",  "LVMX", "LIP"});
 
-std::string_view Trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r\f\v";
-  const auto begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
+// What a file of the other version lacks rightly.
+const std::set<std::string_view> kOnlyIn61{"PKY4", "PKY5", "PKY6", "PKY7",     "PEY5",   "RBX3", "RBY4",
+                                           "LKYC", "PPX1", "PPX2", "PPX3",     "PPX4",   "PPY1", "PPY2",
+                                           "PPY3", "PPY4", "PPY5", "INFLPRES", "NOMPRES"};
+const std::set<std::string_view> kOnlyIn52{"PHY3", "LGAX", "LGAY"};
 
-std::string Upper(std::string_view text) {
-  std::string upper(text);
-  std::transform(upper.begin(), upper.end(), upper.begin(),
-                 [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-  return upper;
-}
-
-std::optional<double> Number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
+std::string Listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kShown = 6;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() > kShown ? text + fmt::format(" and {} more", names.size() - kShown) : text;
 }
 
 const MagicFormulaCoefficient* Coefficient(std::string_view key) {
@@ -58,133 +53,268 @@ const MagicFormulaCoefficient* Coefficient(std::string_view key) {
   return found == all.end() ? nullptr : &*found;
 }
 
-class Reader {
+class TirReader {
  public:
-  explicit Reader(std::string_view name) : name_(name) {}
+  TirReader(std::string_view name, const TirVersion& version) : name_(name), version_(version) {
+    file_.version = version.name;
+    file_.warnings = version.warnings;
+    tyre_.version = version.equations;
+    tyre_.friction_ellipse = version.has_ellipse;
+  }
 
-  base::Result<MagicFormulaSettings> Read(std::string_view text) {
-    for (std::size_t begin = 0; begin <= text.size();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      ++line_;
-      if (auto status = Line(text.substr(begin, end - begin)); !status) return status.error();
-      begin = end + 1;
+  base::Result<TirFile> Read(const TirText& tir) {
+    for (const TirEntry& entry : tir.entries) {
+      if (auto status = Entry(entry); !status) return status.error();
     }
-    for (const std::string_view key : kNeeded) {
-      if (!lines_.contains(key))
-        return base::WrongInput(fmt::format("a tyre property file with '{}' was expected, and there is none", key),
-                                std::string(name_));
+    for (const auto& step : {&TirReader::CheckExtraKeys, &TirReader::CheckNeeded, &TirReader::CheckLoads,
+                             &TirReader::ChooseSigns, &TirReader::ChoosePressure, &TirReader::CheckStiffness}) {
+      if (auto status = (this->*step)(); !status) return status.error();
     }
-    return Checked();
+    TellMissing();
+    file_.formula = tyre_;
+    if (aligning_.unloaded_radius > 0.0 && lines_.contains("QDZ1") && lines_.contains("QBZ1"))
+      file_.aligning = aligning_;
+    return std::move(file_);
   }
 
  private:
   base::Error Wrong(std::string_view message, int line) const {
     return base::WrongInput(message, fmt::format("{}:{}", name_, line));
   }
+  base::Error Wrong(std::string_view message, const std::string& key) const {
+    const auto found = lines_.find(key);
+    return found == lines_.end() ? base::WrongInput(message, std::string(name_)) : Wrong(message, found->second);
+  }
+  void Warn(std::string sentence) { file_.warnings.push_back(std::move(sentence)); }
 
-  base::Status Line(std::string_view line) {
-    line = Trimmed(line.substr(0, line.find_first_of("$!")));
-    if (line.starts_with('[')) {
-      section_ = Upper(Trimmed(line.substr(1, line.find(']') - 1)));
+  base::Status Entry(const TirEntry& entry) {
+    if (entry.section == "UNITS") return Unit(entry);
+    if (entry.key == "TYRESIDE") return Side(entry);
+    std::string key = entry.key;
+    for (const auto& [other, own] : kAliases) {
+      if (key == other) key = own;
+    }
+    const MagicFormulaCoefficient* coefficient = Coefficient(key);
+    double* const aligning = AligningValue(key);
+    const bool is_range = key == "FZMIN" || key == "LIP";
+    if (coefficient == nullptr && aligning == nullptr && !is_range) {
+      NoteExtraKey(entry);
       return {};
     }
-    const auto equals = line.find('=');
-    if (equals == std::string_view::npos) return {};  // a table's heading or row
-    const std::string key = Upper(Trimmed(line.substr(0, equals)));
-    const std::string_view value = Trimmed(line.substr(equals + 1));
-    if (section_ == "UNITS") return Unit(key, value);
-    return Value(key, value);
+    if (entry.value.empty()) {
+      empty_.push_back(entry.key);
+      return {};
+    }
+    const auto number = TirNumber(entry.value);
+    if (!number) return Wrong(fmt::format("'{}' is '{}'; a number was expected", entry.key, entry.value), entry.line);
+    if (const auto [first, is_new] = lines_.emplace(key, entry.line); !is_new)
+      return Wrong(fmt::format("'{}' stands in line {} already", entry.key, first->second), entry.line);
+    if (key == "FZMIN")
+      fzmin_ = *number;
+    else if (key == "LIP")
+      nominal_pressure_scale_ = *number;
+    else
+      (coefficient != nullptr ? tyre_.*coefficient->member : *aligning) = *number;
+    return {};
   }
 
-  base::Status Unit(const std::string& key, std::string_view value) const {
+  // Null: no coefficient of the aligning moment.
+  double* AligningValue(std::string_view key) {
+    const auto found = std::ranges::find(AligningCoefficients(), key, &AligningCoefficient::name);
+    return found == AligningCoefficients().end() ? nullptr : &(aligning_.*(found->member));
+  }
+
+  base::Status Unit(const TirEntry& entry) const {
     for (const auto& [quantity, unit] : kUnits) {
-      if (key != quantity) continue;
-      std::string found = Upper(value);
-      std::erase(found, '\'');
-      std::erase(found, '"');
-      const std::string expected = Upper(unit);
+      if (entry.key != quantity) continue;
+      const std::string found = UpperCase(entry.value);
+      const std::string expected = UpperCase(unit);
       if (found == expected || found + "S" == expected || found == expected + "S" ||
-          (key == "LENGTH" && found == "M") || (key == "FORCE" && found == "N") || (key == "ANGLE" && found == "RAD") ||
-          (key == "TIME" && (found == "S" || found == "SEC")) || (key == "MASS" && found == "KILOGRAM")) {
+          (entry.key == "LENGTH" && found == "M") || (entry.key == "FORCE" && found == "N") ||
+          (entry.key == "ANGLE" && found == "RAD") || (entry.key == "TIME" && (found == "S" || found == "SEC")) ||
+          (entry.key == "MASS" && found == "KILOGRAM")) {
         return {};
       }
-      return Wrong(fmt::format("{} is given in {}; '{}' was expected: SI units are read", key, value, unit), line_);
-    }
-    return {};
-  }
-
-  base::Status Value(const std::string& key, std::string_view value) {
-    const MagicFormulaCoefficient* coefficient = Coefficient(key);
-    if (key == "TYRESIDE") return Side(value);
-    if (coefficient == nullptr && key != "FITTYP") return Unused(key);
-    const auto number = Number(value);
-    if (!number) return Wrong(fmt::format("'{}' is '{}'; a number was expected", key, value), line_);
-    if (const auto [first, is_new] = lines_.emplace(key, line_); !is_new)
-      return Wrong(fmt::format("'{}' stands in line {} already", key, first->second), line_);
-    (coefficient != nullptr ? tyre_.*coefficient->member : fit_type_) = *number;
-    return {};
-  }
-
-  base::Status Side(std::string_view value) {
-    std::string found = Upper(value);
-    std::erase(found, '\'');
-    std::erase(found, '"');
-    if (found != "LEFT" && found != "RIGHT")
-      return Wrong(fmt::format("TYRESIDE is {}; 'LEFT' or 'RIGHT' was expected", value), line_);
-    tyre_.measured_on = found == "LEFT" ? TyreSide::kLeft : TyreSide::kRight;
-    return {};
-  }
-
-  // Among the coefficients of the two directions and their scales there is none that is unknown: it would be a slip
-  // of the pen.
-  base::Status Unused(const std::string& key) const {
-    const bool strict =
-        section_.starts_with("LONGITUDINAL") || section_.starts_with("LATERAL") || section_.starts_with("SCALING");
-    if (!strict || std::ranges::find(kUnused, key) != kUnused.end()) return {};
-    std::vector<std::string> known(kUnused.begin(), kUnused.end());
-    for (const auto& each : MagicFormulaCoefficients()) known.emplace_back(each.name);
-    return Wrong(fmt::format("'{}' is no coefficient of the Magic Formula{}", key, base::DidYouMean(key, known)),
-                 line_);
-  }
-
-  base::Result<MagicFormulaSettings> Checked() {
-    constexpr std::array kOld{5.0, 6.0, 51.0, 52.0};
-    constexpr std::array kNew{60.0, 61.0, 62.0};
-    const auto is_one_of = [this](const auto& types) {
-      return std::find(types.begin(), types.end(), fit_type_) != types.end();
-    };
-    if (!is_one_of(kOld) && !is_one_of(kNew)) {
       return Wrong(
-          fmt::format("FITTYP is {}; 5, 6, 51, 52 (Magic Formula 5.2) or 60, 61, 62 (6.1) was expected", fit_type_),
-          lines_.at("FITTYP"));
+          fmt::format("{} is given in '{}'; '{}' was expected: SI units are read", entry.key, entry.value, unit),
+          entry.line);
     }
-    tyre_.version = is_one_of(kOld) ? MagicFormulaVersion::k52 : MagicFormulaVersion::k61;
-    for (const char* key : {"FNOMIN", "FZMAX", "NOMPRES", "INFLPRES", "LFZO", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1"}) {
+    return {};
+  }
+
+  base::Status Side(const TirEntry& entry) {
+    const std::string side = UpperCase(entry.value);
+    if (side == "LEFT" || side == "RIGHT") {
+      tyre_.measured_on = side == "LEFT" ? TyreSide::kLeft : TyreSide::kRight;
+    } else if (side.empty() || side == "UNKNOWN" || side == "NONE" || side == "BOTH" || side == "SYMMETRIC") {
+      Warn(fmt::format("TYRESIDE is '{}': the tyre is the same on both sides of a car", entry.value));
+    } else {
+      return Wrong(fmt::format("TYRESIDE is '{}'; 'LEFT' or 'RIGHT' was expected, or 'UNKNOWN'", entry.value),
+                   entry.line);
+    }
+    return {};
+  }
+
+  void NoteExtraKey(const TirEntry& entry) {
+    const bool is_of_forces = entry.section.starts_with("LONGITUDINAL") || entry.section.starts_with("LATERAL") ||
+                              entry.section.starts_with("SCALING");
+    if (is_of_forces && std::ranges::find(kUnused, entry.key) == kUnused.end())
+      extra_.emplace_back(entry.key, entry.line);
+  }
+
+  // A key that is not known is a misspelt one if the one that it resembles is missing.
+  base::Status CheckExtraKeys() {
+    std::vector<std::string> missing;
+    const auto& others = version_.equations == MagicFormulaVersion::k52 ? kOnlyIn61 : kOnlyIn52;
+    for (const auto& each : MagicFormulaCoefficients()) {
+      const bool is_expected = std::ranges::find(empty_, each.name) == empty_.end() && !others.contains(each.name);
+      if (is_expected && !lines_.contains(each.name)) missing.emplace_back(each.name);
+    }
+    std::vector<std::string> passed_over;
+    for (const auto& [key, line] : extra_) {
+      const std::string near = base::NearestName(key, missing);
+      if (!near.empty())
+        return Wrong(fmt::format("'{}' is no coefficient of the Magic Formula; did you mean '{}'?", key, near), line);
+      passed_over.push_back(key);
+    }
+    if (!passed_over.empty())
+      Warn(fmt::format("passed over, for the forces do not depend on it here: {}", Listed(passed_over)));
+    return {};
+  }
+
+  base::Status CheckNeeded() {
+    for (const std::string_view key : kNeeded) {
+      if (lines_.contains(key)) continue;
+      return base::WrongInput(fmt::format("a tyre property file with '{}' was expected, and there is none", key),
+                              std::string(name_));
+    }
+    for (const char* key : {"FNOMIN", "FZMAX", "NOMPRES", "INFLPRES", "LFZO"}) {
       const double value = tyre_.*Coefficient(key)->member;
       if (lines_.contains(key) && !(value > 0.0))
-        return Wrong(fmt::format("'{}' is {}; more than 0 was expected", key, value), lines_.at(key));
+        return Wrong(fmt::format("'{}' is {}; more than 0 was expected", key, value), std::string(key));
     }
-    if (!(tyre_.pky1 < 0.0)) {
-      return Wrong(
-          fmt::format("'PKY1' is {}; a negative number was expected: a positive slip angle gives a force to the right",
-                      tyre_.pky1),
-          lines_.at("PKY1"));
+    return {};
+  }
+
+  base::Status CheckLoads() {
+    const double nominal = tyre_.fnomin * tyre_.lfzo;
+    if (nominal > kMostLoad_N || nominal < 1.0)
+      return Wrong(fmt::format("'FNOMIN' times 'LFZO' is {:g} N; 1 to {:g} N was expected", nominal, kMostLoad_N),
+                   std::string("FNOMIN"));
+    if (!lines_.contains("FZMAX")) {
+      tyre_.fzmax = std::max(tyre_.fzmax, kLoadsOfNominal * nominal);
+      Warn(fmt::format("there is no FZMAX: loads above {:g} N are computed at {:g} N", tyre_.fzmax, tyre_.fzmax));
+      return {};
     }
-    return tyre_;
+    if (tyre_.fzmax > kMostLoad_N)
+      return Wrong(fmt::format("'FZMAX' is {:g} N; at most {:g} N was expected", tyre_.fzmax, kMostLoad_N),
+                   std::string("FZMAX"));
+    if (tyre_.fzmax <= fzmin_)
+      return Wrong(fmt::format("'FZMAX' is {:g} N, 'FZMIN' {:g} N; a range of loads was expected", tyre_.fzmax, fzmin_),
+                   std::string("FZMAX"));
+    if (tyre_.fzmax < 0.1 * nominal)
+      return Wrong(fmt::format("'FZMAX' is {:g} N, 'FNOMIN' {:g} N; a range that reaches the nominal load was expected",
+                               tyre_.fzmax, nominal),
+                   std::string("FZMAX"));
+    if (tyre_.fzmax < nominal)
+      Warn(fmt::format("FZMAX, {:g} N, lies below the nominal load, {:g} N: larger loads are computed at FZMAX",
+                       tyre_.fzmax, nominal));
+    return {};
+  }
+
+  // D sin(C atan(K x / (C D) …)) is the same for -D, and for -C.
+  base::Status ChooseSigns() {
+    using S = MagicFormulaSettings;
+    const auto flip = [&](double S::*first, std::initializer_list<double S::*> others) {
+      if (!(tyre_.*first < 0.0)) return false;
+      tyre_.*first = -(tyre_.*first);
+      for (double S::*other : others) tyre_.*other = -(tyre_.*other);
+      return true;
+    };
+    if (flip(&S::pdx1, {&S::pdx2}))
+      Warn("PDX1 is negative: read with the opposite sign, as PDX2 is; the curve is the same");
+    if (flip(&S::pdy1, {&S::pdy2, &S::rvy1, &S::rvy2, &S::rvy3}))
+      Warn("PDY1 is negative: read with the opposite sign, as PDY2 and RVY1 to RVY3 are; the curve is the same");
+    (void)flip(&S::pcx1, {});
+    (void)flip(&S::pcy1, {});
+    for (const auto& [key, value] : {std::pair("PCX1", tyre_.pcx1), std::pair("PDX1", tyre_.pdx1),
+                                     std::pair("PCY1", tyre_.pcy1), std::pair("PDY1", tyre_.pdy1)}) {
+      if (!(value > 0.0)) return Wrong(fmt::format("'{}' is 0; another number was expected", key), std::string(key));
+    }
+    return {};
+  }
+
+  base::Status CheckStiffness() {
+    const double nominal = tyre_.fnomin * tyre_.lfzo;
+    const double along = LongitudinalStiffness(tyre_, nominal), across = -CorneringStiffness(tyre_, nominal);
+    if (!(along > 0.0))
+      return Wrong(fmt::format("the slip stiffness at FNOMIN, by PKX1 and its partners, is {:.6g} N; more than 0 was "
+                               "expected",
+                               along),
+                   std::string("PKX1"));
+    if (!(across < 0.0))
+      return Wrong(fmt::format("the cornering stiffness at FNOMIN, by PKY1, PKY2 and PKY4, is {:.6g} N; a negative "
+                               "number was expected: a positive slip angle gives a force to the right",
+                               across),
+                   std::string("PKY1"));
+    return {};
+  }
+
+  base::Status ChoosePressure() {
+    const bool has_nominal = lines_.contains("NOMPRES"), has_pressure = lines_.contains("INFLPRES");
+    if (has_nominal && !has_pressure) {
+      tyre_.inflpres = tyre_.nompres;
+      Warn(fmt::format("there is no INFLPRES: the tyre is at its nominal pressure, {:g} Pa", tyre_.nompres));
+    } else if (has_pressure && !has_nominal) {
+      tyre_.nompres = tyre_.inflpres;
+      Warn(fmt::format("there is no NOMPRES: the pressure, {:g} Pa, counts as the nominal one", tyre_.inflpres));
+    } else {
+      tyre_.nompres *= nominal_pressure_scale_;
+    }
+    if (!version_.has_pressure) tyre_.inflpres = tyre_.nompres;
+    return {};
+  }
+
+  void TellMissing() {
+    if (!empty_.empty()) Warn(fmt::format("values that are left empty count as absent: {}", Listed(empty_)));
+    if (tyre_.friction_ellipse) return;
+    std::vector<std::string> combined;
+    for (const char* key : {"RBX1", "RBX2", "RCX1", "RBY1", "RBY2", "RCY1"}) {
+      if (!lines_.contains(key)) combined.emplace_back(key);
+    }
+    if (!combined.empty())
+      Warn(fmt::format("combined slip by usual coefficients, for these are missing: {}", Listed(combined)));
   }
 
   std::string_view name_;
-  int line_ = 0;
-  std::string section_;
-  double fit_type_ = 0.0;
+  const TirVersion& version_;
+  double fzmin_ = 0.0;
+  double nominal_pressure_scale_ = 1.0;
   std::map<std::string, int, std::less<>> lines_;  // where what was read stands
+  std::vector<std::string> empty_;
+  std::vector<std::pair<std::string, int>> extra_;
   MagicFormulaSettings tyre_;
+  AligningSettings aligning_;
+  TirFile file_;
 };
 
 }  // namespace
 
+base::Result<TirFile> ReadTir(const TirText& tir, const TirVersion& version, std::string_view name) {
+  return TirReader(name, version).Read(tir);
+}
+
 base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_view name) {
-  return Reader(name).Read(text);
+  const TirText tir = SplitTir(text);
+  const auto version = FindTirVersion(tir, name);
+  if (!version) return version.error();
+  if (version.value().model != TirVersion::Model::kMagicFormula)
+    return base::WrongInput(
+        fmt::format("this is a tyre of the model {}; one of the Magic Formula was expected", version.value().name),
+        std::string(name));
+  auto file = ReadTir(tir, version.value(), name);
+  if (!file) return file.error();
+  return file.value().formula;
 }
 
 base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path) {

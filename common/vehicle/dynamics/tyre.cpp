@@ -35,21 +35,26 @@ std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles) {
 }
 
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction) {
+  if (tyre.model) return tyre.model->Forces(slip, load_N, friction);
   return tyre.slip_curve ? SteadyForces(*tyre.slip_curve, slip, load_N, friction)
                          : SteadyForces(tyre.formula, slip, load_N, friction);
 }
 double LongitudinalStiffness(const TyreSettings& tyre, double load_N) {
+  if (tyre.model) return tyre.model->LongitudinalStiffness(load_N);
   return tyre.slip_curve ? LongitudinalStiffness(*tyre.slip_curve, load_N)
                          : LongitudinalStiffness(tyre.formula, load_N);
 }
 double CorneringStiffness(const TyreSettings& tyre, double load_N) {
+  if (tyre.model) return tyre.model->CorneringStiffness(load_N);
   return tyre.slip_curve ? CorneringStiffness(*tyre.slip_curve, load_N) : CorneringStiffness(tyre.formula, load_N);
 }
 double LongitudinalPeak(const TyreSettings& tyre, double load_N, double friction) {
+  if (tyre.model) return tyre.model->LongitudinalPeak(load_N, friction);
   return tyre.slip_curve ? LongitudinalPeak(*tyre.slip_curve, load_N, friction)
                          : LongitudinalPeak(tyre.formula, load_N, friction);
 }
 double LateralPeak(const TyreSettings& tyre, double load_N, double friction) {
+  if (tyre.model) return tyre.model->LateralPeak(load_N, friction);
   return tyre.slip_curve ? LateralPeak(*tyre.slip_curve, load_N, friction)
                          : LateralPeak(tyre.formula, load_N, friction);
 }

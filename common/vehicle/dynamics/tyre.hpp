@@ -2,17 +2,20 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include "common/core/base/state.hpp"
 #include "common/vehicle/dynamics/magic_formula.hpp"
 #include "common/vehicle/dynamics/slip_curve.hpp"
+#include "common/vehicle/dynamics/tyre_model.hpp"
 
 namespace rodeira::dynamics {
 
 struct TyreSettings {
   MagicFormulaSettings formula;
   std::optional<SlipCurveSettings> slip_curve = std::nullopt;  // where it is there, in the formula's place
+  std::shared_ptr<const TyreModel> model = nullptr;            // another one in the formula's place
   double relaxation_longitudinal_m = 0.2;                      // sigma_kappa
   double relaxation_lateral_m = 0.4;                           // sigma_alpha
   double low_speed_mps = 2.5;  // below it the damping fades in and the deflection is held to what friction bears
@@ -23,7 +26,7 @@ struct TyreSettings {
 // is mirrored.
 std::array<TyreSettings, 4> OnWheels(const std::array<TyreSettings, 2>& axles);
 
-// Of the formula or of the slip curve, as in magic_formula.hpp.
+// Of the formula, of the slip curve or of the other model, as in magic_formula.hpp.
 TyreForces SteadyForces(const TyreSettings& tyre, const TyreSlip& slip, double load_N, double friction);
 double LongitudinalStiffness(const TyreSettings& tyre, double load_N);
 double CorneringStiffness(const TyreSettings& tyre, double load_N);
