@@ -306,6 +306,14 @@ void AddVehicle(CLI::App& app, VehicleOptions& options) {
   test->add_option("--out", options.out, "folder: NAME.csv and NAME.svg of each manoeuvre");
   test->add_flag("--quiet", options.quiet, "no progress, no table");
   test->callback([&options] { options.command = "test"; });
+  CLI::App* tyre = vehicle->add_subcommand("tyre", "read a tyre file, check it, print its figures and draw it");
+  tyre->add_option("FILE.tir", options.file, "tyre property file, or a Fiala or TMeasy tyre of Chrono (.json)")
+      ->required();
+  tyre->add_option("--svg", options.svg, "draw forces over slip, camber and load into this file")->check(NewFile());
+  tyre->add_option("--csv", options.csv, "write the forces at 1000 random points into this file, for comparison")
+      ->check(NewFile());
+  tyre->add_flag("--quiet", options.quiet, "no table");
+  tyre->callback([&options] { options.command = "tyre"; });
   vehicle->add_subcommand("list", "print the vehicles that can be named, and where they are")->callback([&options] {
     options.command = "list";
   });

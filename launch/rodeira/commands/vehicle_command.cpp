@@ -12,6 +12,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
+#include "launch/rodeira/commands/tyre_command.hpp"
 #include "launch/rodeira/input_files.hpp"
 
 namespace rodeira::cli {
@@ -92,6 +93,7 @@ int Vehicle(const VehicleOptions& options) {
     fmt::print("{}", ListInputFiles(InputKind::kVehicle));
     return 0;
   }
+  if (options.command == "tyre") return Tyre(options);
   auto file = ResolveInputFile(InputKind::kVehicle, options.file);
   if (!file) return base::PrintError("rodeira", file.error());
   VehicleOptions resolved = options;
