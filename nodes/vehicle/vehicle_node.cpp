@@ -12,6 +12,7 @@
 #include "common/core/base/log.hpp"
 #include "common/driving/scenario/event.hpp"
 #include "common/vehicle/dynamics/vehicle_model.hpp"
+#include "common/vehicle/dynamics/vehicle_notes.hpp"
 #include "common/world/road/world.hpp"
 #include "common/world/weather/wet_ground.hpp"
 #include "idl/codec.hpp"
@@ -199,6 +200,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeVehicleNode(launch::NodeContex
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   auto model = dynamics::LoadVehicle(settings.vehicle, context.launch().vehicle_model());
   if (!model) return model.error();
+  for (const std::string& note : dynamics::NotesOn(*model.value(), settings.vehicle))
+    base::Log(base::LogLevel::kWarning, context.spec().name, note);
   const auto summary = context.World();
   if (!summary) return summary.error();
   if (!settings.own_place) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "common/core/base/carried_state.hpp"
+
 namespace rodeira::base {
 namespace {
 
@@ -32,6 +34,15 @@ std::optional<std::string> ScalarText(ByteReader& in, FieldScalar scalar, std::u
       break;
   }
   return std::nullopt;
+}
+
+// Of fields of the kind kCarried, contents are no difference.
+std::vector<StateField> WithoutCarried(std::vector<StateField> fields) {
+  const std::string within = "." + std::string(kCarried);
+  std::erase_if(fields, [&](const StateField& field) {
+    return field.path.starts_with(kCarried) || field.path.find(within) != std::string::npos;
+  });
+  return fields;
 }
 
 }  // namespace
@@ -78,16 +89,17 @@ Result<std::optional<StateDifference>> FirstStateDifference(std::span<const std:
   if (!a) return a.error();
   const auto b = StateFields(second);
   if (!b) return b.error();
-  for (std::size_t i = 0; i < std::max(a.value().size(), b.value().size()); ++i) {
-    const bool in_a = i < a.value().size();
-    const bool in_b = i < b.value().size();
-    if (in_a && in_b && a.value()[i] == b.value()[i]) continue;
-    if (in_a && in_b && a.value()[i].path == b.value()[i].path)
-      return std::optional(StateDifference{a.value()[i].path, a.value()[i].value, b.value()[i].value});
-    return std::optional(StateDifference{in_a ? a.value()[i].path : b.value()[i].path,
-                                         in_a ? a.value()[i].value : "absent",
-                                         in_b && !in_a ? b.value()[i].value : "absent"});
+  const std::vector<StateField> of_a = WithoutCarried(a.value()), of_b = WithoutCarried(b.value());
+  for (std::size_t i = 0; i < std::max(of_a.size(), of_b.size()); ++i) {
+    const bool in_a = i < of_a.size();
+    const bool in_b = i < of_b.size();
+    if (in_a && in_b && of_a[i] == of_b[i]) continue;
+    if (in_a && in_b && of_a[i].path == of_b[i].path)
+      return std::optional(StateDifference{of_a[i].path, of_a[i].value, of_b[i].value});
+    return std::optional(StateDifference{in_a ? of_a[i].path : of_b[i].path, in_a ? of_a[i].value : "absent",
+                                         in_b && !in_a ? of_b[i].value : "absent"});
   }
+  if (SameButCarried(first, second)) return std::optional<StateDifference>();
   // The same texts of other bits: NaNs of another kind.
   return std::optional(StateDifference{"(a value that is no number)", "one pattern of bits", "another"});
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "common/core/base/assert.hpp"
+#include "common/runtime/lockstep/snapshot.hpp"
 
 namespace rodeira::lockstep {
 
@@ -30,11 +31,12 @@ base::Digest PayloadDigest(std::span<const std::byte> payload) {
 }
 
 bool SameContent(const Sample& a, const Sample& b) {
-  if (a.payload->size() != b.payload->size()) return false;
   const auto same = [&](std::size_t from, std::size_t to) {
     return std::memcmp(a.payload->data() + from, b.payload->data() + from, to - from) == 0;
   };
-  return same(0, SampleHeader::kIncarnationAt) && same(SampleHeader::kIncarnationAt + 4, a.payload->size());
+  const bool same_bytes = a.payload->size() == b.payload->size() && same(0, SampleHeader::kIncarnationAt) &&
+                          same(SampleHeader::kIncarnationAt + 4, a.payload->size());
+  return same_bytes || SameSnapshots(a, b);
 }
 
 }  // namespace rodeira::lockstep

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/carried_state.hpp"
 
 namespace rodeira::lockstep {
 namespace {
@@ -14,6 +17,12 @@ constexpr std::size_t kContentAt = SampleHeader::kEncapsulation + SampleHeader::
 // The first words of a snapshot, by which it says whether it holds a state.
 constexpr std::string_view kWithState = "rodeira-snapshot/1";
 constexpr std::string_view kWithoutState = "rodeira-snapshot/1 none";
+
+bool BeginsAsSnapshot(std::span<const std::byte> payload) {
+  constexpr std::size_t kWordsAt = kContentAt + 2 * sizeof(std::uint32_t);  // behind the lengths of content and text
+  if (payload.size() < kWordsAt + kWithState.size()) return false;
+  return std::memcmp(payload.data() + kWordsAt, kWithState.data(), kWithState.size()) == 0;
+}
 
 }  // namespace
 
@@ -88,6 +97,17 @@ base::Result<Snapshot> Snapshot::FromSample(std::span<const std::byte> payload) 
   const auto size = in.Get<std::uint32_t>();
   if (size > in.remaining()) return base::WrongInput("the snapshot is cut short");
   return Decode(in.GetRaw(size));
+}
+
+bool SameSnapshots(const Sample& a, const Sample& b) {
+  if (!BeginsAsSnapshot(*a.payload) || !BeginsAsSnapshot(*b.payload)) return false;
+  if (a.valid() != b.valid() || a.source() != b.source() || a.header.state_digest != b.header.state_digest)
+    return false;
+  const auto first = Snapshot::FromSample(*a.payload), second = Snapshot::FromSample(*b.payload);
+  if (!first || !second) return false;
+  const Snapshot &s = first.value(), &t = second.value();
+  return s.node == t.node && s.at == t.at && s.steps == t.steps && s.digest == t.digest && s.has_state == t.has_state &&
+         std::ranges::equal(s.samples, t.samples, SameContent) && base::SameButCarried(s.state, t.state);
 }
 
 }  // namespace rodeira::lockstep

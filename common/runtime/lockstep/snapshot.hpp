@@ -30,4 +30,8 @@ struct Snapshot {
   static base::Result<Snapshot> Decode(std::span<const std::byte> bytes);
 };
 
+// Whether both samples hold snapshots that are equal but for incarnations and carried fields (base::kCarried). False
+// for samples of other kinds.
+bool SameSnapshots(const Sample& a, const Sample& b);
+
 }  // namespace rodeira::lockstep

@@ -7,12 +7,15 @@
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/carried_state.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/vehicle/dynamics/enveloping.hpp"
 
 namespace rodeira::dynamics {
 namespace {
+
+const std::string kStateField = std::string(base::kCarried) + "fmu";
 
 Eigen::Quaterniond Attitude(double roll, double pitch, double heading) {
   return Eigen::AngleAxisd(heading, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
@@ -27,15 +30,17 @@ base::Status FmuModel::Build() {
   unit_ = std::move(unit).value();
   auto variables = FindVariables(unit_->description(), settings_.names, settings_.fmu.string());
   if (!variables) return variables.error();
-  variables_ = variables.value();
+  variables_ = std::move(variables).value();
+  if (!unit_->note().empty()) variables_.notes.push_back(unit_->note());
   std::vector<std::string> known;
   for (const fmi::Variable& variable : unit_->description().variables) {
     if (variable.causality == "parameter") known.push_back(variable.name);
   }
   for (const auto& [name, value] : settings_.parameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    const auto place = settings_.parameter_places.find(name);
     return base::WrongInput(fmt::format("the FMU has no parameter '{}'{}", name, base::DidYouMean(name, known)),
-                            settings_.fmu.string());
+                            place == settings_.parameter_places.end() ? settings_.fmu.string() : place->second);
   }
   return {};
 }
@@ -59,29 +64,39 @@ void FmuModel::QueryGround(ground::Ground& ground) {
   dynamics::QueryGround(ground, settings_.enveloping, settings_.dimensions.wheel_radius_m, places, wheels);
 }
 
-base::Status FmuModel::Set(const fmi::Variable* variable, double value) {
-  return variable == nullptr ? base::Status() : instance_->Set(*variable, value);
+base::Status FmuModel::Set(const FmuVariables::Variable& variable, double value) {
+  return variable ? instance_->Set(*variable.own, variable.FromOurs(value)) : base::Status();
 }
 
-base::Result<double> FmuModel::Get(const fmi::Variable* variable, double otherwise) {
-  if (variable == nullptr) return otherwise;
-  auto value = instance_->Get(*variable);
-  if (value && !std::isfinite(value.value())) {
-    return base::Failed(fmt::format("its output '{}' is not a finite number at {:.6g} s", variable->name, time_s_),
+base::Result<double> FmuModel::Get(const FmuVariables::Variable& variable, double otherwise) {
+  if (!variable) return otherwise;
+  const auto value = instance_->Get(*variable.own);
+  if (!value) return value.error();
+  if (!std::isfinite(value.value())) {
+    return base::Failed(fmt::format("its output '{}' is not a finite number at {:.6g} s", variable.own->name, time_s_),
                         settings_.fmu.string());
   }
-  return value;
+  return variable.ToOurs(value.value());
+}
+
+// An FMU of which a process may have one instance is set back, another one is made anew.
+base::Status FmuModel::TakeFreshInstance() {
+  if (instance_ && unit_->description().only_once) return instance_->Reset();
+  auto made = unit_->Instantiate("vehicle");
+  if (!made) return made.error();
+  instance_ = std::move(made).value();
+  return {};
 }
 
 base::Status FmuModel::SetGround() {
   for (std::size_t i = 0; i < kWheels; ++i) {
     const FmuVariables::Wheel& w = variables_.wheels[i];
     const WheelGround& g = wheels_[i];
-    const std::pair<const fmi::Variable*, double> values[] = {{w.ground_z, g.plane_W.z()},
-                                                              {w.normal_x, g.normal_W.x()},
-                                                              {w.normal_y, g.normal_W.y()},
-                                                              {w.normal_z, g.normal_W.z()},
-                                                              {w.friction, g.friction}};
+    const std::pair<FmuVariables::Variable, double> values[] = {{w.ground_z, g.plane_W.z()},
+                                                                {w.normal_x, g.normal_W.x()},
+                                                                {w.normal_y, g.normal_W.y()},
+                                                                {w.normal_z, g.normal_W.z()},
+                                                                {w.friction, g.friction}};
     for (const auto& [variable, value] : values) {
       if (auto status = Set(variable, value); !status) return status;
     }
@@ -101,7 +116,7 @@ base::Status FmuModel::SetPushInputs() {
 base::Status FmuModel::SetControls(const Controls& c) {
   const FmuVariables& v = variables_;
   const double limit = settings_.dimensions.steering_wheel_limit_rad;
-  const std::pair<const fmi::Variable*, double> values[] = {
+  const std::pair<FmuVariables::Variable, double> values[] = {
       {v.steering_wheel, std::clamp(c.steering_wheel_rad, -limit, limit)},
       {v.throttle, c.throttle},
       {v.brake, c.brake},
@@ -123,21 +138,21 @@ base::Status FmuModel::SetStart(const InitialCondition& initial) {
     return base::WrongInput(fmt::format("the FMU cannot begin in motion: it has no variable '{}'", name),
                             settings_.fmu.string());
   };
-  if (v.start_speed == nullptr && initial.speed_mps != 0.0) return refusal("start_speed_mps");
-  const std::pair<const fmi::Variable*, double> values[] = {{v.start_x, initial.x_m},
-                                                            {v.start_y, initial.y_m},
-                                                            {v.start_z, state_.p_WB_W.z()},
-                                                            {v.start_heading, initial.heading_rad},
-                                                            {v.start_pitch, state_.pitch_rad()},
-                                                            {v.start_roll, state_.roll_rad()},
-                                                            {v.start_speed, initial.speed_mps},
-                                                            {v.start_lateral_speed, initial.lateral_speed_mps},
-                                                            {v.start_yaw_rate, initial.yaw_rate_radps}};
+  if (!v.start_speed && initial.speed_mps != 0.0) return refusal("start_speed_mps");
+  const std::pair<FmuVariables::Variable, double> values[] = {{v.start_x, initial.x_m},
+                                                              {v.start_y, initial.y_m},
+                                                              {v.start_z, state_.p_WB_W.z()},
+                                                              {v.start_heading, initial.heading_rad},
+                                                              {v.start_pitch, state_.pitch_rad()},
+                                                              {v.start_roll, state_.roll_rad()},
+                                                              {v.start_speed, initial.speed_mps},
+                                                              {v.start_lateral_speed, initial.lateral_speed_mps},
+                                                              {v.start_yaw_rate, initial.yaw_rate_radps}};
   for (const auto& [variable, value] : values) {
     if (auto status = Set(variable, value); !status) return status;
   }
   for (const auto& [name, value] : settings_.parameters) {
-    if (auto status = Set(unit_->description().Find(name), value); !status) return status;
+    if (auto status = instance_->Set(*unit_->description().Find(name), value); !status) return status;
   }
   return {};
 }
@@ -161,9 +176,7 @@ base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& gr
   for (const WheelGround& wheel : wheels_) {
     if (!wheel.inside) return refusal("a wheel would stand outside of the world");
   }
-  auto made = unit_->Instantiate("vehicle");
-  if (!made) return made.error();
-  instance_ = std::move(made).value();
+  if (auto status = TakeFreshInstance(); !status) return status;
   time_s_ = 0.0;
   if (auto status = instance_->EnterInitialisation(0.0); !status) return status;
   if (auto status = SetStart(initial); !status) return status;
@@ -175,14 +188,16 @@ base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& gr
 
 base::Status FmuModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
   if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
-  auto instance = std::move(instance_);
+  // Where the new start fails, the car goes on as it was; an FMU that allows one instance cannot.
+  auto instance = unit_->description().only_once ? nullptr : std::move(instance_);
   const auto wheels = wheels_;
   const VehicleState state = state_;
   const double time_s = time_s_;
   problem_ = {};
+  restored_.clear();
   const base::Status status = Begin(initial, ground);
   if (status) return {};
-  instance_ = std::move(instance);
+  if (instance) instance_ = std::move(instance);
   wheels_ = wheels;
   state_ = state;
   time_s_ = time_s;
@@ -193,7 +208,7 @@ base::Status FmuModel::Publish(const Controls& controls, double dt_s) {
   VehicleState s = state_;
   const FmuVariables& v = variables_;
   base::Status status;
-  const auto get = [&](const fmi::Variable* variable, double otherwise = 0.0) {
+  const auto get = [&](const FmuVariables::Variable& variable, double otherwise = 0.0) {
     const auto value = status ? Get(variable, otherwise) : base::Result<double>(otherwise);
     if (!value) status = value.error();
     return value ? value.value() : otherwise;
@@ -206,7 +221,18 @@ base::Status FmuModel::Publish(const Controls& controls, double dt_s) {
     velocity[k] = get(v.velocity[i]);
     w_B[k] = get(v.rate[i]);
   }
-  s.q_WB = Attitude(angle[0], angle[1], angle[2]);
+  if (v.has_quaternion()) {
+    const double w = get(v.quaternion[0], 1.0), x = get(v.quaternion[1]), y = get(v.quaternion[2]),
+                 z = get(v.quaternion[3]);
+    const Eigen::Quaterniond q(w, x, y, z);
+    if (status && !(q.norm() > 0.5 && q.norm() < 2.0))
+      status = base::Failed(
+          fmt::format("its quaternion has the length {:.6g} at {:.6g} s; 1 was expected", q.norm(), time_s_),
+          settings_.fmu.string());
+    s.q_WB = q.norm() > 0.0 ? q.normalized() : s.q_WB;
+  } else {
+    s.q_WB = Attitude(angle[0], angle[1], angle[2]);
+  }
   s.a_WB_W = dt_s > 0.0 ? Eigen::Vector3d((velocity - s.v_WB_W) / dt_s) : Eigen::Vector3d::Zero();
   s.alpha_WB_B = dt_s > 0.0 ? Eigen::Vector3d((w_B - s.w_WB_B) / dt_s) : Eigen::Vector3d::Zero();
   s.v_WB_W = velocity;
@@ -260,41 +286,45 @@ base::Status FmuModel::Advance(const Controls& controls, double dt_s) {
 void FmuModel::Step(const Controls& controls, ground::Ground& ground, double dt_s) {
   RODEIRA_ASSERT(dt_s > 0.0 && dt_s <= kMaxStep_s);
   QueryGround(ground);
+  restored_.clear();
   if (problem_) problem_ = Advance(Clamp(controls), dt_s);
   push_ = {};
 }
 
+// The serialised bytes may hold addresses, which differ from process to process. They are carried in snapshots
+// (base::kCarried) and are no part of a digest, for which a writer writes no names: there a number takes its own bytes.
 void FmuModel::Save(base::StateWriter& writer) const {
+  const std::size_t before = writer.bytes().size();
   writer.Put("time_s", time_s_);
+  const bool is_digest = writer.bytes().size() - before == sizeof(time_s_);
   for (const WheelGround& wheel : wheels_) writer.Put("wheel", wheel);
   writer.Put("published", state_);
-  if (!can_save()) return;
+  if (!can_save() || is_digest) return;
+  if (!restored_.empty()) return writer.Put(kStateField, restored_);
   const auto state = instance_ ? instance_->State() : base::Result<base::Bytes>(base::Bytes());
   // An FMU that offers its state and does not give it has failed; the next step would say so, and the snapshot is of no
   // use.
   const base::Bytes& bytes = state ? state.value() : base::Bytes();
   const auto* raw = reinterpret_cast<const std::uint8_t*>(bytes.data());
-  writer.Put("fmu", std::vector<std::uint8_t>(raw, raw + bytes.size()));
+  writer.Put(kStateField, std::vector<std::uint8_t>(raw, raw + bytes.size()));
 }
 
 void FmuModel::Restore(base::StateReader& reader) {
   reader.Get("time_s", time_s_);
   for (WheelGround& wheel : wheels_) reader.Get("wheel", wheel);
   reader.Get("published", state_);
-  std::vector<std::uint8_t> raw;
-  reader.Get("fmu", raw);
-  problem_ = {};
+  reader.Get(kStateField, restored_);
   // A fresh instance, whatever the old one has come to.
-  auto made = unit_->Instantiate("vehicle");
-  if (!made) {
-    problem_ = made.error();
-    return;
+  problem_ = TakeFreshInstance();
+  if (problem_) problem_ = instance_->EnterInitialisation(0.0);
+  if (problem_) problem_ = instance_->ExitInitialisation();
+  if (problem_ && !restored_.empty()) problem_ = instance_->SetState(std::as_bytes(std::span(restored_)));
+  if (!problem_) {
+    problem_ =
+        base::Error{problem_.error().code,
+                    fmt::format("its state at {:.6g} s cannot be taken over: {}", time_s_, problem_.error().message),
+                    problem_.error().context};
   }
-  instance_ = std::move(made).value();
-  for (auto status : {instance_->EnterInitialisation(0.0), instance_->ExitInitialisation()}) {
-    if (!status && problem_) problem_ = status;
-  }
-  if (problem_ && !raw.empty()) problem_ = instance_->SetState(std::as_bytes(std::span(raw)));
 }
 
 }  // namespace rodeira::dynamics

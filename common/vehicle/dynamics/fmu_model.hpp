@@ -18,9 +18,10 @@ namespace rodeira::dynamics {
 // All that a vehicle file of model `fmu` says.
 struct FmuSettings {
   std::filesystem::path fmu;
-  std::map<std::string, std::string> names;   // our names of variables to the FMU's own
-  std::map<std::string, double> parameters;   // of the FMU, by its names: set before the first step
-  Enveloping enveloping = Enveloping::kNone;  // of the ground that it is told
+  FmuNames names;
+  std::map<std::string, double> parameters;  // of the FMU, by its names and in its units: set before the first step
+  std::map<std::string, std::string> parameter_places;  // "FILE:LINE"
+  Enveloping enveloping = Enveloping::kNone;            // of the ground that it is told
   VehicleDimensions dimensions;
 };
 FmuSettings ReadFmu(const config::Map& root);
@@ -45,20 +46,21 @@ class FmuModel final : public VehicleModel {
   const VehicleDimensions& dimensions() const override { return settings_.dimensions; }
   void Save(base::StateWriter& writer) const override;
   void Restore(base::StateReader& reader) override;
-  bool can_save() const override {
-    return unit_->description().can_get_state && unit_->description().can_serialize_state;
-  }
+  bool can_save() const override { return unit_->can_save_state(); }
+  // What was converted or is missing, a sentence each; to be told once.
+  const std::vector<std::string>& notes() const { return variables_.notes; }
 
  private:
   Eigen::Vector3d HubAtRest_B(std::size_t wheel) const;
   void QueryGround(ground::Ground& ground);
-  base::Status Set(const fmi::Variable* variable, double value);
+  base::Status Set(const FmuVariables::Variable& variable, double value);
   base::Status SetGround();
   base::Status SetPushInputs();
   base::Status SetControls(const Controls& controls);
   base::Status SetStart(const InitialCondition& initial);
   base::Status Begin(const InitialCondition& initial, ground::Ground& ground);
-  base::Result<double> Get(const fmi::Variable* variable, double otherwise = 0.0);
+  base::Result<double> Get(const FmuVariables::Variable& variable, double otherwise = 0.0);
+  base::Status TakeFreshInstance();
   base::Status Publish(const Controls& controls, double dt_s);
   base::Status Advance(const Controls& controls, double dt_s);
 
@@ -70,6 +72,7 @@ class FmuModel final : public VehicleModel {
   std::array<WheelGround, kWheels> wheels_;
   Wrench push_;  // of the next step
   VehicleState state_;
+  std::vector<std::uint8_t> restored_;  // until the next step: the bytes that Restore took
   base::Status problem_;
 };
 

@@ -10,9 +10,15 @@ FmuSettings ReadFmu(const config::Map& root) {
   FmuSettings fmu;
   fmu.fmu = root.Path("fmu");
   const config::Map names = root.OptionalChild("names");
-  for (const std::string& name : names.Keys()) fmu.names[name] = names.Text(name);
+  for (const std::string& name : names.Keys()) {
+    fmu.names.own[name] = names.Text(name);
+    fmu.names.places[name] = names.Place(name);
+  }
   const config::Map parameters = root.OptionalChild("parameters");
-  for (const std::string& name : parameters.Keys()) fmu.parameters[name] = parameters.Number(name);
+  for (const std::string& name : parameters.Keys()) {
+    fmu.parameters[name] = parameters.Number(name);
+    fmu.parameter_places[name] = parameters.Place(name);
+  }
   fmu.enveloping = ReadEnveloping(root);
   const config::Map map = root.Child("dimensions");
   VehicleDimensions& d = fmu.dimensions;

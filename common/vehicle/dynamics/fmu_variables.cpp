@@ -2,11 +2,13 @@
 #include "common/vehicle/dynamics/fmu_variables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 
 #include "common/core/base/suggest.hpp"
+#include "common/vehicle/dynamics/fmu_units.hpp"
 
 namespace rodeira::dynamics {
 namespace {
@@ -15,15 +17,23 @@ enum class Way { kStart, kInput, kOutput };
 
 struct Finder {
   const fmi::Description& description;
-  const std::map<std::string, std::string>& names;
-  const std::string& context;
+  const FmuNames& names;
+  const std::string& file;
   base::Status status = {};
   std::set<std::string> known = {};
+  std::map<const fmi::Variable*, std::string> inputs = {};  // the FMU's variables that are set, to our names
+  std::vector<std::string> converted = {};
   std::string missing = {};  // the first one
   Way missing_way = Way::kInput;
 
-  void Complain(const std::string& what) {
-    if (status) status = base::WrongInput(what, context);
+  void Complain(const std::string& what, const std::string& place) {
+    if (status) status = base::WrongInput(what, place);
+  }
+  // The line of `names` that maps it, or that of the FMU's description.
+  std::string PlaceFor(const std::string& name, const fmi::Variable* variable) const {
+    const auto place = names.places.find(name);
+    if (place != names.places.end()) return place->second;
+    return variable == nullptr ? file : fmi::PlaceOf(file, variable->line);
   }
 
   // The nearest name is one that no other variable of ours has.
@@ -35,52 +45,79 @@ struct Finder {
       if ((variable.causality == "output") == output && variable.causality != "local" && !known.contains(variable.name))
         there.push_back(variable.name);
     }
+    std::string place = file;
+    for (const auto& [ours, own] : names.own) {
+      if (own == missing) place = PlaceFor(ours, nullptr);
+    }
     Complain(fmt::format("the FMU has no variable '{}' ({}){}", missing, output ? "an output" : "an input",
-                         base::DidYouMean(missing, there)));
+                         base::DidYouMean(missing, there)),
+             place);
   }
 
-  // `unit` as FMI writes it; "" for what has none.
+  // FMI 2.0.4, 2.1.7: any variable may be read; inputs and tunable parameters are set.
+  static bool Fits(const std::string& causality, Way way) {
+    if (way == Way::kOutput) {
+      return causality == "output" || causality == "local" || causality == "parameter" ||
+             causality == "calculatedParameter";
+    }
+    return causality == "input" || (way == Way::kStart && causality == "parameter");
+  }
+
+  // `unit` as FMI writes it.
   void operator()(FmuVariables::Variable& into, const std::string& name, Way way, const std::string& unit,
                   bool needed = false) {
     known.insert(name);
-    const auto renamed = names.find(name);
-    const std::string own = renamed == names.end() ? name : renamed->second;
-    into = description.Find(own);
-    if (into == nullptr) {
-      if ((needed || renamed != names.end()) && missing.empty()) {
+    const auto renamed = names.own.find(name);
+    const std::string own = renamed == names.own.end() ? name : renamed->second;
+    const fmi::Variable* const found = description.Find(own);
+    into.own = found;
+    if (found == nullptr) {
+      if ((needed || renamed != names.own.end()) && missing.empty()) {
         missing = own;
         missing_way = way;
       }
       return;
     }
-    const bool fits = way == Way::kOutput
-                          ? into->causality == "output"
-                          : into->causality == "input" || (way == Way::kStart && into->causality == "parameter");
-    if (!fits) {
-      Complain(fmt::format("'{}' of the FMU is declared '{}'; {} was expected", own, into->causality,
+    const std::string place = PlaceFor(name, found);
+    if (!Fits(found->causality, way)) {
+      Complain(fmt::format("'{}' of the FMU is declared '{}'; {} was expected", own, found->causality,
                            way == Way::kOutput  ? "'output'"
                            : way == Way::kStart ? "'input' or 'parameter'"
-                                                : "'input'"));
+                                                : "'input'"),
+               place);
     }
-    if (into->type == fmi::VariableType::kOther) Complain(fmt::format("'{}' of the FMU is no number", own));
-    if (!into->unit.empty() && into->unit != unit) {
-      Complain(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, into->unit,
-                           unit.empty() ? "1" : unit));
+    if (found->type == fmi::VariableType::kOther) Complain(fmt::format("'{}' of the FMU is no number", own), place);
+    const auto conversion = ConversionOf(description, found->unit, unit);
+    if (!conversion) {
+      Complain(fmt::format("'{}' of the FMU is declared in '{}'; '{}' was expected", own, found->unit, unit), place);
+      return;
     }
+    into.factor = conversion->factor;
+    into.offset = conversion->offset;
+    if (!conversion->is_identity()) converted.push_back(fmt::format("{} ({} to {})", own, found->unit, unit));
+    if (way == Way::kOutput) return;
+    const auto [other, is_new] = inputs.emplace(found, name);
+    if (!is_new)
+      Complain(fmt::format("'{}' and '{}' are both the variable '{}' of the FMU; each input needs one of its own",
+                           other->second, name, own),
+               names.places.contains(name) ? place : PlaceFor(other->second, found));
   }
 };
 
 }  // namespace
 
 bool FmuVariables::takes_pushes() const {
-  const auto is_there = [](Variable variable) { return variable != nullptr; };
+  const auto is_there = [](const Variable& variable) { return static_cast<bool>(variable); };
   return std::ranges::all_of(push_force, is_there) && std::ranges::all_of(push_moment, is_there);
 }
 
-base::Result<FmuVariables> FindVariables(const fmi::Description& description,
-                                         const std::map<std::string, std::string>& names, const std::string& context) {
+base::Result<FmuVariables> FindVariables(const fmi::Description& description, const FmuNames& names,
+                                         const std::string& file) {
   FmuVariables v;
-  Finder find{description, names, context};
+  Finder find{description, names, file};
+  const std::array<std::string, 4> parts = {"w", "x", "y", "z"};
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    find(v.quaternion[i], "quaternion_" + parts[i], Way::kOutput, "1", i > 0 && v.has_quaternion());
   find(v.start_x, "start_x_m", Way::kStart, "m", true);
   find(v.start_y, "start_y_m", Way::kStart, "m", true);
   find(v.start_z, "start_z_m", Way::kStart, "m", true);
@@ -104,7 +141,7 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description,
     find(v.push_force[i], "push_" + axes[i] + "_N", Way::kInput, "N");
     find(v.push_moment[i], "push_moment_" + axes[i] + "_Nm", Way::kInput, "N.m");
     find(v.position[i], axes[i] + "_m", Way::kOutput, "m", true);
-    find(v.angle[i], angles[i] + "_rad", Way::kOutput, "rad", true);
+    find(v.angle[i], angles[i] + "_rad", Way::kOutput, "rad", !v.has_quaternion());
     find(v.velocity[i], "velocity_" + axes[i] + "_mps", Way::kOutput, "m/s", true);
     find(v.rate[i], rates[i] + "_rate_radps", Way::kOutput, "rad/s", true);
   }
@@ -132,12 +169,15 @@ base::Result<FmuVariables> FindVariables(const fmi::Description& description,
     find(w.load, wheel + "load_N", Way::kOutput, "N");
   }
   find.ComplainOfMissing();
-  for (const auto& [name, own] : names) {
+  for (const auto& [name, own] : names.own) {
     if (find.known.contains(name)) continue;
     find.Complain(fmt::format("'names.{}' is no variable of a vehicle{}", name,
-                              base::DidYouMean(name, {find.known.begin(), find.known.end()})));
+                              base::DidYouMean(name, {find.known.begin(), find.known.end()})),
+                  find.PlaceFor(name, nullptr));
   }
   if (!find.status) return find.status.error();
+  if (!find.converted.empty())
+    v.notes.push_back(fmt::format("units of the FMU are converted: {}", fmt::join(find.converted, ", ")));
   return v;
 }
 

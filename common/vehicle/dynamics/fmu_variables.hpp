@@ -13,37 +13,54 @@
 namespace rodeira::dynamics {
 
 // The border between a vehicle and an FMU (docs/reference/vehicle-files.md): names, units, and the FMU's variables that
-// bear them; null where the FMU has none, which only those that are asked for may not be.
+// bear them. Those that are asked for are there; of others the FMU may have none.
 struct FmuVariables {
-  using Variable = const fmi::Variable*;
+  // A variable of the FMU and its unit: ours is `factor` times its value plus `offset`. False: the FMU has none.
+  struct Variable {
+    const fmi::Variable* own = nullptr;
+    double factor = 1.0;
+    double offset = 0.0;
+
+    explicit operator bool() const { return own != nullptr; }
+    double ToOurs(double value) const { return factor * value + offset; }
+    double FromOurs(double value) const { return (value - offset) / factor; }
+  };
   struct Wheel {
     // Inputs: the ground under the wheel's centre, a plane.
-    Variable ground_z = nullptr, normal_x = nullptr, normal_y = nullptr, normal_z = nullptr, friction = nullptr;
+    Variable ground_z, normal_x, normal_y, normal_z, friction;
     // Outputs.
-    Variable hub_x = nullptr, hub_y = nullptr, hub_z = nullptr, steer = nullptr, spin = nullptr, longitudinal = nullptr,
-             lateral = nullptr, load = nullptr;
+    Variable hub_x, hub_y, hub_z, steer, spin, longitudinal, lateral, load;
   };
   // Where it begins: set before the first step.
-  Variable start_x = nullptr, start_y = nullptr, start_z = nullptr, start_heading = nullptr;  // asked for
-  Variable start_pitch = nullptr, start_roll = nullptr, start_speed = nullptr, start_lateral_speed = nullptr,
-           start_yaw_rate = nullptr;
+  Variable start_x, start_y, start_z, start_heading;  // asked for
+  Variable start_pitch, start_roll, start_speed, start_lateral_speed, start_yaw_rate;
   // Inputs of each step.
-  Variable steering_wheel = nullptr, throttle = nullptr, brake = nullptr, clutch = nullptr, handbrake = nullptr,
-           gear_wish = nullptr, automatic = nullptr, starter = nullptr;
+  Variable steering_wheel, throttle, brake, clutch, handbrake, gear_wish, automatic, starter;
   std::array<Variable, 3> push_force{}, push_moment{};  // of collisions, in W, about B's origin: all six or none count
   // Outputs: motion of B, asked for.
   std::array<Variable, 3> position{}, angle{}, velocity{}, rate{};  // angle, rate: roll, pitch, heading
-  Variable engine_speed = nullptr, engine_torque = nullptr, gear = nullptr, steering_torque = nullptr,
-           fuel_rate = nullptr;
+  std::array<Variable, 4> quaternion{};  // w, x, y, z of B in W, in place of the angles: all four or none
+  Variable engine_speed, engine_torque, gear, steering_torque, fuel_rate;
   std::array<Wheel, kWheels> wheels;
 
   bool takes_pushes() const;
+  bool has_quaternion() const { return static_cast<bool>(quaternion[0]); }
+
+  std::vector<std::string> notes;  // units that are converted, in a sentence
 };
 
-// Finds them in an FMU. `names`: ours to the FMU's own, where they differ. Wrong input, behind `context`, where one
-// that is asked for is not there, has the wrong causality or type, or is declared in another unit, or where a name of
-// `names` belongs to none.
-base::Result<FmuVariables> FindVariables(const fmi::Description& description,
-                                         const std::map<std::string, std::string>& names, const std::string& context);
+// The vehicle file's `names` and where each stands, "FILE:LINE".
+struct FmuNames {
+  std::map<std::string, std::string> own;  // ours to the FMU's own, where they differ
+  std::map<std::string, std::string> places;
+};
+
+// Finds them in an FMU. An output may be of any causality that can be read. A unit of the same quantity is converted by
+// the factors of the FMU's own definitions, or of the units that are known (fmu_units.hpp). Wrong input, with the line
+// of the vehicle file or of the model description, where one that is asked for is not there, has the wrong causality or
+// type, or is declared in a unit of another quantity, where a name of `names` is no variable of a vehicle, or where two
+// inputs are the same variable of the FMU.
+base::Result<FmuVariables> FindVariables(const fmi::Description& description, const FmuNames& names,
+                                         const std::string& file);
 
 }  // namespace rodeira::dynamics

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <pugixml.hpp>
+
+#include "common/core/base/files.hpp"
 
 namespace rodeira::fmi {
 namespace {
@@ -14,7 +17,50 @@ VariableType TypeOf(const pugi::xml_node& variable) {
   return variable.child("Boolean") ? VariableType::kBoolean : VariableType::kOther;
 }
 
+// From 1: the lines of the text before a node.
+class Lines {
+ public:
+  explicit Lines(const std::string& text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\n') ends_.push_back(static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  int Of(const pugi::xml_node& node) const {
+    return static_cast<int>(std::lower_bound(ends_.begin(), ends_.end(), node.offset_debug()) - ends_.begin()) + 1;
+  }
+
+ private:
+  std::vector<std::ptrdiff_t> ends_;
+};
+
+std::map<std::string, UnitDefinition, std::less<>> ReadUnits(const pugi::xml_node& root) {
+  constexpr std::array kBases = {"kg", "m", "s", "A", "K", "mol", "cd", "rad"};
+  std::map<std::string, UnitDefinition, std::less<>> units;
+  for (const pugi::xml_node& node : root.child("UnitDefinitions").children("Unit")) {
+    const pugi::xml_node base = node.child("BaseUnit");
+    if (!base) continue;
+    UnitDefinition unit;
+    for (std::size_t i = 0; i < kBases.size(); ++i) unit.exponents[i] = base.attribute(kBases[i]).as_int();
+    unit.factor = base.attribute("factor").as_double(1.0);
+    unit.offset = base.attribute("offset").as_double(0.0);
+    units[node.attribute("name").as_string()] = unit;
+  }
+  return units;
+}
+
+// Units of the types that variables name by `declaredType`.
+std::map<std::string, std::string, std::less<>> ReadTypeUnits(const pugi::xml_node& root) {
+  std::map<std::string, std::string, std::less<>> units;
+  for (const pugi::xml_node& type : root.child("TypeDefinitions").children("SimpleType"))
+    units[type.attribute("name").as_string()] = type.child("Real").attribute("unit").as_string();
+  return units;
+}
+
 }  // namespace
+
+std::string PlaceOf(const std::string& file, int line) {
+  return fmt::format("{}: modelDescription.xml:{}", file, line);
+}
 
 const Variable* Description::Find(std::string_view name) const {
   for (const Variable& variable : variables) {
@@ -27,23 +73,27 @@ base::Result<Description> ReadDescription(const std::filesystem::path& file, con
   std::error_code problem;
   if (!std::filesystem::is_regular_file(file, problem))
     return base::WrongInput("this is no FMU: it holds no modelDescription.xml", context);
+  const auto text = base::ReadText(file);
+  if (!text) return base::WrongInput(text.error().message, context);
+  const Lines lines(text.value());
   pugi::xml_document document;
-  const pugi::xml_parse_result parsed = document.load_file(file.c_str());
+  const pugi::xml_parse_result parsed = document.load_buffer(text.value().data(), text.value().size());
   if (!parsed)
     return base::WrongInput(fmt::format("its modelDescription.xml is no XML: {}", parsed.description()), context);
   const pugi::xml_node root = document.child("fmiModelDescription");
   if (!root) return base::WrongInput("its modelDescription.xml holds no 'fmiModelDescription'", context);
+  const auto place = [&](const pugi::xml_node& node) { return PlaceOf(context, lines.Of(node)); };
   const std::string version = root.attribute("fmiVersion").as_string();
   if (version != "2.0")
-    return base::WrongInput(fmt::format("this FMU is of FMI version '{}'; 2.0 was expected", version), context);
+    return base::WrongInput(fmt::format("this FMU is of FMI version '{}'; 2.0 was expected", version), place(root));
   const pugi::xml_node simulation = root.child("CoSimulation");
   if (!simulation)
     return base::WrongInput(
-        "this FMU offers no co-simulation (only model exchange); an FMU for co-simulation was expected", context);
+        "this FMU offers no co-simulation (only model exchange); an FMU for co-simulation was expected", place(root));
   if (simulation.attribute("needsExecutionTool").as_bool()) {
     return base::WrongInput(
         "this FMU needs its maker's program to run ('needsExecutionTool'); one that runs by itself was expected",
-        context);
+        place(simulation));
   }
   Description description;
   description.model_name = root.attribute("modelName").as_string();
@@ -56,10 +106,17 @@ base::Result<Description> ReadDescription(const std::filesystem::path& file, con
         fmt::format("its 'modelIdentifier' is '{}'; the name of its binary was expected", description.identifier),
         context);
   }
+  description.only_once = simulation.attribute("canBeInstantiatedOnlyOncePerProcess").as_bool();
+  description.units = ReadUnits(root);
+  const auto type_units = ReadTypeUnits(root);
   for (const pugi::xml_node& node : root.child("ModelVariables").children("ScalarVariable")) {
+    const pugi::xml_node real = node.child("Real");
+    std::string unit = real.attribute("unit").as_string();
+    const auto type = type_units.find(std::string_view(real.attribute("declaredType").as_string()));
+    if (unit.empty() && type != type_units.end()) unit = type->second;
     description.variables.push_back({node.attribute("name").as_string(), node.attribute("valueReference").as_uint(),
-                                     node.attribute("causality").as_string("local"), TypeOf(node),
-                                     node.child("Real").attribute("unit").as_string()});
+                                     node.attribute("causality").as_string("local"), TypeOf(node), std::move(unit),
+                                     lines.Of(node)});
   }
   return description;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +20,16 @@ struct Variable {
   unsigned reference = 0;
   std::string causality;  // "input", "output", "parameter", "local" …
   VariableType type = VariableType::kOther;
-  std::string unit;  // as declared, may be empty
+  std::string unit;  // as declared here or in its declared type, may be empty
+  int line = 0;      // of modelDescription.xml
+};
+
+// A unit by the SI base units and radian, whose exponents are in this order: kg, m, s, A, K, mol, cd, rad. A value in
+// SI is `factor` times the value plus `offset`.
+struct UnitDefinition {
+  std::array<int, 8> exponents{};
+  double factor = 1.0;
+  double offset = 0.0;
 };
 
 // What modelDescription.xml says, as far as co-simulation needs it.
@@ -28,10 +39,15 @@ struct Description {
   std::string identifier;            // of the binary
   bool can_get_state = false;        // canGetAndSetFMUstate
   bool can_serialize_state = false;  // canSerializeFMUstate
+  bool only_once = false;            // canBeInstantiatedOnlyOncePerProcess
   std::vector<Variable> variables;
+  std::map<std::string, UnitDefinition, std::less<>> units;  // those that the file defines by base units
 
   const Variable* Find(std::string_view name) const;  // null: there is none
 };
+
+// A line of the model description, for messages: "car.fmu: modelDescription.xml:12".
+std::string PlaceOf(const std::string& file, int line);
 
 // Wrong input where the file is no XML, is not FMI 2.0, or offers no co-simulation without another program. `context`
 // stands before the sentence.

@@ -17,11 +17,13 @@
 #include <vector>
 
 #include "common/core/base/installation.hpp"
+#include "common/core/base/temporary_folder.hpp"
 
 namespace rodeira::fmi {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+constexpr std::string_view kRefused = "refused: ";
 
 // The reading end of the pipe; the other one belongs to the program.
 class Pipe {
@@ -116,16 +118,15 @@ class Process {
   pid_t pid_ = -1;
 };
 
-}  // namespace
-
-base::Status TryInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
-                                  const TrialLimits& limits) {
+base::Status RunTheTrial(const std::filesystem::path& folder, const std::string& file, const TrialLimits& limits,
+                         const std::vector<std::string>& more) {
   const auto program = base::FindProgram("rodeira-fmu-trial");
   Pipe pipe;
   if (!pipe.ok()) return base::Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)), file);
   Process process;
-  const int problem = process.Start(
-      program, {program.string(), folder.string(), file, std::to_string(limits.cpu.count())}, pipe.writer());
+  std::vector<std::string> words{program.string(), folder.string(), file, std::to_string(limits.cpu.count())};
+  words.insert(words.end(), more.begin(), more.end());
+  const int problem = process.Start(program, words, pipe.writer());
   if (problem != 0)
     return base::Failed(fmt::format("cannot start {}, which tries an FMU before it is used: {}", program.string(),
                                     std::strerror(problem)),
@@ -159,6 +160,28 @@ base::Status TryInProcessOfItsOwn(const std::filesystem::path& folder, const std
     return refusal(fmt::format("crashes (signal {}, {})", number, ::strsignal(number)));
   }
   if (!said.ends_with("\n\n")) return refusal(fmt::format("ends the process (status {})", WEXITSTATUS(*status)));
+  if (const auto at = said.find(kRefused); at != std::string::npos) {
+    const std::size_t begin = at + kRefused.size();
+    return base::WrongInput(said.substr(begin, said.find('\n', begin) - begin), file);
+  }
+  return {};
+}
+
+}  // namespace
+
+base::Status TryInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
+                                  const TrialLimits& limits) {
+  return RunTheTrial(folder, file, limits, {});
+}
+
+base::Status TryStateInProcessOfItsOwn(const std::filesystem::path& folder, const std::string& file,
+                                       const TrialLimits& limits) {
+  auto states = base::TemporaryFolder::Make("fmu-state");
+  if (!states) return states.error();
+  const std::string state = (states.value().path() / "state").string();
+  for (const char* what : {"save", "set"}) {
+    if (auto status = RunTheTrial(folder, file, limits, {what, state}); !status) return status;
+  }
   return {};
 }
 

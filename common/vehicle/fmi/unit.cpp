@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "common/core/base/crash_trace.hpp"
@@ -33,6 +34,7 @@ struct Functions {
   ComponentFunction* enter_initialisation = nullptr;
   ComponentFunction* exit_initialisation = nullptr;
   ComponentFunction* terminate = nullptr;
+  ComponentFunction* reset = nullptr;  // may be null
   GetRealFunction* get_real = nullptr;
   SetRealFunction* set_real = nullptr;
   GetIntegerFunction* get_integer = nullptr;
@@ -73,12 +75,40 @@ void Abandon(fmi2Component component) {
   all->push_back(component);
 }
 
+// Which FMUs that allow one instance a process have one here, by guid.
+class OnlyOnce {
+ public:
+  static bool IsTaken(const std::string& guid) {
+    const std::lock_guard lock(Mutex());
+    return Taken().contains(guid);
+  }
+  static void Note(const std::string& guid) {
+    const std::lock_guard lock(Mutex());
+    Taken().insert(guid);
+  }
+  static void Forget(const std::string& guid) {
+    const std::lock_guard lock(Mutex());
+    Taken().erase(guid);
+  }
+
+ private:
+  static std::mutex& Mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+  static std::set<std::string>& Taken() {
+    static auto* const taken = new std::set<std::string>;
+    return *taken;
+  }
+};
+
 class LoadedInstance final : public Instance {
  public:
   LoadedInstance(Functions& functions, const Description& description, std::string file)
       : f_(functions), description_(description), file_(std::move(file)) {}
   ~LoadedInstance() override {
     if (component_ == nullptr) return;
+    if (description_.only_once) OnlyOnce::Forget(description_.guid);
     if (dead_) {  // after "fatal" nothing may be called
       Abandon(component_);
       return;
@@ -102,12 +132,22 @@ class LoadedInstance final : public Instance {
       component_ =
           f_.instantiate(name.c_str(), fmi2CoSimulation, description_.guid.c_str(), where.c_str(), &callbacks_, 0, 0);
     }
-    if (component_ != nullptr) return {};
+    if (component_ != nullptr) {
+      if (description_.only_once) OnlyOnce::Note(description_.guid);
+      return {};
+    }
     return base::WrongInput(
         fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_),
         file_);
   }
 
+  base::Status Reset() override {
+    if (f_.reset == nullptr)
+      return base::WrongInput("its binary has no function 'fmi2Reset', and the FMU allows one instance a process",
+                              file_);
+    runs_ = false;
+    return Call("fmi2Reset", [&] { return f_.reset(component_); });
+  }
   base::Status EnterInitialisation(double time_s) override {
     if (auto status =
             Call("fmi2SetupExperiment", [&] { return f_.setup_experiment(component_, 0, 0.0, time_s, 0, 0.0); });
@@ -258,6 +298,7 @@ class LoadedUnit final : public Unit {
     Find("fmi2EnterInitializationMode", f_.enter_initialisation);
     Find("fmi2ExitInitializationMode", f_.exit_initialisation);
     Find("fmi2Terminate", f_.terminate);
+    f_.reset = reinterpret_cast<ComponentFunction*>(::dlsym(library_, "fmi2Reset"));
     Find("fmi2GetReal", f_.get_real);
     Find("fmi2SetReal", f_.set_real);
     Find("fmi2GetInteger", f_.get_integer);
@@ -278,7 +319,19 @@ class LoadedUnit final : public Unit {
   }
 
   const Description& description() const override { return description_; }
+  bool can_save_state() const override {
+    return description_.can_get_state && description_.can_serialize_state && note_.empty();
+  }
+  const std::string& note() const override { return note_; }
+  void set_note(std::string note) { note_ = std::move(note); }
   base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) override {
+    if (description_.only_once && OnlyOnce::IsTaken(description_.guid)) {
+      return base::WrongInput(
+          "a process may have one instance of this FMU only (canBeInstantiatedOnlyOncePerProcess), and this process "
+          "has "
+          "one already; vehicles with it were expected in processes of their own, without --in-process",
+          file_);
+    }
     auto instance = std::make_unique<LoadedInstance>(f_, description_, file_);
     if (auto status = instance->Make(name, path_ / "resources"); !status) return status.error();
     return std::unique_ptr<Instance>(std::move(instance));
@@ -299,16 +352,27 @@ class LoadedUnit final : public Unit {
   void* library_ = nullptr;
   Functions f_;
   std::string missing_;
+  std::string note_;
 };
 
 base::Result<std::unique_ptr<LoadedUnit>> LoadFolder(const fs::path& folder, const std::string& file, bool with_trial) {
   auto description = ReadDescription(folder / "modelDescription.xml", file);
   if (!description) return description.error();
+  std::string note;
   if (with_trial) {
     if (auto status = TryInProcessOfItsOwn(folder, file); !status) return status.error();
+    if (description.value().can_get_state && description.value().can_serialize_state) {
+      if (auto status = TryStateInProcessOfItsOwn(folder, file); !status) {
+        note = fmt::format(
+            "the state that it saves cannot be set in another process ({}); runs with it are computed "
+            "again from step 0",
+            status.error().message);
+      }
+    }
   }
   auto unit = std::make_unique<LoadedUnit>(folder, std::move(description).value(), file);
   if (auto status = unit->Open(); !status) return status.error();
+  unit->set_note(std::move(note));
   return unit;
 }
 

@@ -19,6 +19,9 @@ class Instance {
  public:
   virtual ~Instance() = default;
 
+  // Back to where Instantiate leaves it, for an FMU of which a process may have one instance only. Wrong input where
+  // its binary has no fmi2Reset.
+  virtual base::Status Reset() = 0;
   // Before the first step: values are set between these two.
   virtual base::Status EnterInitialisation(double time_s) = 0;
   virtual base::Status ExitInitialisation() = 0;
@@ -42,7 +45,12 @@ class Unit {
   virtual ~Unit() = default;
 
   virtual const Description& description() const = 0;
+  // Wrong input where the FMU makes none, or where this process has one of an FMU that allows one only.
   virtual base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) = 0;
+  // Its state can be saved and set in another process. The trial finds out: the bytes of some FMUs hold addresses.
+  virtual bool can_save_state() const = 0;
+  // A sentence where the description promises states that the trial could not take over; otherwise empty.
+  virtual const std::string& note() const = 0;
 };
 
 }  // namespace rodeira::fmi

@@ -10,8 +10,10 @@
 
 #include "common/core/base/crash_trace.hpp"
 #include "common/core/base/files.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
+#include "common/vehicle/dynamics/vehicle_notes.hpp"
 #include "launch/rodeira/commands/tyre_command.hpp"
 #include "launch/rodeira/input_files.hpp"
 
@@ -65,6 +67,8 @@ int TestVehicle(const VehicleOptions& options) {
   base::TraceCrashes();  // of a vehicle that others wrote
   auto car = dynamics::LoadVehicle(options.file);
   if (!car) return base::PrintError("rodeira", car.error());
+  for (const std::string& note : dynamics::NotesOn(*car.value(), options.file))
+    base::Log(base::LogLevel::kWarning, "", note);
   const bool shown = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   int status = 0;
   for (const manoeuvres::Manoeuvre* manoeuvre : chosen.value()) {

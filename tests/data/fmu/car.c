@@ -2,7 +2,8 @@
 /* A car of four numbers as an FMU for co-simulation (FMI 2.0), for tests: place, heading and speed of a point that
  * rolls on its wheels. dv/dt = 3 throttle (backward in reverse) - 0.05 v - 6 brake sign(v) + push along the car / 1000
  * kg, dheading/dt = v tan(steering wheel / 16) / 2.5 by explicit Euler steps. z is the mean of the ground's four
- * heights. Parameters make it fail, hang, crash, or say what is no number. */
+ * heights. Parameters make it fail, hang, crash, or say what is no number. Definitions: its state holds an address that
+ * is of no use (ADDRESS_IN_STATE) or is used (POINTER_IN_STATE); a process may have one instance only (ONLY_ONCE). */
 #include <math.h>
 #include <signal.h>
 #include <stddef.h>
@@ -57,12 +58,19 @@ enum {
   kCrashAt,
   kExitAt,
   kSpeed,
+  kQuaternionW,
+  kQuaternionX,
+  kQuaternionY,
+  kQuaternionZ,
   kReals
 };
 
 typedef struct {
   double real[kReals];
   int gear;
+#if defined(ADDRESS_IN_STATE) || defined(POINTER_IN_STATE)
+  const fmi2CallbackFunctions* callbacks; /* an address of this process */
+#endif
 } Values;
 
 typedef struct {
@@ -79,6 +87,8 @@ static void publish(Values* v) {
   v->real[kYawRate] = v->real[kSpeed] * tan(v->real[kSteering] / 16.0) / 2.5;
   v->real[kZ] = 0.25 * (v->real[kGround0] + v->real[kGround1] + v->real[kGround2] + v->real[kGround3]);
   v->gear = v->real[kSpeed] < 0.0 ? -1 : 1;
+  v->real[kQuaternionW] = cos(0.5 * v->real[kHeading]);
+  v->real[kQuaternionZ] = sin(0.5 * v->real[kHeading]);
 }
 
 #ifdef CRASH_WHEN_LOADED
@@ -102,9 +112,19 @@ EXPORT void* fmi2Instantiate(const char* name, int type, const char* guid, const
                       "the guid is %s, which is another car's", guid);
     return NULL;
   }
+#ifdef ONLY_ONCE
+  static int made;
+  if (made++ != 0) {
+    callbacks->logger(callbacks->componentEnvironment, "car", fmi2Error, "once", "this process has had one before");
+    return NULL;
+  }
+#endif
   car = callbacks->allocateMemory(1, sizeof(Car));
   if (car == NULL) return NULL;
   car->callbacks = callbacks;
+#if defined(ADDRESS_IN_STATE) || defined(POINTER_IN_STATE)
+  car->values.callbacks = callbacks;
+#endif
   car->values.real[kFailAt] = car->values.real[kHangAt] = car->values.real[kNonsenseAt] = 1e9;
   car->values.real[kCrashAt] = car->values.real[kExitAt] = 1e9;
   return car;
@@ -126,6 +146,12 @@ EXPORT fmi2Status fmi2ExitInitializationMode(void* c) {
   return fmi2OK;
 }
 EXPORT fmi2Status fmi2Terminate(void* c) { return (void)c, fmi2OK; }
+EXPORT fmi2Status fmi2Reset(void* c) {
+  Values* v = &((Car*)c)->values;
+  memset(v->real, 0, sizeof(v->real));
+  v->real[kFailAt] = v->real[kHangAt] = v->real[kNonsenseAt] = v->real[kCrashAt] = v->real[kExitAt] = 1e9;
+  return fmi2OK;
+}
 
 EXPORT fmi2Status fmi2GetReal(void* c, const unsigned* r, size_t n, double* value) {
   for (size_t i = 0; i < n; ++i) {
@@ -190,7 +216,15 @@ EXPORT fmi2Status fmi2GetFMUstate(void* c, void** state) {
   return fmi2OK;
 }
 EXPORT fmi2Status fmi2SetFMUstate(void* c, void* state) {
-  return memcpy(&((Car*)c)->values, state, sizeof(Values)), fmi2OK;
+  Car* car = c;
+#ifdef ADDRESS_IN_STATE
+  ((Values*)state)->callbacks = car->callbacks; /* as a careful maker does */
+#endif
+  memcpy(&car->values, state, sizeof(Values));
+#ifdef POINTER_IN_STATE
+  car->callbacks = car->values.callbacks; /* of the process that saved it */
+#endif
+  return fmi2OK;
 }
 EXPORT fmi2Status fmi2FreeFMUstate(void* c, void** state) {
   (void)c;

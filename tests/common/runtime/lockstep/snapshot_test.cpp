@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "common/core/base/carried_state.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
 
 namespace rodeira::lockstep {
@@ -82,6 +83,36 @@ TEST(Snapshot, WithoutAStateItSaysSo) {
   snapshot.has_state = false;
   snapshot.state.resize(1);
   EXPECT_FALSE(Snapshot::Decode(snapshot.Encode()).ok());
+}
+
+// Bytes of another program's state may hold addresses: they are carried, and no difference. Everything else is one.
+TEST(Snapshot, CarriedFieldsAreNoDifference) {
+  const Roster roster =
+      Roster::Create(1'000'000, 20,
+                     {{"car", "t", Role::kStepped, 1, 1, 0, {"a"}, {}, 10},
+                      {"sink",
+                       "t",
+                       Role::kStepped,
+                       5,
+                       5,
+                       0,
+                       {},
+                       {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
+                       0}})
+          .value();
+  const auto sample = [&roster](double speed, std::vector<std::uint8_t> bytes, std::uint32_t incarnation = 0) {
+    base::StateWriter state;
+    state.Put("speed", speed);
+    state.Put(std::string(base::kCarried) + "fmu", bytes);
+    state.Put("gear", 3);
+    Snapshot snapshot;
+    snapshot.at = 10;
+    snapshot.state = state.bytes();
+    return snapshot.ToSample(roster, incarnation);
+  };
+  EXPECT_TRUE(SameContent(sample(2.0, {1, 2, 3}), sample(2.0, {9, 2, 3}, 1)));
+  EXPECT_TRUE(SameContent(sample(2.0, {1, 2, 3}), sample(2.0, {7})));
+  EXPECT_FALSE(SameContent(sample(2.0, {1, 2, 3}), sample(2.5, {1, 2, 3})));
 }
 
 }  // namespace

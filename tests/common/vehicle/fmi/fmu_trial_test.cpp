@@ -67,12 +67,30 @@ TEST_F(FmuTrial, OneThatDoesNotComeBackIsRefusedAtTheLimit) {
               HasSubstr("its binary does not come back within 1 s in fmi2Instantiate"));
 }
 
-// Unit::Load tries it before this process loads it; an error that the FMU reports is left to the caller.
+// Unit::Load tries it before this process loads it.
 TEST_F(FmuTrial, IsPartOfLoading) {
   const auto refused = Unit::Load(PackOneThat("crashes"));
   ASSERT_FALSE(refused.ok());
   EXPECT_THAT(refused.error().message, HasSubstr("crashes (signal 11, Segmentation fault) in fmi2Instantiate"));
-  EXPECT_TRUE(Unit::Load(PackOneThat("another")).ok()) << "it makes no instance, which is no crash";
+  const auto without_instance = Unit::Load(PackOneThat("another"));
+  ASSERT_FALSE(without_instance.ok());
+  EXPECT_EQ(without_instance.error().exit_status(), 2);
+  EXPECT_THAT(without_instance.error().message, HasSubstr("fmi2Instantiate: the FMU makes no instance of itself"));
+}
+
+// A state is saved by one process and set by another: one that works by the saving process's addresses does not pass.
+TEST_F(FmuTrial, AStateIsTriedInAnotherProcess) {
+  for (const auto& [binary, saves] :
+       {std::pair("car", true), std::pair("addresses", true), std::pair("pointers", false)}) {
+    const auto unit = Unit::Load(folder_.Pack({}, "linux64", binary));
+    ASSERT_TRUE(unit.ok()) << binary;
+    EXPECT_EQ(unit.value()->can_save_state(), saves) << binary << ": " << unit.value()->note();
+    EXPECT_EQ(unit.value()->note().empty(), saves);
+  }
+  const auto none = Unit::Load(folder_.Pack({{"canSerializeFMUstate=\"true\"", "canSerializeFMUstate=\"false\""}}));
+  ASSERT_TRUE(none.ok());
+  EXPECT_FALSE(none.value()->can_save_state());
+  EXPECT_EQ(none.value()->note(), "") << "it promised nothing";
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
