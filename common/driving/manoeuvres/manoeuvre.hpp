@@ -23,6 +23,7 @@ struct Figure {
 struct Outcome {
   plot::Table table;  // over time, each 10 ms
   std::vector<Figure> figures;
+  std::vector<std::string> missing = {};  // figures that the manoeuvre did not come to, each with the reason
 
   // Null where the manoeuvre did not come to it.
   const Figure* Find(std::string_view name) const;
@@ -44,11 +45,13 @@ base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name);
 // Drives it. Failed, with the model's own word, where the model has failed on the way (VehicleModel::problem).
 base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, dynamics::VehicleModel& car, double step_s);
 
-// Acceleration from rest with the throttle on the floor, in automatic mode: 0-100 km/h, 0-400 m, top speed.
+// Acceleration from rest with the throttle on the floor, in automatic mode: 0-100 km/h, 0-400 m, top speed. The search
+// for the top speed ends where the gains of speed, as they shrink, have less than 0.01 km/h to come.
 base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s);
 // From 100 km/h to rest with the brake on the floor: distance, mean deceleration v²/2d, drift.
 base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s);
-// The same from 80 km/h with the right wheels on ice of friction 0.3 and the steering held straight.
+// The same from 80 km/h with the right wheels on ice of friction 0.3 and the steering held straight. A car that turns
+// by more than 86 degrees before it rests has no distance.
 base::Result<Outcome> SplitFriction(dynamics::VehicleModel& car, double step_s);
 // A circle of 40 m, faster and faster (after ISO 4138): understeer gradient (change of the front wheels' angle over
 // that of lateral acceleration) and roll gradient between 1 and 4 m/s², largest lateral acceleration.

@@ -83,6 +83,9 @@ int TestVehicle(const VehicleOptions& options) {
     for (const manoeuvres::Figure& figure : outcome.value().figures) {
       if (!options.quiet) fmt::print("  {:<36} {:>10.3f} {}\n", figure.name, figure.value, figure.unit);
     }
+    for (const std::string& reason : outcome.value().missing) {
+      if (!options.quiet) fmt::print("  not measured: {}\n", reason);
+    }
     if (auto written = Write(options, *manoeuvre, outcome.value().table); !written)
       return base::PrintError("rodeira", written.error());
   }

@@ -169,6 +169,34 @@ TEST(Manoeuvres, AccelerationKeepsToTheEnginesPower) {
   EXPECT_NEAR(resisting_W + growing_W, given_W, 0.02 * given_W) << "the rest is slip";
 }
 
+// The top speed that is told is the one of five minutes at full throttle.
+TEST(Manoeuvres, TheTopSpeedIsReachedAndNotGuessedEarly) {
+  BicycleModel car(dynamics::DefaultSettings());
+  const double told_kmh = Value(Driven(Acceleration(car, kStep_s)), "top speed");
+  dynamics::Controls controls;
+  controls.throttle = 1.0;
+  ground::PlaneGround plane;
+  ASSERT_TRUE(car.Initialise({}, plane).ok());
+  for (int i = 0; i < 300000; ++i) car.Step(controls, plane, 0.001);
+  EXPECT_NEAR(told_kmh, car.state().speed_mps() * 3.6, 0.02);
+}
+
+// A car that slides sideways has no braking distance, and the outcome says why. With the right wheels on 0.3 no car
+// brakes harder than (1 + 0.3) / 2 g, load transfer included a little more.
+TEST(Manoeuvres, ADistanceThatWasNotDrivenIsMissingWithItsReason) {
+  for (const auto& kind : {dynamics::kBicycle, dynamics::kOde, dynamics::kMultibody}) {
+    auto car = dynamics::MakeModel(kind);
+    const Outcome outcome = Driven(SplitFriction(*car, kStep_s));
+    if (const Figure* distance = outcome.Find("distance")) {
+      EXPECT_GE(distance->value, 80.0 / 3.6 * 80.0 / 3.6 / (2.0 * 6.6)) << kind.name;
+      EXPECT_TRUE(outcome.missing.empty());
+    } else {
+      ASSERT_EQ(outcome.missing.size(), 1u) << kind.name;
+      EXPECT_NE(outcome.missing[0].find("the car has turned by"), std::string::npos);
+    }
+  }
+}
+
 TEST(Manoeuvres, BrakingKeepsToFriction) {
   BicycleModel car(dynamics::DefaultSettings());
   const Outcome outcome = Driven(Braking(car, kStep_s));
@@ -268,6 +296,7 @@ TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
   auto car = dynamics::MakeModel(dynamics::kFmu);
   const Outcome fast = Driven(Acceleration(*car, kStep_s));
   EXPECT_NEAR(Value(fast, "0 to 100 km/h"), -20.0 * std::log(1.0 - 100.0 / 3.6 / 60.0), 0.01);
+  EXPECT_NEAR(Value(fast, "top speed"), 3.0 * 20.0 * 3.6, 0.02) << "where 3 m/s² are v / 20 s";
   const Outcome turned = Driven(StepSteer(*car, kStep_s));
   EXPECT_NEAR(Value(turned, "yaw rate gain"), 100.0 / 3.6 / 2.5 / 16.0, 0.01);
   EXPECT_NEAR(Value(turned, "yaw rate overshoot"), 0.0, 0.5);
