@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+
+namespace rodeira::base {
+
+// The file of a program in $PATH; nothing where it is in none of its directories.
+std::optional<std::filesystem::path> FindInPath(std::string_view program);
+
+struct ProgramRun {
+  std::filesystem::path program;
+  std::vector<std::string> arguments;                            // without the program's own name
+  std::vector<std::pair<std::string, std::string>> environment;  // variables that are set where they are not
+  std::chrono::seconds limit{600};                               // the program is killed after it
+  std::size_t text_limit_bytes = 1u << 20;                       // of what it writes to its standard error
+  std::function<bool()> stop;                                    // asked often; true: the program is killed
+};
+
+struct ProgramEnd {
+  int status = 0;        // exit status; 0 where a signal ended it
+  int signal = 0;        // the signal that ended it; 0: it ended itself
+  bool stopped = false;  // by `stop`
+  bool too_long = false;
+  std::string errors;  // the beginning of what it wrote to its standard error
+};
+
+// Runs a program without a standard input, and waits for its end. What it writes to its standard output is dropped.
+// Failed where it cannot be started.
+Result<ProgramEnd> RunProgram(const ProgramRun& run);
+
+}  // namespace rodeira::base
