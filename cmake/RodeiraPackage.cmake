@@ -47,7 +47,7 @@ set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/finish_package.cmake)
 set(same "(= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_HEADLESS_PACKAGE_NAME rodeira-headless)
 set(CPACK_DEBIAN_HEADLESS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_HEADLESS_PACKAGE_SUGGESTS "rodeira, rodeira-doc")
+set(CPACK_DEBIAN_HEADLESS_PACKAGE_SUGGESTS "rodeira, rodeira-doc, sumo, sumo-tools")  # `rodeira world import`
 set(CPACK_DEBIAN_HEADLESS_DESCRIPTION "distributed driving simulator, without pictures
 Rodeira simulates a vehicle on its road among traffic, for research
 laboratories: separate processes exchange typed DDS topics in deterministic

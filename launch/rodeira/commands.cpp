@@ -25,6 +25,7 @@
 #include "launch/rodeira/commands/vehicle_command.hpp"
 #include "launch/rodeira/commands/view_command.hpp"
 #include "launch/rodeira/commands/world_command.hpp"
+#include "launch/rodeira/commands/world_import.hpp"
 #include "launch/rodeira/doctor/doctor.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/option_errors.hpp"
@@ -90,7 +91,22 @@ CLI::App* AddCtl(CLI::App& app, CtlOptions& options) {
   return ctl;
 }
 
-void AddWorld(CLI::App& app, WorldOptions& options) {
+void AddWorldImport(CLI::App& world, WorldImportOptions& options) {
+  CLI::App* command = world.add_subcommand(
+      "import", "make a world of a map of OpenStreetMap or a network of SUMO, by SUMO's netconvert (package sumo)");
+  command->add_option("FILE", options.file, "map (.osm, .osm.gz) or network (.net.xml, .net.xml.gz)")->required();
+  command
+      ->add_option("-o,--out", options.out,
+                   "file to write: OUT.yaml (with OUT.xodr beside it) or OUT.xodr; not there yet")
+      ->required()
+      ->check(NewFile());
+  command->add_option("--elevation", options.elevation,
+                      "heights of the ground (GeoTIFF, .bt …), which the roads follow");
+  command->add_flag("--quiet", options.quiet, "no progress");
+  command->callback([&options] { options.chosen = true; });
+}
+
+void AddWorld(CLI::App& app, WorldOptions& options, WorldImportOptions& import) {
   CLI::App* world = app.add_subcommand("world", "check, describe and ask a world");
   world->require_subcommand(1);
   for (const auto& [name, text] :
@@ -143,6 +159,7 @@ void AddWorld(CLI::App& app, WorldOptions& options) {
   world->add_subcommand("list", "print the worlds that can be named, and where they are")->callback([&options] {
     options.command = "list";
   });
+  AddWorldImport(*world, import);
 }
 
 void AddMap(CLI::App& app, MapOptions& options) {
@@ -441,7 +458,8 @@ int RunCommandLine(int argc, char** argv) {
   std::vector<std::string> sets;
   AddRun(app, run, sets);
   WorldOptions world;
-  AddWorld(app, world);
+  WorldImportOptions world_import;
+  AddWorld(app, world, world_import);
   MapOptions map;
   AddMap(app, map);
   TrafficOptions traffic;
@@ -487,6 +505,7 @@ int RunCommandLine(int argc, char** argv) {
   if (view->parsed()) return View(view_options);
   if (world.command == "build" && CanContinueInGraphics()) return ContinueInGraphics("world build");
   if (!world.command.empty()) return World(world);
+  if (world_import.chosen) return WorldImport(world_import);
   if (!map.command.empty()) return MapCommand(map);
   if (traffic.asked) return TrafficRun(traffic);
   if (!polyline.command.empty()) return Polylines(polyline);
