@@ -18,6 +18,7 @@ struct StudySettings {
   double duration_s = 60.0;
   double step_s = 0.01;
   double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
+  bool checks = true;    // whether faults are looked for every watch_s: overlaps, reds, wheels off the road
   bool feels = false;    // whether it is told what somebody in the car feels: jerk, lateral and yaw acceleration
   double cell_m = 0.0;   // length of the cells of lanes that are summed up in; 0: none
   double warm_s = 0.0;   // lanes, trips and queues are watched from then on: roads that begin empty fill first
@@ -34,12 +35,13 @@ struct StudyResult {
   std::uint32_t longest_stand_id = 0;
   double longest_with_room_s = 0.0;  // the part of one stand in which there was room ahead (TrafficModel::RoomAhead)
   std::uint32_t longest_with_room_id = 0;
-  std::int64_t collisions = 0;  // times that two rectangles on one level came to overlap
-  std::int64_t off_lane = 0;    // times that a middle was looked at beside every drivable lane
-  std::int64_t wheels_off =
-      0;  // times that a wheel was looked at beside everything that is there for vehicles, shoulders among it
-  double worst_step_m = 0.0;  // |distance between two poses - mean speed · step|, in plan
-  double hardest_mps2 = 0.0;  // deceleration with a foot on the brake, whatever else slows the car down
+  bool checked = false;         // the next four were looked for
+  std::int64_t collisions = 0;  // times that two boxes on one level came to overlap
+  std::int64_t reds = 0;        // times that a front passed a red light
+  std::int64_t off_lane = 0;    // times that a middle was seen beside every drivable lane
+  std::int64_t wheels_off = 0;  // times that a wheel was seen beside all lanes and shoulders
+  double worst_step_m = 0.0;    // |distance between two poses - mean speed · step|, in plan
+  double hardest_mps2 = 0.0;    // deceleration with a foot on the brake, whatever else slows the car down
   double foot_mps2 = 0.0;  // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (who
                            // stands is held by it)
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
