@@ -200,7 +200,12 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
       ->check(OneOf({"planar", "full"}));
   run->add_option("--settings", options.settings,
                   "how they drive: a file of 'rodeira: traffic/1', with the keys of a launch file's traffic");
-  run->add_option("--csv", options.csv, "folder for trajectories.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
+  run->add_option("--csv", options.csv,
+                  "folder for trajectories.csv, signals.csv, lanes.csv, queues.csv, flows.csv, trips.csv");
+  run->add_option("--rows-every", options.rows_every_s,
+                  "seconds a row of trajectories.csv, of floating car data and of the diagram")
+      ->check(Positive)
+      ->capture_default_str();
   run->add_option("--every", options.every_s,
                   "seconds a row of intervals.csv, in that folder: flow, speed, queue of every lane over time")
       ->check(Positive);
@@ -217,6 +222,7 @@ void AddTraffic(CLI::App& app, TrafficOptions& options) {
   run->add_option("--fcd", options.fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
   run->add_option("--diagram", options.diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
   run->add_option("--lane", options.lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
+  run->add_flag("--no-check", options.no_check, "do not look for overlaps, red lights passed, wheels off the road");
   run->add_flag("--quiet", options.quiet, "no progress, no table");
   run->callback([&options] { options.asked = true; });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/results/floating_cars.hpp"
+#include "common/traffic/results/names.hpp"
 
 #include <fmt/format.h>
 
@@ -39,10 +40,10 @@ std::string FloatingCarsAt(double time_s, const TrafficModel& model) {
     const Eigen::Vector3d front = pose.p_WB_W + half * ahead;
     const double angle = std::remainder(90.0 - base::kDegreesPerRadian * std::atan2(ahead.y(), ahead.x()), 360.0);
     base::AppendFormat(text,
-                       "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"car\" "
+                       "        <vehicle id=\"{}.{}\" x=\"{:.2f}\" y=\"{:.2f}\" angle=\"{:.2f}\" type=\"{}\" "
                        "speed=\"{:.2f}\" pos=\"{:.2f}\" lane=\"{}_{}\" slope=\"{:.2f}\"/>\n",
-                       pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle, pose.speed_mps,
-                       agent.o_m + half - agent.path[i].zero_m,
+                       pose.id, pose.trip, front.x(), front.y(), angle < 0.0 ? angle + 360.0 : angle,
+                       NameOf(model.traits(pose.id).kind), pose.speed_mps, agent.o_m + half - agent.path[i].zero_m,
                        XmlText(graph.network().roads()[static_cast<std::size_t>(pose.road)].id()),
                        IndexOf(graph, agent.path[i].track),
                        base::kDegreesPerRadian * std::asin(std::clamp(ahead.z(), -1.0, 1.0)));

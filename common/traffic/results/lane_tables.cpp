@@ -11,6 +11,7 @@
 #include "common/core/base/csv_cell.hpp"
 #include "common/traffic/motion/drivetrain.hpp"
 #include "common/traffic/network/graph_bounds.hpp"
+#include "common/traffic/results/names.hpp"
 #include "common/traffic/results/xml_text.hpp"
 
 namespace rodeira::traffic {
@@ -100,15 +101,14 @@ std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& interv
 }
 
 std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics) {
-  constexpr std::array<const char*, 4> kKinds = {"car", "van", "lorry", "bus"};
   const auto place = [&](std::uint32_t track) {
     return base::CsvCell(fmt::format("{}:{}", RoadOf(graph, track), graph[track].lane.lane));
   };
   std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow\n";
   for (const LaneTrip& trip : statistics.trips()) {
-    base::AppendFormat(table, "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id,
-                       kKinds[static_cast<std::size_t>(trip.kind)], place(trip.from), place(trip.to), trip.entered_s,
-                       trip.took_s, 1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s,
+    base::AppendFormat(table, "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id, NameOf(trip.kind),
+                       place(trip.from), place(trip.to), trip.entered_s, trip.took_s,
+                       1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s,
                        trip.flow < 0 ? "" : std::to_string(trip.flow + 1));
   }
   return table;

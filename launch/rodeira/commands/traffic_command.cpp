@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "common/core/base/print_error.hpp"
@@ -60,7 +62,19 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   return settings;
 }
 
-void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, double wall_s) {
+// How long a study took: in all, and from the first step to the last.
+struct StudyTimes {
+  double all_s = 0.0, steps_s = 0.0, steps_cpu_s = 0.0;
+};
+
+// Of all threads of this process.
+double ProcessorTime_s() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, const StudyTimes& times) {
   fmt::print("vehicles         {} on the road, {} waiting to enter, {} trips ended\n", r.on_road, r.waiting,
              r.arrivals);
   fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left,
@@ -80,11 +94,18 @@ void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, do
       "all\n",
       r.hardest_mps2, r.foot_mps2, r.hardest_any_mps2);
   fmt::print("emergencies      {} steps of a vehicle\n", r.hurried_steps);
-  fmt::print("collisions       {}\n", r.collisions);
-  fmt::print("beside its lane  {} times, a wheel off the road {} times, looked at every 0.1 s\n", r.off_lane,
-             r.wheels_off);
-  fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", wall_s,
-             options.duration_s / wall_s, r.vehicle_s / options.step_s / wall_s);
+  if (r.checked) {
+    fmt::print("collisions       {}\n", r.collisions);
+    fmt::print("red lights       passed {} times\n", r.reds);
+    fmt::print("beside its lane  {} times, a wheel off the road {} times, checked every {} s\n", r.off_lane,
+               r.wheels_off, std::max(std::min(0.1, options.rows_every_s), options.step_s));
+  } else {
+    fmt::print("checks           off: overlaps, red lights and lanes were not checked\n");
+  }
+  fmt::print("wall time        {:.2f} s, {:.1f} times real time, {:.0f} vehicle steps a second\n", times.all_s,
+             options.duration_s / times.all_s, r.vehicle_s / options.step_s / times.steps_s);
+  fmt::print("processor time   {:.2f} s in steps, {:.0f} vehicle steps a second\n", times.steps_cpu_s,
+             r.vehicle_s / options.step_s / times.steps_cpu_s);
   for (const std::string& incident : r.incidents) fmt::print("incident         {}\n", incident);
 }
 
@@ -120,7 +141,8 @@ int TrafficRun(const TrafficOptions& given) {
   settings.traffic = std::move(how).value();
   settings.duration_s = options.duration_s;
   settings.step_s = options.step_s;
-  settings.watch_s = std::max(0.1, options.step_s);
+  settings.watch_s = std::max(std::min(0.1, options.rows_every_s), options.step_s);
+  settings.checks = !options.no_check;
   auto opened = TrafficFiles::Open(options, *network);
   if (!opened) return base::PrintError("rodeira", opened.error());
   TrafficFiles files = std::move(opened).value();
@@ -133,22 +155,26 @@ int TrafficRun(const TrafficOptions& given) {
   }
   const bool terminal = !options.quiet && ::isatty(STDERR_FILENO) == 1;
   const auto begin = WallClock::now();
+  std::optional<std::pair<WallClock::time_point, double>> stepping;  // since when, and at which processor time
   bool shown = false;
   FlowsSeen flows;
   const auto watch = [&](const traffic::StudyMoment& moment) {
     files.Write(moment);
-    flows = {moment.model.flows(), moment.model.missed()};
+    if (!stepping) stepping.emplace(WallClock::now(), ProcessorTime_s());
+    flows.flows = moment.model.flows(), flows.missed = moment.model.missed();
     if (!terminal || SecondsSince(begin) < 2.0) return;
     fmt::print(stderr, "\r{:3.0f} %", 100.0 * moment.time_s / options.duration_s);
     shown = true;
   };
   const auto result = traffic::RunStudy(settings, world.value(), watch);
+  StudyTimes times{SecondsSince(begin), 0.0, 0.0};
+  if (stepping) times.steps_s = SecondsSince(stepping->first), times.steps_cpu_s = ProcessorTime_s() - stepping->second;
   if (shown) fmt::print(stderr, "\r     \r");
   if (!result) return base::PrintError("rodeira", result.error());
   const auto written = files.Close(*network, result.value());
   if (!written) return base::PrintError("rodeira", written.error());
   if (options.quiet) return 0;
-  PrintStudy(options, result.value(), SecondsSince(begin));
+  PrintStudy(options, result.value(), times);
   PrintFlows(flows);
   for (const std::string& file : written.value()) fmt::print("wrote            {}\n", file);
   return 0;

@@ -8,7 +8,8 @@
 namespace rodeira::cli {
 
 // `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE]
-// [--csv DIR [--every S]] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane ROAD:LANE]`
+// [--csv DIR [--every S]] [--rows-every S] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane
+// ROAD:LANE]`
 struct TrafficOptions {
   bool asked = false;
   std::string map;  // a world file, .xodr or .motors
@@ -17,17 +18,19 @@ struct TrafficOptions {
   double duration_s = 60.0;
   double step_s = 0.01;
   std::uint64_t seed = 1;
-  std::string driver;    // standard or motors; empty: as the settings say
-  std::string physics;   // planar or full; empty: as the settings say
-  std::string settings;  // a file of `rodeira: traffic/1`; empty: as usual
-  std::string csv;       // folder; empty: no tables
-  double warm_s = 0.0;   // tables and heat leave out so much of the beginning
-  double every_s = 0.0;  // rows of intervals.csv; 0: no such table
-  std::string heat;      // .svg or .tif; empty: none
-  double pixel_m = 1.0;  // of heat.tif
-  std::string fcd;       // .xml; empty: none
-  std::string diagram;   // .svg; empty: none
-  std::string lane;      // of the diagram, "ROAD:LANE"; empty: the longest one
+  std::string driver;         // standard or motors; empty: as the settings say
+  std::string physics;        // planar or full; empty: as the settings say
+  std::string settings;       // a file of `rodeira: traffic/1`; empty: as usual
+  std::string csv;            // folder; empty: no tables
+  double warm_s = 0.0;        // tables and heat leave out so much of the beginning
+  double rows_every_s = 0.5;  // rows of trajectories.csv, floating car data and the diagram
+  double every_s = 0.0;       // rows of intervals.csv; 0: no such table
+  std::string heat;           // .svg or .tif; empty: none
+  double pixel_m = 1.0;       // of heat.tif
+  std::string fcd;            // .xml; empty: none
+  std::string diagram;        // .svg; empty: none
+  std::string lane;           // of the diagram, "ROAD:LANE"; empty: the longest one
+  bool no_check = false;      // faults are not looked for
   bool quiet = false;
 };
 

@@ -15,11 +15,10 @@
 #include "common/core/base/writable.hpp"
 #include "common/traffic/results/floating_cars.hpp"
 #include "common/traffic/results/lane_tables.hpp"
+#include "common/traffic/results/names.hpp"
 
 namespace rodeira::cli {
 namespace {
-
-constexpr double kRowEvery_s = 0.5;
 
 bool EndsOn(const std::string& file, const char* ending) { return std::filesystem::path(file).extension() == ending; }
 
@@ -70,6 +69,10 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
     return base::WrongInput(
         fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s),
         "--every");
+  if (options.rows_every_s < options.step_s)
+    return base::WrongInput(
+        fmt::format("{} s were given; at least the step of {} s was expected", options.rows_every_s, options.step_s),
+        "--rows-every");
   if (!options.heat.empty() && !EndsOn(options.heat, ".svg") && !EndsOn(options.heat, ".tif"))
     return base::WrongInput(fmt::format("'{}' was found; a file on .svg or .tif was expected", options.heat), "--heat");
   if (options.pixel_m != 1.0 && !EndsOn(options.heat, ".tif"))
@@ -98,7 +101,12 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
     std::filesystem::create_directories(options.csv, problem);
     files.trajectories_.open(files.InFolder("trajectories.csv"));
     if (problem || !files.trajectories_) return base::Failed("the folder cannot be written to", options.csv);
-    files.trajectories_ << "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane\n";
+    files.trajectories_ << "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"
+                           "length_m,width_m,kind,lamps\n";
+    files.signal_table_.emplace(lanes::Graph(network));
+    files.signals_.open(files.InFolder("signals.csv"));
+    if (!files.signals_) return base::Failed("the file cannot be written", files.InFolder("signals.csv"));
+    files.signals_ << traffic::SignalTable::Header();
   }
   if (!options.fcd.empty()) {
     files.fcd_.open(options.fcd);
@@ -112,17 +120,21 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
 void TrafficFiles::WriteTrajectories(const traffic::StudyMoment& moment) {
   for (const traffic::AgentPose& pose : moment.model.poses()) {
     const Eigen::Vector3d forward = pose.q_WB * Eigen::Vector3d::UnitX();
+    const traffic::AgentTraits& traits = moment.model.traits(pose.id);
     trajectories_ << fmt::format(
-        "{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{}\n", moment.time_s, pose.id, pose.trip,
-        pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()), pose.speed_mps,
-        pose.acceleration_mps2,
-        base::CsvCell(moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id()), pose.lane);
+        "{:.2f},{},{},{:.3f},{:.3f},{:.3f},{:.5f},{:.3f},{:.3f},{},{},{:.2f},{:.2f},{},{}\n", moment.time_s, pose.id,
+        pose.trip, pose.p_WB_W.x(), pose.p_WB_W.y(), pose.p_WB_W.z(), std::atan2(forward.y(), forward.x()),
+        pose.speed_mps, pose.acceleration_mps2,
+        base::CsvCell(moment.model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id()), pose.lane,
+        traits.length_m, traits.width_m, traffic::NameOf(traits.kind),
+        traffic::NameOfLamps(moment.model.LightsOf(pose)));
   }
 }
 
 void TrafficFiles::Write(const traffic::StudyMoment& moment) {
+  if (signal_table_) signals_ << signal_table_->At(moment.time_s, moment.model);
   if (moment.time_s < next_s_ - 1e-9) return;
-  next_s_ += kRowEvery_s;
+  next_s_ += options_.rows_every_s;
   if (trajectories_.is_open()) WriteTrajectories(moment);
   if (fcd_.is_open()) fcd_ << traffic::FloatingCarsAt(moment.time_s, moment.model);
   if (diagram_) diagram_->Add(moment.time_s, moment.model);
@@ -142,6 +154,9 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     trajectories_.close();
     if (!trajectories_) return base::Failed("the table could not be written to its end", InFolder("trajectories.csv"));
     written.push_back(InFolder("trajectories.csv"));
+    signals_.close();
+    if (!signals_) return base::Failed("the table could not be written to its end", InFolder("signals.csv"));
+    written.push_back(InFolder("signals.csv"));
     if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status)
       return status.error();
     if (auto status = text(InFolder("queues.csv"), traffic::QueueTable(graph, *result.lanes)); !status)

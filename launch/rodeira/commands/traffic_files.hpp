@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/core/base/result.hpp"
+#include "common/traffic/results/signal_table.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/results/trajectory_diagram.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
@@ -29,7 +30,8 @@ class TrafficFiles {
   void WriteTrajectories(const traffic::StudyMoment& moment);
 
   TrafficOptions options_;
-  std::ofstream trajectories_, fcd_;
+  std::ofstream trajectories_, signals_, fcd_;
+  std::optional<traffic::SignalTable> signal_table_;
   std::optional<traffic::TrajectoryDiagram> diagram_;
   double next_s_ = 0.0;
 };

@@ -96,7 +96,8 @@ TEST_F(TrafficFilesTest, TablesAreThoseOfTheRun) {
     EXPECT_THAT(said.out, HasSubstr("wrote            " + In("out") + "/" + name + "\n"));
   // A row a car and half second: what a car goes between two of them is what its speed says.
   const Rows cars = Table(In("out") + "/trajectories.csv",
-                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"
+                          "length_m,width_m,kind,lamps");
   std::map<std::string, const std::map<std::string, std::string>*> before;
   std::set<std::string> times, ids;
   double way_m = 0.0;
@@ -311,7 +312,8 @@ TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_file(options_.fcd.c_str()));
   const Rows cars = Table(In("out") + "/trajectories.csv",
-                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane");
+                          "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"
+                          "length_m,width_m,kind,lamps");
   std::size_t i = 0;
   for (const pugi::xml_node step : document.child("fcd-export").children("timestep")) {
     for (const pugi::xml_node car : step.children("vehicle")) {
@@ -404,7 +406,9 @@ TEST_F(TrafficFilesTest, NamesOfRoadsAreCells) {
   options_.duration_s = 40.0;
   const Said said = Asked(options_);
   ASSERT_EQ(said.status, 0) << said.errors;
-  const std::string header = "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane";
+  const std::string header =
+      "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"
+      "length_m,width_m,kind,lamps";
   const std::string id = "1,\"a\"";
   for (const auto& [file, names] :
        std::map<std::string, std::string>{{"trajectories.csv", header},
