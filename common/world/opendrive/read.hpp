@@ -79,9 +79,14 @@ void ReadObjects(const Node& road, network::RoadSpec& spec);
 void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
-// Controllers that a junction names and that say no times take turns, in the junction's order: 20 s of green, 3 s of
-// amber, 2 s of red for all. Those of lights for people on foot alone stay dark, and those of a junction's only
-// controller where its ways come from different sides and cross.
+// Lights of controllers whose orientation fits none of the lanes that their validity names, as in the towns of CARLA
+// and RoadRunner, hold for these lanes: their orientation is turned, with one warning.
+void TurnLights(const std::vector<network::Controller>& controllers, std::vector<RoadReading>& readings,
+                Findings& findings);
+// Controllers that a junction names and that say no times take turns, in the order of the junctions: 20 s of green, 3 s
+// of amber, 2 s of red for all. Junctions that share a controller, or that a short road joins, take turns together.
+// Dark stay: lights for people on foot alone; with a warning, a controller with lights for ways from different sides,
+// and one that crosses a controller with times in the file.
 void TakeTurns(network::NetworkSpec& spec, Findings& findings);
 // A warning for each kind of element or attribute that says something about the world and is passed over; at the first
 // of them.

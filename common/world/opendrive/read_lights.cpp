@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <functional>
-#include <set>
+#include <optional>
 #include <string_view>
-#include <vector>
 
-#include "common/core/geometry/angle.hpp"
-#include "common/world/opendrive/checks.hpp"
 #include "common/world/opendrive/read.hpp"
 
 namespace rodeira::opendrive {
 namespace {
 
 constexpr std::string_view kTimes = "rodeira:times";  // cycle, green from, green, amber, red with amber; seconds
-constexpr double kGreen_s = 20.0, kAmber_s = 3.0, kAllRed_s = 2.0, kRedAmber_s = 1.0;
 
 std::optional<network::LightTimes> TimesOf(std::string_view text) {
   std::array<double, 5> numbers{};
@@ -30,53 +22,6 @@ std::optional<network::LightTimes> TimesOf(std::string_view text) {
   }
   if (text.find_first_not_of(' ') != std::string_view::npos) return std::nullopt;
   return network::LightTimes{numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]};
-}
-
-// Whether one of its signals is known and is for vehicles.
-bool ForVehicles(const network::NetworkSpec& spec, const network::Controller& controller) {
-  for (const network::ControllerEntry& entry : controller.controls) {
-    for (const network::Road& road : spec.roads) {
-      for (const network::Signal& signal : road.spec().signals) {
-        if (signal.id == entry.signal_id && signal.type != network::kPedestrianSignal) return true;
-      }
-    }
-  }
-  return false;
-}
-
-// The directions in which the traffic comes that a controller's lights are for.
-std::vector<double> HeadingsOf(const network::NetworkSpec& spec, const network::Controller& controller) {
-  std::set<std::string, std::less<>> ids;
-  for (const network::ControllerEntry& entry : controller.controls) ids.insert(entry.signal_id);
-  for (const network::Road& road : spec.roads) {
-    for (const network::Signal& signal : road.spec().signals) {
-      if (signal.type == network::kPedestrianSignal) ids.erase(signal.id);
-    }
-  }
-  std::vector<double> headings;
-  const auto add = [&](const network::Road& road, double s_m, const std::string& orientation) {
-    const double turned = orientation == "-" ? geometry::kPi : 0.0;
-    if (orientation == "+" || orientation == "-") headings.push_back(road.axis().Evaluate(s_m).heading_rad + turned);
-  };
-  for (const network::Road& road : spec.roads) {
-    for (const network::Signal& signal : road.spec().signals) {
-      if (ids.contains(signal.id)) add(road, signal.s_m, signal.orientation);
-    }
-  }
-  return headings;
-}
-
-// Whether two of a controller's lights are for traffic from sides that cross: by the limits of lanes/approach.hpp.
-bool CrossOnesOwn(const network::NetworkSpec& spec, const network::Controller& controller) {
-  constexpr double kSame_rad = 0.45, kHeadOn_rad = 2.5;
-  const std::vector<double> headings = HeadingsOf(spec, controller);
-  for (std::size_t i = 0; i < headings.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const double turned = std::fabs(geometry::WrapAngle(headings[i] - headings[k]));
-      if (turned > kSame_rad && turned < kHeadOn_rad) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -100,38 +45,6 @@ network::Controller ReadController(const Node& controller) {
     }
   }
   return read;
-}
-
-void TakeTurns(network::NetworkSpec& spec, Findings& findings) {
-  for (const network::Junction& junction : spec.junctions) {
-    std::vector<network::Controller*> turns;
-    const bool is_alone = junction.controllers.size() == 1;
-    for (const std::string& id : junction.controllers) {
-      const auto found =
-          std::find_if(spec.controllers.begin(), spec.controllers.end(), [&](const auto& c) { return c.id == id; });
-      if (found == spec.controllers.end() || found->times || !ForVehicles(spec, *found)) continue;
-      if (is_alone && CrossOnesOwn(spec, *found)) {
-        findings.warnings.push_back(
-            {"rodeira.times",
-             fmt::format("controller {} of junction {} has lights for ways that come from different sides, and says no "
-                         "times",
-                         found->id, junction.id),
-             0,
-             "",
-             {},
-             {},
-             {"its lights stay dark"}});
-        continue;
-      }
-      turns.push_back(&*found);
-    }
-    constexpr double kTurn_s = kGreen_s + kAmber_s + kAllRed_s;
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      turns[i]->times =
-          network::LightTimes{kTurn_s * static_cast<double>(turns.size()), kTurn_s * static_cast<double>(i),
-                              turns.size() > 1 ? kGreen_s : kTurn_s, kAmber_s, kRedAmber_s};
-    }
-  }
 }
 
 }  // namespace rodeira::opendrive
