@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/traffic_model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/huge_pages.hpp"
 #include "common/core/base/random.hpp"
+#include "common/traffic/network/long_enough.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/perception/each_driving.hpp"
 
@@ -91,13 +94,24 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings,
   auto demand = Demand::Make(map->graph, map->marks, settings.demand);
   if (!demand) return demand.error();
   map->demand = std::move(demand).value();
-  for (const Demand::Flow& flow : map->demand.flows()) {
-    if (flow.track >= 0) map->LetEnter(static_cast<std::uint32_t>(flow.track));
+  const double longest_m = LargestOf(settings).length_m;
+  for (std::size_t i = 0; i < map->demand.flows().size(); ++i) {
+    if (map->demand.flows()[i].track < 0) continue;
+    const auto track = static_cast<std::uint32_t>(map->demand.flows()[i].track);
+    if (!IsLongEnough(map->graph, track, longest_m)) {
+      const FlowSettings& flow = settings.demand.flows[i];
+      return base::WrongInput(fmt::format("the lane '{}' and the ways on from it are shorter than a vehicle; at least "
+                                          "{:.1f} m were expected",
+                                          flow.lane, longest_m),
+                              flow.place);
+    }
+    map->LetEnter(track);
   }
   TrafficModel model(settings, map);
   if (settings.vehicles > 0 && model.map_->entries.empty()) {
     return base::WrongInput("the network '" + model.map_->network->name() +
-                            "' has no lane to put traffic on; drivable lanes, or 0 vehicles, were expected");
+                            "' has no lane to put traffic on; drivable lanes that are longer than a vehicle, or 0 "
+                            "vehicles, were expected");
   }
   if (settings.pedestrians) {
     auto people = Pedestrians::Make(model.graph(), LargestOf(settings), *settings.pedestrians, settings.seed);

@@ -7,6 +7,7 @@
 #include "common/core/base/huge_pages.hpp"
 #include "common/core/base/random.hpp"
 #include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/network/long_enough.hpp"
 #include "common/traffic/network/swing.hpp"
 #include "common/world/lanes/ring.hpp"
 
@@ -75,12 +76,17 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
   driver::SpeedPlanSettings speed = settings.speed;
   speed.tips_mps2 = TipsAt_mps2(settings);
   for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) plans.emplace_back(graph, track, speed);
+  // A lane that is too short for a vehicle carries none.
+  const double longest_m = LargestOf(settings).length_m;
+  std::vector<bool> is_entry(graph.tracks().size());
+  for (std::uint32_t track = 0; track < is_entry.size(); ++track)
+    is_entry[track] = graph[track].entry && IsLongEnough(graph, track, longest_m);
   for (const bool clear : {true, false}) {
     for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
       const bool early = std::any_of(zones.Of(track).begin(), zones.Of(track).end(), [&](const lanes::ZoneSide& side) {
         return zones[side.zone].in_m[static_cast<std::size_t>(side.side)] < kEntryClear_m;
       });
-      if (graph[track].entry && !(clear && early && !graph.says_entries())) entries.push_back(track);
+      if (is_entry[track] && !(clear && early && !graph.says_entries())) entries.push_back(track);
     }
     if (!entries.empty()) break;
   }
@@ -90,7 +96,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
   enters.resize(graph.tracks().size());
   watched.resize(graph.tracks().size());
   for (std::uint32_t track = 0; track < enters.size(); ++track) {
-    if (graph[track].entry) LetEnter(track);
+    if (is_entry[track]) LetEnter(track);
   }
   reached = ReachedOf(graph);
 }

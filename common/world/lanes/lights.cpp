@@ -110,12 +110,23 @@ std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& 
 }
 
 base::Status CheckLights(const Graph& graph, const Zones& zones) {
+  const auto where = [&](const std::string& place) {
+    return place.empty() ? "network '" + graph.network().name() + "'" : place;
+  };
+  for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+    for (const LightPlace& light : LightsOf(graph, track)) {
+      const network::Controller& controller = graph.network().controllers()[light.controller];
+      if (controller.times->green_s > 0.0) continue;
+      return base::WrongInput("the light " + Named(graph, light) + " is never green; a time of green was expected",
+                              where(controller.place));
+    }
+  }
   const auto together = FindGreenTogether(graph, zones);
   if (!together) return {};
   // At the later of the two: it is green although the other one is.
   const std::string& place =
       graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
-  return base::WrongInput(together->sentence, place.empty() ? "network '" + graph.network().name() + "'" : place);
+  return base::WrongInput(together->sentence, where(place));
 }
 
 }  // namespace rodeira::lanes

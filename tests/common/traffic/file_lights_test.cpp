@@ -147,6 +147,18 @@ TEST(FileLights, TimesOfTheFileAreKept) {
   EXPECT_FALSE(Shown(graph, crossing, 1, 10.0));
 }
 
+TEST(FileLights, ALightThatIsNeverGreenIsRefused) {
+  LitCrossing crossing;
+  crossing.times = "60 5 0 3 1";
+  StudySettings settings;
+  settings.traffic.vehicles = 5;
+  const auto driven = RunStudy(settings, opendrive::MustRead(crossing.Text()));
+  ASSERT_FALSE(driven.ok());
+  EXPECT_EQ(driven.error().Text(),
+            "network '': the light 'group 0' (signal light0.0, road '1', lane -1) is never green; a time of green was "
+            "expected");
+}
+
 // A light's orientation that fits one of the lanes that it names is kept, whatever the others are.
 TEST(FileLights, AnOrientationThatFitsIsKept) {
   opendrive::RoadText road;
