@@ -28,7 +28,7 @@ struct KindTraits {
 
 const KindTraits& TraitsOf(InputKind kind) {
   static const KindTraits kLaunch{"launch", "launch/", "launch file", {".yaml"}};
-  static const KindTraits kWorld{"configs/worlds", "world/", "world", {".yaml", ".xodr"}};
+  static const KindTraits kWorld{"configs/worlds", "world/", "world", {".yaml", ".xodr", ".xodrz"}};
   static const KindTraits kVehicle{"configs/vehicles", "vehicle/", "vehicle", {".yaml"}};
   switch (kind) {
     case InputKind::kLaunch:

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "common/core/base/files.hpp"
 #include "common/world/opendrive/checks.hpp"
+#include "common/world/opendrive/file_text.hpp"
 #include "common/world/opendrive/read.hpp"
 #include "common/world/opendrive/repair.hpp"
 
@@ -65,6 +65,12 @@ Repair LeaveOut(const Finding& error, const Node& root) {
   return {};
 }
 
+// For networks of other kinds that are called .xml, too.
+std::string_view HowToImport(std::string_view root) {
+  if (root == "net" || root == "osm") return ": `rodeira world import` makes a world of it";
+  return "";
+}
+
 constexpr std::size_t kMostRepairs = 100000;  // in one reading
 
 }  // namespace
@@ -79,9 +85,11 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   if (tolerance.repair) source.most_findings = kMostRepairs;
   const Node root = source.root();
   if (root.name() != "OpenDRIVE") {
-    return base::WrongInput(fmt::format("the outermost element is <{}>; <OpenDRIVE> was expected", root.name()),
-                            fmt::format("{}:{}", path.string(), root.line()));
+    return base::WrongInput(
+        fmt::format("the outermost element is <{}>; <OpenDRIVE> was expected{}", root.name(), HowToImport(root.name())),
+        fmt::format("{}:{}", path.string(), root.line()));
   }
+  source.PassOverTemporaryLanes();
   network::NetworkSpec spec;
   ReadHeader(root, import, spec);
   std::vector<RoadReading> readings;
@@ -89,6 +97,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   std::vector<JunctionReading> junctions;
   for (const Node& junction : root.Children("junction")) junctions.push_back(ReadJunction(junction));
   for (const Node& controller : root.Children("controller")) spec.controllers.push_back(ReadController(controller));
+  TellIncludes(root);
   TellUnread(root);
   TellUnknown(root);
   CheckStations(root);
@@ -145,9 +154,11 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   return import;
 }
 
-base::Result<Import> Read(std::string text, const std::filesystem::path& path, const Tolerance& tolerance) {
-  if (tolerance.repair) return ReadRepaired(std::move(text), path, tolerance);
-  auto import = ReadOnce(text, path, tolerance, nullptr);
+namespace {
+
+base::Result<Import> ReadFile(FileText file, const std::filesystem::path& path, const Tolerance& tolerance) {
+  if (tolerance.repair) return ReadRepaired(std::move(file), path, tolerance);
+  auto import = ReadOnce(file.text, path, tolerance, &file.edited);
   if (import) {
     for (auto* list : {&import.value().errors, &import.value().warnings}) {
       for (Finding& finding : *list) finding.repair = {};
@@ -156,10 +167,24 @@ base::Result<Import> Read(std::string text, const std::filesystem::path& path, c
   return import;
 }
 
+}  // namespace
+
+base::Result<Import> Read(std::string text, const std::filesystem::path& path, const Tolerance& tolerance) {
+  FileText file{std::move(text), {}};
+  file.edited.line_starts = LineStarts(file.text);
+  return ReadFile(std::move(file), path, tolerance);
+}
+
 base::Result<Import> Load(const std::filesystem::path& path, const Tolerance& tolerance) {
-  auto text = base::ReadText(path, std::size_t{1} << 30);
-  if (!text) return text.error();
-  return Read(std::move(text).value(), path, tolerance);
+  auto file = ReadFileText(path);
+  if (!file) return file.error();
+  return ReadFile(std::move(file).value(), path, tolerance);
+}
+
+base::Result<std::string> LoadText(const std::filesystem::path& path) {
+  auto file = ReadFileText(path);
+  if (!file) return file.error();
+  return std::move(file).value().text;
 }
 
 base::Error ToError(const Finding& finding, const std::filesystem::path& path) {

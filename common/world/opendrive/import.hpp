@@ -43,14 +43,17 @@ struct Import {
   std::shared_ptr<const network::Network> network;  // null where there are errors
   std::vector<Finding> errors, warnings;            // by line
   std::vector<NamedFile> surfaces;                  // measured surfaces, as they stand in the file
-  base::Digest content_hash = 0;                    // of the file's bytes
+  base::Digest content_hash = 0;                    // of the file's text, with what it includes
   std::string repaired_text;                        // of the file; empty where nothing had to be changed
   std::optional<Reach> before;                      // of the file as it is drawn; nothing where it cannot be built
 };
 
 // Wrong input where the file cannot be read or is no OpenDRIVE at all; what else is wrong with it are its findings.
 base::Result<Import> Read(std::string text, const std::filesystem::path& path, const Tolerance& tolerance = {});
+// The file may be packed (gzip, ZIP with one .xodr), in UTF-16 or another encoding, and include others: ReadFileText.
 base::Result<Import> Load(const std::filesystem::path& path, const Tolerance& tolerance = {});
+// A file as one text: unpacked, in UTF-8, with what it includes.
+base::Result<std::string> LoadText(const std::filesystem::path& path);
 // A network without errors, or the first of them as "file:line: rule: road, lane, s: sentence".
 base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path,
                                                                   const Tolerance& tolerance = {});

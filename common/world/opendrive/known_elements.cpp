@@ -17,7 +17,7 @@ struct Row {
 constexpr Row kRows[] = {
     {"OpenDRIVE", "header road controller junction junctionGroup station vmsGroup", "", "header"},
     {"header", "geoReference offset license defaultRegulations",
-     "revMajor revMinor name version date north south east west vendor",
+     "revMajor revMinor name version date north south east west vendor maxRoad maxJunc maxPrg",
      "geoReference offset license defaultRegulations"},
     {"header/offset", "", "x y z hdg", ""},
     {"license", "", "name resource spdxid text", ""},
@@ -43,7 +43,7 @@ constexpr Row kRows[] = {
     {"superelevation", "", "s a b c d", ""},
     {"crossfall", "", "side s a b c d", ""},
     {"shape", "", "s t a b c d", ""},
-    {"lanes", "laneOffset laneSection", "", ""},
+    {"lanes", "laneOffset laneSection", "layer", ""},
     {"laneOffset", "", "s a b c d", ""},
     {"laneSection", "left center right", "s length singleSide", "left center right"},
     {"left", "lane", "", ""},
@@ -151,6 +151,7 @@ struct Choice {
   std::string_view parent, element, attribute, words;  // separated by '|'
 };
 constexpr Choice kChoices[] = {
+    {"road", "lanes", "layer", "permanent|temporary"},
     {"lane", "roadMark", "type",
      "none|solid|broken|solid solid|solid broken|broken solid|broken broken|botts dots|grass|curb|custom|edge"},
     {"lane", "roadMark", "color", "standard|white|yellow|red|blue|green|orange|violet|black"},

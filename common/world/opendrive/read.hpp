@@ -88,6 +88,8 @@ void TurnLights(const std::vector<network::Controller>& controllers, std::vector
 // Dark stay: lights for people on foot alone; with a warning, a controller with lights for ways from different sides,
 // and one that crosses a controller with times in the file.
 void TakeTurns(network::NetworkSpec& spec, Findings& findings);
+// Files that are included and could not be read: an error for each.
+void TellIncludes(const Node& root);
 // A warning for each kind of element or attribute that says something about the world and is passed over; at the first
 // of them.
 void TellUnread(const Node& root);

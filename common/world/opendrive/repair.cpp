@@ -55,9 +55,10 @@ void LeaveOutRoads(const std::string& text, std::vector<Finding>& errors) {
 
 }  // namespace
 
-base::Result<Import> ReadRepaired(std::string text, const std::filesystem::path& path, const Tolerance& tolerance) {
+base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& path, const Tolerance& tolerance) {
+  std::string text = std::move(file.text);
+  Edited edited = std::move(file.edited);
   const base::Digest hash = base::Hash(text);
-  Edited edited{LineStarts(text), {}};
   std::vector<Finding> repaired;
   std::set<std::string> told;
   std::optional<Reach> before;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "common/world/opendrive/file_text.hpp"
 #include "common/world/opendrive/import.hpp"
 #include "common/world/opendrive/source.hpp"
 
@@ -14,6 +15,6 @@ namespace rodeira::opendrive {
 // One reading. Every error says how it is repaired; errors without anything done leave nothing to read.
 base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::path& path, const Tolerance& tolerance,
                               const Edited* edited);
-base::Result<Import> ReadRepaired(std::string text, const std::filesystem::path& path, const Tolerance& tolerance);
+base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& path, const Tolerance& tolerance);
 
 }  // namespace rodeira::opendrive

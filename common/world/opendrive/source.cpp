@@ -64,6 +64,43 @@ std::size_t Source::LineAt(std::ptrdiff_t offset) const {
   return static_cast<std::size_t>(after - line_starts_.begin());
 }
 
+std::string Source::WhyUnread(const std::string& include) const {
+  if (edited_ == nullptr) return "";
+  const auto found = edited_->unread.find(include);
+  return found == edited_->unread.end() ? "" : found->second;
+}
+
+void Source::PassOverTemporaryLanes() {
+  std::size_t count = 0, line = 0;
+  for (pugi::xml_node road : document_.document_element().children("road")) {
+    const auto is_temporary = [](const pugi::xml_node& lanes) {
+      return std::string_view(lanes.attribute("layer").value()) == "temporary";
+    };
+    std::vector<pugi::xml_node> temporary;
+    bool has_other = false;
+    for (const pugi::xml_node lanes : road.children("lanes")) {
+      if (is_temporary(lanes))
+        temporary.push_back(lanes);
+      else
+        has_other = true;
+    }
+    if (!has_other) continue;  // lanes that come and go are better than none
+    for (const pugi::xml_node& lanes : temporary) {
+      if (count++ == 0) line = LineAt(lanes.offset_debug());
+      road.remove_child(lanes);
+    }
+  }
+  if (count == 0) return;
+  warnings.push_back(
+      {"not_read",
+       fmt::format("<lanes> of the layer 'temporary' are not read{}: those of the layer 'permanent' count",
+                   count == 1 ? "" : fmt::format(" ({} times)", count)),
+       line,
+       "",
+       {},
+       {}});
+}
+
 void Source::Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair) {
   if (errors.size() < most_findings)
     errors.push_back(

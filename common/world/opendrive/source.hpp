@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <pugixml.hpp>
 #include <string>
@@ -60,10 +62,12 @@ class Node {
   pugi::xml_node node_;
 };
 
-// An original text's lines, and the edits since.
+// An original text's lines, and the edits since: first what was included, if anything was, then repairs.
 struct Edited {
   std::vector<std::size_t> line_starts;
   std::vector<OffsetMap> maps;
+  std::size_t includes = 0;                   // of the maps
+  std::map<std::string, std::string> unread;  // included files that could not be read, as they are named: why
 };
 
 // An XML file as it is read: what is found wrong in it, and in which road, lane and s the reader is.
@@ -75,8 +79,12 @@ class Source {
 
   Node root() { return {this, document_.document_element()}; }
   std::string_view text() const { return text_; }
-  std::size_t LineAt(std::ptrdiff_t offset) const;                                       // of the original text
-  std::size_t repairs() const { return edited_ == nullptr ? 0 : edited_->maps.size(); }  // how often it was edited
+  std::size_t LineAt(std::ptrdiff_t offset) const;  // of the original text
+  // How often it was repaired.
+  std::size_t repairs() const { return edited_ == nullptr ? 0 : edited_->maps.size() - edited_->includes; }
+  std::string WhyUnread(const std::string& include) const;  // a file that it includes; empty: not known
+  // Second <lanes> of a road, of works that come and go (OpenDRIVE 1.9), are told once and passed over.
+  void PassOverTemporaryLanes();
 
   // Said with every finding from now on.
   struct Where {

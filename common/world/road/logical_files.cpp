@@ -10,12 +10,16 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/config/config.hpp"
+#include "common/world/opendrive/import.hpp"
+#include "common/world/road/network_world.hpp"
 #include "common/world/surface/crg_header.hpp"
 
 namespace rodeira::road {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 30;
 
 // Copies a file and all that belongs to it, by paths from one folder to those from the other.
 class Copier {
@@ -63,11 +67,13 @@ class Copier {
   base::Status CopyAlone(const fs::path& name) const {
     std::error_code problem;
     if (fs::equivalent(from_ / name, to_ / name, problem)) return {};
-    const auto bytes = base::ReadBytes(from_ / name);
-    if (!bytes) return bytes.error();
-    if (const auto there = base::ReadBytes(to_ / name); there && there.value() == bytes.value()) return {};
+    // A network is written as one text, so that what it includes is not missed.
+    auto text = IsOpenDrive(name) ? opendrive::LoadText(from_ / name) : base::ReadText(from_ / name, kMaxBytes);
+    if (!text) text = base::ReadText(from_ / name, kMaxBytes);
+    if (!text) return text.error();
+    if (const auto there = base::ReadText(to_ / name, kMaxBytes); there && there.value() == text.value()) return {};
     fs::create_directories((to_ / name).parent_path(), problem);
-    return base::WriteWhole(to_ / name, bytes.value());
+    return base::WriteWhole(to_ / name, text.value());
   }
 
   fs::path from_, to_;

@@ -41,12 +41,14 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool v
       check.warnings.push_back(fmt::format("{}: geoReference: {}; nothing can say where on the earth a place is",
                                            file.string(), map.error().message));
   }
+  check.network = import.value().network;
   for (const OfRoad& overlap : DescribeOverlaps(*import.value().network, false))
     check.warnings.push_back(fmt::format("{}: {}", file.string(), overlap.text));
   // What else a world of the file needs: surfaces that it names, laid on its roads.
   if (const auto detail = LoadSurfaces(import.value(), file); !detail) {
     check.errors.push_back(detail.error());
     check.table.clear();
+    check.network = nullptr;
   } else {
     for (const std::string& wall : detail.value().Walls(*import.value().network))
       check.warnings.push_back(fmt::format("{}: {}", file.string(), wall));
@@ -61,7 +63,7 @@ base::Result<std::vector<std::string>> WriteRepaired(const std::filesystem::path
   if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), file);
   std::string text = std::move(import.value().repaired_text);
   if (text.empty()) {
-    auto original = base::ReadText(file);
+    auto original = opendrive::LoadText(file);
     if (!original) return original.error();
     text = std::move(original).value();
   }

@@ -102,7 +102,11 @@ std::string ExtensionOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-bool IsOpenDrive(const std::filesystem::path& file) { return ExtensionOf(file) == ".xodr"; }
+bool IsOpenDrive(const std::filesystem::path& file) {
+  const std::string extension = ExtensionOf(file);
+  if (extension == ".gz") return ExtensionOf(file.stem()) == ".xodr" || ExtensionOf(file.stem()) == ".xml";
+  return extension == ".xodr" || extension == ".xodrz" || extension == ".xml" || extension == ".zip";
+}
 
 std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file) {
   const std::string extension = ExtensionOf(ExtensionOf(file) == ".gz" ? file.stem() : file);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@
 // Worlds that are OpenDRIVE files.
 namespace rodeira::road {
 
-// By its name: `.xodr`, in letters of either case.
+// By its name: `.xodr`, packed `.xodr.gz`, `.xodrz` or `.zip`, or `.xml`, in letters of either case.
 bool IsOpenDrive(const std::filesystem::path& file);
 // Of a file that by its name is something that world files name (an elevation file, a measured surface, a CSV of a
 // line): a sentence that says under which key. Nothing of others.
@@ -46,6 +47,7 @@ struct NetworkCheck {
   std::vector<base::Error> errors;
   std::vector<std::string> warnings;
   std::string table;
+  std::shared_ptr<const network::Network> network;  // null where there are errors
 };
 NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool verbose = false, bool repair = true);
 // Writes the file as it is read, after repair: what was not repaired keeps its bytes. Says what ASAM's own tolerances

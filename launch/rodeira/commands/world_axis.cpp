@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/core/base/suggest.hpp"
+#include "common/world/road/network_world.hpp"
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
 
@@ -27,7 +28,7 @@ std::optional<AxisName> AxisNameOf(std::string_view text) {
   const auto hash = text.rfind('#');
   if (hash == std::string_view::npos || hash == 0 || hash + 1 == text.size()) return std::nullopt;
   const std::string_view file = text.substr(0, hash);
-  if (!file.ends_with(".yaml") && !file.ends_with(".xodr")) return std::nullopt;
+  if (!file.ends_with(".yaml") && !road::IsOpenDrive(file)) return std::nullopt;
   return AxisName{std::string(file), std::string(text.substr(hash + 1))};
 }
 

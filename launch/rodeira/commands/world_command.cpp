@@ -16,6 +16,7 @@
 #include "common/core/base/print_error.hpp"
 #include "common/world/lanes/lights.hpp"
 #include "common/world/lanes/zones.hpp"
+#include "common/world/opendrive/import.hpp"
 #include "common/world/road/logical_files.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/measured_files.hpp"
@@ -33,16 +34,19 @@ namespace {
 
 // Lights that are green together where their ways cross, which a run that has traffic refuses. What cannot be read is
 // told elsewhere.
-int CheckLights(const std::string& world_file) {
-  const auto world = road::World::Load(world_file);
-  if (!world || world.value()->network() == nullptr) return 0;
-  const auto controllers = world.value()->network()->controllers();
+int CheckLights(const network::Network& network) {
+  const auto controllers = network.controllers();
   if (std::none_of(controllers.begin(), controllers.end(),
                    [](const network::Controller& controller) { return controller.times.has_value(); }))
     return 0;
-  const lanes::Graph graph(*world.value()->network());
+  const lanes::Graph graph(network);
   const auto status = lanes::CheckLights(graph, lanes::Zones(graph));
   return status ? 0 : base::PrintError("rodeira", status.error());
+}
+
+int CheckLights(const std::string& world_file) {
+  const auto world = road::World::Load(world_file);
+  return world && world.value()->network() != nullptr ? CheckLights(*world.value()->network()) : 0;
 }
 
 int Repair(const WorldOptions& options) {
@@ -59,7 +63,7 @@ int CheckOpenDrive(const WorldOptions& options) {
   for (const std::string& warning : check.warnings) fmt::print(stderr, "rodeira: warning: {}\n", warning);
   for (const base::Error& error : check.errors) fmt::print(stderr, "rodeira: {}\n", error.Text());
   if (!check.errors.empty()) return check.errors.front().exit_status();
-  if (const int status = CheckLights(options.world_file); status != 0) return status;
+  if (const int status = check.network != nullptr ? CheckLights(*check.network) : 0; status != 0) return status;
   fmt::print("{}{}: no error found\n", check.table, options.world_file);
   return options.repair.empty() ? 0 : Repair(options);
 }
@@ -121,7 +125,7 @@ int Written(const std::filesystem::path& file, const base::Status& status) {
 // The OpenDRIVE file of a world that is one, with its measured surfaces, which are added to `files`.
 int CopyOpenDrive(const std::filesystem::path& file, const std::filesystem::path& copy,
                   std::vector<std::filesystem::path>& files) {
-  const auto text = base::ReadText(file);
+  const auto text = opendrive::LoadText(file);
   if (!text) return base::PrintError("rodeira", text.error());
   const auto warnings = road::CopyMeasured(file, copy, &files);
   if (!warnings) return base::PrintError("rodeira", warnings.error());

@@ -7,6 +7,8 @@
 #include <system_error>
 #include <utility>
 
+#include "common/world/road/network_world.hpp"
+
 namespace rodeira::cli {
 namespace {
 
@@ -65,7 +67,7 @@ std::string WhatIsMissing(const StartFiles& files, const StartChoice& choice) {
   if (choice.world.empty()) return "choose a world";
   if (!fs::is_regular_file(choice.world, problem)) return fmt::format("there is no file '{}'", choice.world.string());
   const fs::path ending = choice.world.extension();
-  if (ending != ".yaml" && ending != ".xodr" && ending != ".motors")
+  if (ending != ".yaml" && !road::IsOpenDrive(choice.world) && ending != ".motors")
     return fmt::format("'{}' is no world; a file that ends on .yaml, .xodr or .motors was expected",
                        choice.world.string());
   if (choice.vehicle.empty()) return "choose a vehicle";

@@ -515,7 +515,9 @@ TEST(OpenDrive, WhatIsNotReadIsTold) {
           std::pair(std::string("not_read: <surface> of <object> is not read"), line_of("<surface")),
           std::pair(std::string("not_read: the attribute 'lighting' of <tunnel> is not read"), line_of("<tunnel")),
           std::pair(std::string("not_read: <reference> of <signal> is not read"), line_of("<reference")),
-          std::pair(std::string("not_read: <junctionGroup> of <OpenDRIVE> is not read"), line_of("<junctionGroup"))));
+          std::pair(std::string("not_read: railways and groups of junctions are not read: <junctionGroup> of "
+                                "<OpenDRIVE>"),
+                    line_of("<junctionGroup"))));
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+
+// Files that are packed: gzip (.xodr.gz, ASAM's .xodrz) and ZIP. Everything is unpacked in memory; nothing is written.
+namespace rodeira::opendrive {
+
+inline constexpr std::size_t kMaxUnpackedBytes = std::size_t{1} << 29;
+
+bool IsGzip(std::string_view bytes);
+bool IsZip(std::string_view bytes);
+
+// What is unpacked is bounded by kMaxUnpackedBytes and, from 16 MiB on, by 250 times what is packed. Wrong input beyond
+// these bounds and where the data is damaged or cut short.
+base::Result<std::string> Gunzip(std::string_view bytes, const std::filesystem::path& path);
+
+// A ZIP archive in memory. For one thread at a time.
+class Archive {
+ public:
+  // Wrong input where it is damaged, encrypted, holds more than 10 000 files, or a name in it leads out of it.
+  static base::Result<std::shared_ptr<const Archive>> Open(std::string bytes, const std::filesystem::path& path);
+
+  // Of its files, with '/' between folders; what the Finder of macOS adds is left out.
+  const std::vector<std::string>& names() const { return names_; }
+  bool Has(const std::string& name) const;
+  // A file of names(), bounded as for Gunzip.
+  base::Result<std::string> Read(const std::string& name) const;
+
+ private:
+  Archive() = default;
+  std::string bytes_;
+  std::filesystem::path path_;
+  std::vector<std::string> names_, stored_;  // as asked for, and as they stand in the archive
+};
+
+}  // namespace rodeira::opendrive
