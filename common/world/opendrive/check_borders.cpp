@@ -78,7 +78,7 @@ void CheckBorders(const RoadReading& road, const Tolerance& tolerance, Findings&
             road.spec.id,
             (*side)[k].id,
             worst[k].at,
-            {within_m > most_m ? "the lane is read as 0 m wide there" : ""}};
+            within_m > most_m ? Repair{RepairKind::kWidthZero, "the lane is read as 0 m wide there"} : Repair{}};
         (within_m > most_m ? findings.errors : findings.warnings).push_back(finding);
       }
     }

@@ -31,7 +31,7 @@ Repair Smoothed(const std::vector<Node>& nodes, const Cubic& before, const Cubic
   const auto node = std::find_if(nodes.rbegin(), nodes.rend(), [&](const Node& each) {
     return std::fabs(each.xml().attribute(from).as_double() + origin_m - record.from) < 1e-9;
   });
-  if (length_m < kLeast_m || node == nodes.rend()) return {"it is driven as it lies"};
+  if (length_m < kLeast_m || node == nodes.rend()) return {RepairKind::kJumpKept, "it is driven as it lies"};
   const double low = before.Value(record.from), low_slope = before.Slope(record.from), high = record.Value(to),
                high_slope = record.Slope(to);
   const Cubic ramp{record.from, low, low_slope,
@@ -40,7 +40,9 @@ Repair Smoothed(const std::vector<Node>& nodes, const Cubic& before, const Cubic
   std::string text = CubicRecord(node->xml().name(), from, ramp, origin_m);
   if (length_m < room_m)
     text += CubicRecord(node->xml().name(), from, {to, high, high_slope, 0.5 * record.Bend(to), record.d}, origin_m);
-  return {fmt::format("it goes over within {:.3g} m", length_m), {node->Replace(std::move(text))}};
+  return {RepairKind::kJumpSmoothed,
+          fmt::format("it goes over within {:.3g} m", length_m),
+          {node->Replace(std::move(text))}};
 }
 
 struct JumpChecker {

@@ -20,9 +20,9 @@ using network::LaneKey;
 using network::Network;
 using network::Road;
 
-constexpr double kListed_m = 0.01;    // ASAM's own limit between two lanes
-constexpr double kFound_m = 0.1;      // nearer lies the lane that is meant
-constexpr double kLaneWidth_m = 1.0;  // narrower, a lane ends beside another one
+constexpr double kListed_m = 0.01;     // ASAM's own limit between two lanes
+constexpr double kLaneWidth_m = 1.0;   // narrower, a lane ends beside another one
+constexpr double kFarAside_m = 100.0;  // reference lines farther apart have no lanes that meet
 
 struct LaneChecker {
   const Network& network;
@@ -168,54 +168,80 @@ struct LaneChecker {
     return std::fabs(height(key, end) - height(other.lane, other.end));
   }
 
-  // A lane that traffic comes onto, and that goes on nowhere in a junction, in its road's middle or where its road goes
-  // on.
+  // A lane that goes on nowhere in a junction, in its road's middle or where its road goes on: it goes on as the only
+  // lane that lies there; otherwise it is told where traffic is led onto it in a junction or in its road's middle.
   void DeadEnd(const LaneKey& key) const {
     const Lane& lane = *network.Find(key);
     if (!network::IsDrivable(lane.type) || lane.direction == 0 || lane.traffic_ends) return;
-    if (!network.Successors(key).empty() || network.Predecessors(key).empty()) return;
+    if (!network.Successors(key).empty()) return;
     const End end = lane.direction < 0 ? End::kStart : End::kEnd;
     if (network.Span(key, StationOf(key, end))->width_m() < kLaneWidth_m) return;
     const auto target = TargetOf(key, end);
-    const bool in_junction = !network.roads()[key.road].spec().junction.empty();
-    if (!target && !in_junction) return;
     const network::RoadSpec& road = network.roads()[key.road].spec();
-    const auto junction = network.FindJunction(road.junction);
+    const bool in_junction = !road.junction.empty(),
+               in_middle = target && target->road == key.road && target->section != key.section;
+    if (!target && !in_junction) return;
     // A way off a road's middle may end where nothing is drawn, as in a yard.
-    if (junction && network.junctions()[*junction].type == "virtual" &&
-        !(end == End::kEnd ? road.successor : road.predecessor))
-      return;
-    Finding finding = At(key, end, "rodeira.lane.dead_end", "traffic is led onto the lane, and it goes on nowhere");
-    const auto next = target ? OnlyLaneAt({key, end}, *target) : std::nullopt;
+    const auto junction = network.FindJunction(road.junction);
+    const bool has_link = (end == End::kEnd ? road.successor : road.predecessor).has_value();
+    if (junction && network.junctions()[*junction].type == "virtual" && !has_link) return;
+    const bool is_led_onto = !network.Predecessors(key).empty();
+    Finding finding = At(key, end, std::string(kDeadEndRule),
+                         is_led_onto ? "traffic is led onto the lane, and it goes on nowhere"
+                                     : "the lane goes on nowhere, and another one begins there");
+    const auto next = target || !has_link ? NextOf({key, end}, target) : std::nullopt;
+    // Where traffic is not led onto it, both lanes miss the link.
+    if (!is_led_onto && !(next && network.Predecessors(next->lane).empty())) return;
     if (next && tolerance.repair) {
       finding.repair = repairs.FindLink({key, end}, *next);
       findings.errors.push_back(std::move(finding));
-    } else if (next || in_junction) {
+    } else if (is_led_onto && (next || in_junction || in_middle)) {
       findings.warnings.push_back(std::move(finding));
     }
   }
 
-  // The one lane that lies at a lane's end without a gap.
-  std::optional<LaneEnd> OnlyLaneAt(const LaneEnd& from, const Target& target) const {
-    std::optional<LaneEnd> only;
-    const network::LaneSection& section = network.roads()[target.road].spec().sections[target.section];
+  // The one lane that lies at a lane's end without a gap: of the section that its road goes on into, at the other end
+  // of that road, or of any road that ends there where its own road does not say where it goes on.
+  std::optional<LaneEnd> NextOf(const LaneEnd& from, const std::optional<Target>& target) const {
+    std::vector<LaneEnd> lying;
+    if (target) {
+      LanesAt(from, *target, lying);
+      const auto& link = from.end == End::kEnd ? network.roads()[from.lane.road].spec().successor
+                                               : network.roads()[from.lane.road].spec().predecessor;
+      if (lying.empty() && target->road != from.lane.road && link && !link->s_m)
+        LanesAt(from, EndOf(target->road, target->end == End::kEnd ? End::kStart : End::kEnd), lying);
+    } else {
+      for (std::uint32_t road = 0; road < network.roads().size(); ++road) {
+        if (road == from.lane.road || network.roads()[road].spec().junction == JunctionOf(from)) continue;
+        for (const End end : {End::kStart, End::kEnd}) LanesAt(from, EndOf(road, end), lying);
+      }
+    }
+    return lying.size() == 1 ? std::optional(lying.front()) : std::nullopt;
+  }
+
+  const std::string& JunctionOf(const LaneEnd& end) const { return network.roads()[end.lane.road].spec().junction; }
+  Target EndOf(std::uint32_t road, End end) const {
+    const auto last = static_cast<std::uint32_t>(network.roads()[road].spec().sections.size()) - 1;
+    return {road, end == End::kEnd ? last : 0, end};
+  }
+
+  void LanesAt(const LaneEnd& from, const Target& target, std::vector<LaneEnd>& lying) const {
+    const Road &road = network.roads()[from.lane.road], &other = network.roads()[target.road];
+    const auto plan = [](const Road& of, double s_m) { return of.axis().Evaluate(s_m).p_W; };
+    const network::LaneSection& section = other.spec().sections[target.section];
+    const double s_m = target.end == End::kStart ? section.s_m : section.end_s_m;
+    if ((plan(road, StationOf(from.lane, from.end)) - plan(other, s_m)).norm() > kFarAside_m) return;
     for (const auto* side : {&section.left, &section.right}) {
       for (const Lane& lane : *side) {
         const LaneEnd to{{target.road, target.section, lane.id}, target.end};
-        if (!network::IsDrivable(lane.type) ||
+        if (!network::IsDrivable(lane.type) || !repairs.LeadOn(from, to) ||
             network.Span(to.lane, StationOf(to.lane, to.end))->width_m() < kLaneWidth_m)
           continue;
-        const network::LaneMeeting meeting =
-            network::MeetingOf({&network.roads()[from.lane.road], from.lane.section, from.lane.lane, from.end},
-                               {&network.roads()[target.road], target.section, lane.id, target.end});
-        if (meeting.gap_m > kFound_m || !repairs.PassingOf(from, to).drivable) continue;
-        const bool leads_away = lane.direction == 0 || (lane.direction > 0) == (to.end == End::kStart);
-        if (!leads_away) continue;
-        if (only) return std::nullopt;
-        only = to;
+        const network::LaneMeeting meeting = network::MeetingOf({&road, from.lane.section, from.lane.lane, from.end},
+                                                                {&other, target.section, lane.id, target.end});
+        if (meeting.gap_m <= kFound_m && repairs.PassingOf(from, to).drivable) lying.push_back(to);
       }
     }
-    return only;
   }
 
   void JunctionLanes() const {

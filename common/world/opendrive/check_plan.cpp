@@ -40,6 +40,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
   const auto& elements = road.elements;
   const Tolerance strict = Tolerance::Strict();
   Source& source = *findings.source;
+  bool is_counted = true;  // each element begins where the one before ends
   const auto first_node = [&] { return Node(&source, road.lines.element_nodes.front()); };
   for (std::size_t i = 0; i < elements.size(); ++i) {
     const PlanElement& element = elements[i];
@@ -57,7 +58,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
       finding.rule = "road.geometry.elem_asc_order";
       finding.message = fmt::format("the first element begins at s {:.6g}; 0 was expected", element.s_m);
       Judge(finding, std::fabs(element.s_m), tolerance.gap_m, findings, [&] {
-        return Repair{"it begins with the road", {first_node().Set("s", "0")}};
+        return Repair{RepairKind::kStationMoved, "it begins with the road", {first_node().Set("s", "0")}};
       });
       continue;
     }
@@ -67,6 +68,7 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
     finding.message = fmt::format("the element before ends at s {:.9g}, this one begins at {:.9g}",
                                   before.s_m + before.length_m, element.s_m);
     Judge(finding, std::fabs(step), tolerance.gap_m, findings, [&] { return StationRepair(source, road, i); });
+    is_counted = is_counted && std::fabs(step) <= kBridgedAlong_m;
     const geometry::PlanPoint end = geometry::PlanAxis::End(before);
     const double gap = (end.p_W - element.start_W).norm();
     finding.rule = "road.geometry.contact_point";
@@ -92,8 +94,11 @@ void CheckPlan(const RoadReading& road, const Tolerance& tolerance, Findings& fi
                   road.spec.id,
                   {},
                   {}};
-  Judge(finding, std::fabs(road.spec.length_m - end), tolerance.gap_m, findings,
-        [&] { return LengthRepair(source, road); });
+  // Elements that are counted anew bring the road's length with them.
+  if (is_counted || !tolerance.repair) {
+    Judge(finding, std::fabs(road.spec.length_m - end), tolerance.gap_m, findings,
+          [&] { return LengthRepair(source, road); });
+  }
   for (std::size_t i = 0; i < road.spec.sections.size(); ++i) {
     const double s = road.spec.sections[i].s_m;
     finding = {"road.lane.lane_section.s", "", road.lines.sections[i], road.spec.id, std::nullopt, s};

@@ -46,12 +46,12 @@ struct RoadChecker {
 
   Repair LinkRepair(std::size_t road, End end) const {
     const Node link = RoadNode(road).Child("link").Child(end == End::kStart ? "predecessor" : "successor");
-    return {"the road ends there", {link.Remove()}};
+    return {RepairKind::kRoadEnded, "the road ends there", {link.Remove()}};
   }
 
   // An error, which is read as `done` says, or a warning.
-  void Judge(Finding finding, bool is_error, std::string done) const {
-    if (is_error) finding.repair.done = std::move(done);
+  void Judge(Finding finding, bool is_error, RepairKind kind, std::string done) const {
+    if (is_error) finding.repair = {kind, std::move(done)};
     (is_error ? findings.errors : findings.warnings).push_back(std::move(finding));
   }
 
@@ -66,7 +66,7 @@ struct RoadChecker {
     for (std::size_t i = 0; i < network.roads().size(); ++i) {
       if (++count[network.roads()[i].id()] == 2)
         findings.errors.push_back(At(i, "ids.id_unique_in_class", "this id stands at two roads", std::nullopt,
-                                     {"the second is left out", {RoadNode(i).Remove()}}));
+                                     {RepairKind::kRoadLeftOut, "the second is left out", {RoadNode(i).Remove()}}));
     }
     count.clear();
     for (const network::Junction& junction : network.junctions()) {
@@ -77,7 +77,7 @@ struct RoadChecker {
                                    "",
                                    {},
                                    {},
-                                   {"the ways of both count"}});
+                                   {RepairKind::kJunctionsMerged, "the ways of both count"}});
     }
   }
 
@@ -94,7 +94,8 @@ struct RoadChecker {
                          fmt::format("a kink of {:.4g} rad to the {} of road {}; {}", kink, Name(contact), other.id(),
                                      GapWords(kink, tolerance.kink_rad, Tolerance::Strict().kink_rad, "rad")),
                          s);
-    if (kink > kTurned_rad) Judge(std::move(finding), kink > tolerance.kink_rad, "it is driven as it lies");
+    if (kink > kTurned_rad)
+      Judge(std::move(finding), kink > tolerance.kink_rad, RepairKind::kKinkDriven, "it is driven as it lies");
   }
 
   // A road with an end that goes on into another road.
@@ -111,7 +112,7 @@ struct RoadChecker {
     // In and out of a junction the lanes meet, the reference lines need not.
     const bool in_junction = !road.spec().junction.empty() || !other.spec().junction.empty();
     if (gap > kGapRounding_m && !in_junction)
-      Judge(finding, gap > tolerance.gap_m, "lanes go on where their edges meet");
+      Judge(finding, gap > tolerance.gap_m, RepairKind::kLinksByLanes, "lanes go on where their edges meet");
     // Of the other road's links one should lead back. A connecting road is reached by way of the junction.
     const auto& back = LinkOf(other, contact);
     const bool means_us = back && !back->junction && back->id == road.id() && back->contact == end;
@@ -125,7 +126,7 @@ struct RoadChecker {
           "which road "
           "follows",
           Name(contact), other.id(), back->id);
-      Judge(finding, true, kByLanes);
+      Judge(finding, true, RepairKind::kLinksByLanes, kByLanes);
       return;
     }
     finding.rule = "road.linkage.both_ways";
@@ -156,7 +157,10 @@ struct RoadChecker {
         findings.errors.push_back(
             At(i, "junctions.id",
                fmt::format("the road belongs to junction {}, which is not in the file", road.spec().junction),
-               std::nullopt, {"it is read as a road outside of junctions", {RoadNode(i).Set("junction", "-1")}}));
+               std::nullopt,
+               {RepairKind::kJunctionLeft,
+                "it is read as a road outside of junctions",
+                {RoadNode(i).Set("junction", "-1")}}));
       }
     }
   }
@@ -196,7 +200,7 @@ struct RoadChecker {
           At(end.first, "road.linkage.is_junction_needed",
              fmt::format("roads {} and {} both go on into this road's {}: a junction is needed",
                          network.roads()[roads[0]].id(), network.roads()[roads[1]].id(), Name(end.second)),
-             StationOf(road, end.second), {kByLanes}));
+             StationOf(road, end.second), {RepairKind::kLinksByLanes, kByLanes}));
     }
   }
 
@@ -244,7 +248,7 @@ struct RoadChecker {
 }  // namespace
 
 void JudgeStep(Finding finding, double step_m, double most_m, Findings& findings) {
-  if (std::fabs(step_m) > most_m) finding.repair.done = "it stays, and wheels feel it";
+  if (std::fabs(step_m) > most_m) finding.repair = {RepairKind::kStepKept, "it stays, and wheels feel it"};
   if (std::fabs(step_m) > most_m)
     findings.errors.push_back(finding);
   else if (std::fabs(step_m) > kMinHeightStep_m)

@@ -85,7 +85,7 @@ class Stations {
     if (!at) return;
     if (*at < -kStationRounding_m)
       node.Wrong(rule, fmt::format("<{}> begins at {} {:.6g}; 0 or more was expected", node.name(), attribute, *at),
-                 {"it counts from there on"});
+                 {RepairKind::kIgnored, "it counts from there on"});
     if (*at > length_m + kStationRounding_m)
       told_.Add(node, rule,
                 fmt::format("<{}> begins at {} {:.6g}, behind the end of its {} ({:.6g} m): it counts nowhere",

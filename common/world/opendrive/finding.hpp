@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/world/opendrive/repair_kind.hpp"
+
 namespace rodeira::opendrive {
 
 // Bytes [begin, end) of a file's text give way to `text`.
@@ -18,8 +20,12 @@ struct Edit {
 
 // How an error is repaired. Without edits the file stays as it is, and the reader copes with it as `done` says.
 struct Repair {
-  std::string done;
+  RepairKind kind = RepairKind::kNone;
+  std::string done = {};
   std::vector<Edit> edits = {};
+  std::string element = {};  // of kElementDropped: the element that is taken out
+
+  std::string Name() const;  // "road.ended", "signal.dropped"; empty: nothing is done
 };
 
 // What is wrong with a file, and where. The rule is named as ASAM names it, without the version; rules of Rodeira's own

@@ -16,14 +16,15 @@ namespace {
 void ReadHeader(const Node& root, Import& import, network::NetworkSpec& spec) {
   const Node header = root.Child("header");
   if (!header) {
-    root.Wrong("core.header", "<OpenDRIVE> has no <header>", {"it is read as OpenDRIVE 1.8"});
+    root.Wrong("core.header", "<OpenDRIVE> has no <header>",
+               {RepairKind::kVersionAssumed, "it is read as OpenDRIVE 1.8"});
     return;
   }
   const int major = header.Integer("revMajor"), minor = header.Integer("revMinor");
   import.version = fmt::format("{}.{}", major, minor);
   if (major != 1 || minor < 1)
     header.Wrong("core.version", fmt::format("this is OpenDRIVE {}; 1.4 to 1.8 was expected", import.version),
-                 {"it is read as if it were 1.8"});
+                 {RepairKind::kVersionAssumed, "it is read as if it were 1.8"});
   if (major == 1 && (minor < 4 || minor > 8)) {
     import.warnings.push_back({"core.version",
                                fmt::format("this is OpenDRIVE {}; it is read as if it were 1.4 to 1.8", import.version),
@@ -60,7 +61,8 @@ bool MustStop(const std::vector<Finding>& errors, const Tolerance& tolerance) {
 // What is done about an error that nothing else is done about.
 Repair LeaveOut(const Finding& error, const Node& root) {
   for (const Node& road : root.Children("road")) {
-    if (!error.road.empty() && road.Text("id", "") == error.road) return {kLeftOut, {road.Remove()}};
+    if (!error.road.empty() && road.Text("id", "") == error.road)
+      return {RepairKind::kRoadLeftOut, kLeftOut, {road.Remove()}};
   }
   return {};
 }

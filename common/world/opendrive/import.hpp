@@ -58,6 +58,9 @@ base::Result<std::string> LoadText(const std::filesystem::path& path);
 base::Result<std::shared_ptr<const network::Network>> LoadNetwork(const std::filesystem::path& path,
                                                                   const Tolerance& tolerance = {});
 
+// Of lanes that traffic is led onto and that go on nowhere.
+inline constexpr std::string_view kDeadEndRule = "rodeira.lane.dead_end";
+
 // One sentence for each rule and what was done about it: the first place, and how many there are. In order of the
 // lines.
 std::vector<Finding> OneEachKind(const std::vector<Finding>& findings);

@@ -66,7 +66,7 @@ class Drawer {
                                 "",
                                 {},
                                 {},
-                                {"its roads keep their own heights"}});
+                                {RepairKind::kGridIgnored, "its roads keep their own heights"}});
   }
 
   void Add(const BoundarySegment& segment) {

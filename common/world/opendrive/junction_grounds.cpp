@@ -18,7 +18,7 @@ void Lay(const JunctionReading& reading, const Tolerance& tolerance, network::Ne
                                "",
                                {},
                                {},
-                               {"its roads keep their own heights"}});
+                               {RepairKind::kGridIgnored, "its roads keep their own heights"}});
   };
   if (junction.type != "default" && !junction.type.empty()) {
     wrong("junctions.boundary.only_for_common_junctions",

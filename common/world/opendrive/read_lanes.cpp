@@ -33,7 +33,7 @@ Repair RecordsInOrder(const std::vector<Node>& nodes) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return OffsetOf(nodes[a]) < OffsetOf(nodes[b]); });
-  return {"they are read in the order of sOffset", Reorder(nodes, order)};
+  return {RepairKind::kSorted, "they are read in the order of sOffset", Reorder(nodes, order)};
 }
 
 template <class Record, class Read>
@@ -185,11 +185,11 @@ void ReadBeside(const Node& node, Lane& lane) {
 Repair TypeRepair(const Node& node, const std::string& type) {
   const std::string nearest = base::NearestName(type, network::LaneTypeNames());
   const std::string read_as = nearest.empty() ? "none" : nearest;
-  return {fmt::format("it is read as '{}'", read_as), {node.Set("type", read_as)}};
+  return {RepairKind::kValueReplaced, fmt::format("it is read as '{}'", read_as), {node.Set("type", read_as)}};
 }
 
 Repair WithoutWidth(const Node& node) {
-  Repair repair{"it is passed over", {}};
+  Repair repair{RepairKind::kWidthDropped, "it is passed over", {}};
   for (const char* record : {"width", "border"}) {
     for (const Node& each : node.Children(record)) repair.edits.push_back(each.Remove());
   }
@@ -204,7 +204,7 @@ Repair IdRepair(const Node& group, const Lane& lane, int expected) {
     for (const Node& node : group.Children("lane")) {
       if (node.xml().attribute("id").as_int() == lane.id) same.push_back(node);
     }
-    return {"the first of them counts", {same.back().Remove()}};
+    return {RepairKind::kDuplicateDropped, "the first of them counts", {same.back().Remove()}};
   }
   std::string missing;
   for (int id = expected; std::abs(id) < std::abs(lane.id) && std::abs(id - expected) < kMostMissing;
@@ -212,7 +212,7 @@ Repair IdRepair(const Node& group, const Lane& lane, int expected) {
     missing += fmt::format(
         "<lane id=\"{}\" type=\"none\" level=\"false\"><width sOffset=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></lane>",
         id);
-  return {"a lane without width takes each id that is left out", {group.Append(missing)}};
+  return {RepairKind::kLaneAdded, "a lane without width takes each id that is left out", {group.Append(missing)}};
 }
 
 Lane ReadLane(const Node& node, const Around& around) {
@@ -267,7 +267,7 @@ std::vector<Lane> ReadSide(const Node& section_node, const char* side, const Aro
         node.Wrong("road.lane.id",
                    fmt::format("a lane on the {} has the id {}; one {} 0 was expected", side, lane.id,
                                left ? "above" : "below"),
-                   {"the lane is passed over", {node.Remove()}});
+                   {RepairKind::kLaneDropped, "the lane is passed over", {node.Remove()}});
         continue;
       }
       lanes.push_back(std::move(lane));
@@ -314,7 +314,8 @@ void TellBorders(const Node& section_node, const LaneSection& section, const Aro
 namespace {
 
 Repair OneCentre(const std::vector<Node>& centres) {
-  Repair repair{centres.empty() ? "one without marks is read" : "the first counts", {}};
+  Repair repair{RepairKind::kDuplicateDropped, "the first counts", {}};
+  if (centres.empty()) repair.kind = RepairKind::kCentreLaneAdded, repair.done = "one without marks is read";
   for (std::size_t i = 1; i < centres.size(); ++i) repair.edits.push_back(centres[i].Remove());
   return repair;
 }
@@ -325,9 +326,9 @@ Repair SectionsInOrder(const std::vector<Node>& nodes) {
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto s = [&](std::size_t i) { return nodes[i].xml().attribute("s").as_double(); };
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return s(a) < s(b); });
-  Repair repair{"they are read in the order of s", Reorder(nodes, order)};
+  Repair repair{RepairKind::kSorted, "they are read in the order of s", Reorder(nodes, order)};
   if (!repair.edits.empty()) return repair;
-  repair.done = "of sections at one s the last counts";
+  repair.kind = RepairKind::kDuplicateDropped, repair.done = "of sections at one s the last counts";
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     if (s(i) == s(i + 1)) repair.edits.push_back(nodes[i].Remove());
   }
@@ -344,7 +345,7 @@ std::optional<double> ReadSpeed(const Node& speed, const char* attribute) {
   const double factor = unit == "km/h" ? 1.0 / 3.6 : unit == "mph" ? 0.44704 : 1.0;
   if (unit != "m/s" && unit != "km/h" && unit != "mph")
     speed.Wrong("road.lane.speed", fmt::format("the unit is '{}'; m/s, km/h or mph was expected", unit),
-                {"it is read as m/s"});
+                {RepairKind::kValueReplaced, "it is read as m/s"});
   const double value = speed.Number(attribute) * factor;
   // A limit below 0 is how some tools say that there is none.
   return value < 0.0 ? std::numeric_limits<double>::infinity() : value;

@@ -30,7 +30,7 @@ void ReadParamPoly3(const Node& poly, PlanElement& element) {
   if (range != "normalized" && range != "arcLength") {
     poly.Wrong("road.geometry.paramPoly3.range",
                fmt::format("pRange is '{}'; arcLength or normalized was expected", range),
-               {"it is read as normalized", {poly.Set("pRange", "normalized")}});
+               {RepairKind::kValueReplaced, "it is read as normalized", {poly.Set("pRange", "normalized")}});
   }
   element.p_end = range == "arcLength" ? element.length_m : 1.0;
 }
@@ -48,7 +48,7 @@ void ReadKind(const Node& geometry, PlanElement& element) {
     ReadParamPoly3(poly, element);
   } else {
     geometry.Wrong("road.geometry.one_element", "<geometry> has none of line, arc, spiral, poly3 and paramPoly3",
-                   {"it is read as a line", {geometry.Append("<line/>")}});
+                   {RepairKind::kReadAsLine, "it is read as a line", {geometry.Append("<line/>")}});
   }
 }
 
@@ -58,7 +58,7 @@ Repair ElementsInOrder(const std::vector<Node>& nodes) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return nodes[a].xml().attribute("s").as_double() < nodes[b].xml().attribute("s").as_double();
   });
-  return {"they are read in the order of s", Reorder(nodes, order)};
+  return {RepairKind::kSorted, "they are read in the order of s", Reorder(nodes, order)};
 }
 
 // None of the road's elements has a length: the first is a line as long as the road.
@@ -74,7 +74,7 @@ void TellNoElements(const Node& road) {
   nodes.front().Wrong(
       "road.geometry.length",
       fmt::format("none of the road's {} elements has a length; the road is {:.6g} m long", nodes.size(), length_m),
-      {"it is read as a line of the road's length", std::move(edits)});
+      {RepairKind::kReadAsLine, "it is read as a line of the road's length", std::move(edits)});
 }
 
 }  // namespace
@@ -99,7 +99,7 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     }
     if (element.length_m < 0.0)
       geometry.Wrong("road.geometry.length", fmt::format("an element is {} m long", element.length_m),
-                     {"it is passed over", {geometry.Remove()}});
+                     {RepairKind::kElementDropped, "it is passed over", {geometry.Remove()}, "geometry"});
     if (!(element.length_m > 1e-9)) continue;  // nothing of it can be driven on
     ReadKind(geometry, element);
     if (!elements.empty() && element.s_m < elements.back().s_m) {

@@ -65,9 +65,9 @@ bool Same(const std::vector<Node>& a, const std::vector<Node>& b) {
 void TellSecondProfile(const std::vector<Node>& first, const std::vector<Node>& second, double s_m) {
   Within within(second.front().source());
   second.front().source().where.s_m = s_m;
-  Repair repair{"the later one counts from there on", {}};
+  Repair repair{RepairKind::kStepKept, "the later one counts from there on", {}};
   if (Same(first, second)) {
-    repair.done = "the second, which is the same, is passed over";
+    repair.kind = RepairKind::kDuplicateDropped, repair.done = "the second, which is the same, is passed over";
     for (const Node& record : second) repair.edits.push_back(record.Remove());
   }
   second.front().Wrong("road.lateral.shape.elem_asc_order",
@@ -91,7 +91,7 @@ void ReadShapes(const Node& profile, network::LateralProfile& lateral) {
       });
       shape.Wrong("road.lateral.shape.elem_asc_order",
                   fmt::format("<shape> of s {:.6g} stands behind one of s {:.6g}", s, before),
-                  {"they are read in the order of s", Reorder(nodes, order)});
+                  {RepairKind::kSorted, "they are read in the order of s", Reorder(nodes, order)});
       said = true;
     }
     before = s;

@@ -52,7 +52,7 @@ Repair LengthByElements(const Node& road) {
   for (const Node& element : road.Child("planView").Children("geometry"))
     length_m += element.xml().attribute("length").as_double();
   if (!(length_m > 0.0)) return TakeOut(road);
-  return {"it is as long as its elements", {road.Set("length", fmt::format("{}", length_m))}};
+  return {RepairKind::kLengthSet, "it is as long as its elements", {road.Set("length", fmt::format("{}", length_m))}};
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ RoadReading ReadRoad(const Node& road) {
   const std::string rule = road.Text("rule", "RHT");
   if (rule != "RHT" && rule != "LHT")
     road.Wrong("road.rule", fmt::format("rule is '{}'; RHT or LHT was expected", rule),
-               {"it is read as RHT", {road.Set("rule", "RHT")}});
+               {RepairKind::kValueReplaced, "it is read as RHT", {road.Set("rule", "RHT")}});
   spec.left_hand = rule == "LHT";
   const std::size_t before = road.source().errors.size();
   spec.length_m = road.Number("length");

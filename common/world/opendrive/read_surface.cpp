@@ -60,6 +60,19 @@ void ReadGoesOn(const Node& data, network::CrgSurface& crg) {
   crg.s_end_m += behind_m;
 }
 
+// A surface that reaches beyond its road is cut at the road's ends. Its own u stays where it is on the road.
+Repair CutStretch(const Node& node, const network::CrgSurface& crg, double length_m) {
+  const double begin_m = std::max(crg.s_start_m, 0.0), end_m = std::min(crg.s_end_m, length_m);
+  if (!(end_m - begin_m > kNear_m)) return TakeOut(node);
+  Repair repair{RepairKind::kSurfaceCut, "it is cut at the road's end", {}};
+  if (begin_m != crg.s_start_m) {
+    repair.edits.push_back(node.Set("sStart", fmt::format("{}", begin_m)));
+    repair.edits.push_back(node.Set("sOffset", fmt::format("{}", crg.s_offset_m + begin_m - crg.s_start_m)));
+  }
+  if (end_m != crg.s_end_m) repair.edits.push_back(node.Set("sEnd", fmt::format("{}", end_m)));
+  return repair;
+}
+
 // That the stretch lies on the road. A line of its own (genuine) has its own length.
 void CheckStretch(const Node& node, const network::CrgSurface& crg, double length_m) {
   if (crg.mode == "genuine" ||
@@ -69,7 +82,8 @@ void CheckStretch(const Node& node, const network::CrgSurface& crg, double lengt
       "road.surface.crg.s",
       fmt::format(
           "the measured surface '{}' lies from s = {} to {}; two places on the road, which is {} m long, were expected",
-          crg.file, crg.s_start_m, crg.s_end_m, length_m));
+          crg.file, crg.s_start_m, crg.s_end_m, length_m),
+      CutStretch(node, crg, length_m));
 }
 
 }  // namespace

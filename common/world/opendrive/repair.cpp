@@ -47,7 +47,7 @@ void LeaveOutRoads(const std::string& text, std::vector<Finding>& errors) {
     for (const pugi::xml_node road : document.document_element().children("road")) {
       if (error.road != road.attribute("id").value()) continue;
       const auto begin = static_cast<std::size_t>(road.offset_debug()) - 1;
-      error.repair = {kLeftOut, {{begin, ElementEnd(text, begin), ""}}};
+      error.repair = {RepairKind::kRoadLeftOut, kLeftOut, {{begin, ElementEnd(text, begin), ""}}};
       break;
     }
   }
@@ -93,7 +93,7 @@ base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& pa
     read.errors.clear();
     ByLine(repaired);
     if (!refused.empty()) {  // roads that were left out are told first
-      std::erase_if(repaired, [](const Finding& finding) { return finding.repair.done != kLeftOut; });
+      std::erase_if(repaired, [](const Finding& finding) { return finding.repair.kind != RepairKind::kRoadLeftOut; });
       read.network = nullptr;
       for (Finding& finding : repaired) finding.repair.done.clear();
       read.errors = std::move(repaired);
@@ -113,8 +113,7 @@ std::vector<Finding> OneEachKind(const std::vector<Finding>& findings) {
   std::vector<Finding> kinds;
   std::map<std::pair<std::string, std::string>, std::pair<std::size_t, int>> of;
   for (const Finding& finding : findings) {
-    // What was done may name lanes and lengths; its first words tell the kind.
-    const std::string done = finding.repair.done.substr(0, 12);
+    const std::string done = finding.repair.Name();
     // Of what is only told without a place the sentence is the kind: an element that is not read.
     const bool has_place = !finding.road.empty() || finding.s_m || finding.lane;
     const auto [at, is_new] =

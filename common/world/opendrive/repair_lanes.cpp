@@ -46,8 +46,10 @@ LaneMouth LaneMouthOf(const network::Network& network, const LaneEnd& end) {
   const double high = std::max(span.inner_t_m, span.outer_t_m), low = std::min(span.inner_t_m, span.outer_t_m);
   const Eigen::Vector2d upper = road.Surface(s, high, section, span).p_W.head<2>(),
                         lower = road.Surface(s, low, section, span).p_W.head<2>();
+  // Within a bend that is sharper than the lane lies aside the lane's middle runs backward; a car does not.
+  const Eigen::Vector2d along = (at.ds_W + slope * at.dt_W).head<2>(), tangent = road.axis().Evaluate(s).tangent_W;
   return {way > 0.0 ? upper : lower, way > 0.0 ? lower : upper,
-          (way * (at.ds_W + slope * at.dt_W)).head<2>().normalized()};
+          way * (along.dot(tangent) > 0.0 ? along.normalized() : tangent)};
 }
 
 }  // namespace
@@ -96,8 +98,10 @@ LaneRepairs::Passing LaneRepairs::PassingOf(const LaneEnd& from, const LaneEnd& 
            kTurnsRound_rad;
   };
   const double most_rad = turns_round(from) || turns_round(to) ? kDrivenKinkTurning_rad : kDrivenKink_rad;
+  // Of wide lanes that meet with a kink one edge meets, and the other leaves a wedge.
+  const double wedge_m = 0.5 * std::min(here.width_m(), there.width_m()) * std::sin(std::min(passing.kink_rad, 1.0));
   passing.drivable =
-      passing.kink_rad <= most_rad && passing.ahead_m <= kDrivenAhead_m && shared >= std::min(needed, 1e3);
+      passing.kink_rad <= most_rad && passing.ahead_m <= kDrivenAhead_m + wedge_m && shared >= std::min(needed, 1e3);
   return passing;
 }
 
@@ -115,7 +119,7 @@ double LaneRepairs::GapToAll(const LaneEnd& from, std::span<const LaneEnd> to) c
 }
 
 Repair LaneRepairs::DropLink(const LaneKey& lane, End end, int id) const {
-  Repair repair{"the link is dropped", {}};
+  Repair repair{RepairKind::kLinkDropped, "the link is dropped", {}};
   for (const Node& link : LaneNode(lane).Child("link").Children(Word(end))) {
     if (link.xml().attribute("id").as_int() == id) repair.edits.push_back(link.Remove());
   }
@@ -124,7 +128,7 @@ Repair LaneRepairs::DropLink(const LaneKey& lane, End end, int id) const {
 
 Repair LaneRepairs::DropLaneLink(const network::JunctionConnection& connection,
                                  const network::JunctionLaneLink& link) const {
-  Repair repair{"the way is dropped", {}};
+  Repair repair{RepairKind::kLaneLinkDropped, "the way is dropped", {}};
   const auto found = between_.find({connection.incoming_road, connection.connecting_road});
   if (found == between_.end()) return repair;
   for (const Node& each : found->second) {
@@ -137,7 +141,7 @@ Repair LaneRepairs::DropLaneLink(const network::JunctionConnection& connection,
 }
 
 Repair LaneRepairs::DropConnection(std::size_t junction, std::size_t connection) const {
-  return {"the connection is dropped", {connections_[junction][connection].Remove()}};
+  return {RepairKind::kConnectionDropped, "the connection is dropped", {connections_[junction][connection].Remove()}};
 }
 
 void LaneRepairs::Unlink(const LaneEnd& from, const LaneEnd& to, std::vector<Edit>& edits) const {
@@ -161,7 +165,8 @@ void LaneRepairs::Unlink(const LaneEnd& from, const LaneEnd& to, std::vector<Edi
 
 Repair LaneRepairs::DropConnectingRoad(std::uint32_t index) const {
   const network::RoadSpec& spec = network_.roads()[index].spec();
-  Repair repair{fmt::format("the way over road {} is dropped: no car can drive it", spec.id),
+  Repair repair{RepairKind::kConnectingRoadDropped,
+                fmt::format("the way over road {} is dropped: no car can drive it", spec.id),
                 {Node(&source_, lines_[index].node).Remove()}};
   const auto junction = network_.FindJunction(spec.junction);
   if (!junction) return repair;
@@ -189,28 +194,76 @@ Repair LaneRepairs::DropConnectingRoad(std::uint32_t index) const {
   return repair;
 }
 
-std::optional<Repair> LaneRepairs::TurnContact(const LaneEnd& from, const LaneEnd& to) const {
+bool LaneRepairs::LeadOn(const LaneEnd& from, const LaneEnd& to) const {
+  // 1: traffic leaves the lane at this end; -1: it enters there; 0: both.
+  const auto leaves = [&](const LaneEnd& at) {
+    const int direction = network_.Find(at.lane)->direction;
+    return at.end == End::kEnd ? direction : -direction;
+  };
+  return leaves(from) == 0 || leaves(to) == 0 || leaves(from) != leaves(to);
+}
+
+std::optional<LaneEnd> LaneRepairs::MeantBy(const LaneEnd& from, const LaneEnd& to) const {
+  const network::RoadSpec& other = network_.roads()[to.lane.road].spec();
+  const auto last = static_cast<std::uint32_t>(other.sections.size()) - 1;
+  std::vector<LaneEnd> lying;
+  const auto add = [&](std::uint32_t section, End end) {
+    for (const auto* side : {&other.sections[section].left, &other.sections[section].right}) {
+      for (const network::Lane& lane : *side) {
+        const LaneEnd found{{to.lane.road, section, lane.id}, end};
+        if (network::IsDrivable(lane.type) && found != to && LeadOn(from, found) && PassingOf(from, found).drivable)
+          lying.push_back(found);
+      }
+    }
+  };
+  if (from.lane.road == to.lane.road) {
+    if (from.lane.section != to.lane.section) add(to.lane.section, to.end);
+  } else if (to.lane.section == (to.end == End::kEnd ? last : 0)) {
+    add(0, End::kStart);
+    add(last, End::kEnd);
+  }
+  if (lying.size() > 1)
+    std::erase_if(lying, [&](const LaneEnd& each) { return GapToAll(from, {&each, 1}) > kFound_m; });
+  return lying.size() == 1 ? std::optional(lying.front()) : std::nullopt;
+}
+
+std::optional<Repair> LaneRepairs::Relink(const LaneEnd& from, const LaneEnd& to) const {
+  const std::optional<LaneEnd> found = MeantBy(from, to);
+  if (!found) return std::nullopt;
   const network::RoadSpec &spec = network_.roads()[from.lane.road].spec(),
                           &other = network_.roads()[to.lane.road].spec();
-  const End end = to.end == End::kEnd ? End::kStart : End::kEnd;
-  const auto last = static_cast<std::uint32_t>(other.sections.size()) - 1;
-  if (from.lane.road == to.lane.road || to.lane.section != (to.end == End::kEnd ? last : 0)) return std::nullopt;
-  const LaneEnd turned{{to.lane.road, end == End::kEnd ? last : 0, to.lane.lane}, end};
-  const network::Lane* lane = network_.Find(turned.lane);
-  if (lane == nullptr || !network::IsDrivable(lane->type) || !PassingOf(from, turned).drivable ||
-      GapToAll(from, std::span(&turned, 1)) > kBridgedAcross_m)
-    return std::nullopt;
-  Repair repair{"the road is met at its other end", {}};
-  const char* word = end == End::kEnd ? "end" : "start";
+  const std::string lane = std::to_string(found->lane.lane);
+  const bool inner = from.lane.road == to.lane.road;
+  Repair repair{
+      RepairKind::kLinkMoved, fmt::format("it goes on as lane {} of road {}, which lies there", lane, other.id), {}};
+  if (found->end != to.end) repair.kind = RepairKind::kContactTurned, repair.done = "the road is met at its other end";
+  const auto renumber = [&](const Node& node, const char* attribute, int id) {
+    if (found->lane.lane != id && node.xml().attribute(attribute).as_int() == id)
+      repair.edits.push_back(node.Set(attribute, lane));
+  };
+  const char* word = found->end == End::kEnd ? "end" : "start";
   const auto& link = from.end == End::kEnd ? spec.successor : spec.predecessor;
-  if (link && !link->junction && link->id == other.id && link->contact == to.end) {
+  const bool by_road = link && !link->junction && !link->s_m && link->id == other.id && link->contact == to.end;
+  if (by_road && found->end != to.end && !inner) {
     const Node node = Node(&source_, lines_[from.lane.road].node).Child("link").Child(Word(from.end));
     repair.edits.push_back(node.Set("contactPoint", word));
   }
-  if (const auto found = between_.find({spec.id, other.id}); found != between_.end()) {
-    for (const Node& connection : found->second) {
-      if ((connection.Text("contactPoint", "start") == "end") == (to.end == End::kEnd))
-        repair.edits.push_back(connection.Set("contactPoint", word));
+  if (by_road || inner) {
+    for (const Node& node : LaneNode(from.lane).Child("link").Children(Word(from.end)))
+      renumber(node, "id", to.lane.lane);
+    // The other lane no longer leads back.
+    const auto& back = to.end == End::kEnd ? other.successor : other.predecessor;
+    if (inner || (back && !back->junction && back->id == spec.id && back->contact == from.end)) {
+      for (const Edit& edit : DropLink(to.lane, to.end, from.lane.lane).edits) repair.edits.push_back(edit);
+    }
+  }
+  if (const auto ways = between_.find({spec.id, other.id}); ways != between_.end()) {
+    for (const Node& connection : ways->second) {
+      if ((connection.Text("contactPoint", "start") == "end") != (to.end == End::kEnd)) continue;
+      if (found->end != to.end) repair.edits.push_back(connection.Set("contactPoint", word));
+      for (const Node& pair : connection.Children("laneLink")) {
+        if (pair.xml().attribute("from").as_int() == from.lane.lane) renumber(pair, "to", to.lane.lane);
+      }
     }
   }
   return repair.edits.empty() ? std::nullopt : std::optional(std::move(repair));
@@ -218,10 +271,10 @@ std::optional<Repair> LaneRepairs::TurnContact(const LaneEnd& from, const LaneEn
 
 Repair LaneRepairs::GapRepair(const LaneEnd& from, const LaneEnd& to) const {
   const Passing passing = PassingOf(from, to);
-  if (passing.drivable) return {fmt::format("it is driven, {:.2g} m aside", passing.aside_m)};
+  if (passing.drivable) return {RepairKind::kGapDriven, fmt::format("it is driven, {:.2g} m aside", passing.aside_m)};
   if (source_.repairs() < kMostTurned) {
-    if (auto turned = TurnContact(from, to)) return *turned;
-    if (auto turned = TurnContact(to, from)) return *turned;
+    if (auto moved = Relink(from, to)) return *moved;
+    if (auto moved = Relink(to, from)) return *moved;
   }
   for (const LaneEnd* end : {&from, &to}) {
     const network::RoadSpec& spec = network_.roads()[end->lane.road].spec();
@@ -234,13 +287,14 @@ Repair LaneRepairs::GapRepair(const LaneEnd& from, const LaneEnd& to) const {
     if (drivable(spec.sections.front()) == 1 && drivable(spec.sections.back()) == 1)
       return DropConnectingRoad(end->lane.road);
   }
-  Repair repair{"the lane ends there", {}};
+  Repair repair{RepairKind::kLaneEnded, "the lane ends there", {}};
   Unlink(from, to, repair.edits);
   return repair;
 }
 
 Repair LaneRepairs::FindLink(const LaneEnd& from, const LaneEnd& to) const {
-  Repair repair{fmt::format("it goes on as lane {} of road {}, which lies there", to.lane.lane,
+  Repair repair{RepairKind::kLinkFound,
+                fmt::format("it goes on as lane {} of road {}, which lies there", to.lane.lane,
                             network_.roads()[to.lane.road].id()),
                 {}};
   const auto add = [&](const LaneEnd& a, const LaneEnd& b) {
@@ -259,7 +313,18 @@ Repair LaneRepairs::FindLink(const LaneEnd& from, const LaneEnd& to) const {
     }
   };
   add(from, to);
-  const network::RoadSpec& other = network_.roads()[to.lane.road].spec();
+  const network::RoadSpec &spec = network_.roads()[from.lane.road].spec(),
+                          &other = network_.roads()[to.lane.road].spec();
+  const auto& link = from.end == End::kEnd ? spec.successor : spec.predecessor;
+  if (!link && from.lane.road != to.lane.road) {
+    const Node road(&source_, lines_[from.lane.road].node), links = road.Child("link");
+    const std::string xml = fmt::format("<{} elementType=\"road\" elementId=\"{}\" contactPoint=\"{}\"/>",
+                                        Word(from.end), other.id, to.end == End::kEnd ? "end" : "start");
+    repair.edits.push_back(links ? links.Append(xml) : road.Insert("<link>" + xml + "</link>"));
+  } else if (link && !link->junction && link->contact != to.end && from.lane.road != to.lane.road) {
+    const Node node = Node(&source_, lines_[from.lane.road].node).Child("link").Child(Word(from.end));
+    repair.edits.push_back(node.Set("contactPoint", to.end == End::kEnd ? "end" : "start"));
+  }
   const auto& back = to.end == End::kEnd ? other.successor : other.predecessor;
   const bool inner = from.lane.road == to.lane.road && from.lane.section != to.lane.section;
   if (inner || (back && !back->junction && back->id == network_.roads()[from.lane.road].id())) add(to, from);

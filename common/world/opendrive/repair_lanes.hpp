@@ -15,6 +15,8 @@
 // How links of lanes are repaired.
 namespace rodeira::opendrive {
 
+inline constexpr double kFound_m = 0.1;  // the lane that lies nearer is meant
+
 class LaneRepairs {
  public:
   LaneRepairs(const network::Network& network, std::span<const RoadLines> lines, Source& source);
@@ -26,8 +28,11 @@ class LaneRepairs {
   Repair DropConnection(std::size_t junction, std::size_t connection) const;
   // Two lanes that go on into one another with a gap between their edges: kept where a car can drive it.
   Repair GapRepair(const network::LaneEnd& from, const network::LaneEnd& to) const;
-  // A lane that goes on nowhere at one end, where exactly one lane lies there: a link to that. Nothing done otherwise.
+  // A lane that goes on nowhere at one end, where exactly one lane lies there: a link to that, and one of its road
+  // where that has none or names the wrong end.
   Repair FindLink(const network::LaneEnd& from, const network::LaneEnd& to) const;
+  // Whether traffic that leaves one lane at its end enters the other, or the other way round.
+  bool LeadOn(const network::LaneEnd& from, const network::LaneEnd& to) const;
   // Whether a car can go from one lane's end into the other, and how far that is aside.
   struct Passing {
     bool drivable = false;
@@ -41,8 +46,10 @@ class LaneRepairs {
  private:
   Node LaneNode(const network::LaneKey& key) const;
   void Unlink(const network::LaneEnd& from, const network::LaneEnd& to, std::vector<Edit>& edits) const;
-  // Where a file names the wrong end of a road: the lane meets the other one without a gap.
-  std::optional<Repair> TurnContact(const network::LaneEnd& from, const network::LaneEnd& to) const;
+  // The only lane of the road that a wrong link names onto which a car can go on, at either end of that road.
+  std::optional<network::LaneEnd> MeantBy(const network::LaneEnd& from, const network::LaneEnd& to) const;
+  // Where a file names the wrong end of a road, or the wrong one of its lanes: the lane that lies there.
+  std::optional<Repair> Relink(const network::LaneEnd& from, const network::LaneEnd& to) const;
   // Takes a connecting road of one lane out, and the links of roads that go on nowhere else.
   Repair DropConnectingRoad(std::uint32_t road) const;
 

@@ -23,7 +23,9 @@ double EndOf(const PlanElement& element) { return element.s_m + element.length_m
 Repair EndAfter(Source& source, const RoadReading& road, std::size_t last) {
   const double end_m = EndOf(road.elements[last]);
   const Node node(&source, road.lines.node);
-  Repair repair{fmt::format("the road ends there, at s {:.6g}", end_m), {node.Set("length", fmt::format("{}", end_m))}};
+  Repair repair{RepairKind::kRoadEnded,
+                fmt::format("the road ends there, at s {:.6g}", end_m),
+                {node.Set("length", fmt::format("{}", end_m))}};
   for (std::size_t i = last + 1; i < road.elements.size(); ++i)
     repair.edits.push_back(Node(&source, road.lines.element_nodes[i]).Remove());
   for (std::size_t i = 1; i < road.spec.sections.size(); ++i) {
@@ -59,6 +61,36 @@ std::string Bridge(double s_m, double length_m, const geometry::PlanPoint& from,
       Numbers(element), far, 3.0 * u - 2.0 * far - out_u, far + out_u - 2.0 * u, 3.0 * v - out_v, out_v - 2.0 * v);
 }
 
+// The first part of a cubic element, `length_m` long. Its own stations go with the curve's length.
+PlanElement FirstPart(const PlanElement& cubic, double length_m) {
+  const double wanted_m = geometry::CubicLength(cubic, cubic.p_end) * length_m / cubic.length_m;
+  double low = 0.0, high = cubic.p_end;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (geometry::CubicLength(cubic, middle) < wanted_m ? low : high) = middle;
+  }
+  PlanElement part = cubic;
+  part.length_m = length_m, part.p_end = 1.0;
+  double power = 1.0;
+  for (std::size_t i = 0; i < 4; ++i, power *= low) part.u[i] *= power, part.v[i] *= power;
+  return part;
+}
+
+std::string KindText(const PlanElement& element) {
+  if (element.kind == PlanElement::Kind::kCubic) {
+    const auto &u = element.u, &v = element.v;
+    return fmt::format(
+        "<paramPoly3 pRange=\"normalized\" aU=\"{}\" bU=\"{}\" cU=\"{}\" dU=\"{}\" aV=\"{}\" bV=\"{}\" cV=\"{}\" "
+        "dV=\"{}\"/>",
+        u[0], u[1], u[2], u[3], v[0], v[1], v[2], v[3]);
+  }
+  if (element.curvature_start_1pm != element.curvature_end_1pm)
+    return fmt::format("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", element.curvature_start_1pm,
+                       element.curvature_end_1pm);
+  if (element.curvature_start_1pm != 0.0) return fmt::format("<arc curvature=\"{}\"/>", element.curvature_start_1pm);
+  return "<line/>";
+}
+
 }  // namespace
 
 Repair GapRepair(Source& source, const RoadReading& road, std::size_t next) {
@@ -71,36 +103,38 @@ Repair GapRepair(Source& source, const RoadReading& road, std::size_t next) {
     return EndAfter(source, road, next - 1);
   const std::string done = "it is bridged";
   const Node node(&source, road.lines.element_nodes[next - 1]);
-  if (before.length_m <= kBridge_m || before.kind == PlanElement::Kind::kCubic) {
-    if (before.kind == PlanElement::Kind::kCubic && before.length_m > 2.0 * kBridge_m) return {done};
+  const bool is_cubic = before.kind == PlanElement::Kind::kCubic;
+  if (before.length_m <= (is_cubic ? 2.0 : 1.0) * kBridge_m) {
     geometry::PlanPoint start;
     start.p_W = before.start_W, start.heading_rad = HeadingOf(before);
-    return {done, {node.Replace(Bridge(before.s_m, before.length_m, start, element))}};
+    return {RepairKind::kGapBridged, done, {node.Replace(Bridge(before.s_m, before.length_m, start, element))}};
   }
   PlanElement kept = before;
-  kept.length_m = before.length_m - kBridge_m;
-  kept.curvature_end_1pm = before.curvature_start_1pm +
-                           (before.curvature_end_1pm - before.curvature_start_1pm) * kept.length_m / before.length_m;
-  std::string kind = "<line/>";
-  if (kept.curvature_start_1pm != kept.curvature_end_1pm)
-    kind = fmt::format("<spiral curvStart=\"{}\" curvEnd=\"{}\"/>", kept.curvature_start_1pm, kept.curvature_end_1pm);
-  else if (kept.curvature_start_1pm != 0.0)
-    kind = fmt::format("<arc curvature=\"{}\"/>", kept.curvature_start_1pm);
-  return {done,
-          {node.Replace(fmt::format("<geometry {}>{}</geometry>", Numbers(kept), kind) +
+  if (is_cubic) {
+    kept = FirstPart(before, before.length_m - kBridge_m);
+  } else {
+    kept.length_m = before.length_m - kBridge_m;
+    kept.curvature_end_1pm = before.curvature_start_1pm +
+                             (before.curvature_end_1pm - before.curvature_start_1pm) * kept.length_m / before.length_m;
+  }
+  return {RepairKind::kGapBridged,
+          done,
+          {node.Replace(fmt::format("<geometry {}>{}</geometry>", Numbers(kept), KindText(kept)) +
                         Bridge(EndOf(kept), kBridge_m, geometry::PlanAxis::End(kept), element))}};
 }
 
 Repair KinkRepair(Source& source, const RoadReading& road, std::size_t next, double kink_rad) {
   if (kink_rad > kFolded_rad) return EndAfter(source, road, next - 1);
-  return {fmt::format("it is driven within 1 m, with a radius of {:.3g} m", 1.0 / kink_rad)};
+  return {RepairKind::kKinkRounded,
+          fmt::format("it is driven within 1 m, with a mean radius of {:.3g} m", 1.0 / kink_rad)};
 }
 
 Repair StationRepair(Source& source, const RoadReading& road, std::size_t next) {
   const PlanElement &before = road.elements[next - 1], &element = road.elements[next];
-  if (std::fabs(element.s_m - EndOf(before)) <= kBridgedAlong_m) return {"it counts from there on"};
+  if (std::fabs(element.s_m - EndOf(before)) <= kBridgedAlong_m)
+    return {RepairKind::kIgnored, "it counts from there on"};
   // Where the line itself goes on, the stations behind are counted anew.
-  Repair repair{"the elements behind are counted on", {}};
+  Repair repair{RepairKind::kStationMoved, "the elements behind are counted on", {}};
   double s_m = EndOf(before);
   for (std::size_t i = next; i < road.elements.size(); ++i) {
     repair.edits.push_back(Node(&source, road.lines.element_nodes[i]).Set("s", fmt::format("{}", s_m)));
@@ -120,22 +154,25 @@ Repair CubicRepair(Source& source, const RoadReading& road, std::size_t index) {
     const double curve_m = geometry::CubicLength(element, other_end);
     if (std::fabs(curve_m - element.length_m) <= kSameLength * element.length_m) {
       const char* range = by_length ? "normalized" : "arcLength";
-      return {fmt::format("its range is read as '{}', by which it is", range), {cubic.Set("pRange", range)}};
+      return {RepairKind::kRangeSwapped,
+              fmt::format("its range is read as '{}', by which it is", range),
+              {cubic.Set("pRange", range)}};
     }
   }
   return TakeOut(node);
 }
 
 Repair LengthRepair(Source& source, const RoadReading& road) {
-  return {"the elements count",
+  return {RepairKind::kLengthSet,
+          "the elements count",
           {Node(&source, road.lines.node).Set("length", fmt::format("{}", EndOf(road.elements.back())))}};
 }
 
 Repair SectionRepair(Source& source, const RoadReading& road, std::size_t section) {
   if (!road.lines.section_nodes[section]) return {};
   const Node node(&source, road.lines.section_nodes[section]);
-  if (section == 0) return {"it begins with the road", {node.Set("s", "0")}};
-  return {"the section is passed over", {node.Remove()}};
+  if (section == 0) return {RepairKind::kStationMoved, "it begins with the road", {node.Set("s", "0")}};
+  return {RepairKind::kSectionDropped, "the section is passed over", {node.Remove()}};
 }
 
 }  // namespace rodeira::opendrive

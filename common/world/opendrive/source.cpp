@@ -19,7 +19,50 @@ std::string_view Trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+constexpr double kLargest = 1e15;
+// A record that is in force for 1e-15 m may have such a coefficient; its values are what CheckMeasures bounds.
+constexpr double kLargestCoefficient = 1e60;
+
+// A whole text that is a finite number of at most `most`.
+std::optional<double> NumberOf(std::string_view text, double most) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (text.empty() || result.ptr != end) return std::nullopt;
+  // Underflow is a number all the same.
+  if (result.ec == std::errc::result_out_of_range)
+    return text.find("e-") == std::string_view::npos ? std::nullopt : std::optional(0.0);
+  if (!std::isfinite(value) || std::fabs(value) > most) return std::nullopt;
+  return value;
+}
+
+// The number that a text with a slip begins with: with a decimal comma, an exponent without its letter ("1.5+3"), or
+// something behind it ("3.5m"). Empty: it begins with none.
+std::string MeantNumber(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto length = static_cast<std::size_t>(result.ptr - text.data());
+  if (result.ec != std::errc() || length == 0 || !std::isfinite(value)) return {};
+  std::string meant(text.substr(0, length));
+  const std::string_view rest = text.substr(length);
+  const auto digits = [](std::string_view of) {
+    return !of.empty() && of.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (rest.size() > 1 && digits(rest.substr(1))) {
+    if (rest[0] == ',' && meant.find_first_of(".eE") == std::string::npos)
+      return meant + "." + std::string(rest.substr(1));
+    if ((rest[0] == '+' || rest[0] == '-') && meant.find('.') != std::string::npos &&
+        meant.find_first_of("eE") == std::string::npos)
+      return meant + "e" + std::string(rest);
+  }
+  return meant;
+}
+
 }  // namespace
+
+std::string Repair::Name() const { return element.empty() ? std::string(NameOf(kind)) : element + ".dropped"; }
 
 std::string Finding::Text() const {
   std::string place;
@@ -107,11 +150,6 @@ void Source::Wrong(std::string_view rule, std::string message, std::size_t line,
         {std::string(rule), std::move(message), line, where.road, where.lane, where.s_m, std::move(repair)});
 }
 
-void Source::Note(std::string_view rule, std::string message, std::size_t line, std::string done) {
-  warnings.push_back(
-      {std::string(rule), std::move(message), line, where.road, where.lane, where.s_m, {std::move(done)}});
-}
-
 std::size_t Node::line() const { return source_->LineAt(node_.offset_debug()); }
 
 void Node::Wrong(std::string_view rule, std::string message) const { Wrong(rule, std::move(message), TakeOut(*this)); }
@@ -142,17 +180,17 @@ Repair TakeOut(const Node& node) {
   for (const char* curve : {"arc", "spiral", "poly3", "paramPoly3"}) {
     const Node kind = std::string_view(at.name()) == curve ? node : node.Child(curve);
     if (kind && std::string_view(kind.xml().parent().name()) == "geometry")
-      return {"it is read as a line", {kind.Replace("<line/>")}};
+      return {RepairKind::kReadAsLine, "it is read as a line", {kind.Replace("<line/>")}};
   }
   while (at && std::find(kNeeded.begin(), kNeeded.end(), std::string_view(at.name())) != kNeeded.end())
     at = at.parent();
   if (std::string_view(at.name()) == "junction" && at != node.xml()) at = at.child("planView");
   const std::string_view name = at.name();
-  if (name == "header") return {"it is passed over"};
+  if (name == "header") return {RepairKind::kHeaderIgnored, "it is passed over"};
   if (!at || name == "OpenDRIVE") return {};
   const Node taken(&node.source(), at);
-  if (name == "road") return {kLeftOut, {taken.Remove()}};
-  return {fmt::format("<{}> is passed over", name), {taken.Remove()}};
+  if (name == "road") return {RepairKind::kRoadLeftOut, kLeftOut, {taken.Remove()}};
+  return {RepairKind::kElementDropped, fmt::format("<{}> is passed over", name), {taken.Remove()}, std::string(name)};
 }
 
 std::vector<Edit> Reorder(const std::vector<Node>& nodes, const std::vector<std::size_t>& order) {
@@ -163,32 +201,31 @@ std::vector<Edit> Reorder(const std::vector<Node>& nodes, const std::vector<std:
   return edits;
 }
 
-std::optional<double> Node::Read(const char* attribute) const {
+std::optional<double> Node::Read(const char* attribute, double most) const {
   const pugi::xml_attribute found = node_.attribute(attribute);
   if (!found) return std::nullopt;
-  std::string_view text = Trimmed(found.value());
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double value = 0.0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (text.empty() || result.ptr != text.data() + text.size() || !std::isfinite(value) || std::fabs(value) > 1e15) {
-    // Underflow is a number all the same.
-    if (result.ec == std::errc::result_out_of_range && result.ptr == text.data() + text.size() &&
-        text.find("e-") != std::string_view::npos)
-      return 0.0;
-    Wrong("xml.attribute",
-          fmt::format("attribute '{}' of <{}> is '{}'; a number was expected", attribute, name(), found.value()));
-    return 0.0;
-  }
-  return value;
+  const std::string_view text = Trimmed(found.value());
+  if (const auto value = NumberOf(text, most)) return *value;
+  std::string message =
+      fmt::format("attribute '{}' of <{}> is '{}'; a number was expected", attribute, name(), found.value());
+  const std::string meant = MeantNumber(text);
+  if (meant.empty() || !NumberOf(meant, most))
+    Wrong("xml.attribute", std::move(message));
+  else
+    Wrong("xml.attribute", std::move(message),
+          {RepairKind::kValueReplaced, fmt::format("it is read as {}", meant), {Set(attribute, meant)}});
+  return 0.0;
 }
 
 double Node::Number(const char* attribute) const {
-  const auto value = Read(attribute);
+  const auto value = Read(attribute, kLargest);
   if (!value) Wrong("xml.attribute", fmt::format("<{}> has no attribute '{}'", name(), attribute));
   return value.value_or(0.0);
 }
 
-double Node::Number(const char* attribute, double otherwise) const { return Read(attribute).value_or(otherwise); }
+double Node::Number(const char* attribute, double otherwise) const {
+  return Read(attribute, kLargest).value_or(otherwise);
+}
 
 int Node::Integer(const char* attribute) const {
   const double value = Number(attribute);
@@ -225,7 +262,8 @@ bool Node::Flag(const char* attribute, bool otherwise) const {
 }
 
 geometry::Cubic Node::Cubic(const char* from, double origin) const {
-  return {origin + Number(from), Number("a"), Number("b", 0.0), Number("c", 0.0), Number("d", 0.0)};
+  const auto coefficient = [&](const char* name) { return Read(name, kLargestCoefficient).value_or(0.0); };
+  return {origin + Number(from), Number("a"), coefficient("b"), coefficient("c"), coefficient("d")};
 }
 
 std::vector<Node> Node::Children(const char* element) const {
@@ -253,7 +291,7 @@ geometry::CubicTable ReadCubics(const std::vector<Node>& records, const char* fr
     record.Wrong(rule,
                  fmt::format("<{}> with {} {:.6g} stands behind one with a larger {}; ascending order was expected",
                              record.name(), from, record.Number(from), from),
-                 {fmt::format("they are read in the order of {}", from), Reorder(records, order)});
+                 {RepairKind::kSorted, fmt::format("they are read in the order of {}", from), Reorder(records, order)});
   }
   std::stable_sort(cubics.begin(), cubics.end(),
                    [](const geometry::Cubic& a, const geometry::Cubic& b) { return a.from < b.from; });

@@ -57,7 +57,7 @@ class Node {
 
  private:
   std::size_t Begin() const { return static_cast<std::size_t>(node_.offset_debug()) - 1; }
-  std::optional<double> Read(const char* attribute) const;
+  std::optional<double> Read(const char* attribute, double most) const;
   Source* source_;
   pugi::xml_node node_;
 };
@@ -97,7 +97,6 @@ class Source {
   std::vector<NamedFile> surfaces;
 
   void Wrong(std::string_view rule, std::string message, std::size_t line, Repair repair);
-  void Note(std::string_view rule, std::string message, std::size_t line, std::string done = {});
   std::size_t most_findings = 1000;
 
  private:

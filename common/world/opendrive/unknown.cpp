@@ -110,7 +110,7 @@ class Walk {
         source_.where.road = RoadOf(node);
         source_.Wrong("core.once",
                       fmt::format("a second <{}> of <{}> was found; at most one was expected", name, node.name()),
-                      At(child).line(), {"the first counts", {At(child).Remove()}});
+                      At(child).line(), {RepairKind::kDuplicateDropped, "the first counts", {At(child).Remove()}});
       }
     }
   }

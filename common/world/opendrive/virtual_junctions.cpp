@@ -114,7 +114,7 @@ void CutAtMiddles(std::vector<RoadReading>& roads, const std::set<std::string, s
                                  road.spec.id,
                                  std::nullopt,
                                  first ? 0.0 : road.spec.length_m,
-                                 {"the road ends there"}});
+                                 {RepairKind::kRoadEnded, "the road ends there"}});
       link->reset();
     }
   }

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
+#include "common/core/base/files.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::opendrive {
@@ -136,7 +139,7 @@ TEST(Repair, AConnectorWithoutLengthIsALineOfItsRoadsLength) {
 TEST(Repair, KinksOfLinesAreDrivenAsTheyLie) {
   RoadText road = OneLane();
   road.geometry = Line(0, 0, 0, 0, 50) + Line(50, 50, 0, 0.02, 50);
-  const Import import = Repaired(Document(road.Text()), "it is driven within 1 m, with a radius of 50 m", false);
+  const Import import = Repaired(Document(road.Text()), "it is driven within 1 m, with a mean radius of 50 m", false);
   EXPECT_TRUE(import.repaired_text.empty());
   const Eigen::Vector2d end = import.network->roads()[0].axis().Evaluate(100.0).p_W;
   EXPECT_NEAR(end.x(), 50.0 + 50.0 * std::cos(0.02), 1e-9);
@@ -367,6 +370,34 @@ TEST(Repair, LinesAreThoseOfTheFile) {
            1;
   };
   EXPECT_EQ(OneEachKind(import.warnings)[1].line, line_of("<road id=\"2\""));
+}
+
+// The names are those of the manual's list, one each.
+TEST(Repair, EachKindHasANameInTheManual) {
+  const std::string manual = base::ReadText(SourceDir() + "/docs/reference/road-repairs.md").value();
+  std::set<std::string_view> names;
+  std::set<RepairKind> kinds;
+  for (const RepairKindName& each : RepairKindNames()) {
+    EXPECT_TRUE(names.insert(each.name).second && kinds.insert(each.kind).second) << each.name;
+    EXPECT_THAT(manual, HasSubstr(fmt::format("`{}`", each.name)));
+    EXPECT_EQ(NameOf(each.kind), each.name);
+  }
+  for (int kind = 1; kind <= static_cast<int>(RepairKind::kWidthZero); ++kind)
+    EXPECT_TRUE(kinds.contains(static_cast<RepairKind>(kind))) << kind;
+}
+
+// Two repairs of one rule that begin with the same words are two kinds; one repair with other numbers is one.
+TEST(Repair, KindsAreToldApartByTheirNames) {
+  RoadText road = OneLane(), second = OneLane();
+  road.more = R"(<signals><signal id="1" s="x" t="0"/><signal id="2" s="y" t="0"/></signals>)"
+              R"(<objects><object id="3" s="z" t="0"/></objects>)";
+  second.id = "2", second.geometry = Line(0, 0, 30, 0, 40) + Line(40, 40, 30, 0.01, 60);
+  road.geometry = Line(0, 0, 0, 0, 50) + Line(50, 50, 0, 0.02, 50);
+  const Import import = MustImport(Document(road.Text() + second.Text()));
+  std::vector<std::string> kinds;
+  for (const Finding& finding : OneEachKind(import.warnings)) kinds.push_back(finding.repair.Name());
+  std::sort(kinds.begin(), kinds.end());
+  EXPECT_THAT(kinds, ElementsAre("geometry.kink_rounded", "object.dropped", "signal.dropped"));
 }
 
 TEST(Repair, WarningsOfOneKindAreOne) {
