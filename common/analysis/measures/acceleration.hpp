@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "common/analysis/measures/measure.hpp"
+
+// Acceleration and jerk from the speed: a recorded acceleration in single precision is too coarse to differentiate.
+namespace rodeira::measures {
+
+struct AccelerationOptions {
+  double cutoff_hz = 5.0;  // low-pass of the speed: Butterworth order 2, forward and backward
+  double window_s = 1.0;   // of means and slopes
+};
+
+// The derivative of the low-passed speed, m/s^2, and its derivative, m/s^3. Missing where a run is too short.
+std::vector<double> SmoothAcceleration(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+std::vector<double> Jerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+
+// The largest deceleration, positive; of the mean over window_s (difference of the speed over the window).
+Measure LargestDeceleration(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+Measure LargestMeanDeceleration(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+// The largest negative jerk by the slope of the acceleration over window_s, positive.
+Measure LargestNegativeJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+Measure RmsJerk(Series speed_mps, double rate_hz, const AccelerationOptions& options);
+
+}  // namespace rodeira::measures

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/analysis/measures/conflict.hpp"
+
+#include <gtest/gtest.h>
+
+#include "common/analysis/measures/gap.hpp"
+#include "tests/common/analysis/measures/signals.hpp"
+
+namespace rodeira::measures {
+namespace {
+
+constexpr double kRate = 100.0;
+
+// An approach at a constant closing speed of 8 m/s from 60 m, stopped at a TTC of 0.5 s: TTC = gap / 8, DRAC =
+// dv / (2 TTC), TET = tau - 0.5, TIT = (tau - 0.5)^2 / 2.
+TEST(Conflict, AnApproachAtConstantSpeed) {
+  const auto gap = Sampled(7.0, kRate, [](double t) { return 60.0 - 8.0 * t; });
+  const std::vector<double> own(gap.size(), 20.0), leader(gap.size(), 12.0);
+  const auto ttc = TtcSeries(gap, own, leader), drac = DracSeries(gap, own, leader);
+  for (std::size_t i = 0; i < gap.size(); ++i) {
+    EXPECT_NEAR(ttc[i], 7.5 - static_cast<double>(i) / kRate, 1e-12);
+    EXPECT_NEAR(drac[i], 8.0 / (2.0 * ttc[i]), 1e-12);
+  }
+  EXPECT_NEAR(*TimeExposedTtc(ttc, gap, kRate, 3.0).value, 2.5, 0.011);
+  EXPECT_NEAR(*TimeIntegratedTtc(ttc, gap, kRate, 3.0).value, 2.5 * 2.5 / 2.0, 0.02);
+  EXPECT_NEAR(*LeastTtc(ttc, gap).value, 0.51, 1e-9);
+  // Mean of 1/TTC: the integral of 1/(7.5 - t) over 7 s is ln(7.5 / 0.5).
+  EXPECT_NEAR(*MeanInverseTtc(ttc, gap).value, std::log(15.0) / 7.0, 0.003);
+}
+
+// gap - dv t - da t^2 / 2 = 0 by hand: 10 - 2 t - t^2 = 0 at t = sqrt 11 - 1.
+TEST(Conflict, WithAccelerations) {
+  EXPECT_NEAR(TimeToCollision_s(10.0, 12.0, 10.0, 2.0, 0.0), std::sqrt(11.0) - 1.0, 1e-12);
+  EXPECT_NEAR(TimeToCollision_s(10.0, 12.0, 10.0, 0.0, 0.0), 5.0, 1e-12);
+  // The leader brakes: closing although it is faster now. 10 + 2 t - 2 t^2 = 0 at (1 + sqrt 21) / 2.
+  EXPECT_NEAR(TimeToCollision_s(10.0, 10.0, 12.0, 0.0, -4.0), (1.0 + std::sqrt(21.0)) / 2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(TimeToCollision_s(10.0, 12.0, 10.0, -2.0, 0.0))) << "it brakes in time";
+  EXPECT_TRUE(std::isnan(TimeToCollision_s(10.0, 10.0, 10.0)));
+  EXPECT_EQ(TimeToCollision_s(-0.2, 12.0, 10.0), 0.0);
+}
+
+// Braking behind a leader from the same speed v: it and the leader come to rest with the gap between them if it brakes
+// as the leader does after v rho: gap - v rho = 0 at the reaction time gap / v.
+TEST(Conflict, ABrakingLeader) {
+  // v = 20, b = 4: the leader's way is 50 m. With 14 m of gap 400 / (2 * 64).
+  EXPECT_NEAR(BrakingLeaderDrac_mps2(14.0, 20.0, 20.0, 4.0), 3.125, 1e-12);
+  EXPECT_NEAR(BrakingLeaderDrac_mps2(0.0, 20.0, 20.0, 4.0), 4.0, 1e-12);
+  EXPECT_NEAR(ModifiedDrac_mps2(3.0, 8.0), 2.0, 1e-12);
+  EXPECT_TRUE(std::isnan(ModifiedDrac_mps2(1.0, 8.0)));
+  EXPECT_TRUE(std::isnan(Drac_mps2(0.0, 20.0, 12.0)));
+}
+
+TEST(Conflict, WithoutALeaderAllIsMissing) {
+  const std::vector<double> none(50, kMissing), own(50, 20.0);
+  const auto ttc = TtcSeries(none, own, none);
+  for (const Measure& m : {TimeExposedTtc(ttc, none, kRate, 3.0), TimeIntegratedTtc(ttc, none, kRate, 3.0),
+                           LeastTtc(ttc, none), MeanInverseTtc(ttc, none)}) {
+    EXPECT_FALSE(m.value);
+    EXPECT_EQ(m.reason, "no leader");
+  }
+  // With a leader that draws away the exposure is 0, and there is no least TTC.
+  const std::vector<double> gap(50, 30.0), faster(50, 25.0);
+  const auto away = TtcSeries(gap, own, faster);
+  EXPECT_EQ(*TimeExposedTtc(away, gap, kRate, 3.0).value, 0.0);
+  EXPECT_EQ(*MeanInverseTtc(away, gap).value, 0.0);
+  EXPECT_EQ(LeastTtc(away, gap).reason, "the vehicle never closes in");
+}
+
+// A leader beyond 150 m or 6 s is none; a standing vehicle has a gap and no time gap.
+TEST(Conflict, LeadersBeyondTheLimitsAreNone) {
+  const std::vector<double> gap{20.0, 160.0, 130.0, 5.0, kMissing}, own{10.0, 40.0, 20.0, 0.0, 10.0};
+  const auto followed = FollowedGap(gap, own, {});
+  EXPECT_EQ(followed[0], 20.0);
+  EXPECT_TRUE(std::isnan(followed[1])) << "160 m";
+  EXPECT_TRUE(std::isnan(followed[2])) << "6.5 s";
+  EXPECT_EQ(followed[3], 5.0);
+  const auto time = TimeGap(followed, own, 0.1);
+  EXPECT_EQ(time[0], 2.0);
+  EXPECT_TRUE(std::isnan(time[3]));
+  EXPECT_EQ(*LeaderShare(followed, {}).value, 0.4);
+  EXPECT_EQ(Headway(gap, std::vector<double>(5, 4.5))[0], 24.5);
+}
+
+}  // namespace
+}  // namespace rodeira::measures
