@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/lane_change.hpp"
+#include "common/analysis/measures/lane_departure.hpp"
+#include "common/analysis/measures/lane_position.hpp"
+#include "common/analysis/measures/time_to_line.hpp"
+
+namespace rodeira::measures {
+namespace {
+
+constexpr const char* kNoLanePosition = "no sample with a lane position";
+
+std::span<const std::int8_t> CrossingOf(const DriveCut& cut) {
+  return std::span(cut.drive.crossing).subspan(cut.from, cut.to - cut.from);
+}
+
+std::vector<LaneChange> ChangesIn(const DriveCut& cut, double onset_mps) {
+  return LaneChanges(cut(cut.drive.lane_position_m), CrossingOf(cut), cut.drive.rate_hz, {.onset_mps = onset_mps});
+}
+
+// The lane position, without lane changes where that is asked for.
+std::vector<double> PositionIn(const DriveCut& cut, const OptionValues& o) {
+  const Series y = cut(cut.drive.lane_position_m);
+  if (o["cut_lane_changes"] == 0.0) return {y.begin(), y.end()};
+  return WithoutLaneChanges(y, ChangesIn(cut, o["onset_mps"]));
+}
+
+// What was cut stands beside the other options; the valid share counts what is left.
+Measure WithCut(Measure measure, const OptionValues& o) {
+  measure.options.push_back(Used({{"cut_lane_changes", static_cast<int>(o["cut_lane_changes"])}}).front());
+  measure.options.push_back(Used({{"onset_mps", o["onset_mps"]}}).front());
+  measure.options.push_back({"reference_point", "B, midway between the axles"});
+  measure.options.push_back({"junctions", "left out"});
+  return measure;
+}
+
+LanePosition PositionOf(const DriveCut& cut, Series y) {
+  return {y, std::span(cut.drive.episode).subspan(cut.from, cut.to - cut.from)};
+}
+
+Denominator DenominatorOf(const OptionValues& o) { return o["ddof"] == 0.0 ? Denominator::kN : Denominator::kNMinus1; }
+
+const OptionInfo kCutChanges{"cut_lane_changes", 1, 0, 1, "1: samples of lane changes are left out; 0: they stay"};
+const OptionInfo kOnset{"onset_mps", 0.1, 0.001, 10, "a lane change begins and ends below this lateral speed"};
+const OptionInfo kDdof{"ddof", 1, 0, 1, "0: the sum of squares is divided by n, 1: by n - 1"};
+
+// Both lines, one after the other. intended: an indicator is on.
+struct BothSides {
+  std::vector<Departure> departures;
+  std::vector<double> nearer_m;
+};
+
+BothSides DeparturesIn(const DriveCut& cut, const DepartureOptions& options) {
+  const Series left = cut(cut.drive.left_line_m), right = cut(cut.drive.right_line_m);
+  const Series indicator = cut(cut.drive.indicator);
+  BothSides both;
+  for (std::size_t i = 0; i < left.size(); ++i) both.nearer_m.push_back(std::fmin(left[i], right[i]));
+  std::vector<std::uint8_t> intended(left.size());
+  for (std::size_t i = 0; i < intended.size(); ++i) intended[i] = indicator[i] > 0.0 ? 1 : 0;
+  for (const LaneChange& change : ChangesIn(cut, 0.1)) {
+    for (std::size_t i = change.begin; i <= change.end && i < intended.size(); ++i) intended[i] = 1;
+  }
+  for (const Series line : {left, right}) {
+    for (const Departure& departure : Departures(line, cut.drive.rate_hz, options, intended)) {
+      if (!departure.intended) both.departures.push_back(departure);
+    }
+  }
+  return both;
+}
+
+DepartureOptions DepartureOptionsOf(const OptionValues& o) { return {o["hysteresis_m"], o["min_duration_s"]}; }
+
+Measure WithPart(Measure measure) {
+  measure.options.push_back({"part", "footprint"});
+  measure.options.push_back({"line", "middle of the paint, both sides"});
+  measure.options.push_back({"intended", "left out: indicator on, or a lane change"});
+  return measure;
+}
+
+const std::vector<OptionInfo> kDepartureOptions{
+    {"hysteresis_m", 0.1, 0, 5, "a departure ends where the footprint is again so far inside"},
+    {"min_duration_s", 0.2, 0, 60, "shorter departures do not count"}};
+
+std::vector<double> TlcIn(const DriveCut& cut, double horizon_s) {
+  const Drive& d = cut.drive;
+  std::vector<double> tlc;
+  for (std::size_t i = cut.from; i < cut.to; ++i) {
+    tlc.push_back(TrigonometricTlc_s({d.lane_position_m[i], d.heading_error_rad[i], d.speed_mps[i], d.yaw_radps[i],
+                                      d.lane_width_m[i], d.lane_curvature_1pm[i], d.front_m, d.width_m},
+                                     horizon_s));
+  }
+  return tlc;
+}
+
+Measure TlcMeasure(const DriveCut& cut, const OptionValues& o, const Measure& of, const char* unit) {
+  const UsedOptions used =
+      Used({{"horizon_s", o["horizon_s"]}, {"corner", "front"}, {"lane_ahead", "circle of its curvature here"}});
+  const std::size_t valid = CountValid(cut(cut.drive.lane_position_m)), all = cut.to - cut.from;
+  if (valid == 0) return NotFound(kNoLanePosition, unit, 0, all, used);
+  if (!of.value) return NotFound("no line is reached within the horizon", unit, valid, all, used);
+  Measure found = Found(*of.value, unit, valid, all, used);
+  found.options.insert(found.options.end(), of.options.begin(), of.options.end());
+  return found;
+}
+
+const OptionInfo kHorizon{"horizon_s", 20, 0.1, 60, "a line that is reached later is not reached"};
+constexpr const char* kTlcEquation =
+    "first t >= 0 at which a front corner, going on with v and yaw rate, is on a line of the lane";
+constexpr const char* kTlcTraps = "missing where no line is reached; in tight bends the rear corners may cross first";
+
+}  // namespace
+
+std::vector<MeasureInfo> LateralMeasures() {
+  const char* family = "lane";
+  return {
+      {"lane_position_mean_m",
+       family,
+       "mean position in the lane, positive to the left",
+       "mean of y",
+       "missing in junctions and beside the road; the reference point is B, midway between the axles",
+       "SAE J2944",
+       {kCutChanges, kOnset},
+       [](const DriveCut& cut, const OptionValues& o) { return WithCut(MeanOf(PositionIn(cut, o), "m"), o); }},
+      {"sdlp_m",
+       family,
+       "standard deviation of lateral position, pooled over lanes",
+       "sqrt(sum((n_i - 1) s_i^2) / sum(n_i - 1)) over the times i in one lane",
+       "a lane change makes metres of centimetres; longer drives have larger values",
+       "SAE J2944 10.1.3",
+       {kDdof, kCutChanges, kOnset, {"min_valid_share", 0.85, 0, 1, "below, the value is missing"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto y = PositionIn(cut, o);
+         return WithCut(Sdlp(PositionOf(cut, y), {DenominatorOf(o), o["min_valid_share"]}), o);
+       }},
+      {"modified_sdlp_m",
+       family,
+       "the same behind a high-pass of 0.1 Hz",
+       "SD of y behind a Butterworth high-pass of order 2, pooled",
+       "two passes halve a wave at the cut-off; needs 30 s",
+       "Oestlund et al. 2005",
+       {kDdof,
+        kCutChanges,
+        kOnset,
+        {"cutoff_hz", 0.1, 0.001, 5, "of the high-pass"},
+        {"passes", 2, 1, 2, "2: forward and backward; 1: forward"},
+        {"min_duration_s", 30, 1, 3600, "shorter times in one lane are left out"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto y = PositionIn(cut, o);
+         return WithCut(ModifiedSdlp(PositionOf(cut, y), cut.drive.rate_hz,
+                                     {DenominatorOf(o), o["cutoff_hz"], o["passes"] == 2.0, o["min_duration_s"]}),
+                        o);
+       }},
+      {"lane_changes_n",
+       family,
+       "number of lane changes",
+       "crossings of the reference point into the next lane of the same road",
+       "an aborted change is a departure",
+       "SAE J2944",
+       {kOnset},
+       [](const DriveCut& cut, const OptionValues& o) {
+         const Series y = cut(cut.drive.lane_position_m);
+         if (CountValid(y) == 0) return NotFound(kNoLanePosition, "1", 0, y.size());
+         return Found(static_cast<double>(ChangesIn(cut, o["onset_mps"]).size()), "1", CountValid(y), y.size());
+       }},
+      {"lane_departures_n", family, "number of unintended departures over a line",
+       "runs in which the footprint is beyond a line", "without hysteresis one excursion is ten", "SAE J2944 10.2.4",
+       kDepartureOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
+         return WithPart(DepartureCount(both.departures, both.nearer_m, DepartureOptionsOf(o)));
+       }},
+      {"lane_departures_share", family, "share of time in them", "time in departures / time with a lane",
+       "of the time with a lane, not of the interval", "SAE J2944 10.2.4", kDepartureOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
+         return WithPart(DepartureShare(both.departures, both.nearer_m, DepartureOptionsOf(o)));
+       }},
+      {"lane_departure_greatest_m", family, "greatest distance beyond a line", "max of the distance beyond the line",
+       "missing, not 0, without a departure", "SAE J2944 10.2.4", kDepartureOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto both = DeparturesIn(cut, DepartureOptionsOf(o));
+         return WithPart(DepartureGreatest(both.departures, both.nearer_m, DepartureOptionsOf(o)));
+       }},
+      {"tlc_min_s",
+       family,
+       "least time to line crossing (trigonometric)",
+       kTlcEquation,
+       kTlcTraps,
+       "van Winsum et al. 2000",
+       {kHorizon},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return TlcMeasure(cut, o, MinimumOf(TlcIn(cut, o["horizon_s"]), "s"), "s");
+       }},
+      {"tlc_p15_s",
+       family,
+       "15th percentile of the minima of all approaches",
+       kTlcEquation,
+       kTlcTraps,
+       "van Winsum et al. 2000",
+       {kHorizon},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return TlcMeasure(cut, o, QuantileOf(ApproachMinima(TlcIn(cut, o["horizon_s"])), "s", 0.15), "s");
+       }},
+      {"tlc_below_share",
+       family,
+       "share of time with a time to line crossing below a threshold",
+       kTlcEquation,
+       kTlcTraps,
+       "van Winsum et al. 2000",
+       {kHorizon, {"threshold_s", 1, 0.01, 60, "of the time to line crossing"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         std::vector<double> tlc = TlcIn(cut, o["horizon_s"]);
+         const Series y = cut(cut.drive.lane_position_m);
+         // A line that is not reached in time counts as far away.
+         for (std::size_t i = 0; i < tlc.size(); ++i) {
+           if (std::isnan(tlc[i]) && !std::isnan(y[i])) tlc[i] = o["horizon_s"];
+         }
+         return TlcMeasure(cut, o, ShareBelow(tlc, o["threshold_s"]), "1");
+       }},
+  };
+}
+
+}  // namespace rodeira::measures

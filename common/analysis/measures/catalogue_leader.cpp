@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/conflict.hpp"
+#include "common/analysis/measures/following.hpp"
+#include "common/analysis/measures/gap.hpp"
+#include "common/analysis/measures/statistics.hpp"
+
+namespace rodeira::measures {
+namespace {
+
+const std::vector<OptionInfo> kFollowedOptions{{"max_gap_m", 150, 1, 250, "a leader farther ahead is none"},
+                                               {"max_time_gap_s", 6, 0.1, 60, "the same in time"},
+                                               {"min_speed_mps", 0.1, 0, 50, "below, a time gap is missing"}};
+
+FollowedOptions FollowedOf(const OptionValues& o) { return {o["max_gap_m"], o["max_time_gap_s"], o["min_speed_mps"]}; }
+
+std::vector<double> GapIn(const DriveCut& cut, const OptionValues& o) {
+  return FollowedGap(cut(cut.drive.leader.gap_m), cut(cut.drive.speed_mps), FollowedOf(o));
+}
+
+// Without a leader all of these are missing for the same reason.
+Measure OfLeader(Measure measure, const OptionValues& o) {
+  if (!measure.value && measure.n == 0) measure.reason = "no leader";
+  const UsedOptions used = UsedOf(FollowedOf(o));
+  measure.options.insert(measure.options.end(), used.begin(), used.end());
+  return measure;
+}
+
+std::vector<double> TimeGapIn(const DriveCut& cut, const OptionValues& o) {
+  return TimeGap(GapIn(cut, o), cut(cut.drive.speed_mps), o["min_speed_mps"]);
+}
+
+std::vector<double> TtcIn(const DriveCut& cut, Series gap) {
+  return TtcSeries(gap, cut(cut.drive.speed_mps), cut(cut.drive.leader.speed_mps));
+}
+
+std::vector<OptionInfo> WithThreshold() {
+  std::vector<OptionInfo> options = kFollowedOptions;
+  options.push_back({"threshold_s", 3, 0.1, 20, "of the time to collision"});
+  return options;
+}
+
+// Both speeds where there is one leader; missing at its changes.
+Following FollowingIn(const DriveCut& cut, const OptionValues& o) {
+  const Series id = cut(cut.drive.leader.id), speed = cut(cut.drive.leader.speed_mps);
+  std::vector<double> leader(speed.begin(), speed.end());
+  for (std::size_t i = 1; i < leader.size(); ++i) {
+    if (id[i] != id[i - 1]) leader[i] = kMissing;
+  }
+  return FollowLeader(leader, cut(cut.drive.speed_mps), cut.drive.rate_hz,
+                      {.segment_s = o["segment_s"],
+                       .frequency_hz = o["frequency_hz"],
+                       .min_segments = static_cast<std::size_t>(o["min_segments"])});
+}
+
+const std::vector<OptionInfo> kFollowingOptions{
+    {"segment_s", 60, 4, 600, "of Welch's estimate; Hann, half overlapped"},
+    {"frequency_hz", 0, 0, 1, "at which the leader's speed varies; 0: where coherence is greatest below 0.1 Hz"},
+    {"min_segments", 5, 2, 1000, "fewer make the value missing"}};
+constexpr const char* kFollowingTraps = "one segment alone always has a coherence of 1; phase wraps at half a period";
+constexpr const char* kBrookhuis = "Brookhuis et al. 1994";
+
+}  // namespace
+
+std::vector<MeasureInfo> LeaderMeasures() {
+  const char* family = "leader";
+  const char* cut_off = "missing without a leader within the limits, never 0; a new leader is a jump";
+  return {
+      {"leader_share", family, "share of time with a leader", "samples with a leader / all samples", cut_off,
+       "SAE J2944 8.1.4", kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         Measure share = LeaderShare(GapIn(cut, o), FollowedOf(o));
+         return share;
+       }},
+      {"gap_mean_m", family, "mean gap to the leader", "mean of (leader's rear - own front) along the lane", cut_off,
+       "SAE J2944 8.1.4", kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(GapIn(cut, o), "m"), o); }},
+      {"gap_min_m", family, "least gap to the leader", "min of the gap", cut_off, "SAE J2944 8.1.4", kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(GapIn(cut, o), "m"), o); }},
+      {"time_gap_mean_s", family, "mean time gap", "mean of gap / own speed", cut_off, "SAE J2944 8.1.4",
+       kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(TimeGapIn(cut, o), "s"), o); }},
+      {"time_gap_min_s", family, "least time gap", "min of gap / own speed", cut_off, "SAE J2944 8.1.4",
+       kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(TimeGapIn(cut, o), "s"), o); }},
+      {"headway_mean_m", family, "mean headway", "mean of gap + leader's length", cut_off, "SAE J2944 8.1.4",
+       kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         return OfLeader(MeanOf(Headway(GapIn(cut, o), cut(cut.drive.leader.length_m)), "m"), o);
+       }},
+      {"ttc_min_s", family, "least time to collision", "min of gap / (v - v_leader) while closing in",
+       "a mean of TTC has no meaning; missing where the vehicle never closes in", "Hayward 1972", kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto gap = GapIn(cut, o);
+         return OfLeader(LeastTtc(TtcIn(cut, gap), gap), o);
+       }},
+      {"inverse_ttc_mean_1ps", family, "mean of 1/TTC", "mean of max(0, v - v_leader) / gap", cut_off, "Hayward 1972",
+       kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto gap = GapIn(cut, o);
+         return OfLeader(MeanInverseTtc(TtcIn(cut, gap), gap), o);
+       }},
+      {"tet_s", family, "time exposed: TTC below a threshold", "sum of dt where TTC < threshold", cut_off,
+       "Minderhoud & Bovy 2001", WithThreshold(),
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto gap = GapIn(cut, o);
+         return OfLeader(TimeExposedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), o);
+       }},
+      {"tit_s2", family, "time integrated: by how much, and how long",
+       "integral of (threshold - TTC) where TTC < threshold", cut_off, "Minderhoud & Bovy 2001", WithThreshold(),
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto gap = GapIn(cut, o);
+         return OfLeader(TimeIntegratedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), o);
+       }},
+      {"drac_max_mps2", family, "largest deceleration rate to avoid the crash", "max of (v - v_leader)^2 / (2 gap)",
+       "missing where the vehicle never closes in", "Cooper & Ferguson 1976", kFollowedOptions,
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto drac = DracSeries(GapIn(cut, o), cut(cut.drive.speed_mps), cut(cut.drive.leader.speed_mps));
+         return OfLeader(MaximumOf(drac, "m/s2"), o);
+       }},
+      {"following_coherence", family, "coherence of the leader's and the own speed", "|Sxy|^2 / (Sxx Syy)",
+       kFollowingTraps, kBrookhuis, kFollowingOptions,
+       [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).coherence; }},
+      {"following_modulus", family, "own amplitude over the leader's", "|Sxy| / Sxx", kFollowingTraps, kBrookhuis,
+       kFollowingOptions, [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).modulus; }},
+      {"following_delay_s", family, "delay of the own speed", "-arg Sxy / (2 pi f)", kFollowingTraps, kBrookhuis,
+       kFollowingOptions, [](const DriveCut& cut, const OptionValues& o) { return FollowingIn(cut, o).delay; }},
+  };
+}
+
+}  // namespace rodeira::measures

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/analysis/measures/acceleration.hpp"
+#include "common/analysis/measures/catalogue.hpp"
+#include "common/analysis/measures/speed.hpp"
+#include "common/analysis/measures/statistics.hpp"
+#include "common/analysis/measures/stops.hpp"
+
+namespace rodeira::measures {
+namespace {
+
+const OptionInfo kMinSpeed{"min_speed_mps", 0.1, 0, 50, "slower samples are left out as waits"};
+
+std::vector<double> MovingIn(const DriveCut& cut, const OptionValues& o) {
+  return InMotion(cut(cut.drive.speed_mps), o["min_speed_mps"]);
+}
+
+Measure WithMinSpeed(Measure measure, const OptionValues& o) {
+  measure.options.push_back(Used({{"min_speed_mps", o["min_speed_mps"]}}).front());
+  return measure;
+}
+
+template <int Percent>
+Measure SpeedPercentile(const DriveCut& cut, const OptionValues& o) {
+  return WithMinSpeed(QuantileOf(MovingIn(cut, o), "m/s", Percent / 100.0), o);
+}
+
+AccelerationOptions AccelerationOf(const OptionValues& o) { return {o["cutoff_hz"], o["window_s"]}; }
+
+const std::vector<OptionInfo> kAccelerationOptions{
+    {"cutoff_hz", 5, 0.1, 50, "low-pass of the speed (Butterworth order 2, both ways)"},
+    {"window_s", 1, 0.01, 60, "of means and slopes"}};
+constexpr const char* kAccelerationTraps = "gear changes are jerks of the car and not of the foot; state the filter";
+
+template <Measure (*Function)(Series, double, const AccelerationOptions&)>
+Measure AccelerationIn(const DriveCut& cut, const OptionValues& o) {
+  return Function(cut(cut.drive.speed_mps), cut.drive.rate_hz, AccelerationOf(o));
+}
+
+}  // namespace
+
+std::vector<MeasureInfo> SpeedMeasures() {
+  const char* family = "speed";
+  const char* waits = "waits at lights dominate a mean with them";
+  return {
+      {"speed_mean_mps",
+       family,
+       "mean speed over time",
+       "mean of v",
+       waits,
+       "SAE J2944",
+       {kMinSpeed},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return MeanSpeed(cut(cut.drive.speed_mps), o["min_speed_mps"]);
+       }},
+      {"speed_mean_by_distance_mps",
+       family,
+       "mean speed over distance",
+       "sum v^2 / sum v",
+       "larger than the mean over time",
+       "SAE J2944",
+       {kMinSpeed},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return MeanSpeedByDistance(cut(cut.drive.speed_mps), o["min_speed_mps"]);
+       }},
+      {"speed_sd_mps",
+       family,
+       "standard deviation of speed",
+       "SD of v",
+       "grows with the number of speed limits in it",
+       "SAE J2944",
+       {kMinSpeed, {"ddof", 1, 0, 1, "0: divided by n, 1: by n - 1"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         const auto by = o["ddof"] == 0.0 ? Denominator::kN : Denominator::kNMinus1;
+         return WithMinSpeed(DeviationOf(MovingIn(cut, o), "m/s", by), o);
+       }},
+      {"speed_p15_mps",
+       family,
+       "15th percentile of speed",
+       "percentile of type 7",
+       waits,
+       "SAE J2944",
+       {kMinSpeed},
+       SpeedPercentile<15>},
+      {"speed_p50_mps",
+       family,
+       "median of speed",
+       "percentile of type 7",
+       waits,
+       "SAE J2944",
+       {kMinSpeed},
+       SpeedPercentile<50>},
+      {"speed_p85_mps",
+       family,
+       "85th percentile of speed",
+       "percentile of type 7",
+       waits,
+       "SAE J2944",
+       {kMinSpeed},
+       SpeedPercentile<85>},
+      {"speed_max_mps",
+       family,
+       "largest speed",
+       "max of v",
+       "one sample decides",
+       "SAE J2944",
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return MaximumOf(cut(cut.drive.speed_mps), "m/s"); }},
+      {"above_limit_share",
+       family,
+       "share of time above the speed limit",
+       "share of v > limit + over",
+       "of the time with a limit; missing where the world says none",
+       "SAE J2944",
+       {{"over_mps", 0, 0, 50, "so much above the limit"}},
+       [](const DriveCut& cut, const OptionValues& o) {
+         return ShareAboveLimit(cut(cut.drive.speed_mps), cut(cut.drive.speed_limit_mps), o["over_mps"]);
+       }},
+      {"distance_m",
+       family,
+       "way that was driven",
+       "integral of v",
+       "negative in reverse",
+       "SAE J2944",
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return Distance(cut(cut.drive.speed_mps), cut.drive.rate_hz); }},
+      {"stops_n",
+       family,
+       "number of stops",
+       "from v < 0.1 m/s to v > 0.5 m/s",
+       "hysteresis makes one of a rocking stop",
+       "SAE J2944",
+       {},
+       [](const DriveCut& cut, const OptionValues&) { return StopCount(cut(cut.drive.speed_mps), {}); }},
+      {"stop_time_s",
+       family,
+       "time in stops",
+       "sum of their durations",
+       "the creep before a stop is not in it",
+       "SAE J2944",
+       {},
+       [](const DriveCut& cut, const OptionValues&) {
+         return StopTime(cut(cut.drive.speed_mps), cut.drive.rate_hz, {});
+       }},
+      {"deceleration_max_mps2", family, "largest deceleration", "max of -dv/dt of the low-passed speed",
+       kAccelerationTraps, "SAE J2944", kAccelerationOptions, AccelerationIn<LargestDeceleration>},
+      {"deceleration_window_max_mps2", family, "largest mean deceleration over a window",
+       "max of (v(t) - v(t + w)) / w", kAccelerationTraps, "SAE J2944", kAccelerationOptions,
+       AccelerationIn<LargestMeanDeceleration>},
+      {"jerk_negative_max_mps3", family, "largest negative jerk over a window", "max of (a(t) - a(t + w)) / w",
+       kAccelerationTraps, "ISO 15622", kAccelerationOptions, AccelerationIn<LargestNegativeJerk>},
+      {"jerk_rms_mps3", family, "root mean square of jerk", "sqrt(mean(j^2)), j = d2v/dt2 of the low-passed speed",
+       kAccelerationTraps, "Green et al. 2024", kAccelerationOptions, AccelerationIn<RmsJerk>},
+  };
+}
+
+}  // namespace rodeira::measures

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/analysis/measures/drive.hpp"
+#include "common/analysis/measures/leader_finder.hpp"
+
+namespace rodeira::measures {
+
+// What is known of the subject at one sample.
+struct SubjectSample {
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
+  double heading_rad = 0.0;
+  double speed_mps = 0.0;
+  double yaw_radps = kMissing;
+  double throttle = kMissing, brake = kMissing, steering_wheel_deg = kMissing;
+  double indicator = 0.0;
+};
+
+// Puts a drive together from samples as they come. The subject's come in the order of time; the other vehicles' may be
+// up to kLag samples earlier or later: leaders are looked for that much later, when the subject's way is known.
+class DriveBuilder {
+ public:
+  // network may be null.
+  DriveBuilder(const network::Network* network, double rate_hz);
+
+  void SetFootprint(double length_m, double front_m, double width_m);
+  void AddSubject(std::size_t k, const SubjectSample& sample);
+  // The others at a sample. `traffic`: these are all agents of it; without, vehicles beside them.
+  void AddOthers(std::size_t k, const std::vector<OtherVehicle>& others, bool traffic);
+  // Whether there is traffic, so that samples without it are filled in between.
+  void ExpectTraffic() { has_traffic_ = true; }
+  Drive Finish();
+
+  bool has_subject() const { return next_ > 0; }
+
+ private:
+  struct Frame {
+    std::vector<OtherVehicle> others;
+    bool traffic = false;
+  };
+  struct Visit {
+    std::size_t from = 0;  // sample
+    std::int64_t track = -1;
+  };
+  void GrowTo(std::size_t size);
+  void AddLane(std::size_t k, const SubjectSample& sample);
+  void ProcessThrough(std::size_t k);
+  void FindNeighbours(std::size_t k, const Frame& frame);
+
+  static constexpr std::size_t kLag = 2000;
+  std::optional<lanes::Graph> graph_;
+  std::optional<LaneFinder> lanes_;
+  std::optional<LeaderFinder> leaders_;
+  Drive drive_;
+  network::Hint hint_;
+  std::optional<LanePlace> last_place_;
+  std::int32_t episode_ = 0;
+  std::size_t next_ = 0;  // the sample behind the subject's newest
+  bool has_traffic_ = false;
+  std::map<std::size_t, Frame> frames_;
+  std::vector<double> along_m_;             // the track of the sample
+  std::vector<Visit> visits_;               // of tracks, one after the other
+  std::vector<std::size_t> frame_samples_;  // at which neighbours were looked for
+};
+
+}  // namespace rodeira::measures

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/analysis/measures/spec.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/core/base/suggest.hpp"
+#include "common/core/config/config.hpp"
+
+namespace rodeira::measures {
+namespace {
+
+IntervalSpec WholeRecording() {
+  IntervalSpec whole;
+  whole.name = "all";
+  whole.to.kind = TimePoint::Kind::kEnd;
+  return whole;
+}
+
+void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
+  const config::List list = root.OptionalItems("intervals");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const config::Map item = list.At(i);
+    IntervalSpec interval;
+    interval.name = item.Text("name");
+    const auto read = [&](const char* key, TimePoint& into) {
+      auto point = ParseTimePoint(item.Text(key));
+      if (point)
+        into = std::move(point).value();
+      else
+        item.Problem(key, point.error().message);
+    };
+    read("from", interval.from);
+    if (item.Has("for_s"))
+      interval.for_s = item.Number("for_s", config::Range::Positive());
+    else
+      read("to", interval.to);
+    if (auto status = CheckInterval(interval); !status) item.Problem("name", status.error().message);
+    const auto same = [&](const IntervalSpec& other) { return other.name == interval.name; };
+    if (std::ranges::any_of(spec.intervals, same)) item.Problem("name", "another interval has the same name");
+    spec.intervals.push_back(std::move(interval));
+  }
+}
+
+void ReadMeasures(const config::Map& root, MeasuresSpec& spec) {
+  if (!root.Has("measures")) return;
+  spec.measures.clear();
+  const config::List list = root.OptionalItems("measures");
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const auto info = FindMeasure(list.Text(i));
+    if (!info)
+      list.Problem(i, info.error().message);
+    else if (std::ranges::find(spec.measures, info.value()) == spec.measures.end())
+      spec.measures.push_back(info.value());
+  }
+}
+
+void ReadOptions(const config::Map& root, MeasuresSpec& spec) {
+  const config::Map options = root.OptionalChild("options");
+  for (const std::string& name : options.Keys()) {
+    const auto info = FindMeasure(name);
+    if (!info) {
+      options.Problem(name, info.error().message);
+      continue;
+    }
+    const config::Map own = options.Child(name);
+    for (const OptionInfo& option : info.value()->options) {
+      if (!own.Has(option.name)) continue;
+      spec.options[name][option.name] = own.Number(option.name, {option.low, option.high});
+    }
+  }
+}
+
+}  // namespace
+
+MeasuresSpec DefaultSpec() {
+  MeasuresSpec spec;
+  for (const MeasureInfo& info : Catalogue()) spec.measures.push_back(&info);
+  return spec;
+}
+
+base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
+  const auto file = config::File::Load(path);
+  if (!file) return file.error();
+  const config::Map root = file.value().root();
+  root.Choice("rodeira", {"measures/1"});
+  MeasuresSpec spec = DefaultSpec();
+  spec.subject = root.Text("subject", "");
+  spec.baseline = root.Text("baseline", "");
+  ReadIntervals(root, spec);
+  ReadMeasures(root, spec);
+  ReadOptions(root, spec);
+  root.IgnoreKey("recordings");  // a sidecar lists what its table was made of
+  root.IgnoreKey("version");
+  root.IgnoreKey("values");
+  std::vector<std::string> names;
+  for (const IntervalSpec& interval : spec.intervals) names.push_back(interval.name);
+  if (!spec.baseline.empty() && std::ranges::find(names, spec.baseline) == names.end()) {
+    root.Problem("baseline", fmt::format("there is no interval '{}'{}", spec.baseline,
+                                         names.empty() ? "" : base::DidYouMean(spec.baseline, names)));
+  }
+  if (auto status = file.value().Finish(); !status) return status.error();
+  return spec;
+}
+
+std::vector<MeasuresRow> ComputeRows(const MeasuresSpec& spec, const DriveReading& reading) {
+  const Drive& drive = reading.drive;
+  const double end_s = static_cast<double>(drive.size()) / drive.rate_hz;
+  std::vector<IntervalSpec> intervals = spec.intervals;
+  if (intervals.empty()) intervals.push_back(WholeRecording());
+  std::optional<std::pair<std::size_t, std::size_t>> baseline;
+  for (const IntervalSpec& interval : intervals) {
+    if (spec.baseline.empty() || interval.name != spec.baseline) continue;
+    baseline = SamplesOf(FindInterval(interval, reading.events, end_s), drive.rate_hz, drive.size());
+  }
+  std::vector<MeasuresRow> rows;
+  static const std::map<std::string, double> kNone;
+  for (const IntervalSpec& asked : intervals) {
+    MeasuresRow row;
+    row.interval = FindInterval(asked, reading.events, end_s);
+    const auto [from, to] = SamplesOf(row.interval, drive.rate_hz, drive.size());
+    for (const MeasureInfo* info : spec.measures) {
+      if (!row.interval.reason.empty()) {
+        Measure missing;
+        missing.reason = row.interval.reason;
+        row.values.push_back(std::move(missing));
+        continue;
+      }
+      const auto given = spec.options.find(info->name);
+      row.values.push_back(info->compute({drive, from, to, baseline},
+                                         {info->options, given == spec.options.end() ? kNone : given->second}));
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+}  // namespace rodeira::measures
