@@ -162,7 +162,7 @@ class Turns {
                                   "",
                                   {},
                                   {},
-                                  {"its lights stay dark"}});
+                                  {RepairKind::kLightsDark, "its lights stay dark"}});
     return true;
   }
 

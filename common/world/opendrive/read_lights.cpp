@@ -47,36 +47,4 @@ network::Controller ReadController(const Node& controller) {
   return read;
 }
 
-void TakeTurns(network::NetworkSpec& spec, Findings& findings) {
-  for (const network::Junction& junction : spec.junctions) {
-    std::vector<network::Controller*> turns;
-    const bool is_alone = junction.controllers.size() == 1;
-    for (const std::string& id : junction.controllers) {
-      const auto found =
-          std::find_if(spec.controllers.begin(), spec.controllers.end(), [&](const auto& c) { return c.id == id; });
-      if (found == spec.controllers.end() || found->times || !ForVehicles(spec, *found)) continue;
-      if (is_alone && CrossOnesOwn(spec, *found)) {
-        findings.warnings.push_back(
-            {"rodeira.times",
-             fmt::format("controller {} of junction {} has lights for ways that come from different sides, and says no "
-                         "times",
-                         found->id, junction.id),
-             0,
-             "",
-             {},
-             {},
-             {RepairKind::kLightsDark, "its lights stay dark"}});
-        continue;
-      }
-      turns.push_back(&*found);
-    }
-    constexpr double kTurn_s = kGreen_s + kAmber_s + kAllRed_s;
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      turns[i]->times =
-          network::LightTimes{kTurn_s * static_cast<double>(turns.size()), kTurn_s * static_cast<double>(i),
-                              turns.size() > 1 ? kGreen_s : kTurn_s, kAmber_s, kRedAmber_s};
-    }
-  }
-}
-
 }  // namespace rodeira::opendrive

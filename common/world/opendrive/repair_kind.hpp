@@ -31,6 +31,7 @@ enum class RepairKind {
   kLaneEnded,
   kLaneLinkDropped,
   kLengthSet,
+  kLightTurned,
   kLightsDark,
   kLinkDropped,
   kLinkFound,

@@ -71,6 +71,7 @@ void TurnLights(const std::vector<network::Controller>& controllers, std::vector
       turn(reference.id, reference.s_m, reference.orientation, reference.validity);
   }
   if (turned == 0) return;
+  first.repair.kind = RepairKind::kLightTurned;
   first.repair.done = turned == 1 ? "it holds for these lanes"
                                   : fmt::format("each of {} such lights holds for the lanes that it names", turned);
   findings.warnings.push_back(std::move(first));
