@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/base/log.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 
@@ -80,6 +81,7 @@ base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeConte
                             context.launch().path().string());
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
+  for (const std::string& warning : world.value()->warnings()) base::Log(base::LogLevel::kWarning, "", warning);
   return std::unique_ptr<launch::Service>(std::make_unique<RoadService>(std::move(world).value()));
 }
 

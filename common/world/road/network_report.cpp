@@ -31,8 +31,8 @@ NetworkCheck CheckNetwork(const std::filesystem::path& file, bool strict, bool v
     check.warnings.push_back(opendrive::ToError(warning, file).Text());
   check.table = opendrive::Describe(import.value());
   if (import.value().network == nullptr) return check;
-  if (opendrive::ReachOf(*import.value().network).lanes_m == 0.0) {
-    check.errors.push_back(base::WrongInput("the network has no lane for driving", file.string()));
+  if (auto nothing = NothingToDrive(*import.value().network, file)) {
+    check.errors.push_back(*std::move(nothing));
     check.table.clear();
     return check;
   }

@@ -2,10 +2,13 @@
 #include "common/world/road/network_world.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "common/core/config/config.hpp"
 #include "common/core/geometry/angle.hpp"
@@ -139,15 +142,42 @@ base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const 
   return SurfaceDetail::Load(*import.network, file.parent_path(), PatchesOf(*import.network), place_of);
 }
 
+std::optional<base::Error> NothingToDrive(const network::Network& network, const std::filesystem::path& file) {
+  std::set<std::string> types;
+  for (const network::LaneKey& key : network.Lanes()) {
+    const network::LaneType type = network.Find(key)->type;
+    if (network::IsDrivable(type)) return std::nullopt;
+    types.emplace(network::LaneTypeName(type));
+  }
+  return base::WrongInput(
+      fmt::format("the network has no lane for driving: its lanes are of the types {}; driving was expected",
+                  types.empty() ? "(none)" : fmt::format("{}", fmt::join(types, ", "))),
+      file.string());
+}
+
+std::vector<std::string> RepairSentences(const opendrive::Import& import, const std::filesystem::path& file) {
+  std::vector<opendrive::Finding> findings;
+  for (const opendrive::Finding& warning : import.warnings) {
+    if (warning.repair.kind != opendrive::RepairKind::kNone || warning.rule == opendrive::kDeadEndRule)
+      findings.push_back(warning);
+  }
+  std::vector<std::string> sentences;
+  for (const opendrive::Finding& finding : opendrive::OneEachKind(findings))
+    sentences.push_back(opendrive::ToError(finding, file).Text());
+  return sentences;
+}
+
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file) {
   auto import = opendrive::Load(file);
   if (!import) return import.error();
   if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), file);
+  if (auto nothing = NothingToDrive(*import.value().network, file)) return *std::move(nothing);
   WorldSpec spec;
   spec.name = file.stem().string();
   spec.network = import.value().network;
   spec.network_hash = import.value().content_hash;
   spec.start = StartOn(*spec.network);
+  spec.warnings = RepairSentences(import.value(), file);
   auto detail = LoadSurfaces(import.value(), file);
   if (!detail) return detail.error();
   if (!detail.value().empty()) spec.detail = std::make_shared<const SurfaceDetail>(std::move(detail).value());

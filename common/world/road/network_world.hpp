@@ -37,6 +37,12 @@ StartPose StartOn(const network::Network& network);
 // laid.
 base::Result<SurfaceDetail> LoadSurfaces(const opendrive::Import& import, const std::filesystem::path& file);
 
+// What was repaired in the file, and lanes that end in a junction: one sentence a kind, with the first place.
+std::vector<std::string> RepairSentences(const opendrive::Import& import, const std::filesystem::path& file);
+
+// Wrong input where no lane of the network is for driving: with the types of lanes that it has.
+std::optional<base::Error> NothingToDrive(const network::Network& network, const std::filesystem::path& file);
+
 // A world of the file's roads, with the start of StartOn. Wrong input: the first error of the file.
 base::Result<WorldSpec> ReadNetworkWorld(const std::filesystem::path& file);
 

@@ -77,6 +77,7 @@ World::World(WorldSpec spec)
       ground_picture_(spec.ground_picture),
       friction_(spec.friction),
       start_(spec.start),
+      warnings_(std::move(spec.warnings)),
       content_hash_(ContentHash(spec)) {
   RODEIRA_ASSERT(grid() == nullptr || !plane());
   RODEIRA_ASSERT(grid() != nullptr || plane() || network_ != nullptr);

@@ -71,6 +71,8 @@ class World : public std::enable_shared_from_this<World> {
   base::Digest DetailDigest(std::uint32_t road, double from_s_m, double to_s_m) const;
   // The surfaces of the junctions of a network that is built into a terrain.
   std::span<const std::shared_ptr<const design::JunctionSurface>> junctions() const;
+  // What was repaired in an OpenDRIVE file: one sentence a kind, with its place.
+  std::span<const std::string> warnings() const { return warnings_; }
   double Friction(ground::Surface surface) const { return friction_[static_cast<std::size_t>(surface)]; }
 
   // SUELO (law L4) on this world, which it keeps alive. Any number of them, on any threads. Where surfaces lie over one
@@ -104,6 +106,7 @@ class World : public std::enable_shared_from_this<World> {
   std::shared_ptr<const MarkPaint> paint_;   // the same
   std::shared_ptr<const NetworkLand> land_;  // the same
   StartPose start_;
+  std::vector<std::string> warnings_;
   base::Digest content_hash_ = 0;
 };
 

@@ -52,6 +52,7 @@ struct WorldSpec {
   std::optional<double> terrain_friction;              // otherwise its surface's
   FrictionTable friction = kUsualFriction;
   StartPose start;
+  std::vector<std::string> warnings;  // what was repaired in an OpenDRIVE file: one sentence a kind
 };
 
 }  // namespace rodeira::road

@@ -23,6 +23,7 @@
 #include "launch/rodeira/commands/traffic_files.hpp"
 #include "launch/rodeira/input_files.hpp"
 #include "launch/rodeira/wall_clock.hpp"
+#include "launch/rodeira/world_warnings.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -129,7 +130,7 @@ int TrafficRun(const TrafficOptions& given) {
   if (!map) return base::PrintError("rodeira", map.error());
   TrafficOptions options = given;
   options.map = std::move(map).value();
-  const auto world = road::World::Load(options.map);
+  const auto world = LoadWorldAndWarn(options.map);
   if (!world) return base::PrintError("rodeira", world.error());
   const auto network = traffic::NetworkOf(world.value());
   if (road::IsTrafficMap(options.map)) {

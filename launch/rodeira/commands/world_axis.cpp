@@ -9,6 +9,7 @@
 #include "common/world/road/network_world.hpp"
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
+#include "launch/rodeira/world_warnings.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -33,7 +34,7 @@ std::optional<AxisName> AxisNameOf(std::string_view text) {
 }
 
 base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m) {
-  const auto world = road::World::Load(name.file);
+  const auto world = LoadWorldAndWarn(name.file);
   if (!world) return world.error();
   std::vector<std::string> ids;
   if (const network::Network* network = world.value()->network()) {

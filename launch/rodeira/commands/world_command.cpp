@@ -28,6 +28,7 @@
 #include "common/world/road/world_report.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/input_files.hpp"
+#include "launch/rodeira/world_warnings.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -183,7 +184,7 @@ int BuildDatabase(const WorldOptions& options, const road::World& world) {
 // What is seen; the roads as OpenDRIVE; the world file with all that it names;
 // and a list of all these but what is seen.
 int Build(const WorldOptions& options) {
-  const auto loaded = road::World::Load(options.world_file);
+  const auto loaded = LoadWorldAndWarn(options.world_file);
   if (!loaded) return base::PrintError("rodeira", loaded.error());
   const road::World& world = *loaded.value();
   const std::filesystem::path out(options.out), copy = out / "world.xodr";
@@ -213,7 +214,7 @@ int WorldOf(const WorldOptions& options) {
   if (road::IsTrafficMap(options.world_file) && (options.command == "build" || options.command == "export"))
     return base::PrintError("rodeira", NoWorldFile(options));
   if (options.command == "build") return Build(options);
-  const auto world = road::World::Load(options.world_file);
+  const auto world = LoadWorldAndWarn(options.world_file);
   if (options.command == "export" && world) {
     const auto status = road::WriteOpenDrive(*world.value(), options.out);
     if (!status)

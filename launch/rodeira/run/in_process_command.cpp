@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "common/core/base/crash_trace.hpp"
+#include "common/core/base/log.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/launch/pace.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
@@ -75,6 +76,7 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   launch::RunLogBoard log;
   auto nodes = LocalNodes::Make(launch, {}, &log);
   if (!nodes) return base::PrintError("rodeira", nodes.error());
+  for (const std::string& warning : nodes.value().world_warnings()) base::Log(base::LogLevel::kWarning, "", warning);
   lockstep::InProcessSettings settings;
   const auto seconds = options.duration_s ? options.duration_s : launch.duration_s();
   if (seconds)

@@ -70,7 +70,10 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
   auto world = LoadWorld(launch);
   if (!world) return world.error();
   LocalNodes made;
-  if (world.value() != nullptr) made.world_hash_ = world.value()->content_hash();
+  if (world.value() != nullptr) {
+    made.world_hash_ = world.value()->content_hash();
+    made.world_warnings_.assign(world.value()->warnings().begin(), world.value()->warnings().end());
+  }
   for (lockstep::NodeIndex n = 0; n < roster.nodes().size(); ++n) {
     made.contexts_.push_back(
         std::make_unique<LocalContext>(launch, n, world.value(), *made.keys_, *made.requests_, log));

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "common/runtime/launch/node_context.hpp"
@@ -26,6 +27,8 @@ class LocalNodes {
   const std::vector<lockstep::Node*>& nodes() const { return nodes_; }
   // Of the world on which they are; 0 where there is none.
   base::Digest world_hash() const { return world_hash_; }
+  // What was repaired in the world's OpenDRIVE file: one sentence a kind. The caller prints them once.
+  const std::vector<std::string>& world_warnings() const { return world_warnings_; }
   // Where the windows' keys pass.
   launch::LiveKeysBoard& keys() { return *keys_; }
   launch::LiveRequestsBoard& requests() { return *requests_; }
@@ -38,6 +41,7 @@ class LocalNodes {
   std::vector<std::unique_ptr<lockstep::Node>> owned_;
   std::vector<lockstep::Node*> nodes_;
   base::Digest world_hash_ = 0;
+  std::vector<std::string> world_warnings_;
 };
 
 }  // namespace rodeira::cli

@@ -3,8 +3,10 @@
 // are to the bit what the world says in process.
 #include "nodes/road/road_service.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -91,6 +93,26 @@ TEST(RoadServerAnnounces, TheRoadsOfEveryKindOfWorld) {
   EXPECT_EQ(ring.roads(), 1u);
   EXPECT_EQ(ring.name(), "ring");
   EXPECT_EQ(AnnouncedOf(SourceDir() + "/configs/worlds/plane.yaml").roads(), 0u);
+}
+
+// A run's road server says what was repaired, once a kind; each other node that loads the world says nothing of it.
+TEST(RoadServerAnnounces, WhatWasRepaired) {
+  const cli::TemporaryFolder folder;
+  const auto file = folder.Write(
+      "gone.xodr",
+      "<?xml version=\"1.0\"?>\n<OpenDRIVE>\n<header revMajor=\"1\" revMinor=\"7\"/>\n<road id=\"1\" length=\"60\" "
+      "junction=\"-1\"><link><successor elementType=\"road\" elementId=\"8\" contactPoint=\"start\"/>"
+      "<predecessor elementType=\"road\" elementId=\"9\" contactPoint=\"start\"/></link><planView><geometry "
+      "s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"60\"><line/></geometry></planView><lanes><laneSection "
+      "s=\"0\"><center><lane id=\"0\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" "
+      "a=\"3\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road>\n</OpenDRIVE>\n");
+  testing::internal::CaptureStderr();
+  AnnouncedOf(file.string());
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  EXPECT_TRUE(said.starts_with("rodeira: warning: ")) << said;
+  EXPECT_THAT(said, testing::HasSubstr("gone.xodr:4: road.linkage.id: road 1"));
+  EXPECT_THAT(said, testing::HasSubstr("(2 of this kind); repaired: the road ends there\n"));
 }
 
 bool Same(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }

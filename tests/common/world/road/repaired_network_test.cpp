@@ -7,6 +7,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/world/road/network_world.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/common/world/road/netconvert.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
@@ -89,6 +90,27 @@ TEST(RepairedNetwork, SaysWhatIsLeft) {
   EXPECT_THAT(left.value(), ElementsAre(HasSubstr("it.xodr:6: road.geometry.contact_heading: road 1, s 50")));
 }
 
+// A world brings one sentence a kind, however often something was repaired: 20 elevations, one link. What is only told
+// is not among them.
+TEST(RepairedNetwork, AWorldBringsASentenceAKind) {
+  const cli::TemporaryFolder folder;
+  std::string text = Twenty();
+  text.replace(text.find("<road id=\"3\""), 12, "<road id=\"3\" colour=\"red\"");
+  const auto file = folder.Write("it.xodr", text);
+  EXPECT_EQ(CheckNetwork(file, false).warnings.size(), 3u);
+  const auto two = ElementsAre(AllOf(HasSubstr("it.xodr:7: road.elevation.elem_asc_order: road 0, s 0"),
+                                     HasSubstr("(20 of this kind); repaired: they are read in the order of s")),
+                               AllOf(HasSubstr("road.linkage.id: road 19, s 100"), HasSubstr("the road ends there")));
+  const auto world = World::Load(file);
+  ASSERT_TRUE(world.ok());
+  EXPECT_THAT(world.value()->warnings(), two);
+  const auto named =
+      World::Load(folder.Write("named.yaml", "rodeira: world/2\nname: named\nnetwork: {file: it.xodr}\n"));
+  ASSERT_TRUE(named.ok()) << named.error().Text();
+  EXPECT_THAT(named.value()->warnings(), two);
+  EXPECT_THAT(World::Load(folder.Write("good.xodr", Document(RoadText().Text()))).value()->warnings(), IsEmpty());
+}
+
 TEST(RepairedNetwork, WithoutALaneForDrivingIsRefused) {
   const cli::TemporaryFolder folder;
   RoadText road;
@@ -96,7 +118,13 @@ TEST(RepairedNetwork, WithoutALaneForDrivingIsRefused) {
   road.right = "<lane id=\"-1\" type=\"sidewalk\"><width sOffset=\"0\" a=\"2\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
   const NetworkCheck check = CheckNetwork(folder.Write("it.xodr", Document(road.Text())), false);
   ASSERT_EQ(check.errors.size(), 1u);
-  EXPECT_THAT(check.errors[0].Text(), HasSubstr("it.xodr: the network has no lane for driving"));
+  const char* sentence =
+      "it.xodr: the network has no lane for driving: its lanes are of the types sidewalk; driving was";
+  EXPECT_THAT(check.errors[0].Text(), HasSubstr(sentence));
+  // No command drives on it, either.
+  const auto world = World::Load(folder.path() / "it.xodr");
+  ASSERT_FALSE(world.ok());
+  EXPECT_THAT(world.error().Text(), HasSubstr(sentence));
 }
 
 }  // namespace

@@ -152,7 +152,7 @@ TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   EXPECT_EQ(beyond.status, 0);
   EXPECT_THAT(beyond.out, HasSubstr("s.xodr:8: road.surface.crg.s: road 1: the measured surface 'bumps.crg' lies from "
                                     "s = 0 to 9000; two places on the road, which is 60 m long, were expected; "
-                                    "repaired: <CRG> is passed over"));
+                                    "repaired: it is cut at the road's end"));
   EXPECT_EQ(system_test::RunCommand(
                 {system_test::Bin("rodeira"), "world", "check", "--strict", (folder.path() / "s.xodr").string()})
                 .status,
