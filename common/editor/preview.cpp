@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/editor/preview.hpp"
 
+#include <memory>
 #include <algorithm>
 #include <cmath>
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <algorithm>
 #include <string>
 #include <utility>

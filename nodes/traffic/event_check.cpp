@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
 #include <filesystem>
 
 #include "common/driving/scenario/scenario_file.hpp"

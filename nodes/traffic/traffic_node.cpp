@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <memory>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -23,6 +25,9 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "common/traffic/pedestrians/pedestrians.hpp"
+#include "common/world/road/world.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "nodes/traffic/event_check.hpp"
 
 namespace rodeira::nodes {

@@ -4,6 +4,10 @@
 // sentence.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

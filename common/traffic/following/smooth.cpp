@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an agent comes from one acceleration to the next.
-#include "common/driving/driver/smooth.hpp"
-
+// How a vehicle comes from one acceleration to the next.
 #include <algorithm>
 
-#include "common/traffic/traffic_model.hpp"
+#include "common/driving/driver/pedals.hpp"
+#include "common/driving/driver/smooth.hpp"
+#include "common/traffic/following/acceleration.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -23,28 +23,29 @@ constexpr double kCreeps_mps = 1.0;
 // deceleration that it has come to would be let go of from: that is let go of by the planned jerk all the same, as long
 // as what is left of it is taken by the foot that ends the stop. Nor are the last centimetres before a line, which ask
 // for as much as one likes, an emergency for it: it comes to stand a hand's breadth behind; before somebody they are.
-double TrafficModel::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
-  const Agent& agent = agents_[id];
-  const double before = agent.wish_mps2, v = agent.speed_mps, b = traits_[id].idm.braking_mps2;
-  const driver::SmoothSettings& smooth = settings_.smooth;
-  hurries_[id] = 0;
+double Acceleration::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
+  const Agent& agent = in_.agents[id];
+  const double before = agent.wish_mps2, v = agent.speed_mps, b = in_.traits[id].idm.braking_mps2;
+  const driver::SmoothSettings& smooth = in_.settings.smooth;
+  out_.hurries[id] = 0;
   if (agent.brake_mps2 > 0.0) return wanted_mps2;
   const double lets_go = driver::EasedStop_mps2(v, smooth.planned_mps3, dt_s);
   const double can_let_go =
-      full_ ? driver::EasedStop_mps2(v + driver::Pedals::kEnds_mps, smooth.planned_mps3, dt_s) : lets_go;
-  const bool parts =
-      ahead_[id].any && ahead_[id].id >= 0 && ahead_[id].speed_mps > v;  // who has merged in before it, and drives away
+      in_.full ? driver::EasedStop_mps2(v + driver::Pedals::kEnds_mps, smooth.planned_mps3, dt_s) : lets_go;
+  const bool parts = in_.ahead[id].any && in_.ahead[id].id >= 0 &&
+                     in_.ahead[id].speed_mps > v;  // who has merged in before it, and drives away
   const bool longer = wanted_mps2 < -b && driver::NeedsHaste(wanted_mps2, v, before, smooth.planned_mps3);
-  const bool at_line = full_ && v < kCreeps_mps &&
-                       !(ahead_[id].any && (ahead_[id].speed_mps < 0.0 ||
-                                            ahead_[id].gap_m < driver::SmoothStop_m(v, before, smooth.planned_mps3)));
+  const bool at_line =
+      in_.full && v < kCreeps_mps &&
+      !(in_.ahead[id].any &&
+        (in_.ahead[id].speed_mps < 0.0 || in_.ahead[id].gap_m < driver::SmoothStop_m(v, before, smooth.planned_mps3)));
   const bool hurries = -before > std::min(kHarder * b, can_let_go + smooth.planned_mps3 * dt_s + kRounding_mps2) ||
-                       (wanted_mps2 <= -traits_[id].idm.hardest_mps2 && !parts && !at_line) || longer;
-  hurries_[id] = hurries ? 1 : 0;
+                       (wanted_mps2 <= -in_.traits[id].idm.hardest_mps2 && !parts && !at_line) || longer;
+  out_.hurries[id] = hurries ? 1 : 0;
   const double jerk = hurries ? smooth.emergency_mps3 : smooth.planned_mps3;
-  const double hardest = hurries ? driver::EasedStop_mps2(v, jerk, dt_s)
-                         : full_ ? std::max(lets_go, -before - jerk * dt_s)
-                                 : lets_go;
+  const double hardest = hurries    ? driver::EasedStop_mps2(v, jerk, dt_s)
+                         : in_.full ? std::max(lets_go, -before - jerk * dt_s)
+                                    : lets_go;
   return std::max(std::clamp(wanted_mps2, before - jerk * dt_s, before + jerk * dt_s), -hardest);
 }
 

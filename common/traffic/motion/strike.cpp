@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Agents that have been hit.
+#include "common/traffic/motion/strike.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/constants.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/agent.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -24,19 +25,19 @@ bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
 
 }  // namespace
 
-void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
-  RODEIRA_ASSERT(id < agents_.size());
-  Agent& agent = agents_[id];
+void Crashes::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
+  RODEIRA_ASSERT(id < out_.agents.size());
+  Agent& agent = out_.agents[id];
   if (!agent.is_struck) {
-    if (!agent.on_road || impulse_Ns.norm() < kNoticed_mps * traits_[id].mass_kg) return;
-    const AgentPose pose = PoseOf(id);
-    const driver::Footprint body = FootprintOf(pose, traits_[id]);
+    if (!agent.on_road || impulse_Ns.norm() < kNoticed_mps * in_.traits[id].mass_kg) return;
+    const AgentPose pose = in_.body_poses.PoseOf(id);
+    const driver::Footprint body = FootprintOf(pose, in_.traits[id]);
     const std::uint32_t trip = agent.trip;
     const double driven = agent.driven_m;
     const std::int32_t flow = agent.flow;
     const std::uint32_t arrival = agent.arrival;
     agent = Agent();
-    if (full_) full_->Clear(id);
+    if (out_.full) out_.full->Clear(id);
     agent.trip = trip;
     agent.flow = flow, agent.arrival = arrival;
     agent.driven_m = driven;
@@ -46,20 +47,21 @@ void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, c
     agent.struck.heading_rad = body.heading_rad;
     agent.struck.v_W = body.speed_mps * Eigen::Vector2d(std::cos(body.heading_rad), std::sin(body.heading_rad));
   }
-  agent.struck.Push(traits_[id], impulse_Ns, point_W);
+  agent.struck.Push(in_.traits[id], impulse_Ns, point_W);
   agent.speed_mps =
       agent.struck.v_W.dot(Eigen::Vector2d(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad)));
-  *std::find_if(poses_.begin(), poses_.end(), [&](const AgentPose& pose) { return pose.id == id; }) = PoseOfStruck(id);
+  *std::find_if(out_.poses.begin(), out_.poses.end(), [&](const AgentPose& pose) { return pose.id == id; }) =
+      in_.body_poses.PoseOfStruck(id);
 }
 
-void TrafficModel::SlideStruck(double dt_s) {
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    Agent& agent = agents_[id];
+void Crashes::SlideStruck(double dt_s) {
+  for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
+    Agent& agent = out_.agents[id];
     if (!agent.is_struck) continue;
     const Eigen::Vector2d before = agent.struck.v_W;
-    if (agent.waited_s > 0.0 && Holds(agent.struck, traits_[id], dt_s))
+    if (agent.waited_s > 0.0 && Holds(agent.struck, in_.traits[id], dt_s))
       agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
-    agent.struck.Slide(traits_[id], kSlidingFriction, dt_s);
+    agent.struck.Slide(in_.traits[id], kSlidingFriction, dt_s);
     agent.waited_s = agent.struck.at_rest() ? agent.waited_s + dt_s : 0.0;  // at rest
     const Eigen::Vector2d ahead(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad));
     agent.speed_mps = agent.struck.v_W.dot(ahead);
@@ -69,29 +71,16 @@ void TrafficModel::SlideStruck(double dt_s) {
 }
 
 // Of the nearest lane's surface on its level, which goes on level beside it; beside all lanes as before.
-double TrafficModel::HeightAt(const Struck& struck, double near_z_m) const {
+double Crashes::HeightAt(const Struck& struck, double near_z_m) const {
   double height = near_z_m, nearest = kReach_m;
-  for (const lanes::Graph::Beside& beside : graph().TracksAt(struck.p_W, kReach_m)) {
-    const lanes::CurvePoint at = graph()[beside.track].curve.At(beside.foot.d_m);
+  for (const lanes::Graph::Beside& beside : in_.map.graph.TracksAt(struck.p_W, kReach_m)) {
+    const lanes::CurvePoint at = in_.map.graph[beside.track].curve.At(beside.foot.d_m);
     if (std::fabs(at.p_W.z() - near_z_m) > network::Network::kLevel_m || std::fabs(beside.foot.offset_m) >= nearest)
       continue;
     nearest = std::fabs(beside.foot.offset_m);
     height = at.p_W.z() + at.bank * beside.foot.offset_m;
   }
   return height;
-}
-
-AgentPose TrafficModel::PoseOfStruck(std::uint32_t id) const {
-  const Agent& agent = agents_[id];
-  AgentPose pose;
-  pose.id = id;
-  pose.trip = agent.trip;
-  pose.p_WB_W = {agent.struck.p_W.x(), agent.struck.p_W.y(), agent.struck_z_m};
-  pose.q_WB = Eigen::AngleAxisd(agent.struck.heading_rad, Eigen::Vector3d::UnitZ());
-  pose.speed_mps = agent.speed_mps;
-  pose.acceleration_mps2 = agent.acceleration_mps2;
-  pose.braking = true;
-  return pose;
 }
 
 }  // namespace rodeira::traffic

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cars of the traffic driven as MOTORS does: each along a trajectory of its own between the borders of its lane, giving
-// way where paths cross, and to nobody else.
+#include "common/traffic/motors/motors_driving.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "common/core/base/random.hpp"
 #include "common/core/geometry/plane.hpp"
-#include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/motors/motors_looks.hpp"
 #include "common/traffic/perception/each_driving.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -31,37 +32,38 @@ double AngleBetween(const Vector2d& from, const Vector2d& to) {
 
 }  // namespace
 
-void TrafficModel::StartMotors() {
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    motors_.emplace_back(base::RandomUniform({settings_.seed, id, kDrawResponsiveness}, 0.5, 1.0),
-                         base::RandomUniform({settings_.seed, id, kDrawAggression}, 3.0, 4.0));
+void MotorsDriving::StartMotors() {
+  for (std::uint32_t id = 0; id < in_.agents.size(); ++id) {
+    out_.motors.emplace_back(base::RandomUniform({in_.settings.seed, id, kDrawResponsiveness}, 0.5, 1.0),
+                             base::RandomUniform({in_.settings.seed, id, kDrawAggression}, 3.0, 4.0));
   }
-  segments_.resize(agents_.size());
+  out_.segments.resize(in_.agents.size());
 }
 
 // The mean of both borders with the driver's weight. The first control point of its curve is moved: the others lie as
 // they are.
-Vector2d TrafficModel::MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const {
-  const lanes::Curve& curve = graph()[driver.track].curve;
+Vector2d MotorsDriving::MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const {
+  const lanes::Curve& curve = in_.map.graph[driver.track].curve;
   const double d = std::min(index * kCheckpoint_m, curve.length_m()), left = 1.0 - d / curve.length_m();
   const lanes::CurvePoint at = curve.At(d);
   return at.p_W.head<2>() + (driver.weight - 0.5) * curve.WidthAt(d) * at.left_W() + left * left * left * driver.join_W;
 }
 
 // At least three.
-std::uint32_t TrafficModel::MotorsPoints(const MotorsDriver& driver) const {
-  return std::max(3u, static_cast<std::uint32_t>(std::ceil(graph()[driver.track].length_m() / kCheckpoint_m)) + 1);
+std::uint32_t MotorsDriving::MotorsPoints(const MotorsDriver& driver) const {
+  return std::max(3u,
+                  static_cast<std::uint32_t>(std::ceil(in_.map.graph[driver.track].length_m() / kCheckpoint_m)) + 1);
 }
 
 // Onto the trajectory of a lane, from its own target on halfway to where that begins.
-void TrafficModel::TakeLane(std::uint32_t id, const Piece& piece) {
-  MotorsDriver& driver = motors_[id];
+void MotorsDriving::TakeLane(std::uint32_t id, const Piece& piece) {
+  MotorsDriver& driver = out_.motors[id];
   const bool onward = driver.lanes > 0;
   const Vector2d target = onward ? MotorsPoint(driver, MotorsPoints(driver) - 1) : Vector2d::Zero();
   driver.track = piece.track;
   driver.zero_m = piece.zero_m;
-  driver.weight =
-      base::RandomUniform({settings_.seed, id, kDrawWeight, driver.trip, driver.lanes++}, 1.0 - kLeftmost, kLeftmost);
+  driver.weight = base::RandomUniform({in_.settings.seed, id, kDrawWeight, driver.trip, driver.lanes++},
+                                      1.0 - kLeftmost, kLeftmost);
   driver.join_W.setZero();
   driver.checkpoint = 0;
   if (onward) driver.join_W = 0.5 * (target - MotorsPoint(driver, 0));
@@ -69,12 +71,12 @@ void TrafficModel::TakeLane(std::uint32_t id, const Piece& piece) {
 
 // To the checkpoint that it comes to: one that is reached, or farther than the next, is passed; at the last one the
 // next lane begins.
-void TrafficModel::FollowTrajectory(std::uint32_t id) {
-  const Agent& agent = agents_[id];
-  MotorsDriver& driver = motors_[id];
-  const Vector2d at = full_->cars().p_WB_W(id).head<2>();
+void MotorsDriving::FollowTrajectory(std::uint32_t id) {
+  const Agent& agent = in_.agents[id];
+  MotorsDriver& driver = out_.motors[id];
+  const Vector2d at = out_.full->cars().p_WB_W(id).head<2>();
   if (driver.lanes == 0 || driver.trip != agent.trip) {
-    driver.Begin(full_->cars().car(id).powertrain.gear());
+    driver.Begin(out_.full->cars().car(id).powertrain.gear());
     driver.trip = agent.trip;
     std::size_t i = agent.path.size() - 1;
     while (i > 0 && agent.path[i].begin_m > agent.o_m) --i;
@@ -103,39 +105,39 @@ void TrafficModel::FollowTrajectory(std::uint32_t id) {
   }
 }
 
-Vector2d TrafficModel::MotorsLooksAt(std::uint32_t id) const {
-  const MotorsDriver& driver = motors_[id];
+Vector2d MotorsDriving::MotorsLooksAt(std::uint32_t id) const {
+  const MotorsDriver& driver = out_.motors[id];
   const auto ahead =
-      driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * agents_[id].speed_mps / kCheckpoint_m);
+      driver.checkpoint + static_cast<std::uint32_t>(kLookAhead_s * in_.agents[id].speed_mps / kCheckpoint_m);
   return MotorsPoint(driver, std::min(ahead, MotorsPoints(driver) - 2));
 }
 
 // At the end of its lane the point lies beside the car, or behind, and says nothing.
-double TrafficModel::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) const {
-  const Vector2d to_W = look_W - full_->cars().p_WB_W(id).head<2>();
+double MotorsDriving::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) const {
+  const Vector2d to_W = look_W - out_.full->cars().p_WB_W(id).head<2>();
   return to_W.norm() < 2.0 * kCheckpoint_m
              ? 0.0
-             : AngleBetween((full_->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
+             : AngleBetween((out_.full->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
 }
 
 // Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of
 // way, to the lane's end.
-void TrafficModel::GiveWay() {
-  EachDriving([&](std::uint32_t id) {
+void MotorsDriving::GiveWay() {
+  EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {
     FollowTrajectory(id);
-    motors_[id].stops = false;
-    segments_[id] = MotorsLooksAt(id);
+    out_.motors[id].stops = false;
+    out_.segments[id] = MotorsLooksAt(id);
   });
   std::vector<MotorsLook> all;
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (!agents_[id].on_road) continue;
-    const Eigen::Vector3d at = full_->cars().p_WB_W(id);
-    all.push_back({at.head<2>(), segments_[id], at.z(), id});
+  for (std::uint32_t id = 0; id < in_.agents.size(); ++id) {
+    if (!in_.agents[id].on_road) continue;
+    const Eigen::Vector3d at = out_.full->cars().p_WB_W(id);
+    all.push_back({at.head<2>(), out_.segments[id], at.z(), id});
   }
   const auto yields = [&](const MotorsLook& me, const MotorsLook& other) {
     const double side = geometry::Cross(me.to - me.from, other.from - me.from);
-    MotorsDriver& driver = motors_[me.id];
-    driver.stops = driver.stops || (graph()[driver.track].left_hand ? side >= 0.0 : side <= 0.0);
+    MotorsDriver& driver = out_.motors[me.id];
+    driver.stops = driver.stops || (in_.map.graph[driver.track].left_hand ? side >= 0.0 : side <= 0.0);
   };
   EachCrossing(all, [&](const MotorsLook& a, const MotorsLook& b) {
     yields(a, b);
@@ -143,20 +145,21 @@ void TrafficModel::GiveWay() {
   });
 }
 
-void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {
-  MotorsDriver& driver = motors_[id];
-  const Agent& agent = agents_[id];
-  const dynamics::BicycleCar& car = full_->cars().car(id);
-  const dynamics::BicycleSettings& settings = full_->cars().chassis(id).settings;
-  const Vector2d at = full_->cars().p_WB_W(id).head<2>(), ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>();
+void MotorsDriving::DriveMotors(std::uint32_t id, double dt_s) {
+  MotorsDriver& driver = out_.motors[id];
+  const Agent& agent = in_.agents[id];
+  const dynamics::BicycleCar& car = out_.full->cars().car(id);
+  const dynamics::BicycleSettings& settings = out_.full->cars().chassis(id).settings;
+  const Vector2d at = out_.full->cars().p_WB_W(id).head<2>(),
+                 ahead = (car.body.q_WG * Eigen::Vector3d::UnitX()).head<2>();
   const Vector2d current = MotorsPoint(driver, driver.checkpoint), target = MotorsPoint(driver, driver.checkpoint + 1);
   MotorsView view;
   view.speed_mps = agent.speed_mps;
   view.to_path_rad = AngleBetween(ahead, target - current);
   view.to_target_rad = AngleBetween(ahead, target - at);
   view.distance_m = (current - at).norm();
-  view.turn_rad = MotorsTurn_rad(id, segments_[id]);
-  view.limit_mps = std::min(kMotorsLimit_mps, Cap_mps(id));
+  view.turn_rad = MotorsTurn_rad(id, out_.segments[id]);
+  view.limit_mps = std::min(kMotorsLimit_mps, Cap_mps(in_.agents[id], in_.traits[id]));
   view.stops = driver.stops || agent.brake_mps2 > 0.0;
   view.engine_radps = car.powertrain.engine().speed_radps();
   view.engine_runs = car.powertrain.engine().running();
@@ -168,7 +171,7 @@ void TrafficModel::DriveMotors(std::uint32_t id, double dt_s) {
   of.bite_radps = kAboveStall * engine.stall_radps;
   of.closed_radps = kSlowest * engine.idle_radps;
   of.gears = static_cast<int>(settings.powertrain.gearbox.forward.size());
-  full_->Hold(id, driver.Step(view, of, dt_s));
+  out_.full->Hold(id, driver.Step(view, of, dt_s));
 }
 
 }  // namespace rodeira::traffic

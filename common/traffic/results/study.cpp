@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/traffic/results/study.hpp"
 
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +14,7 @@
 #include "common/traffic/check/checker.hpp"
 #include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/network/road_network.hpp"
+#include "common/world/road/world.hpp"
 #include "common/traffic/right_of_way/queueing.hpp"
 
 namespace rodeira::traffic {

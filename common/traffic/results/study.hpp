@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/traffic/results/lane_intervals.hpp"
+#include "common/world/road/world.hpp"
 #include "common/traffic/results/lane_statistics.hpp"
 
 namespace rodeira::traffic {

@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who holds and who comes to each conflict zone.
+#include "common/traffic/right_of_way/claims.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "common/traffic/right_of_way/queueing.hpp"
 #include "common/traffic/right_of_way/travel_time.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
 constexpr double kLaterThan_s = 30.0;  // of no interest now
+constexpr double kYielded_mps2 = 1.0;  // by which others may have to brake, on the average, for who merges before them
+constexpr double kLag_s = 1.0;         // … and so much later than that one they come
+constexpr double kEntryStandingMargin_m = 2.0;  // beyond its length, to stand between two zones near its entry
 
 }  // namespace
 
 // Zones lie in far memory where there are thousands of agents: those of who soon asks for his own are brought near
 // meanwhile.
-void TrafficModel::FetchZones(std::size_t id) const {
-  if (id >= agents_.size() || agents_[id].granted_m < agents_[id].o_m) return;
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.begin_m > agents_[id].granted_m) break;
+void Claims::FetchZones(std::size_t id) const {
+  if (id >= out_.agents.size() || out_.agents[id].granted_m < out_.agents[id].o_m) return;
+  for (const Stretch& stretch : in_.stretches[id]) {
+    if (stretch.begin_m > out_.agents[id].granted_m) break;
     if (!stretch.crosses) continue;
-    const auto sides = zones().ConflictsOf(stretch.track);
+    const auto sides = in_.map.zones.ConflictsOf(stretch.track);
     constexpr std::size_t kLine_bytes = 64;
     const auto* first = reinterpret_cast<const char*>(sides.data());
     for (std::size_t at = 0; at < sides.size_bytes(); at += kLine_bytes) __builtin_prefetch(first + at);
@@ -30,94 +36,114 @@ void TrafficModel::FetchZones(std::size_t id) const {
 }
 
 // Its own are the zones that are granted to it and those that it stands in.
-void TrafficModel::HoldZones(std::uint32_t id) {
-  const Agent& agent = agents_[id];
-  const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+void Claims::HoldZones(std::uint32_t id) {
+  const Agent& agent = out_.agents[id];
+  const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
   const double to = std::max(front - kZoneOverhang_m, agent.granted_m);
-  for (const Stretch& stretch : stretches_[id]) {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear || !stretch.crosses) continue;
-    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
+    for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
       const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;
       if (in >= to || out <= rear) continue;
       const ZoneGrant grant = agent.GrantOf(out);
-      book_.Hold(part.zone, static_cast<std::size_t>(part.side), {id, grant.sure, grant.number, out});
+      out_.book.Hold(part.zone, static_cast<std::size_t>(part.side), {id, grant.sure, grant.number, out});
     }
   }
 }
 
 // Which sides of zones those ask about who may be let in now.
-void TrafficModel::AskForZones() {
-  for (const std::uint32_t side : asked_sides_) is_asked_[side] = 0;
-  asked_sides_.clear();
-  for (const std::uint32_t id : order_) {
-    if (!passages_[id].able) continue;
-    for (const Crossing& crossing : passages_[id].crossings) {
+void Claims::AskForZones() {
+  for (const std::uint32_t side : out_.asked_sides) out_.is_asked[side] = 0;
+  out_.asked_sides.clear();
+  for (const std::uint32_t id : in_.order) {
+    if (!out_.passages[id].able) continue;
+    for (const Crossing& crossing : out_.passages[id].crossings) {
       if (crossing.zone < 0) continue;
       const auto theirs = static_cast<std::uint32_t>(2 * crossing.zone + 1 - crossing.side);
-      if (std::exchange(is_asked_[theirs], 1) == 0) asked_sides_.push_back(theirs);
+      if (std::exchange(out_.is_asked[theirs], 1) == 0) out_.asked_sides.push_back(theirs);
     }
   }
 }
 
 // A head that waits to be granted its zones comes to them; where nobody asks it is not told.
-void TrafficModel::ComeToZones(std::uint32_t id) {
-  const Passage& passage = passages_[id];
-  if (agents_[id].brake_mps2 > 0.0 || passage.red || passage.barred || (passage.due && !(passage.head && passage.able)))
+void Claims::ComeToZones(std::uint32_t id) {
+  const Passage& passage = out_.passages[id];
+  if (out_.agents[id].brake_mps2 > 0.0 || passage.red || passage.barred ||
+      (passage.due && !(passage.head && passage.able)))
     return;
   const auto is_asked = [&](const Crossing& crossing) {
-    return crossing.zone >= 0 && is_asked_[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] != 0;
+    return crossing.zone >= 0 && out_.is_asked[static_cast<std::size_t>(2 * crossing.zone + crossing.side)] != 0;
   };
   if (std::none_of(passage.crossings.begin(), passage.crossings.end(), is_asked)) return;
-  if (!passage.due) TellComing(id);
+  if (!passage.due) out_.room.TellComing(id);
   if (!passage.head || !passage.able || passage.arrives_s > kLaterThan_s) return;
   for (const Crossing& crossing : passage.crossings) {
     if (is_asked(crossing))
-      book_.Come(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
-                 {id, crossing.in_m, crossing.out_m});
+      out_.book.Come(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
+                     {id, crossing.in_m, crossing.out_m});
   }
 }
 
 // Its front at the zone's beginning.
-double TrafficModel::ArrivesAt(const Comer& comer) const {
-  if (comer.id >= agents_.size()) return comer.arrives_s;
-  return ComesWithin(comer, comer.in_m - FrontOf(comer.id)) + passages_[comer.id].later_s;
+double Claims::ArrivesAt(const Comer& comer) const {
+  if (comer.id >= out_.agents.size()) return comer.arrives_s;
+  return ComesWithin(comer, comer.in_m - FrontOf(out_.agents[comer.id], in_.traits[comer.id])) +
+         out_.passages[comer.id].later_s;
 }
 
 // Its rear at the zone's end.
-double TrafficModel::ClearsAt(const Comer& comer) const {
-  if (comer.id >= agents_.size()) return comer.clears_s;
-  return ComesWithin(comer, comer.out_m - (FrontOf(comer.id) - traits_[comer.id].length_m)) +
-         passages_[comer.id].later_s;
+double Claims::ClearsAt(const Comer& comer) const {
+  if (comer.id >= out_.agents.size()) return comer.clears_s;
+  return ComesWithin(comer, comer.out_m - (FrontOf(out_.agents[comer.id], in_.traits[comer.id]) -
+                                           in_.traits[comer.id].length_m)) +
+         out_.passages[comer.id].later_s;
 }
 
 // When it has come so far, if it may go on as fast as it may at the zone's beginning.
-double TrafficModel::ComesWithin(const Comer& comer, double way_m) const {
-  const Agent& agent = agents_[comer.id];
-  return TravelTime(way_m, agent.speed_mps, AllowedAt(comer.id, comer.in_m), traits_[comer.id].start_mps2,
-                    {agent.wish_mps2, settings_.smooth.planned_mps3});
+double Claims::ComesWithin(const Comer& comer, double way_m) const {
+  const Agent& agent = out_.agents[comer.id];
+  return TravelTime(way_m, agent.speed_mps, in_.limits.AllowedAt(comer.id, comer.in_m), in_.traits[comer.id].start_mps2,
+                    {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+}
+
+// Where two ways merge, whether who comes, surely behind it, need not brake much for it to stay there until it is out
+// of the zone.
+bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s,
+                         double clears_s) const {
+  if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge ||
+      comer.id >= out_.agents.size())
+    return false;
+  const Agent& agent = out_.agents[id];
+  const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;
+  const double arrives = TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
+                                    in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+  if (!(comes_s > arrives + kLag_s)) return false;
+  const double way = comer.out_m - FrontOf(out_.agents[comer.id], in_.traits[comer.id]), ends = ComesWithin(comer, way);
+  const double comes = way * clears_s / std::max(0.1, ends), may_come = way - in_.settings.idm.standing_gap_m;
+  return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
 // Who has just been refused does not come before whoever keeps it out is gone.
-void TrafficModel::ComeLater(std::uint32_t id) {
-  Passage& passage = passages_[id];
+void Claims::ComeLater(std::uint32_t id) {
+  Passage& passage = out_.passages[id];
   passage.later_s = std::max(0.0, passage.delay_s);
 }
 
 // Vehicles that are no agents.
-void TrafficModel::OthersAtZones() {
-  if (!any_block_) return;
-  const auto nobody = static_cast<std::uint32_t>(agents_.size());
-  for (std::uint32_t track = 0; track < blocks_.size(); ++track) {
-    for (const Block& block : blocks_[track]) {
-      for (const lanes::ZoneSide& part : zones().Of(track)) {
-        const lanes::Zone& zone = zones()[part.zone];
+void Claims::OthersAtZones() {
+  if (!in_.any_block) return;
+  const auto nobody = static_cast<std::uint32_t>(out_.agents.size());
+  for (std::uint32_t track = 0; track < in_.blocks.size(); ++track) {
+    for (const Block& block : in_.blocks[track]) {
+      for (const lanes::ZoneSide& part : in_.map.zones.Of(track)) {
+        const lanes::Zone& zone = in_.map.zones[part.zone];
         const auto mine = static_cast<std::size_t>(part.side);
         if (zone.kind == lanes::ZoneKind::kDiverge ||
             std::min(std::fabs(block.span.left_m), std::fabs(block.span.right_m)) > 1.2)
           continue;
         if (block.span.front_m <= zone.in_m[mine] || block.span.rear_m >= zone.out_m[mine]) continue;
-        book_.Hold(part.zone, mine, {nobody});
+        out_.book.Hold(part.zone, mine, {nobody});
       }
       if (block.span.speed_mps < 0.5 || block.span.left_m < -1.0 || block.span.right_m > 1.0) continue;
       // Where it goes is not known: it comes to all zones within six seconds, on every way; but not past a light that
@@ -129,24 +155,40 @@ void TrafficModel::OthersAtZones() {
       std::vector<At> open{{track, -block.span.front_m}};
       for (std::size_t i = 0; i < open.size() && i < 64; ++i) {
         const At at = open[i];
-        const double stops_m = RedAhead(at.track, -at.ahead_m, block.span.speed_mps);
-        for (const lanes::ZoneSide& part : zones().Of(at.track)) {
-          const lanes::Zone& zone = zones()[part.zone];
+        const double stops_m = in_.signals.RedAhead(at.track, -at.ahead_m, block.span.speed_mps);
+        for (const lanes::ZoneSide& part : in_.map.zones.Of(at.track)) {
+          const lanes::Zone& zone = in_.map.zones[part.zone];
           const auto mine = static_cast<std::size_t>(part.side);
           const double way = at.ahead_m + zone.in_m[mine], length = block.span.front_m - block.span.rear_m;
           if (zone.kind == lanes::ZoneKind::kDiverge || way < 0.0 || way > 6.0 * block.span.speed_mps ||
               zone.in_m[mine] > stops_m)
             continue;
-          book_.Come(part.zone, mine,
-                     {nobody, 0.0, 0.0, way / block.span.speed_mps,
-                      (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
+          out_.book.Come(part.zone, mine,
+                         {nobody, 0.0, 0.0, way / block.span.speed_mps,
+                          (at.ahead_m + zone.out_m[mine] + length) / block.span.speed_mps});
         }
-        const double end = at.ahead_m + graph()[at.track].length_m();
+        const double end = at.ahead_m + in_.map.graph[at.track].length_m();
         if (end > 6.0 * block.span.speed_mps || stops_m < kNoBarrier_m) continue;
-        for (const lanes::Link& link : graph()[at.track].next) open.push_back({link.to, end - link.from_d_m});
+        for (const lanes::Link& link : in_.map.graph[at.track].next) open.push_back({link.to, end - link.from_d_m});
       }
     }
   }
+}
+
+// The conflict zones at its beginning, up to the next place where it can stand: its own from now on. False where
+// another one holds any of them.
+bool Claims::TakeFirstZones(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
+  const double stand = in_.traits[id].length_m + kEntryStandingMargin_m;
+  for (const Stretch& stretch : in_.stretches[id]) {
+    if (stretch.begin_m > agent.granted_m + stand) break;
+    for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
+      if (stretch.zero_m + part.in_m > agent.granted_m + stand) break;
+      if (!out_.book.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side)).empty()) return false;
+      agent.granted_m = std::max(agent.granted_m, stretch.zero_m + part.out_m);
+    }
+  }
+  return true;
 }
 
 }  // namespace rodeira::traffic

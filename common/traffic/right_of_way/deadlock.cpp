@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Deadlocks of traffic: finds a closed cycle of vehicles, each of which waits for the next one, and ends it.
+#include "common/traffic/right_of_way/deadlock.hpp"
+
 #include <algorithm>
+#include <cstddef>
 #include <numeric>
-#include <span>
 #include <vector>
 
 #include "common/traffic/right_of_way/queueing.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -18,13 +19,13 @@ constexpr double kQueuedGap_m = 1.0;
 
 // Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead
 // only where it has come up to him, and else for who keeps it in its own zones.
-std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
-  if (agents_[id].speed_mps > kStandstill_mps) return -1;
-  const Ahead& ahead = ahead_[id];
-  const Passage& passage = passages_[id];
-  const bool is_in = !agents_[id].grants.empty();
-  if (is_in && ahead.id >= 0 && ahead.gap_m < traits_[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
-  const std::int64_t keeps = is_in ? KeptInZonesBy(id) : -1;
+std::int64_t Deadlocks::WaitsFor(std::uint32_t id) const {
+  if (out_.agents[id].speed_mps > kStandstill_mps) return -1;
+  const Ahead& ahead = in_.ahead[id];
+  const Passage& passage = in_.passages[id];
+  const bool is_in = !out_.agents[id].grants.empty();
+  if (is_in && ahead.id >= 0 && ahead.gap_m < in_.traits[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
+  const std::int64_t keeps = is_in ? in_.merging.KeptInZonesBy(id) : -1;
   if (keeps >= 0) return keeps;
   if (passage.any && passage.head && passage.due) return passage.waits_for;
   return !is_in && ahead.any ? ahead.id : -1;
@@ -32,10 +33,10 @@ std::int64_t TrafficModel::WaitsFor(std::uint32_t id) const {
 
 // The circle in which a chain closes, from where it does; empty where it does not, or comes to one that has been
 // `seen`.
-std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
+std::vector<std::uint32_t> Deadlocks::CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
   std::vector<std::uint32_t> chain;
   std::int64_t at = start;
-  while (at >= 0 && static_cast<std::size_t>(at) < agents_.size() && seen[static_cast<std::size_t>(at)] == 0) {
+  while (at >= 0 && static_cast<std::size_t>(at) < out_.agents.size() && seen[static_cast<std::size_t>(at)] == 0) {
     seen[static_cast<std::size_t>(at)] = 1;
     chain.push_back(static_cast<std::uint32_t>(at));
     at = WaitsFor(static_cast<std::uint32_t>(at));
@@ -47,38 +48,39 @@ std::vector<std::uint32_t> TrafficModel::CircleOf(std::uint32_t start, std::vect
 // Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless
 // somebody else holds one of those it stands in: nobody counts on it in the others, and it stands where it would have
 // waited.
-bool TrafficModel::GiveBack(std::uint32_t id) {
-  Agent& agent = agents_[id];
+bool Deadlocks::GiveBack(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return false;
-  const double front = FrontOf(id), rear = front - traits_[id].length_m, to = front - kZoneOverhang_m;
+  const double front = FrontOf(out_.agents[id], in_.traits[id]), rear = front - in_.traits[id].length_m,
+               to = front - kZoneOverhang_m;
   if (agent.granted_m <= to) return false;
-  for (const Stretch& stretch : stretches_[id]) {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear || !stretch.crosses) continue;
-    for (const lanes::ZoneSide& part : zones().ConflictsOf(stretch.track)) {
+    for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
       if (stretch.zero_m + part.in_m >= to || stretch.zero_m + part.out_m <= rear) continue;
-      for (const Holder& holder : book_.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
+      for (const Holder& holder : in_.book.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
         if (holder.id != id) return false;
       }
     }
   }
   agent.grants.clear();
   agent.granted_m = to;
-  FindPassage(id);
+  out_.passages_ahead.FindPassage(id);
   return true;
 }
 
 // Whether it waits at a line and might be let in now.
-bool TrafficModel::IsAtLine(std::uint32_t id) const {
-  const Passage& passage = passages_[id];
+bool Deadlocks::IsAtLine(std::uint32_t id) const {
+  const Passage& passage = in_.passages[id];
   return passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred;
 }
 
 // Whether one of them keeps another one out of a zone.
-bool TrafficModel::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
+bool Deadlocks::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
   std::vector<std::size_t> sides;
   for (const std::uint32_t id : some) {
-    for (const Crossing& crossing : passages_[id].crossings) {
+    for (const Crossing& crossing : in_.passages[id].crossings) {
       if (crossing.zone >= 0)
         sides.push_back(
             ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
@@ -96,7 +98,7 @@ bool TrafficModel::AreInOneAnothersWay(std::span<const std::uint32_t> some) cons
 // nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
 // else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good
 // where they wait for one whom he is in the way of.
-bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
+bool Deadlocks::LetIn(const std::vector<std::uint32_t>& circle) {
   struct AtLine {
     std::uint32_t id = 0;
     std::size_t next = 0;  // of those at a line whom those before it wait for
@@ -104,7 +106,7 @@ bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
   };
   std::vector<AtLine> lines;
   for (const std::uint32_t id : circle) {
-    const Passage& passage = passages_[id];
+    const Passage& passage = in_.passages[id];
     if (passage.any && passage.head && passage.due) lines.push_back({id, lines.size() + 1});
   }
   if (lines.empty()) return false;
@@ -112,23 +114,23 @@ bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
   std::vector<std::size_t> order(lines.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const double waited_a = agents_[lines[a].id].waited_s, waited_b = agents_[lines[b].id].waited_s;
+    const double waited_a = out_.agents[lines[a].id].waited_s, waited_b = out_.agents[lines[b].id].waited_s;
     return waited_a != waited_b ? waited_a > waited_b : lines[a].id < lines[b].id;
   });
   bool any = false;
   const auto let_in = [&](AtLine& line) {
-    line.goes = IsAtLine(line.id) && Grant(line.id, false);
+    line.goes = IsAtLine(line.id) && out_.grants.Grant(line.id, false);
     any = any || line.goes;
     return line.goes;
   };
   for (const std::size_t i : order) {
-    if (passages_[lines[i].id].able) let_in(lines[i]);
+    if (in_.passages[lines[i].id].able) let_in(lines[i]);
   }
   std::vector<std::uint8_t> tried(lines.size(), 0);
   for (bool more = any; more;) {
     more = false;
     for (const std::size_t i : order) {
-      if (tried[i] != 0 || lines[i].goes || passages_[lines[i].id].able || !lines[lines[i].next].goes) continue;
+      if (tried[i] != 0 || lines[i].goes || in_.passages[lines[i].id].able || !lines[lines[i].next].goes) continue;
       tried[i] = 1;
       more = let_in(lines[i]) || more;
     }
@@ -138,18 +140,18 @@ bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
   bool free = true;
   for (const AtLine& line : lines) {
     all.push_back(line.id);
-    free = free && IsAtLine(line.id) && !passages_[line.id].able && !IsHeld(line.id);
+    free = free && IsAtLine(line.id) && !in_.passages[line.id].able && !out_.grants.IsHeld(line.id);
   }
   if (free && !AreInOneAnothersWay(all)) {
     for (const std::size_t i : order) let_in(lines[i]);
     return any;
   }
   for (const std::size_t i : order) {  // … or one who comes to stand in nobody's way of them
-    const Passage& passage = passages_[lines[i].id];
+    const Passage& passage = in_.passages[lines[i].id];
     const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
     const auto keeps_out = [&](const Crossing& mine) {
       return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
-               const auto& theirs = passages_[other].crossings;
+               const auto& theirs = in_.passages[other].crossings;
                return other != lines[i].id && std::any_of(theirs.begin(), theirs.end(), [&](const Crossing& their) {
                         return their.zone == mine.zone && their.side != mine.side;
                       });
@@ -164,14 +166,14 @@ bool TrafficModel::LetIn(const std::vector<std::uint32_t>& circle) {
 
 // Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside:
 // first he who has come up to somebody ahead, of several he who was let in last.
-void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
+void Deadlocks::OpenCircle(std::vector<std::uint32_t> circle) {
   if (LetIn(circle)) return;
   const std::uint32_t first = circle.front();
-  std::vector<std::uint8_t> seen(agents_.size(), 0);
+  std::vector<std::uint8_t> seen(out_.agents.size(), 0);
   if (CircleOf(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
-  const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == ahead_[id].id; };
+  const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == in_.ahead[id].id; };
   const auto number = [&](std::uint32_t id) {
-    return agents_[id].grants.empty() ? 0 : agents_[id].grants.back().number;
+    return out_.agents[id].grants.empty() ? 0 : out_.agents[id].grants.back().number;
   };
   std::sort(circle.begin(), circle.end(), [&](std::uint32_t a, std::uint32_t b) {
     if (is_behind(a) != is_behind(b)) return is_behind(a);
@@ -182,17 +184,17 @@ void TrafficModel::OpenCircle(std::vector<std::uint32_t> circle) {
   }
 }
 
-void TrafficModel::ResolveDeadlocks() {
-  std::vector<std::uint8_t> seen(agents_.size(), 0);  // on a chain that has been looked at
+void Deadlocks::ResolveDeadlocks() {
+  std::vector<std::uint8_t> seen(out_.agents.size(), 0);  // on a chain that has been looked at
   const auto look_from = [&](std::uint32_t start) {
     if (seen[start] != 0) return;
     const auto circle = CircleOf(start, seen);
     if (!circle.empty()) OpenCircle(circle);
   };
-  for (const std::uint32_t id : heads_) {
-    if (passages_[id].any) look_from(id);
+  for (const std::uint32_t id : in_.heads) {
+    if (in_.passages[id].any) look_from(id);
   }
-  for (const std::uint32_t id : held_up_) look_from(id);
+  for (const std::uint32_t id : in_.held_up) look_from(id);
 }
 
 }  // namespace rodeira::traffic

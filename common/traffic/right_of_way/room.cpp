@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether there is room behind conflict zones, told from how far everybody comes whatever others decide.
-#include <algorithm>
-#include <cmath>
+#include "common/traffic/right_of_way/room.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "common/traffic/perception/seen_on.hpp"
 #include "common/traffic/right_of_way/queueing.hpp"
 #include "common/traffic/right_of_way/travel_time.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -28,9 +31,9 @@ double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_m
 // rear_m)`, in its own odometer, -1 for a vehicle that is no agent. Who parts from its way and surely comes clear of it
 // is nobody to it.
 template <class Tell>
-void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell) {
-  const Agent& agent = agents_[id];
-  const double half_width = 0.5 * traits_[id].width_m + settings_.side_margin_m;
+void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell) {
+  const Agent& agent = in_.agents[id];
+  const double half_width = 0.5 * in_.traits[id].width_m + in_.settings.side_margin_m;
   const auto told = [&](const Occupant& other, double zero_m, double clear_m) {
     const double rear = zero_m + other.rear_m;
     if (other.id == id || rear > to_m || zero_m + other.middle_m() <= agent.o_m) return;
@@ -38,12 +41,12 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
     if (comes < clear_m) tell(static_cast<std::int64_t>(other.id), rear, zero_m + comes);
   };
   const auto by_id = [](const Occupant& a, const Occupant& b) { return a.id < b.id; };
-  for (const Stretch& stretch : stretches_[id]) {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < agent.o_m) continue;
-    auto near = occupants_.Beyond(stretch.track, agent.o_m - stretch.zero_m);
+    auto near = in_.occupants.Beyond(stretch.track, agent.o_m - stretch.zero_m);
     std::size_t count = 0;
-    while (count < near.size() && stretch.zero_m + near[count].middle_m() - longest_half_m_ <= to_m) ++count;
+    while (count < near.size() && stretch.zero_m + near[count].middle_m() - in_.longest_half_m <= to_m) ++count;
     near = near.first(count);
     if (count <= 2 && std::is_sorted(near.begin(), near.end(), by_id)) {
       for (const Occupant& other : near) told(other, stretch.zero_m, kNever_m);
@@ -52,14 +55,14 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
       std::sort(sorted.begin(), sorted.end(), by_id);
       for (const Occupant& other : sorted) told(other, stretch.zero_m, kNever_m);
     }
-    for (const lanes::Parting& part : PartingsOf(stretch.track)) {
+    for (const lanes::Parting& part : in_.neighbours.PartingsOf(stretch.track)) {
       if (stretch.zero_m + part.out_m < agent.o_m) continue;
-      for (const Occupant& other : occupants_.On(part.other)) {
+      for (const Occupant& other : in_.occupants.On(part.other)) {
         if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m)
           told(other, stretch.zero_m, part.other_out_m);
       }
     }
-    for (const Block& block : BlocksOn(stretch.track)) {
+    for (const Block& block : BlocksOn(in_.any_block, in_.blocks, stretch.track)) {
       const double rear = stretch.zero_m + block.span.rear_m;
       if (rear > to_m || stretch.zero_m + block.middle_m <= agent.o_m || block.span.right_m > half_width ||
           block.span.left_m < -half_width)
@@ -73,35 +76,56 @@ void TrafficModel::EachAhead(std::uint32_t id, double to_m, int depth, const Tel
 // for the hand's breadth before it at which it may come to rest), behind whoever is before it as far as those come, and
 // as far as those let it who hold its own zones before it. Who is told to brake, and whoever is no agent, may stop at
 // once. In a ring of followers the one that closes it counts as standing.
-double TrafficModel::ReachOf(std::uint32_t id, int depth) {
-  if (reaches_[id] >= 0.0) return reaches_[id];
-  const Agent& agent = agents_[id];
-  const Passage& passage = passages_[id];
-  if (agent.brake_mps2 > 0.0) return reaches_[id] = StopsWithin(agent.speed_mps);
-  reaches_[id] = 0.0;
+double Room::ReachOf(std::uint32_t id, int depth) {
+  if (out_.reaches[id] >= 0.0) return out_.reaches[id];
+  const Agent& agent = in_.agents[id];
+  const Passage& passage = out_.passages[id];
+  if (agent.brake_mps2 > 0.0) return out_.reaches[id] = StopsWithin(agent.speed_mps);
+  out_.reaches[id] = 0.0;
   if (depth > kDeepest) return 0.0;
-  const double front = agent.o_m + 0.5 * traits_[id].length_m;
-  double to = front + SightOf(agent);
+  const double front = agent.o_m + 0.5 * in_.traits[id].length_m;
+  double to = front + in_.ways.SightOf(agent);
   if (passage.any) to = std::min(to, passage.line_m - kShort_m);
-  to = std::min(to, std::max(front, bars_[id] - kShort_m));
-  const double apart = traits_[id].idm.standing_gap_m + kLoose_m;
+  to = std::min(to, std::max(front, in_.bars[id] - kShort_m));
+  const double apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
   EachAhead(id, to + apart, depth, [&](std::int64_t, double, double comes_m) { to = std::min(to, comes_m - apart); });
   to = ReachBehindThose(id, to, depth);
-  return reaches_[id] = std::max(0.0, to - front);
+  return out_.reaches[id] = std::max(0.0, to - front);
+}
+
+// How far its front surely comes, `to_m` at most, for those: to the line before a zone that somebody does not surely
+// leave or, where ways merge, behind him as far as he comes, whichever is the farther. Whom nothing keeps as far as he
+// sees, and who has room behind his zones, leaves them.
+double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
+  const double front = FrontOf(in_.agents[id], in_.traits[id]), apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
+  in_.merging.EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
+    const double line = in >= front ? in - kStopDistance_m - kShort_m : front;
+    if (line >= to_m) return;
+    const double comes = ReachOf(holder.id, depth + 1);
+    if (merges) {
+      const double gap = in_.merging.MergingGap(id, out, holder);
+      if (in >= front || gap > 0.0) to_m = std::min(to_m, std::max(line, front + gap + comes - apart));
+    } else if (comes < holder.out_m - FrontOf(in_.agents[holder.id], in_.traits[holder.id]) +
+                           in_.traits[holder.id].length_m &&
+               !(holder.sure && comes > in_.ways.SightOf(in_.agents[holder.id]) - kShort_m)) {
+      to_m = line;
+    }
+  });
+  return to_m;
 }
 
 // Whether somebody has gone so far before this one has long been waiting at the end of its zones. Who stands starts so
 // long after all who stand in a row before him; who drives up to such a row comes as far as its end before.
-bool TrafficModel::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
+bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
   double comes = 0.0, starts = 0.0;
   std::uint32_t at = other;
   for (int depth = 0; depth < kDeepest; ++depth) {
-    const Agent& agent = agents_[at];
-    const Ahead& ahead = ahead_[at];
+    const Agent& agent = in_.agents[at];
+    const Ahead& ahead = in_.ahead[at];
     const bool stands = agent.speed_mps < kStands_mps;
     const std::int64_t next = agent.eased_for >= 0 ? agent.eased_for : ahead.id;
     const double gap = next == ahead.id ? ahead.gap_m : 0.0,
-                 closes = std::max(0.0, gap - traits_[at].idm.standing_gap_m);
+                 closes = std::max(0.0, gap - in_.traits[at].idm.standing_gap_m);
     if (next < 0 || next == other || (stands ? closes > kClose_m : starts > 0.0)) break;
     if (stands)
       starts += kFollows_s;
@@ -111,16 +135,18 @@ bool TrafficModel::LeavesInTime(std::uint32_t id, std::uint32_t other, double wa
     at = static_cast<std::uint32_t>(next);
   }
   if (starts == 0.0) return true;
-  const double leaves = starts + TravelTime(way_m - comes, 0.0, Desired_mps(other), traits_[other].start_mps2);
-  const double arrives = TravelTime(passages_[id].end_m - FrontOf(id), agents_[id].speed_mps,
-                                    AllowedAt(id, passages_[id].end_m), traits_[id].start_mps2);
+  const double leaves =
+      starts + TravelTime(way_m - comes, 0.0, in_.limits.Desired_mps(other), in_.traits[other].start_mps2);
+  const double arrives =
+      TravelTime(out_.passages[id].end_m - FrontOf(in_.agents[id], in_.traits[id]), in_.agents[id].speed_mps,
+                 in_.limits.AllowedAt(id, out_.passages[id].end_m), in_.traits[id].start_mps2);
   return leaves < arrives + kWaits_s;
 }
 
 // Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at
 // the same line makes it no head.
-void TrafficModel::FindRoom(std::uint32_t id) {
-  Passage& passage = passages_[id];
+void Room::FindRoom(std::uint32_t id) {
+  Passage& passage = out_.passages[id];
   passage.head = passage.able = true;
   const double to = passage.room_m;
   double nearest = kNever_m;
@@ -134,16 +160,29 @@ void TrafficModel::FindRoom(std::uint32_t id) {
     if (other < 0) return;
     const auto next = static_cast<std::uint32_t>(other);
     if (passage.able && !LeavesInTime(id, next, to - rear_m)) passage.able = false, passage.waits_for = other;
-    const double its_line = rear_m + 0.5 * traits_[next].length_m + passages_[next].line_m - agents_[next].o_m;
-    if (passages_[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
+    const double its_line =
+        rear_m + 0.5 * in_.traits[next].length_m + out_.passages[next].line_m - in_.agents[next].o_m;
+    if (out_.passages[next].any && its_line < passage.line_m + kSameLine_m) passage.head = false;
   });
 }
 
-bool TrafficModel::RoomAhead(std::uint32_t id) const {
-  const Passage& passage = passages_[id];
-  const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
+bool Room::RoomAhead(std::uint32_t id) const {
+  const Passage& passage = out_.passages[id];
+  const double front = in_.agents[id].o_m + 0.5 * in_.traits[id].length_m;
   const bool at_line = passage.any && passage.line_m < front + kMinGapAhead_m;
-  return at_line ? !passage.taken && ahead_[id].gap_m > passage.room_m - front : ahead_[id].gap_m > kMinGapAhead_m;
+  return at_line ? !passage.taken && in_.ahead[id].gap_m > passage.room_m - front
+                 : in_.ahead[id].gap_m > kMinGapAhead_m;
+}
+
+// What others, and it, must know of who may come to its zones soon: when, and whether there is room behind them.
+void Room::TellComing(std::uint32_t id) {
+  Passage& passage = out_.passages[id];
+  const double in = passage.crossings.front().in_m, most = out_.passages_ahead.KnowAllowedAt(id, in, 0);
+  (void)out_.passages_ahead.KnowAllowedAt(id, passage.end_m, 1);
+  passage.arrives_s =
+      TravelTime(in - FrontOf(in_.agents[id], in_.traits[id]), in_.agents[id].speed_mps, most,
+                 in_.traits[id].start_mps2, {in_.agents[id].wish_mps2, in_.settings.smooth.planned_mps3});
+  FindRoom(id);
 }
 
 }  // namespace rodeira::traffic

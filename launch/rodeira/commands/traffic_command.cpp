@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <string>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -22,6 +24,8 @@
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
 #include "launch/rodeira/input_files.hpp"
+#include "common/world/road/world.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 #include "launch/rodeira/world_warnings.hpp"
 

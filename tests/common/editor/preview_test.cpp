@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traffic in the editor is the traffic of `rodeira traffic run`.
+#include <string>
+
 #include "common/editor/preview.hpp"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 // How drivers come to the speeds that bends allow.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 
 namespace rodeira::traffic {

@@ -2,6 +2,8 @@
 // Flows, routes, turning shares and mixes on whole networks.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <cmath>
 #include <map>
 #include <optional>

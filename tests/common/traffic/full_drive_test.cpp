@@ -17,6 +17,8 @@
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/long_form.hpp"
+#include "common/world/road/world.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -20,6 +21,7 @@
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/traffic/motion/full_cars.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::traffic {

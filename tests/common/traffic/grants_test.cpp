@@ -2,6 +2,8 @@
 // What agents are granted on their way: each grant reaches farther than the one before.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 

@@ -3,6 +3,7 @@
 // him.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -2,6 +2,8 @@
 // Changes of lanes: each against MOBIL's inequality, worked out here from the published poses alone.
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>

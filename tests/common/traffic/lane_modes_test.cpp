@@ -2,6 +2,8 @@
 // Where a traffic map lets vehicles begin and end (modes of lanes), and who begins among others.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
 #include <map>
 #include <set>
 #include <string>

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
+#include <algorithm>
+#include <memory>
+#include <string>
 #include <cmath>
 #include <filesystem>
 #include <optional>

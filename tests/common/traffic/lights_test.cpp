@@ -2,6 +2,10 @@
 // Traffic at lights: who stops and who goes on at amber, nobody at red, and what a green lets pass.
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <span>
+#include <optional>
+#include <string>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,6 +14,7 @@
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -17,6 +17,7 @@
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/traffic/motion/full_cars.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::traffic {

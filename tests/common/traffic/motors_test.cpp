@@ -2,12 +2,15 @@
 // MOTORS' driver against the laws of its source: values worked out by hand from the printed code, and whole runs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <cmath>
 #include <numbers>
 
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/results/study.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/traffic/motion/full_cars.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {

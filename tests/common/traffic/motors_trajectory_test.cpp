@@ -2,6 +2,7 @@
 // Where MOTORS' driver steers for, and to whom he gives way: against points and rules worked out by hand.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +10,8 @@
 
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "common/traffic/motion/full_cars.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {

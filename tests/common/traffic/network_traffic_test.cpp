@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <string>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -15,6 +18,7 @@
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/long_form.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -13,6 +13,7 @@
 
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/traffic_model.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

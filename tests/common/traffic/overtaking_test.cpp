@@ -2,6 +2,7 @@
 // Overtaking on the lane of oncoming traffic: everything is told from the published poses.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 
 namespace rodeira::traffic {

@@ -2,6 +2,8 @@
 // People on foot: nobody is touched, who waits is let go, and the arithmetic of it.
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +15,7 @@
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/traffic/pedestrians/pedestrians.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {

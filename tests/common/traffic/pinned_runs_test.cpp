@@ -3,6 +3,7 @@
 // behaviour brings the new digests and a line in docs/changelog.md.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

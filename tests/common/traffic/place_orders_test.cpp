@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <algorithm>
 #include <cmath>
 #include <functional>

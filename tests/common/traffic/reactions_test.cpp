@@ -3,6 +3,7 @@
 // their cars move.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
+#include "common/traffic/motion/full_cars.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {

@@ -3,6 +3,9 @@
 // in left-hand traffic.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <string>
 #include <array>
 #include <cmath>
 #include <numbers>

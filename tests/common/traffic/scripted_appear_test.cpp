@@ -11,6 +11,7 @@
 #include "common/world/lanes/signs.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/scripted.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {

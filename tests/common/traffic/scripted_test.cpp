@@ -2,6 +2,7 @@
 // What experiments tell single vehicles: to overtake, and to change lanes.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <algorithm>
 #include <cmath>
 #include <numbers>

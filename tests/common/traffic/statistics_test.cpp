@@ -2,6 +2,7 @@
 // Statistics of lanes: Edie's identity, what is conserved, steady flow in closed form, fuel.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>

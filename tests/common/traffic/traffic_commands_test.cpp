@@ -2,6 +2,7 @@
 // What a scenario may tell agents.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <algorithm>
 #include <cmath>
 

@@ -2,6 +2,7 @@
 // The autopilot drives the bicycle among the traffic of N222: everyone sees everyone, nobody touches anybody.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <array>
 #include <cmath>
 #include <filesystem>

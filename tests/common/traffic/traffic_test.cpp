@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <span>
+#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>

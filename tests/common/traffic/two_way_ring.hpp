@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {

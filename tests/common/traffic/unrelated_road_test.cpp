@@ -2,6 +2,8 @@
 // A road far away that is added to the network changes nothing of the traffic that has nothing to do with it.
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
 #include <cmath>
 #include <map>
 #include <tuple>

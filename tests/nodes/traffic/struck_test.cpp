@@ -2,6 +2,7 @@
 // A car of traffic is hit by the driver's: it takes what the collisions say.
 #include <gtest/gtest.h>
 
+#include <string>
 #include <cmath>
 #include <map>
 #include <optional>

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// How an agent drives that overtakes on the lane of oncoming traffic, and when it goes back.
+#include "common/traffic/overtaking/overtaking_drive.hpp"
+
 #include <algorithm>
-#include <cmath>
 
 #include "common/traffic/lane_change/lane_change.hpp"
-#include "common/traffic/traffic_model.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -20,55 +19,31 @@ constexpr double kLastPart = 0.2;  // of the path back, on the own side (PlanPas
 
 }  // namespace
 
-// Whether somebody ahead is the one that it passes, and has cleared already.
-bool TrafficModel::IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body,
-                            double gap_m) const {
-  const bool same = (id >= 0 && id == overtaking.passed) || (body >= 0 && body == overtaking.passed_body);
-  return same && !overtaking.back && front_m >= overtaking.clear_m && (!overtaking.gives_up || gap_m <= 0.0);
-}
-
-// Where the one is that it passes, from its front bumper on: behind it, below 0.
-std::optional<Ahead> TrafficModel::FindPassed(std::uint32_t id) const {
-  const Overtaking& way = agents_[id].overtaking;
-  const double front = agents_[id].o_m + 0.5 * traits_[id].length_m;
-  for (const Stretch& stretch : stretches_[id]) {
-    for (const Occupant& other : occupants_.On(stretch.track)) {
-      if (other.id == way.passed)
-        return Ahead{stretch.zero_m + other.rear_m - front, agents_[other.id].speed_mps, other.id, true, -1,
-                     other.front_m - other.rear_m};
-    }
-    for (const Block& block : blocks_[stretch.track]) {
-      if (block.body == way.passed_body)
-        return Ahead{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body,
-                     block.span.front_m - block.span.rear_m};
-    }
-  }
-  return std::nullopt;
-}
-
 // Whether its own lane is free beside it: nobody would have to brake hard, before it or, where it goes back before
 // somebody, behind it.
-bool TrafficModel::MayGoBack(std::uint32_t id, bool behind) const {
-  const Agent& agent = agents_[id];
+bool OvertakingDrive::MayGoBack(std::uint32_t id, bool behind) const {
+  const Agent& agent = out_.agents[id];
   const Piece& last = agent.path.back();
-  const double half = 0.5 * traits_[id].length_m, v = agent.speed_mps, gap = traits_[id].idm.standing_gap_m;
+  const double half = 0.5 * in_.traits[id].length_m, v = agent.speed_mps, gap = in_.traits[id].idm.standing_gap_m;
   if (agent.o_m + half < last.blend_from_m + last.blend_m) return false;  // still on its path out
-  const Behind follower = FindBehind(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
-  if (follower.any && (follower.gap_m < gap ||
-                       (!behind && FollowerDoes(follower, true, follower.gap_m, v) < -kMaxFollowerBraking_mps2)))
+  const Behind follower =
+      in_.neighbours.FindBehind(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
+  if (follower.any && (follower.gap_m < gap || (!behind && in_.following.FollowerDoes(follower, true, follower.gap_m,
+                                                                                      v) < -kMaxFollowerBraking_mps2)))
     return false;
-  const Ahead ahead = FindAhead(id);
+  const Ahead ahead = in_.neighbours.FindAhead(id);
   if (!ahead.any) return true;
-  return ahead.gap_m >= gap && Following(id, Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m,
-                                         ahead.speed_mps) >= -kMaxOwnBraking_mps2;
+  return ahead.gap_m >= gap &&
+         in_.following.Following(id, in_.limits.Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m,
+                                 ahead.speed_mps) >= -kMaxOwnBraking_mps2;
 }
 
-void TrafficModel::GoBack(std::uint32_t id) {
-  Agent& agent = agents_[id];
+void OvertakingDrive::GoBack(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
   const Piece last = agent.path.back();
-  const double front = agent.o_m + 0.5 * traits_[id].length_m;
-  const PathFrame at = FrameAt(graph(), agent.path, front);
-  const PassCase pass = CaseOf(id, {}, 0.0, last.aside_m, front);
+  const double front = agent.o_m + 0.5 * in_.traits[id].length_m;
+  const PathFrame at = FrameAt(in_.map.graph, agent.path, front);
+  const PassCase pass = out_.overtaking_start.CaseOf(id, {}, 0.0, last.aside_m, front);
   Piece piece{last.track, last.zero_m, front, at.offset_m, at.slope};
   piece.blend_from_m = front;
   piece.blend_m = std::max(kMinLaneChangeLength_m, pass.back_s * agent.speed_mps);
@@ -78,11 +53,11 @@ void TrafficModel::GoBack(std::uint32_t id) {
 }
 
 // It goes on, falls back or goes back to its lane, by what all others do now.
-void TrafficModel::DriveOvertaking(std::uint32_t id) {
-  Agent& agent = agents_[id];
+void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
   Overtaking& way = agent.overtaking;
-  const double length = traits_[id].length_m, front = agent.o_m + 0.5 * length, v = std::max(1.0, agent.speed_mps);
-  const auto passed = FindPassed(id);
+  const double length = in_.traits[id].length_m, front = agent.o_m + 0.5 * length, v = std::max(1.0, agent.speed_mps);
+  const auto passed = in_.neighbours.FindPassed(id);
   const bool is_past = !passed || passed->gap_m + 0.5 * (passed->length_m + length) < 0.0;
   if (!way.back && (is_past || way.gives_up) && MayGoBack(id, !is_past)) GoBack(id);
   if (way.back) {
@@ -91,12 +66,13 @@ void TrafficModel::DriveOvertaking(std::uint32_t id) {
                      : std::max(0.0, way.to_m + length - front - kLastPart * agent.path.back().blend_m) / v;
     return;
   }
-  const double aside = agent.path.back().aside_m, top = std::max(v, TopSpeed(id, front, std::max(front, way.to_m)));
-  PassCase pass = CaseOf(id, passed.value_or(Ahead{-1e9}), top, aside, std::max(front, way.to_m));
+  const double aside = agent.path.back().aside_m,
+               top = std::max(v, out_.overtaking_start.TopSpeed(id, front, std::max(front, way.to_m)));
+  PassCase pass = out_.overtaking_start.CaseOf(id, passed.value_or(Ahead{-1e9}), top, aside, std::max(front, way.to_m));
   pass.to_clear_m = std::max(0.0, way.clear_m - front);
   pass.gains_mps2 = std::max(0.1, pass.gains_mps2);
   const PassPlan on = PlanPass(pass);
-  const Oncoming oncoming = FindOncoming(id);
+  const Oncoming oncoming = in_.oncoming.FindOncoming(id);
   const auto spare = [&](double time_s, double way_m) {
     return (oncoming.from_m - front - way_m) / oncoming.speed_mps - time_s;
   };
@@ -105,7 +81,7 @@ void TrafficModel::DriveOvertaking(std::uint32_t id) {
   // Falling back: slower than that one until it is behind him, and back.
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
                least = std::max(1.0, passed->speed_mps - slower);
-  const double behind_m = std::max(0.0, traits_[id].idm.standing_gap_m - passed->gap_m);
+  const double behind_m = std::max(0.0, in_.traits[id].idm.standing_gap_m - passed->gap_m);
   const double still_out = std::max(0.0, agent.path.back().blend_from_m + agent.path.back().blend_m - front) / v;
   const double time =
       std::max(still_out, std::max(0.0, v - slower) / kFallsBack_mps2 + behind_m / least) + pass.back_s + length / v;
@@ -116,33 +92,34 @@ void TrafficModel::DriveOvertaking(std::uint32_t id) {
 }
 
 // Who falls back brakes as long as he is beside that one, and who is passed does not go faster.
-double TrafficModel::WantedBeside(std::uint32_t id, double wanted_mps2) const {
-  const Agent& agent = agents_[id];
-  if (is_overtaken_[id] != 0 && agent.speed_mps > kLeastPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);
+double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const {
+  const Agent& agent = out_.agents[id];
+  if (in_.is_overtaken[id] != 0 && agent.speed_mps > kLeastPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);
   const Overtaking& way = agent.overtaking;
   if (way.active() && way.back) return std::min(wanted_mps2, 0.0);  // its path is for the speed that it had
   if (!way.active() || !way.gives_up) return wanted_mps2;
-  const auto passed = FindPassed(id);
-  if (!passed || passed->gap_m > traits_[id].idm.standing_gap_m) return wanted_mps2;
+  const auto passed = in_.neighbours.FindPassed(id);
+  if (!passed || passed->gap_m > in_.traits[id].idm.standing_gap_m) return wanted_mps2;
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps);
-  return std::min(wanted_mps2, std::clamp((slower - agent.speed_mps) / settings_.tracking_s, -kFallsBack_mps2, 0.5));
+  return std::min(wanted_mps2, std::clamp((slower - agent.speed_mps) / in_.settings.tracking_s, -kFallsBack_mps2, 0.5));
 }
 
 // One after the other by their numbers: who has begun is seen by the next.
-void TrafficModel::Overtake(std::int64_t step_ns) {
-  for (std::uint32_t id = 0; id < agents_.size(); ++id) {
-    if (passes_[id] == 0) continue;
-    Agent& agent = agents_[id];
+void OvertakingDrive::Overtake(std::int64_t step_ns) {
+  for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
+    if (in_.passes[id] == 0) continue;
+    Agent& agent = out_.agents[id];
     if (!agent.on_road) continue;
     if (!agent.overtaking.active()) {
       if (agent.brake_mps2 == 0.0 &&
-          (agent.told_past ? MayLeaveLane(id) : settings_.overtaking.allowed && ThinksOfLanes(id, step_ns)))
-        ThinkOfOvertaking(id);
+          (agent.told_past ? in_.lane_changes.MayLeaveLane(id)
+                           : in_.settings.overtaking.allowed && in_.lane_changes.ThinksOfLanes(id, step_ns)))
+        out_.overtaking_start.ThinkOfOvertaking(id);
       continue;
     }
-    if (agent.overtaking.back && agent.o_m - 0.5 * traits_[id].length_m > agent.overtaking.to_m) {
+    if (agent.overtaking.back && agent.o_m - 0.5 * in_.traits[id].length_m > agent.overtaking.to_m) {
       agent.overtaking = {};
-      agent.settled_ns = time_ns_ + kLaneChangeCooldown_ns;
+      agent.settled_ns = in_.time_ns + kLaneChangeCooldown_ns;
       continue;
     }
     DriveOvertaking(id);

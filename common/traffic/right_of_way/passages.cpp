@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The next conflict zones on an agent's way.
+#include "common/traffic/right_of_way/passages.hpp"
+
 #include <algorithm>
-#include <cmath>
-#include <span>
+#include <cstddef>
+#include <utility>
 
 #include "common/traffic/right_of_way/queueing.hpp"
-#include "common/traffic/right_of_way/travel_time.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -18,39 +18,28 @@ constexpr double kStopped_m = 2.0;         // at most so far before a STOP line
 constexpr double kPastSignalLine_m = 0.3;  // a front this far beyond a signal line has passed it
 constexpr double kFarther_m =
     20.0;  // than where it would stand behind the zones that it knows it looks for the next ones
+constexpr double kAtLine_m = 1.5;  // a full stop counts within this before the line
 
 }  // namespace
 
-double TrafficModel::AllowedAt(std::uint32_t id, double odometer_m) const {
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m < odometer_m && &stretch != &stretches_[id].back()) continue;
-    const double d = odometer_m - stretch.zero_m;
-    for (const PlannedAt& known : known_[id]) {
-      if (known.track == stretch.track && known.d_m == d) return known.planned_mps * traits_[id].speed_factor;
-    }
-    return map_->plans[stretch.track].plan.At(d).speed_mps * traits_[id].speed_factor;
-  }
-  return 0.0;
-}
-
 // The same of the place that an agent asks of again and again, and then knows.
-double TrafficModel::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place) {
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.end_m < odometer_m && &stretch != &stretches_[id].back()) continue;
+double Passages::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place) {
+  for (const Stretch& stretch : in_.stretches[id]) {
+    if (stretch.end_m < odometer_m && &stretch != &in_.stretches[id].back()) continue;
     const double d = odometer_m - stretch.zero_m;
-    PlannedAt& known = known_[id][place];
+    PlannedAt& known = out_.known[id][place];
     if (known.track != stretch.track || known.d_m != d)
-      known = {stretch.track, d, map_->plans[stretch.track].plan.At(d).speed_mps};
-    return known.planned_mps * traits_[id].speed_factor;
+      known = {stretch.track, d, in_.map.plans[stretch.track].plan.At(d).speed_mps};
+    return known.planned_mps * in_.traits[id].speed_factor;
   }
   return 0.0;
 }
 
 // What else a passage has is found anew.
-bool TrafficModel::KeepPassage(std::uint32_t id) {
-  Passage& passage = passages_[id];
-  if (passage.key.way != ways_[id] || passage.key.granted_m != agents_[id].granted_m ||
-      FrontOf(id) > passage.key.until_m)
+bool Passages::KeepPassage(std::uint32_t id) {
+  Passage& passage = out_.passages[id];
+  if (passage.key.way != in_.way_numbers[id] || passage.key.granted_m != out_.agents[id].granted_m ||
+      FrontOf(out_.agents[id], in_.traits[id]) > passage.key.until_m)
     return false;
   passage.due = passage.head = passage.able = passage.taken = passage.must_stop = passage.lit = passage.red =
       passage.barred = false;
@@ -61,28 +50,28 @@ bool TrafficModel::KeepPassage(std::uint32_t id) {
 
 // Who must know now looks on to where it would stand, however slowly it drives: where zones are longer than it sees,
 // the next ones may begin where those end, and who has taken the first ones alone would stand in them.
-void TrafficModel::FindPassage(std::uint32_t id) {
+void Passages::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
-  const Passage& passage = passages_[id];
+  const Passage& passage = out_.passages[id];
   if (!passage.any) return;
-  const double to_line = passage.line_m - FrontOf(id), v = agents_[id].speed_mps;
-  const bool due = to_line < v * v / (2.0 * traits_[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
-  while (due && !SeesTo(id, passage.room_m)) {
-    FindStretches(id, passage.room_m - FrontOf(id) + kFarther_m);
+  const double to_line = passage.line_m - FrontOf(out_.agents[id], in_.traits[id]), v = out_.agents[id].speed_mps;
+  const bool due = to_line < v * v / (2.0 * in_.traits[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
+  while (due && !out_.ways.SeesTo(id, passage.room_m)) {
+    out_.ways.FindStretches(id, passage.room_m - FrontOf(out_.agents[id], in_.traits[id]) + kFarther_m);
     FindCrossings(id);
   }
-  passages_[id].due = due;
+  out_.passages[id].due = due;
 }
 
-void TrafficModel::FindCrossings(std::uint32_t id) {
-  const Agent& agent = agents_[id];
-  const double half = 0.5 * traits_[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
-  Passage& passage = passages_[id];
+void Passages::FindCrossings(std::uint32_t id) {
+  const Agent& agent = out_.agents[id];
+  const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
+  Passage& passage = out_.passages[id];
   auto crossings = std::move(passage.crossings);
   crossings.clear();
   passage = Passage();
-  const double stand = traits_[id].length_m + kStandingMargin_m;
-  passage.key = {ways_[id], agent.granted_m, kNoBarrier_m};
+  const double stand = in_.traits[id].length_m + kStandingMargin_m;
+  passage.key = {in_.way_numbers[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
     if (!passage.any)
       passage.line_m =
@@ -92,14 +81,14 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
     crossings.push_back(crossing);
     passage.key.until_m = std::min(passage.key.until_m, crossing.in_m - kStopDistance_m);
   };
-  for (const Stretch& stretch : stretches_[id]) {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
     if (!stretch.crosses && !stretch.has_lines) continue;
     if (stretch.has_lines) passage.key.way = 0;  // what its lines say changes
-    const auto sides = zones().ConflictsOf(stretch.track);
+    const auto sides = in_.map.zones.ConflictsOf(stretch.track);
     const std::span<const StopLine> lines =
-        stretch.has_lines ? std::span<const StopLine>(map_->plans[stretch.track].lines) : std::span<const StopLine>();
+        stretch.has_lines ? std::span<const StopLine>(in_.map.plans[stretch.track].lines) : std::span<const StopLine>();
     std::size_t next = 0;
     const auto take_lines = [&](double before_m) {
       for (; next < lines.size() && stretch.zero_m + lines[next].d_m <= before_m; ++next) {
@@ -110,7 +99,7 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
         if (light) {
           if (passage.any && at > passage.end_m + stand) break;
           passage.lit = true;
-          passage.red = passage.red || !IsGreen(lines[next].light);
+          passage.red = passage.red || !out_.signals.IsGreen(lines[next].light);
           passage.end_m = std::max(passage.end_m, at);
         }
         if (passage.any) continue;  // the line of an earlier one holds
@@ -129,17 +118,30 @@ void TrafficModel::FindCrossings(std::uint32_t id) {
   }
   passage.crossings = std::move(crossings);
   if (!passage.any) return;
-  passage.room_m = passage.end_m + traits_[id].length_m + settings_.idm.standing_gap_m + kLoose_m;
+  passage.room_m = passage.end_m + in_.traits[id].length_m + in_.settings.idm.standing_gap_m + kLoose_m;
 }
 
-// What others, and it, must know of who may come to its zones soon: when, and whether there is room behind them.
-void TrafficModel::TellComing(std::uint32_t id) {
-  Passage& passage = passages_[id];
-  const double in = passage.crossings.front().in_m, most = KnowAllowedAt(id, in, 0);
-  (void)KnowAllowedAt(id, passage.end_m, 1);
-  passage.arrives_s = TravelTime(in - FrontOf(id), agents_[id].speed_mps, most, traits_[id].start_mps2,
-                                 {agents_[id].wish_mps2, settings_.smooth.planned_mps3});
-  FindRoom(id);
+// Its grants and its next passage, and whether it has come to rest at a STOP line or waits for others.
+void Passages::ComeToLine(std::uint32_t id, double dt_s) {
+  Agent& agent = out_.agents[id];
+  const double half = 0.5 * in_.traits[id].length_m;
+  if (!agent.grants.empty())
+    agent.grants.erase(std::remove_if(agent.grants.begin(), agent.grants.end(),
+                                      [&](const ZoneGrant& grant) { return grant.to_m <= agent.o_m - half; }),
+                       agent.grants.end());
+  out_.signals.ObeyLights(id);
+  FindPassage(id);
+  Passage& passage = out_.passages[id];
+  passage.barred = in_.bars[id] < passage.line_m;
+  const double to_line = passage.line_m - agent.o_m - half;
+  if (passage.any && passage.must_stop && agent.speed_mps < kStandstill_mps && to_line < kAtLine_m) {
+    agent.stopped_m = passage.line_m;
+    passage.must_stop = false;
+  }
+  if (!passage.any || agent.speed_mps > 1.0)
+    agent.waited_s = 0.0;
+  else if (agent.speed_mps < kStandstill_mps && !passage.red && !passage.barred)
+    agent.waited_s += dt_s;
 }
 
 }  // namespace rodeira::traffic

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes to the lane beside: the path, what must be free of, and who is beside meanwhile.
+#include "common/traffic/lane_change/lane_ways.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "common/traffic/lane_change/lane_change.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/pedestrians/stopping.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -14,7 +18,6 @@ constexpr double kAside = 0.1;               // … and between their directions
 constexpr double kTightest_1pm = 0.02;       // bends are no tighter
 constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a lane is checked
 constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
-constexpr double kClear_m = 1.3;  // from a lane's middle to what is beside it: half of a wide car and the margin
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
   const auto link =
@@ -36,22 +39,22 @@ bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
 
 // The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may
 // come to.
-std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const {
-  const Agent& agent = agents_[id];
+std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side) const {
+  const Agent& agent = in_.agents[id];
   const Piece& last = agent.path.back();
-  const lanes::Track& track = graph()[last.track];
+  const lanes::Track& track = in_.map.graph[last.track];
   const auto beside = side > 0 ? track.left : track.right;
-  const double begin = agent.o_m + 0.5 * traits_[id].length_m, d = begin - last.zero_m;
+  const double begin = agent.o_m + 0.5 * in_.traits[id].length_m, d = begin - last.zero_m;
   const bool settled = (last.offset_m == 0.0 && last.slope == 0.0) || begin > last.blend_from_m + last.blend_m;
   if (!beside || !settled || d > track.length_m()) return std::nullopt;
   const lanes::CurvePoint at = track.curve.At(d);
-  double there = graph().Across(last.track, d, *beside);
-  lanes::CurvePoint to = graph()[*beside].curve.At(there);
+  double there = in_.map.graph.Across(last.track, d, *beside);
+  lanes::CurvePoint to = in_.map.graph[*beside].curve.At(there);
   for (int turn = 0; turn < 3;
        ++turn) {  // the foot: on banked climbs what lies across the road does not lie across the lane
     const Eigen::Vector2d away = (at.p_W - to.p_W).head<2>();
     there += away.dot(to.ahead_W) / std::max(0.2, 1.0 - to.curvature_1pm * away.dot(to.left_W()));
-    to = graph()[*beside].curve.At(there);
+    to = in_.map.graph[*beside].curve.At(there);
   }
   Piece piece{*beside, begin - there, begin};
   piece.blend_from_m = begin;
@@ -60,49 +63,49 @@ std::optional<Piece> TrafficModel::PieceBeside(std::uint32_t id, int side) const
   const double size = std::fabs(piece.offset_m);
   if (size > kApart_m || std::fabs(piece.slope) > kAside) return std::nullopt;
   const double time = LaneChangeTime_s(piece.offset_m);
-  const double fastest = std::min(agent.speed_mps + traits_[id].idm.acceleration_mps2 * time,
-                                  std::max(agent.speed_mps, Limit_mps(id, *beside, there)));
+  const double fastest = std::min(agent.speed_mps + in_.traits[id].idm.acceleration_mps2 * time,
+                                  std::max(agent.speed_mps, in_.limits.Limit_mps(id, *beside, there)));
   piece.blend_m = std::max(kMinLaneChangeLength_m, time * fastest);
   return piece;
 }
 
 // Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
 // on foot, easy to drive, and it goes on.
-bool TrafficModel::IsPlain(std::uint32_t id, double from_m, double to_m) const {
+bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
   const Stretch* before = nullptr;
-  for (const Stretch& stretch : stretches_[id]) {
+  for (const Stretch& stretch : in_.stretches[id]) {
     const bool beside = before != nullptr && before->changes;  // then it is there from its rear on
     const double begin = beside ? from_m : stretch.begin_m;
     if (begin > to_m) break;
     if (before != nullptr && !beside && begin > from_m) {
-      const lanes::Link* link = LinkTo(graph()[before->track], stretch.track);
+      const lanes::Link* link = LinkTo(in_.map.graph[before->track], stretch.track);
       if (link == nullptr || std::fabs(link->offset_m) > kSameLaneOffset_m || std::fabs(link->slope) > kSameLaneSlope)
         return false;
     }
     before = &stretch;
     if (stretch.end_m < from_m || stretch.changes) continue;
-    const lanes::Track& track = graph()[stretch.track];
+    const lanes::Track& track = in_.map.graph[stretch.track];
     if (track.junction >= 0) return false;
     const double low = std::max(from_m, begin) - stretch.zero_m, high = std::min(to_m, stretch.end_m) - stretch.zero_m;
-    for (const lanes::ZoneSide& part : zones().Of(stretch.track)) {
+    for (const lanes::ZoneSide& part : in_.map.zones.Of(stretch.track)) {
       if (part.in_m < high && part.out_m > low) return false;
     }
-    for (const StopLine& line : map_->plans[stretch.track].lines) {
+    for (const StopLine& line : in_.map.plans[stretch.track].lines) {
       if (line.d_m > low && line.d_m < high) return false;
     }
-    if (NearCrossing(stretch.track, low, high) || !IsEasy(track.curve, low, high)) return false;
+    if (NearCrossing(in_.people, stretch.track, low, high) || !IsEasy(track.curve, low, high)) return false;
   }
-  return stretches_[id].back().end_m >= to_m;
+  return in_.stretches[id].back().end_m >= to_m;
 }
 
 // Whether the marks let it over to that side all the way.
-bool TrafficModel::MayCross(std::uint32_t id, int side, double from_m, double to_m) const {
-  for (const Stretch& stretch : stretches_[id]) {
+bool LaneWays::MayCross(std::uint32_t id, int side, double from_m, double to_m) const {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < from_m) continue;
-    if (!map_->marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight,
-                              std::max(from_m, stretch.begin_m) - stretch.zero_m,
-                              std::min(to_m, stretch.end_m) - stretch.zero_m))
+    if (!in_.map.marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight,
+                                std::max(from_m, stretch.begin_m) - stretch.zero_m,
+                                std::min(to_m, stretch.end_m) - stretch.zero_m))
       return false;
   }
   return true;
@@ -110,27 +113,27 @@ bool TrafficModel::MayCross(std::uint32_t id, int side, double from_m, double to
 
 // Where the last track ends on which it can still get over to the lane that its route goes on from; far away where that
 // is not in sight, or no change is needed.
-double TrafficModel::RouteEnds(std::uint32_t id) const {
-  const Agent& agent = agents_[id];
-  const Route* route = RouteOf(agent);
+double LaneWays::RouteEnds(std::uint32_t id) const {
+  const Agent& agent = in_.agents[id];
+  const Route* route = RouteOf(in_.map, agent);
   if (route == nullptr) return kNoBarrier_m;
   std::uint32_t track = agent.path.back().track;
   Choice choice{agent.links, route->LegOn(agent.leg, track)};
-  double end = agent.path.back().zero_m + graph()[track].length_m();
+  double end = agent.path.back().zero_m + in_.map.graph[track].length_m();
   while (route->Changes(choice.leg, track) > 0) {
     if (route->MustChange(choice.leg, track)) return end;
-    if (end > agent.o_m + kRouteSight_m || graph()[track].next.empty()) break;
-    const lanes::Link& on = NextLink(id, track, choice);
+    if (end > agent.o_m + kRouteSight_m || in_.map.graph[track].next.empty()) break;
+    const lanes::Link& on = NextLink(in_.map, in_.settings.seed, id, in_.agents[id], track, choice);
     track = on.to;
-    end += graph()[track].length_m() - on.from_d_m;
+    end += in_.map.graph[track].length_m() - on.from_d_m;
   }
   return kNoBarrier_m;
 }
 
 // By how many changes of lanes less it comes to its route's end from the lane beside than from its own.
-int TrafficModel::FewerChanges(std::uint32_t id, std::uint32_t track) const {
-  const Agent& agent = agents_[id];
-  const Route* route = RouteOf(agent);
+int LaneWays::FewerChanges(std::uint32_t id, std::uint32_t track) const {
+  const Agent& agent = in_.agents[id];
+  const Route* route = RouteOf(in_.map, agent);
   if (route == nullptr) return 0;
   const std::uint32_t leg = route->LegOn(agent.leg, track), own = agent.path.back().track;
   const bool here = route->Reaches(agent.leg, own), there = route->Reaches(leg, track);
@@ -139,63 +142,18 @@ int TrafficModel::FewerChanges(std::uint32_t id, std::uint32_t track) const {
 }
 
 // Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.
-double TrafficModel::LaneEnds(std::uint32_t id) const {
-  const auto& stretches = stretches_[id];
+double LaneWays::LaneEnds(std::uint32_t id) const {
+  const auto& stretches = in_.stretches[id];
   const double parts = RouteEnds(id);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
     if (stretches[i].changes) continue;
-    const auto& next = graph()[stretches[i].track].next;
+    const auto& next = in_.map.graph[stretches[i].track].next;
     if (next.empty()) return std::min(parts, stretches[i].end_m);
     if (i + 1 == stretches.size()) break;
-    const lanes::Link* link = LinkTo(graph()[stretches[i].track], stretches[i + 1].track);
+    const lanes::Link* link = LinkTo(in_.map.graph[stretches[i].track], stretches[i + 1].track);
     if (link != nullptr && link->joins) return std::min(parts, stretches[i].end_m);
   }
   return parts;
-}
-
-void TrafficModel::BeginChange(std::uint32_t id, Sideways&& way) {
-  Agent& agent = agents_[id];
-  agent.seeks = false;
-  agent.change = {way.side, way.piece.blend_from_m, way.piece.blend_from_m + way.piece.blend_m};
-  agent.path.push_back(way.piece);
-  if (const Route* route = RouteOf(agent)) agent.leg = route->LegOn(agent.leg, way.piece.track);
-  stretches_[id] = std::move(way.stretches);
-  const double front = way.piece.begin_m - way.piece.zero_m;
-  Part(way.piece.track);
-  occupants_.Insert(way.piece.track, {id, -1, front - traits_[id].length_m, front});
-  ahead_[id] = FindAhead(id);
-}
-
-// The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into
-// it.
-std::optional<std::uint32_t> TrafficModel::LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const {
-  const Agent& agent = agents_[id];
-  if (agent.change.side == 0 || stretch.changes || stretch.end_m < agent.change.from_m) return std::nullopt;
-  const lanes::Track& track = graph()[stretch.track];
-  const auto old = agent.change.side > 0 ? track.right : track.left;
-  if (!old || odometer_m >= agent.change.to_m)
-    return std::nullopt;  // beyond it a lane that goes on begins a piece without any offset
-  std::size_t i = agent.path.size() - 1;
-  while (i > 0 && agent.path[i].begin_m > odometer_m) --i;
-  if (odometer_m < agent.change.from_m) return old;
-  const double gone = std::fabs(agent.path[i].offset_m) - std::fabs(FrameAt(graph(), agent.path, odometer_m).offset_m);
-  return gone < 0.5 * traits_[id].width_m + kClear_m ? old : std::nullopt;
-}
-
-// It is seen on the lane that it is leaving, too.
-void TrafficModel::AppearOnLaneLeft(std::uint32_t id) {
-  const Agent& agent = agents_[id];
-  const double half = 0.5 * traits_[id].length_m, rear = agent.o_m - half;
-  for (const Stretch& stretch : stretches_[id]) {
-    if (stretch.begin_m > agent.o_m) break;
-    if (stretch.changes && stretch.end_m > rear) return;  // as long as its rear is on that path it is there anyway
-    if (stretch.end_m < agent.o_m) continue;
-    const auto old = LaneLeft(id, stretch, rear);
-    if (!old) return;
-    const double middle = graph().Across(stretch.track, agent.o_m - stretch.zero_m, *old);
-    occupants_.Add(*old, {id, -1, middle - half, middle + half});
-    return;
-  }
 }
 
 }  // namespace rodeira::traffic

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What agents make of traffic lights.
+#include "common/traffic/signals/signals.hpp"
+
 #include <algorithm>
+#include <cstddef>
 
 #include "common/driving/driver/smooth.hpp"
-#include "common/traffic/traffic_model.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -12,6 +14,7 @@ namespace {
 // amber are as long as v/(2 b) and half of the time in which the braking grows, so that nobody comes to the line at red
 // (Gazis, Herman, Maradudin 1960).
 constexpr double kForAmber_mps2 = 2.9;
+
 constexpr double kOthers_mps2 = 2.8;  // of who is no agent
 constexpr double kLineTolerance_m = 0.01;
 
@@ -26,18 +29,18 @@ double StopsIn(double v, double acceleration_mps2, double jerk_mps3) {
 
 }  // namespace
 
-void TrafficModel::FindColours() {
-  const auto controllers = map_->network->controllers();
-  colours_.assign(controllers.size(), network::LightColour::kRed);
+void Signals::FindColours() {
+  const auto controllers = in_.map.network->controllers();
+  out_.colours.assign(controllers.size(), network::LightColour::kRed);
   for (std::size_t i = 0; i < controllers.size(); ++i) {
-    if (controllers[i].times) colours_[i] = network::ColourAt(*controllers[i].times, time_ns_);
+    if (controllers[i].times) out_.colours[i] = network::ColourAt(*controllers[i].times, in_.time_ns);
   }
 }
 
 // The first line of a track beyond a place whose light is not green, if who comes from there with this speed can stop
 // before it; far away where there is none.
-double TrafficModel::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
-  for (const StopLine& line : map_->plans[track].lines) {
+double Signals::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
+  for (const StopLine& line : in_.map.plans[track].lines) {
     if (line.light >= 0 && !IsGreen(line.light) && speed_mps * speed_mps <= 2.0 * kOthers_mps2 * (line.d_m - from_m))
       return line.d_m;
   }
@@ -45,10 +48,10 @@ double TrafficModel::RedAhead(std::uint32_t track, double from_m, double speed_m
 }
 
 // Whether all lights on its way between two odometers show green.
-bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const {
-  for (const Stretch& stretch : stretches_[id]) {
+bool Signals::AllGreen(std::uint32_t id, double from_m, double to_m) const {
+  for (const Stretch& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
-    for (const StopLine& line : map_->plans[stretch.track].lines) {
+    for (const StopLine& line : in_.map.plans[stretch.track].lines) {
       const double at = stretch.zero_m + line.d_m;
       if (line.light >= 0 && at >= from_m - kLineTolerance_m && at <= to_m + kLineTolerance_m &&
           at >= stretch.begin_m && !IsGreen(line.light))
@@ -60,11 +63,11 @@ bool TrafficModel::AllGreen(std::uint32_t id, double from_m, double to_m) const 
 
 // Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where
 // it would have waited: nobody who holds a zone of that way counts on it.
-void TrafficModel::ObeyLights(std::uint32_t id) {
-  Agent& agent = agents_[id];
+void Signals::ObeyLights(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return;
-  const double front = agent.o_m + 0.5 * traits_[id].length_m,
-               stops = StopsIn(agent.speed_mps, agent.wish_mps2, settings_.smooth.planned_mps3);
+  const double front = agent.o_m + 0.5 * in_.traits[id].length_m,
+               stops = StopsIn(agent.speed_mps, agent.wish_mps2, in_.settings.smooth.planned_mps3);
   for (std::size_t i = 0; i < agent.grants.size(); ++i) {
     const ZoneGrant& grant = agent.grants[i];
     const double gap = grant.light_m - front;

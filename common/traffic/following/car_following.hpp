@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// Accelerations behind a leader, without one, and before a stop.
+class CarFollowing {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    const SpeedLimits& limits;
+  };
+  explicit CarFollowing(const Reads& reads) : in_(reads) {}
+
+  double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
+  double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
+  double FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const;
+  double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
+
+ private:
+  Reads in_;
+};
+
+}  // namespace rodeira::traffic

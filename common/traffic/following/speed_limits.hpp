@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "common/driving/driver/speed_plan.hpp"
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+inline constexpr double kMinDivisorSpeed_mps = 0.01;  // speeds are divided by no less
+
+// The speed that limits, bends, crests and the driver allow along the way.
+class SpeedLimits {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    std::span<const Stretches> stretches;
+    std::span<const Below> below;
+    std::span<const std::array<PlannedAt, 2>> known;
+  };
+  explicit SpeedLimits(const Reads& reads) : in_(reads) {}
+
+  driver::SpeedPlan::Allowed Allowed(std::uint32_t id, double odometer_m) const;
+  double LimitOn(std::uint32_t track, double d_m) const;
+  double Limit_mps(std::uint32_t id, std::uint32_t track, double d_m) const;
+  double Desired_mps(std::uint32_t id) const;
+  double AllowedAt(std::uint32_t id, double odometer_m) const;
+
+ private:
+  Reads in_;
+};
+
+}  // namespace rodeira::traffic

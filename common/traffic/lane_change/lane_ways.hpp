@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/pedestrians/pedestrians.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// The path to the lane beside, and how far lanes and routes go on.
+class LaneWays {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    const std::optional<Pedestrians>& people;
+    std::span<const Stretches> stretches;
+    const SpeedLimits& limits;
+  };
+  explicit LaneWays(const Reads& reads) : in_(reads) {}
+
+  std::optional<Piece> PieceBeside(std::uint32_t id, int side) const;
+  bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
+  bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
+  double RouteEnds(std::uint32_t id) const;
+  int FewerChanges(std::uint32_t id, std::uint32_t track) const;
+  double LaneEnds(std::uint32_t id) const;
+
+ private:
+  Reads in_;
+};
+
+}  // namespace rodeira::traffic

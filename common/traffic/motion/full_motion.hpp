@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/core/base/result.hpp"
+#include "common/traffic/motion/full_cars.hpp"
+#include "common/traffic/perception/current_tracks.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+#include "common/vehicle/dynamics/car_array.hpp"
+
+namespace rodeira::traffic {
+
+// Vehicles with the physics of the driver's car.
+class FullMotion {
+ public:
+  struct Reads {
+    std::span<const AgentTraits> traits;
+    const CurrentTracks& tracks;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+    std::optional<FullCars>& full;
+    std::vector<std::uint32_t>& waiting;
+  };
+  FullMotion(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  void StartFull(std::shared_ptr<ground::Ground> ground);
+  base::Status PlaceFull(std::uint32_t id);
+  void DriveFull(std::uint32_t id, double wanted_mps2, double dt_s);
+  void FollowFull(std::uint32_t id, double dt_s);
+
+ private:
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

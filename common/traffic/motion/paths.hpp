@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// Paths grow under front bumpers and are forgotten behind rear ones.
+class Paths {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const AgentTraits> traits;
+    std::span<const Below> below;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+  };
+  Paths(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  std::uint32_t Follow(std::uint32_t id);
+  bool AtTheEnd(std::uint32_t id) const;
+
+ private:
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/occupancy.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// The lane of oncoming traffic, for vehicles that overtake and vehicles that come.
+class OncomingLane {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    const double& longest_half_m;
+    std::span<const Stretches> stretches;
+    const Occupancy& occupants;
+    std::span<const std::vector<Block>> blocks;
+    std::span<const std::vector<Facing>> facing;
+    const bool& any_facing;
+  };
+  explicit OncomingLane(const Reads& reads) : in_(reads) {}
+
+  Oncoming FindOncoming(std::uint32_t id) const;
+  double WantedFacing(std::uint32_t id, double limit_mps) const;
+
+ private:
+  Reads in_;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/traffic/overtaking/overtaking_start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "common/driving/driver/idm.hpp"
+#include "common/traffic/overtaking/haste.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+constexpr double kHeldUp_mps2 = 0.3;   // so much less than on a free road
+constexpr double kGain_mps = 4.0;      // so much faster than who is passed at least …
+constexpr double kToldGain_mps = 1.0;  // … and who is told to
+constexpr double kToldNear_s = 4.0;    // he begins no farther behind who is ahead than this, and his standing gap
+constexpr double kOvertakingClearance_m = 0.45;  // lateral, between the two vehicles
+constexpr double kMostAside = 0.97;              // of the way to the other lane's middle that it may need
+constexpr double kLeastGain_mps2 = 0.15;
+constexpr double kRoom_s = 1.0;             // and its standing gap, behind who drives before that one
+constexpr double kBrakes_mps2 = 2.0;        // there
+constexpr double kLegalMargin_m = 10.0;     // beyond the return for which marks and signs are checked
+constexpr double kInitialLength_m = 150.0;  // first guess of the overtaking distance
+constexpr int kGuesses = 4;
+
+double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kGain_mps; }
+
+}  // namespace
+
+// While it overtakes it is in more of a hurry, and comes nearer to who is before it.
+driver::IdmSettings OvertakingStart::IdmOf(std::uint32_t id) const {
+  driver::IdmSettings idm = in_.traits[id].idm;
+  const Overtaking& way = out_.agents[id].overtaking;
+  if (!way.active() || way.back || way.gives_up) return idm;
+  if (out_.agents[id].o_m + 0.5 * in_.traits[id].length_m < way.clear_m)
+    idm.time_gap_s = std::min(idm.time_gap_s, kBackGap_s);
+  else
+    idm.acceleration_mps2 *= kHaste;
+  return idm;
+}
+
+bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
+  const Ahead& ahead = in_.ahead[id];
+  if (!ahead.any || ahead.gap_m > in_.settings.sight_m || ahead.speed_mps < -0.1) return false;
+  if (ahead.id >= 0) {
+    const auto other = static_cast<std::size_t>(ahead.id);
+    if (out_.agents[other].change.side != 0 || out_.agents[other].overtaking.active() || in_.is_overtaken[other] != 0)
+      return false;
+  }
+  const std::uint32_t track = out_.agents[id].path.back().track;
+  const double limit = in_.limits.Limit_mps(id, track, out_.agents[id].o_m - out_.agents[id].path.back().zero_m);
+  if (limit < ahead.speed_mps + GainFor(out_.agents[id])) return false;
+  if (out_.agents[id].told_past)
+    return ahead.gap_m < in_.traits[id].idm.standing_gap_m + kToldNear_s * out_.agents[id].speed_mps;
+  return in_.following.Following(id, limit, true, ahead.gap_m, ahead.speed_mps) <
+         in_.following.Following(id, limit, false, 0.0, 0.0) - kHeldUp_mps2;
+}
+
+// Whether there is room for it between who is passed and who drives before that one.
+bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps) {
+  Agent& agent = out_.agents[id];
+  const Ahead& passed = in_.ahead[id];
+  const AgentTraits& traits = in_.traits[id];
+  const Overtaking own = std::exchange(agent.overtaking, way);
+  agent.overtaking.clear_m = -kNoBarrier_m;
+  const Ahead next = in_.neighbours.FindAhead(id);
+  agent.overtaking = own;
+  if (!next.any) return true;
+  const double v = std::max(0.0, passed.speed_mps);
+  const double there = next.gap_m - passed.gap_m - passed.length_m + (next.speed_mps - v) * plan.gaining_s -
+                       traits.idm.standing_gap_m - kBackGap_s * v - traits.length_m;
+  if (there < traits.idm.standing_gap_m + kRoom_s * plan.speed_mps) return false;
+  return driver::IdmAcceleration(traits.idm, plan.speed_mps, top_mps, there, next.speed_mps) >= -kBrakes_mps2;
+}
+
+// The path out, and what is to be known of it; nothing where it cannot be, or is not safe. The stretches reach as far
+// as who overtakes looks.
+std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaking& way) {
+  const AgentTraits& traits = in_.traits[id];
+  const Ahead& passed = in_.ahead[id];
+  const double front = out_.agents[id].o_m + 0.5 * traits.length_m, v = out_.agents[id].speed_mps;
+  const Oncoming oncoming = in_.oncoming.FindOncoming(id);
+  if (oncoming.own_way) return std::nullopt;
+  std::optional<Piece> piece;
+  PassPlan plan;
+  double to = front + kInitialLength_m, top = 0.0;
+  for (int guess = 0; guess < kGuesses; ++guess) {
+    top = TopSpeed(id, front, to);
+    if (top < std::max(v, passed.speed_mps + GainFor(out_.agents[id]))) return std::nullopt;
+    piece = PieceOut(id, top);
+    if (!piece) return std::nullopt;
+    way.side = piece->aside_m > 0.0 ? 1 : -1;
+    const double needs =
+        0.5 * traits.width_m + kOvertakingClearance_m + (way.side > 0 ? passed.left_m : -passed.right_m);
+    if (needs > kMostAside * std::fabs(piece->aside_m)) return std::nullopt;
+    way.clear_m = front + piece->blend_m * QuinticShareAt(needs / std::fabs(piece->aside_m));
+    PassCase pass = CaseOf(id, passed, top, piece->aside_m, to);
+    pass.to_clear_m = way.clear_m - front;
+    if (pass.gains_mps2 < kLeastGain_mps2 ||
+        passed.gap_m - (v - passed.speed_mps) * pass.to_clear_m / v < traits.idm.standing_gap_m)
+      return std::nullopt;
+    plan = PlanPass(pass);
+    if (oncoming.from_m - front - plan.way_m < oncoming.speed_mps * (plan.time_s + in_.settings.overtaking.margin_s))
+      return std::nullopt;
+    const double before = std::exchange(to, front + plan.way_m);
+    if (guess > 0 && to <= before) break;
+  }
+  way.passed = passed.id, way.passed_body = passed.body;
+  way.legal_m = to + kLegalMargin_m;
+  way.to_m = to, way.back_s = plan.time_s;
+  if (!MayOvertake(id, way.legal_m, piece->aside_m) || !HasRoomBefore(id, way, plan, top)) return std::nullopt;
+  return piece;
+}
+
+void OvertakingStart::ThinkOfOvertaking(std::uint32_t id) {
+  Agent& agent = out_.agents[id];
+  if (in_.map.opposites[agent.path.back().track] < 0 || agent.change.side != 0 || in_.is_overtaken[id] != 0 ||
+      !IsHeldUp(id))
+    return;
+  Stretches own = std::move(out_.stretches[id]);
+  out_.stretches[id].clear();
+  out_.ways.FindStretches(id, in_.settings.overtaking.sight_m);
+  Overtaking way;
+  const auto piece = WeighOvertaking(id, way);
+  out_.stretches[id] = std::move(own);
+  if (!piece) return;
+  agent.overtaking = way;
+  out_.any_overtaking = true;
+  agent.told_past = false;
+  agent.path.push_back(*piece);
+  out_.observation.FaceOncoming(id);
+}
+
+}  // namespace rodeira::traffic

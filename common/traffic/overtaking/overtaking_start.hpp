@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "common/driving/driver/idm.hpp"
+#include "common/traffic/following/car_following.hpp"
+#include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/lane_change/lane_ways.hpp"
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/overtaking/oncoming.hpp"
+#include "common/traffic/overtaking/overtaking.hpp"
+#include "common/traffic/perception/neighbours.hpp"
+#include "common/traffic/perception/observation.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/perception/ways.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// Whether to overtake on the lane of oncoming traffic: is the vehicle held up, does the law allow it, is there room?
+class OvertakingStart {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const AgentTraits> traits;
+    std::span<const std::uint8_t> is_overtaken;
+    std::span<const Ahead> ahead;
+    const Neighbours& neighbours;
+    const SpeedLimits& limits;
+    const CarFollowing& following;
+    const LaneWays& lanes_beside;
+    const OncomingLane& oncoming;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+    std::span<Stretches> stretches;
+    bool& any_overtaking;
+    Ways& ways;
+    Observation& observation;
+  };
+  OvertakingStart(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  driver::IdmSettings IdmOf(std::uint32_t id) const;
+  void ThinkOfOvertaking(std::uint32_t id);
+  double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
+  PassCase CaseOf(std::uint32_t id, const Ahead& passed, double top_mps, double aside_m, double to_m) const;
+
+ private:
+  bool IsHeldUp(std::uint32_t id) const;
+  bool HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps);
+  std::optional<Piece> WeighOvertaking(std::uint32_t id, Overtaking& way);
+  std::optional<Piece> PieceOut(std::uint32_t id, double top_mps) const;
+  bool MayOvertake(std::uint32_t id, double to_m, double aside_m) const;
+
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

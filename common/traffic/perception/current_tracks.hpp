@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+
+namespace rodeira::traffic {
+
+// The track below each vehicle, and the path there.
+class CurrentTracks {
+ public:
+  struct Reads {
+    const TrafficMap& map;
+    std::span<const Agent> agents;
+  };
+  struct Writes {
+    std::span<Below> below;
+  };
+  CurrentTracks(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  void LookBelow(std::uint32_t id);
+  PathFrame FrameOf(std::uint32_t id, double odometer_m) const;
+  bool HasBeside(std::uint32_t id, std::uint32_t track) const;
+  const lanes::Curve::Straight* StraightBelow(std::uint32_t id) const;
+
+ private:
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

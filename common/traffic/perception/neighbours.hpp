@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/occupancy.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+#include "common/world/lanes/zones.hpp"
+
+namespace rodeira::traffic {
+
+// Leaders and followers of a vehicle.
+class Neighbours {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    const double& longest_half_m;
+    std::span<const Stretches> stretches;
+    const Occupancy& occupants;
+    std::span<const std::uint8_t> parts;
+    std::span<const std::vector<Block>> blocks;
+    const bool& any_block;
+    const bool& any_overtaking;
+  };
+  explicit Neighbours(const Reads& reads) : in_(reads) {}
+
+  std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
+  // The leader, with the gap to it: the next vehicle on the agent's way.
+  Ahead FindAhead(std::uint32_t id) const;
+  std::span<const lanes::Parting> PartingsOf(std::uint32_t track) const;
+  Behind FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
+  std::optional<Ahead> FindPassed(std::uint32_t id) const;
+
+ private:
+  Reads in_;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/traffic/overtaking/overtaking.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/world/lanes/graph.hpp"
+
+// Short answers about tracks and the vehicles on them.
+namespace rodeira::traffic {
+
+inline constexpr double kWithout_m = 1e-9;  // odometers nearer to one another are equal
+
+inline std::span<const Block> BlocksOn(bool any_block, std::span<const std::vector<Block>> blocks,
+                                       std::uint32_t track) {
+  return any_block ? std::span<const Block>(blocks[track]) : std::span<const Block>();
+}
+inline double LengthOf(const lanes::Graph& graph, const Below& below, std::uint32_t track) {
+  return below.track == track ? below.length_m : graph[track].length_m();
+}
+inline bool GoesOn(const lanes::Graph& graph, const Below& below, std::uint32_t track) {
+  return below.track == track ? below.goes_on : !graph[track].next.empty();
+}
+// Whether a vehicle ahead, by its id or that of its body, is the one that is overtaken, and has been cleared already.
+inline bool IsPassed(const Overtaking& overtaking, double front_m, std::int64_t id, std::int64_t body, double gap_m) {
+  const bool same = (id >= 0 && id == overtaking.passed) || (body >= 0 && body == overtaking.passed_body);
+  return same && !overtaking.back && front_m >= overtaking.clear_m && (!overtaking.gives_up || gap_m <= 0.0);
+}
+
+}  // namespace rodeira::traffic

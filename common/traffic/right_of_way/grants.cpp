@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/traffic/right_of_way/grants.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "common/traffic/right_of_way/travel_time.hpp"
+
+namespace rodeira::traffic {
+namespace {
+
+// A vehicle that has waited longer has priority over vehicles that have waited less.
+constexpr double kPriorityWait_s = 40.0;
+
+constexpr double kGap_s = 1.0;     // after the own clearing before who goes first may arrive
+constexpr double kBehind_s = 0.5;  // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kZipSpeed_mps = 7.0,
+                 kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
+
+// The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
+int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
+  int last = -1;
+  std::uint64_t number = 0;
+  for (const int side : {0, 1}) {
+    for (const Holder& holder : book.HoldersOf(zone, static_cast<std::size_t>(side))) {
+      if (holder.id < agents && holder.number > number) number = holder.number, last = side;
+    }
+  }
+  return last;
+}
+
+}  // namespace
+
+bool Grants::Urgent(std::uint32_t id) const { return out_.agents[id].waited_s > kPriorityWait_s; }
+
+// Where two ways merge who holds the zone takes up room behind it, too.
+bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder) {
+  const Passage& passage = out_.passages[id];
+  if (!passage.able || in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge)
+    return true;
+  const double its_rear = out_.agents[holder.id].o_m - 0.5 * in_.traits[holder.id].length_m;
+  if (crossing.out_m + its_rear + out_.room.ReachOf(holder.id, 0) - holder.out_m < passage.room_m) return false;
+  return out_.room.LeavesInTime(id, holder.id, passage.room_m - crossing.out_m + holder.out_m - its_rear);
+}
+
+// Whether who holds the zone takes up the same room behind it, and does not go round there.
+bool Grants::TakesRoom(const Crossing& crossing) const {
+  const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(crossing.zone)];
+  return zone.kind == lanes::ZoneKind::kMerge && in_.map.plans[zone.track[0]].turn != kRing &&
+         in_.map.plans[zone.track[1]].turn != kRing;
+}
+
+// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it
+// comes; and, where that is `heeded`, who has waited longer.
+bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
+  const auto zone = static_cast<std::size_t>(crossing.zone);
+  const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
+  const Agent& agent = out_.agents[id];
+  const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;
+  double arrives = -1.0;
+  for (const Holder& holder : out_.book.HoldersOf(zone, theirs)) {
+    if (holder.id == id) continue;
+    if (holder.id < out_.agents.size()) {
+      const Agent& other = out_.agents[holder.id];
+      const double way_out = holder.out_m - other.o_m + 0.5 * in_.traits[holder.id].length_m;
+      const double clears =
+          TravelTime(way_out, other.speed_mps, in_.limits.AllowedAt(holder.id, holder.out_m),
+                     in_.traits[holder.id].start_mps2, {other.wish_mps2, in_.settings.smooth.planned_mps3});
+      if (arrives < 0.0)
+        arrives = TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
+                             in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+      if (holder.sure && (clears < arrives + kBehind_s || in_.merging.MayFollow(id, crossing, holder)) &&
+          RoomBehind(id, crossing, holder))
+        continue;
+      out_.passages[id].delay_s = clears - arrives;
+    }
+    out_.passages[id].waits_for = holder.id == out_.agents.size() ? -1 : static_cast<std::int64_t>(holder.id);
+    return true;
+  }
+  if (!heeded) return false;
+  if (const ZoneBook::Wish wish = out_.book.RoomWanted(zone, mine); wish.waited_s > agent.waited_s) {
+    out_.passages[id].waits_for = static_cast<std::int64_t>(wish.id);
+    return true;
+  }
+  return out_.book.IsAwaited(zone, mine) && !Urgent(id);
+}
+
+// The same of any of its zones.
+bool Grants::IsHeld(std::uint32_t id, bool heeded) {
+  const auto& crossings = out_.passages[id].crossings;
+  return std::any_of(crossings.begin(), crossings.end(),
+                     [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
+}
+
+// Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the
+// other side's turn as long as who was let in last is from this one.
+bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
+  const auto index = static_cast<std::size_t>(crossing.zone);
+  const int theirs = 1 - crossing.side;
+  const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(index)];
+  const auto comers = out_.book.ComersTo(index, static_cast<std::size_t>(theirs));
+  if (comers.empty()) return false;
+  const int last = in_.map.zips[index] ? LastLetIn(out_.book, index, out_.agents.size()) : -1;
+  if (zone.first == crossing.side && last != crossing.side) return false;
+  const Agent& agent = out_.agents[id];
+  const double way_out = crossing.out_m - agent.o_m + 0.5 * in_.traits[id].length_m;
+  const double clears = TravelTime(way_out, agent.speed_mps, in_.limits.AllowedAt(id, crossing.out_m),
+                                   in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+  for (const Comer& comer : comers) {
+    if (comer.id == id) continue;
+    const bool agents = comer.id < out_.agents.size();
+    const bool slow =
+        agents && out_.agents[comer.id].speed_mps < kZipSpeed_mps && out_.passages[comer.id].arrives_s < kZipTime_s;
+    const bool its_turn = slow && last == crossing.side;
+    if (slow && last == theirs) continue;
+    if (agents && Urgent(id) && out_.agents[comer.id].waited_s < agent.waited_s) continue;
+    if (!its_turn) {
+      if (zone.first == crossing.side) continue;
+      const double arrives = in_.claims.ArrivesAt(comer);
+      if (arrives > clears + kGap_s || in_.claims.IsFarEnough(id, crossing, comer, arrives, clears)) continue;
+    }
+    out_.passages[id].waits_for = agents ? static_cast<std::int64_t>(comer.id) : -1;
+    const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;
+    out_.passages[id].delay_s =
+        in_.claims.ClearsAt(comer) - TravelTime(to_zone, agent.speed_mps, in_.limits.AllowedAt(id, crossing.in_m),
+                                                in_.traits[id].start_mps2,
+                                                {agent.wish_mps2, in_.settings.smooth.planned_mps3});
+    return true;
+  }
+  return false;
+}
+
+// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to
+// one or has waited longer.
+bool Grants::Grant(std::uint32_t id, bool yields) {
+  Passage& passage = out_.passages[id];
+  if (IsHeld(id, yields)) return false;
+  for (const Crossing& crossing : passage.crossings) {
+    if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;
+  }
+  const ZoneGrant grant{passage.end_m, out_.next_grant++, passage.able, passage.lit ? passage.line_m : -1.0};
+  out_.agents[id].granted_m = passage.end_m;
+  out_.agents[id].grants.push_back(grant);
+  for (const Crossing& crossing : passage.crossings) {
+    if (crossing.zone < 0) continue;
+    out_.book.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
+                   {id, grant.sure, grant.number, crossing.out_m});
+  }
+  passage.any = false, passage.key = {};
+  return true;
+}
+
+}  // namespace rodeira::traffic

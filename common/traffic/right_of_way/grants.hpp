@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/right_of_way/claims.hpp"
+#include "common/traffic/right_of_way/merging.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/right_of_way/room.hpp"
+#include "common/traffic/right_of_way/zone_book.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// Reservations: a vehicle gets all zones of its passage at once, or none.
+class Grants {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const AgentTraits> traits;
+    const SpeedLimits& limits;
+    const Merging& merging;
+    const Claims& claims;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+    std::uint64_t& next_grant;
+    std::span<Passage> passages;
+    ZoneBook& book;
+    Room& room;
+  };
+  Grants(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  bool Urgent(std::uint32_t id) const;
+  bool TakesRoom(const Crossing& crossing) const;
+  bool IsHeld(std::uint32_t id, bool heeded = false);
+  bool Grant(std::uint32_t id, bool yields);
+
+ private:
+  bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
+  bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
+  bool Yields(std::uint32_t id, const Crossing& crossing);
+
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/perception/ways.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/signals/signals.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// The next conflict zones on the way of each vehicle.
+class Passages {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const AgentTraits> traits;
+    std::span<const Stretches> stretches;
+    std::span<const std::uint32_t> way_numbers;
+    std::span<const double> bars;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+    std::span<Passage> passages;
+    std::span<std::array<PlannedAt, 2>> known;
+    Signals& signals;
+    Ways& ways;
+  };
+  Passages(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  double KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place);
+  void FindPassage(std::uint32_t id);
+  void ComeToLine(std::uint32_t id, double dt_s);
+
+ private:
+  bool KeepPassage(std::uint32_t id);
+  void FindCrossings(std::uint32_t id);
+
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

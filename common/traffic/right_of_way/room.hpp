@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/traffic/following/speed_limits.hpp"
+#include "common/traffic/perception/neighbours.hpp"
+#include "common/traffic/perception/occupancy.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/perception/ways.hpp"
+#include "common/traffic/right_of_way/merging.hpp"
+#include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/right_of_way/passages.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+
+namespace rodeira::traffic {
+
+// Whether there is room behind conflict zones, by how far each vehicle surely comes.
+class Room {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    std::span<const Agent> agents;
+    std::span<const AgentTraits> traits;
+    const double& longest_half_m;
+    std::span<const Stretches> stretches;
+    const Occupancy& occupants;
+    std::span<const std::vector<Block>> blocks;
+    const bool& any_block;
+    std::span<const Ahead> ahead;
+    std::span<const double> bars;
+    const Ways& ways;
+    const Neighbours& neighbours;
+    const SpeedLimits& limits;
+    const Merging& merging;
+  };
+  struct Writes {
+    std::span<Passage> passages;
+    std::span<double> reaches;
+    Passages& passages_ahead;
+  };
+  Room(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  double ReachOf(std::uint32_t id, int depth);
+  bool LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const;
+  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it
+  // stands at a line before conflict zones, none up to where it would stand behind them.
+  bool RoomAhead(std::uint32_t id) const;
+  void TellComing(std::uint32_t id);
+
+ private:
+  template <class Tell>
+  void EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell);
+  double ReachBehindThose(std::uint32_t id, double to_m, int depth);
+  void FindRoom(std::uint32_t id);
+
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "common/traffic/network/traffic_map.hpp"
+#include "common/traffic/perception/sight.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/traffic_settings.hpp"
+#include "common/world/network/network.hpp"
+
+namespace rodeira::traffic {
+
+// Traffic lights: what they show, and which reservations end at a light that is not green.
+class Signals {
+ public:
+  struct Reads {
+    const TrafficSettings& settings;
+    const TrafficMap& map;
+    std::span<const AgentTraits> traits;
+    const std::int64_t& time_ns;
+    std::span<const Stretches> stretches;
+  };
+  struct Writes {
+    std::span<Agent> agents;
+    std::vector<network::LightColour>& colours;
+  };
+  Signals(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+
+  bool IsGreen(std::int64_t light) const {
+    return out_.colours[static_cast<std::size_t>(light)] == network::LightColour::kGreen;
+  }
+  void FindColours();
+  double RedAhead(std::uint32_t track, double from_m, double speed_mps) const;
+  void ObeyLights(std::uint32_t id);
+
+ private:
+  bool AllGreen(std::uint32_t id, double from_m, double to_m) const;
+
+  Reads in_;
+  Writes out_;
+};
+
+}  // namespace rodeira::traffic

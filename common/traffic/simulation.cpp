@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/traffic/simulation.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "common/core/base/assert.hpp"
+#include "common/traffic/perception/each_driving.hpp"
+
+namespace rodeira::traffic {
+
+TrafficData::TrafficData(const TrafficSettings& of, std::shared_ptr<const TrafficMap> on)
+    : settings(of),
+      map(std::move(on)),
+      store(settings),
+      seen(store.agents.size(), map->graph.tracks().size()),
+      claimed(store.agents.size(), map->zones.zones().size()),
+      step(store.agents.size(), map->graph.tracks().size()) {
+  if (settings.threads > 1) pool = std::make_shared<base::ThreadPool>(settings.threads);
+}
+
+// Other vehicles, and agents that have been hit.
+void Simulation::Observe(std::span<const driver::Footprint> others) {
+  seen.bodies.assign(others.begin(), others.end());
+  for (const AgentPose& pose : store.poses) {
+    if (store.agents[pose.id].is_struck) seen.bodies.push_back(FootprintOf(pose, store.traits[pose.id]));
+  }
+  observation.See(seen.bodies);
+  // Else with what comes next, while a vehicle is in near memory.
+  if (store.people || !store.motors.empty()) observation.LookAhead();
+}
+
+// How each driver holds the car during the step.
+void Simulation::Decide(double dt_s) {
+  if (!store.motors.empty()) {
+    motors_driving.GiveWay();
+    EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { motors_driving.DriveMotors(id, dt_s); });
+    return;
+  }
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  if (store.people) crosswalks.LookAtPeople(dt_s);
+  right_of_way.Arbitrate(dt_s);
+  lane_changes.ChangeLanes(step_ns);
+  overtaking.Overtake(step_ns);
+  EachDriving(pool.get(), store.agents,
+              [&](std::uint32_t id) { step.wanted[id] = acceleration.Smoothed(id, acceleration.Wanted(id), dt_s); });
+  if (!store.full) return;
+  EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { full_motion.DriveFull(id, step.wanted[id], dt_s); });
+}
+
+void Simulation::LeaveAtEnds() {
+  for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
+    store.missed += step.missed_now[id];
+    if (step.ends[id]) entering.Leave(id);
+  }
+}
+
+void Simulation::Step(double dt_s, std::span<const driver::Footprint> others) {
+  RODEIRA_ASSERT(dt_s > 0.0);
+  const std::int64_t step_ns = std::llround(dt_s * 1e9);
+  Observe(others);
+  Decide(dt_s);       // reads the old state …
+  motion.Move(dt_s);  // … writes the new one
+  LeaveAtEnds();
+  crashes.SlideStruck(dt_s);
+  if (store.people) store.people->Step(dt_s, store.time_ns + step_ns);
+  arriving.Arrive(store.time_ns + step_ns);
+  entering.Enter();
+  appearing_vehicles.AppearAll();
+  store.time_ns += step_ns;
+  signals.FindColours();
+  body_poses.FindPoses();
+}
+
+}  // namespace rodeira::traffic

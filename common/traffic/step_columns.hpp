@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/base/huge_pages.hpp"
+#include "common/traffic/pedestrians/yielding.hpp"
+#include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/lists.hpp"
+#include "common/traffic/state/vehicle_way.hpp"
+#include "common/world/network/lights.hpp"
+
+namespace rodeira::traffic {
+
+// What one phase of a step tells later ones, beside Seen and Claimed. Nothing here is saved.
+struct StepColumns {
+  StepColumns(std::size_t vehicles, std::size_t tracks)
+      : beside(vehicles),
+        passes(vehicles),
+        wanted(vehicles),
+        hurries(vehicles),
+        bars(vehicles, kNoBarrier_m),
+        missed_now(vehicles),
+        ends(vehicles),
+        moved(vehicles),
+        is_moved(vehicles),
+        at_entry(vehicles),
+        present(tracks) {
+    base::PreferHugePages(moved);
+  }
+
+  std::vector<network::LightColour> colours;  // by controller
+  // By vehicle.
+  std::vector<std::uint8_t> beside, passes;  // it may think of another lane, of overtaking
+  std::vector<double> wanted;                // acceleration
+  std::vector<std::uint8_t> hurries;         // brakes in an emergency
+  std::vector<double> bars;                  // odometer at which it waits for people on foot
+  std::vector<std::uint32_t> missed_now;
+  std::vector<std::uint8_t> ends;         // has come to the end of its last lane
+  std::vector<AgentPose> moved;           // where the step has brought it …
+  std::vector<std::uint8_t> is_moved;     // … if that is known, and it has not left or been hit since
+  std::vector<Eigen::Vector2d> segments;  // where the driver of MOTORS looks to
+  std::vector<std::uint8_t> at_entry;     // is on a track where vehicles may begin their way
+  // Of crossings for people on foot.
+  std::vector<AtCrossing> at_crossings;
+  std::vector<ToCrossing> to_crossings;
+  // By track, while vehicles enter.
+  Lists<std::uint32_t> present;        // vehicles on it
+  std::vector<std::uint8_t> expected;  // a vehicle is on the way to its beginning
+};
+
+}  // namespace rodeira::traffic
