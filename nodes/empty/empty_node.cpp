@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/core/base/assert.hpp"
@@ -14,6 +15,7 @@
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
+#include "nodes/empty/sudden_end.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -23,10 +25,11 @@ namespace topics = idl::topics;
 class EmptyNode final : public lockstep::Node {
  public:
   EmptyNode(std::uint64_t seed, lockstep::NodeIndex index, std::int64_t fail_at, std::int64_t hang_at,
-            double initialise_s, const std::string& broken, bool saves)
+            SuddenEnd sudden_end, double initialise_s, const std::string& broken, bool saves)
       : value_(base::RandomBits({seed, index})),
         fail_at_(fail_at),
         hang_at_(hang_at),
+        sudden_end_(std::move(sudden_end)),
         initialise_s_(initialise_s),
         broken_(broken),
         saves_(saves) {}
@@ -39,6 +42,7 @@ class EmptyNode final : public lockstep::Node {
 
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     if (step.step == fail_at_) return base::Failed("told to fail here by its configuration (fail_at_step)");
+    if (auto status = sudden_end_.At(step.step); !status) return status;
     if (step.step == hang_at_) base::Log(base::LogLevel::kWarning, "", "told to hang here");
     while (step.step == hang_at_) std::this_thread::sleep_for(std::chrono::seconds(1));
     for (const lockstep::Sample& sample : inbox.All(topics::kPulse)) {
@@ -99,6 +103,7 @@ class EmptyNode final : public lockstep::Node {
   std::uint64_t value_;
   std::int64_t fail_at_;
   std::int64_t hang_at_;
+  SuddenEnd sudden_end_;
   double initialise_s_;
   std::string broken_;
   bool saves_;
@@ -110,11 +115,12 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeEmptyNode(launch::NodeContext&
   const config::Map config = context.config();
   const std::int64_t fail_at = config.Integer("fail_at_step", -1, INT64_MAX, -1);
   const std::int64_t hang_at = config.Integer("hang_at_step", -1, INT64_MAX, -1);
+  SuddenEnd sudden_end = SuddenEnd::Read(config);
   const double initialise_s = config.Number("initialise_s", {0.0, 600.0}, 0.0);
   const std::string broken = config.Choice("broken", {"no", "clock", "order"}, "no");
   const bool saves = config.Flag("saves", true);
-  return std::unique_ptr<lockstep::Node>(
-      std::make_unique<EmptyNode>(context.seed(), context.index(), fail_at, hang_at, initialise_s, broken, saves));
+  return std::unique_ptr<lockstep::Node>(std::make_unique<EmptyNode>(
+      context.seed(), context.index(), fail_at, hang_at, std::move(sudden_end), initialise_s, broken, saves));
 }
 
 }  // namespace rodeira::nodes
