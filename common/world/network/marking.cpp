@@ -165,18 +165,21 @@ std::vector<Stroke> StrokesOf(const Road& road, const Marking& marking) {
   if (marking.gap_m <= 0.0) return {{marking.from_s_m, marking.to_s_m}};
   const double period = marking.stroke_m + marking.gap_m;
   std::vector<Stroke> strokes;
-  // Goes on along the line by a length; past its end it stays there.
+  // Goes on along the line by a length; past its end it stays there. Newton's steps may come to no end where the line
+  // folds or its curvature jumps: then it goes on by as much of s.
+  constexpr int kMaxSteps = 100;
   double s = marking.from_s_m;
+  const double end = marking.to_s_m + 1e-3;
   const auto advance = [&](double length) {
-    double next = s;
-    for (double left = length; std::fabs(left) > 1e-9;) {
+    double next = s, left = length;
+    int turn = 0;
+    for (; turn < kMaxSteps && std::fabs(left) > 1e-9 && !(next > marking.to_s_m); ++turn) {
       const double step = left / std::max(MarkingLengthRate(road, marking, next), 1e-3);
-      const double to = std::min(next + step, marking.to_s_m + 1e-3);
+      const double to = std::max(s, std::min(next + step, end));
       left -= MarkingLength(road, marking, next, to);
       next = to;
-      if (to > marking.to_s_m) break;
     }
-    s = next;
+    s = turn < kMaxSteps ? next : std::min(s + length, end);
   };
   double first = std::fmod(marking.first_m, period);
   if (first > 0.0 && marking.first_m < 0.0) first -= period;

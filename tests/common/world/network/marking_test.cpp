@@ -60,6 +60,42 @@ TEST(Marking, DashesHaveTheirLengthOnTheLineItself) {
 }
 
 // Records that cut a broken mark in two do not show: the pattern is that of one record.
+// A short way over a junction, as SUMO writes it: its outer edge folds within a dash. The dashes end at the line's end,
+// one behind the other.
+TEST(Marking, DashesOfALineThatFoldsComeToAnEnd) {
+  geometry::PlanElement cubic;
+  cubic.kind = geometry::PlanElement::Kind::kCubic;
+  cubic.length_m = 3.45055987;
+  cubic.u = {0.0, 5.03959594, -5.96237186, 3.92030343};
+  cubic.v = {0.0, 0.0, 3.27776874, -1.76033052};
+  for (const double heading_rad : {0.0, 0.19237487}) {
+    cubic.heading_rad = heading_rad;
+    for (double width_m = 1.5; width_m < 4.0; width_m += 0.1) {
+      RoadSpec spec;
+      spec.id = "1";
+      spec.length_m = cubic.length_m;
+      LaneSection section;
+      section.end_s_m = spec.length_m;
+      Lane lane;
+      lane.id = -1;
+      lane.width = geometry::CubicTable({{0.0, width_m, 0.0, 0.0, 0.0}});
+      lane.marks = {Mark(0.0, "broken")};
+      section.right = {lane};
+      spec.sections = {section};
+      const Road road(spec, *geometry::PlanAxis::Make({cubic}));
+      for (const Marking& marking : MarkingsOf(road)) {
+        double before = marking.from_s_m;
+        for (const Stroke& stroke : StrokesOf(road, marking)) {
+          EXPECT_GE(stroke.from_s_m, before);
+          EXPECT_GT(stroke.to_s_m, stroke.from_s_m);
+          before = stroke.to_s_m;
+        }
+        EXPECT_LE(before, marking.to_s_m);
+      }
+    }
+  }
+}
+
 TEST(Marking, DashesGoOnFromRecordToRecord) {
   const Road whole = Arc({Mark(0.0, "broken")}),
              cut = Arc({Mark(0.0, "broken"), Mark(37.0, "broken"), Mark(90.5, "broken")});
