@@ -6,6 +6,7 @@
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "common/core/base/temporary_folder.hpp"
@@ -40,6 +41,17 @@ void WriteHeader(pugi::xml_node drive, const std::string& name) {
   for (const char* axis : {"x", "y"}) {
     if (const double value = offset.attribute(axis).as_double(); value != 0.0)
       offset.attribute(axis) = fmt::format("{}", -value).c_str();
+  }
+}
+
+// netconvert goes on with the lines between lanes across junctions.
+void ClearJunctions(pugi::xml_node drive) {
+  for (const pugi::xml_node& road : drive.children("road")) {
+    if (std::string_view(road.attribute("junction").value()) == "-1") continue;
+    for (const pugi::xml_node& lane : RightLanes(road)) {
+      pugi::xml_attribute type = lane.child("roadMark").attribute("type");
+      if (std::string_view(type.value()) == "broken") type = "none";
+    }
   }
 }
 
@@ -118,6 +130,7 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     const RoadEdges edges = FindEdges(net.value(), drive);
     Written written;
     WriteHeader(drive, options.named.stem().string());
+    ClearJunctions(drive);
     written.lights = WriteLights(net.value(), edges, drive, dark);
     written.right_of_way = WriteRightOfWay(net.value(), edges, drive);
     written.denied_lanes = WritePermissions(net.value(), edges);
