@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
 #include "common/core/geometry/plane.hpp"
 #include "common/world/lanes/approach.hpp"
@@ -87,6 +89,23 @@ std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, doub
     track = graph[track].before.front();
     d_m = graph[track].length_m();
   }
+}
+
+std::vector<std::string> DarkControllers(const network::Network& network) {
+  std::set<std::string, std::less<>> for_vehicles;
+  for (const network::Road& road : network.roads()) {
+    for (const network::Signal& signal : road.spec().signals) {
+      if (signal.type != network::kPedestrianSignal) for_vehicles.insert(signal.id);
+    }
+  }
+  std::vector<std::string> dark;
+  for (const network::Controller& controller : network.controllers()) {
+    const bool controls =
+        std::any_of(controller.controls.begin(), controller.controls.end(),
+                    [&](const network::ControllerEntry& entry) { return for_vehicles.contains(entry.signal_id); });
+    if (controls && !controller.times) dark.push_back(controller.id);
+  }
+  return dark;
 }
 
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones) {

@@ -39,6 +39,9 @@ std::vector<LightPlace> LightsOf(const Graph& graph, std::uint32_t track);
 // within 60 m.
 std::optional<LightPlace> LightFor(const Graph& graph, std::uint32_t track, double d_m);
 
+// The controllers of lights for vehicles that say no times, by id: their lights are dark.
+std::vector<std::string> DarkControllers(const network::Network& network);
+
 // Two lights that are green or amber together although their ways cross or merge.
 struct GreenTogether {
   std::array<std::uint32_t, 2> controllers{};  // indices into the network's

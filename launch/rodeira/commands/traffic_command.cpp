@@ -20,6 +20,7 @@
 #include "common/traffic/network/tight_bends.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/signals/map_lights.hpp"
+#include "common/world/lanes/lights.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
@@ -153,6 +154,11 @@ int TrafficRun(const TrafficOptions& given) {
   TrafficFiles files = std::move(opened).value();
   if (files.wants_cells()) settings.cell_m = kCell_m;
   settings.warm_s = options.warm_s, settings.every_s = options.every_s;
+  if (!options.quiet) {
+    for (const std::string& controller : lanes::DarkControllers(*network))
+      fmt::print(stderr, "rodeira: warning: {}: the lights of controller '{}' have no times and are dark\n",
+                 options.map, controller);
+  }
   if (!options.quiet && settings.traffic.physics == traffic::Physics::kFull) {
     const lanes::Graph graph(*network);
     for (const traffic::TightBend& bend : traffic::TightBendsOf(graph, settings.traffic))

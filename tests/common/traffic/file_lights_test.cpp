@@ -122,6 +122,7 @@ TEST(FileLights, StayDarkWhereTheirOwnWaysCross) {
         crossing.orientation = orientation, crossing.referenced = referenced, crossing.groups = groups;
         const opendrive::Import import = opendrive::MustImport(crossing.Text());
         EXPECT_EQ(Warnings(import, "rodeira.times"), dark);
+        EXPECT_EQ(lanes::DarkControllers(*import.network).size(), dark);
         EXPECT_EQ(LitLanes(lanes::Graph(*import.network)), lit);
         StudySettings settings;
         settings.traffic.vehicles = 20, settings.duration_s = 60.0, settings.step_s = 0.05;
