@@ -17,6 +17,8 @@
 #include "launch/rodeira/commands/input_command.hpp"
 #include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/commands/map_command.hpp"
+#include "launch/rodeira/commands/measures_command.hpp"
+#include "launch/rodeira/commands/measures_options.hpp"
 #include "launch/rodeira/commands/mechanism_command.hpp"
 #include "launch/rodeira/commands/polyline_command.hpp"
 #include "launch/rodeira/commands/repair_command.hpp"
@@ -490,6 +492,8 @@ int RunCommandLine(int argc, char** argv) {
   const CLI::App* ctl = AddCtl(app, ctl_options);
   RecordingOptions recording;
   AddRecording(app, recording);
+  MeasuresOptions measures_options;
+  const CLI::App* measures = AddMeasures(app, measures_options);
   ReplayOptions replay_options;
   std::vector<std::string> changes;
   std::vector<std::string> libraries;
@@ -523,6 +527,7 @@ int RunCommandLine(int argc, char** argv) {
   if (input.asked) return SetUpInput(input);
   if (edit.asked) return Edit(edit);
   if (ctl->parsed()) return Ctl(ctl_options);
+  if (measures->parsed()) return Measures(measures_options);
   if (app.got_subcommand("info")) return Info(recording.info_file);
   if (app.got_subcommand("export")) return Export(recording.exported);
   if (app.got_subcommand("repair")) return RepairRecording(recording.repair_file, recording.repair_out);

@@ -20,9 +20,9 @@ std::vector<double> GapIn(const DriveCut& cut, const OptionValues& o) {
   return FollowedGap(cut(cut.drive.leader.gap_m), cut(cut.drive.speed_mps), FollowedOf(o));
 }
 
-// Without a leader all of these are missing for the same reason.
-Measure OfLeader(Measure measure, const OptionValues& o) {
-  if (!measure.value && measure.n == 0) measure.reason = "no leader";
+// Without a leader within the limits all of these are missing for the same reason.
+Measure OfLeader(Measure measure, const DriveCut& cut, const OptionValues& o) {
+  if (!measure.value && CountValid(GapIn(cut, o)) == 0) measure.reason = "no leader";
   const UsedOptions used = UsedOf(FollowedOf(o));
   measure.options.insert(measure.options.end(), used.begin(), used.end());
   return measure;
@@ -71,54 +71,57 @@ std::vector<MeasureInfo> LeaderMeasures() {
       {"leader_share", family, "share of time with a leader", "samples with a leader / all samples", cut_off,
        "SAE J2944 8.1.4", kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
-         Measure share = LeaderShare(GapIn(cut, o), FollowedOf(o));
-         return share;
+         // Where there is no road, whether there is a leader is not known.
+         const Series road = cut(cut.drive.road);
+         if (CountValid(road) == 0)
+           return NotFound("no sample is on a road", "1", 0, road.size(), UsedOf(FollowedOf(o)));
+         return LeaderShare(GapIn(cut, o), FollowedOf(o));
        }},
       {"gap_mean_m", family, "mean gap to the leader", "mean of (leader's rear - own front) along the lane", cut_off,
        "SAE J2944 8.1.4", kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(GapIn(cut, o), "m"), o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(GapIn(cut, o), "m"), cut, o); }},
       {"gap_min_m", family, "least gap to the leader", "min of the gap", cut_off, "SAE J2944 8.1.4", kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(GapIn(cut, o), "m"), o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(GapIn(cut, o), "m"), cut, o); }},
       {"time_gap_mean_s", family, "mean time gap", "mean of gap / own speed", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(TimeGapIn(cut, o), "s"), o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MeanOf(TimeGapIn(cut, o), "s"), cut, o); }},
       {"time_gap_min_s", family, "least time gap", "min of gap / own speed", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
-       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(TimeGapIn(cut, o), "s"), o); }},
+       [](const DriveCut& cut, const OptionValues& o) { return OfLeader(MinimumOf(TimeGapIn(cut, o), "s"), cut, o); }},
       {"headway_mean_m", family, "mean headway", "mean of gap + leader's length", cut_off, "SAE J2944 8.1.4",
        kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
-         return OfLeader(MeanOf(Headway(GapIn(cut, o), cut(cut.drive.leader.length_m)), "m"), o);
+         return OfLeader(MeanOf(Headway(GapIn(cut, o), cut(cut.drive.leader.length_m)), "m"), cut, o);
        }},
       {"ttc_min_s", family, "least time to collision", "min of gap / (v - v_leader) while closing in",
        "a mean of TTC has no meaning; missing where the vehicle never closes in", "Hayward 1972", kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
-         return OfLeader(LeastTtc(TtcIn(cut, gap), gap), o);
+         return OfLeader(LeastTtc(TtcIn(cut, gap), gap), cut, o);
        }},
       {"inverse_ttc_mean_1ps", family, "mean of 1/TTC", "mean of max(0, v - v_leader) / gap", cut_off, "Hayward 1972",
        kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
-         return OfLeader(MeanInverseTtc(TtcIn(cut, gap), gap), o);
+         return OfLeader(MeanInverseTtc(TtcIn(cut, gap), gap), cut, o);
        }},
       {"tet_s", family, "time exposed: TTC below a threshold", "sum of dt where TTC < threshold", cut_off,
        "Minderhoud & Bovy 2001", WithThreshold(),
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
-         return OfLeader(TimeExposedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), o);
+         return OfLeader(TimeExposedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), cut, o);
        }},
       {"tit_s2", family, "time integrated: by how much, and how long",
        "integral of (threshold - TTC) where TTC < threshold", cut_off, "Minderhoud & Bovy 2001", WithThreshold(),
        [](const DriveCut& cut, const OptionValues& o) {
          const auto gap = GapIn(cut, o);
-         return OfLeader(TimeIntegratedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), o);
+         return OfLeader(TimeIntegratedTtc(TtcIn(cut, gap), gap, cut.drive.rate_hz, o["threshold_s"]), cut, o);
        }},
       {"drac_max_mps2", family, "largest deceleration rate to avoid the crash", "max of (v - v_leader)^2 / (2 gap)",
        "missing where the vehicle never closes in", "Cooper & Ferguson 1976", kFollowedOptions,
        [](const DriveCut& cut, const OptionValues& o) {
          const auto drac = DracSeries(GapIn(cut, o), cut(cut.drive.speed_mps), cut(cut.drive.leader.speed_mps));
-         return OfLeader(MaximumOf(drac, "m/s2"), o);
+         return OfLeader(MaximumOf(drac, "m/s2"), cut, o);
        }},
       {"following_coherence", family, "coherence of the leader's and the own speed", "|Sxy|^2 / (Sxx Syy)",
        kFollowingTraps, kBrookhuis, kFollowingOptions,

@@ -13,6 +13,7 @@
 #include "idl/messages.hpp"
 #include "idl/topic_types.hpp"
 #include "idl/topics.hpp"
+#include "launch/rodeira/replay/content_digest.hpp"
 
 namespace rodeira::cli {
 namespace {
@@ -97,7 +98,7 @@ RecordingAudit Audit(const record::McapReader& reader) {
     source.rate_hz = 1e9 / (static_cast<double>(*period) * static_cast<double>(*base_step_ns));
   }
   std::optional<WallCover> walls;
-  std::map<record::ChannelId, base::Digest> names;  // of topic and source
+  ContentDigest content;
   record::Query query;
   query.order = record::Query::Order::kFile;
   auto cursor = reader.Messages(query);
@@ -122,12 +123,11 @@ RecordingAudit Audit(const record::McapReader& reader) {
     }
     if (!periods.contains(message.value()->channel) || !lockstep::SampleHeader::HasHeader(message.value()->data))
       continue;
-    const auto name =
-        names.try_emplace(message.value()->channel, base::Hash(source.topic + '\n' + source.source)).first->second;
-    result.content = base::Combine(result.content, base::Combine(name, lockstep::PayloadDigest(message.value()->data)));
+    content.Add(reader.channels().at(message.value()->channel), *message.value());
     const auto step = lockstep::SampleHeader::Read(message.value()->data).step;
     if (step >= 0) steps.Add(source.topic, message.value()->channel, static_cast<std::uint64_t>(step));
   }
+  result.content = content.digest();
   if (result.last_step && *result.last_step < 0)
     result.damages.push_back(fmt::format("its last words say that the run ended at step {}", *result.last_step));
   for (const auto& [key, audit] : steps.Finish()) {

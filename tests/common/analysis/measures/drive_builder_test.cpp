@@ -202,6 +202,8 @@ TEST(DriveBuilder, WithoutRoadsLanesAreMissing) {
     }
   }
   EXPECT_GT(found, 8u) << "speeds are there";
+  EXPECT_FALSE(
+      FindMeasure("leader_share").value()->compute(cut, {FindMeasure("leader_share").value()->options, {}}).value);
   EXPECT_FALSE(FindMeasure("sdlp_m").value()->compute(cut, {FindMeasure("sdlp_m").value()->options, {}}).value);
 }
 

@@ -8,6 +8,7 @@
 #include "common/analysis/measures/table.hpp"
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::measures {
 namespace {
@@ -128,6 +129,13 @@ TEST(Catalogue, EveryMeasureIsExplained) {
       EXPECT_NE(ExplainText(info).find(option.meaning), std::string::npos);
     }
     EXPECT_NE(ListText().find(info.definition), std::string::npos);
+  }
+  // The reference lists them, with the same definitions.
+  const auto page = base::ReadText(std::filesystem::path(SourceDir()) / "docs/reference/measures.md");
+  ASSERT_TRUE(page.ok());
+  for (const MeasureInfo& info : Catalogue()) {
+    const std::string row = std::string("| `") + info.name + "` | " + info.definition + " | " + info.source + " |";
+    EXPECT_NE(page.value().find(row), std::string::npos) << row;
   }
   EXPECT_GE(names.size(), 50u);
   EXPECT_NE(FindMeasure("sdlpm").error().message.find("did you mean 'sdlp_m'?"), std::string::npos);

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: Apache-2.0
+// `rodeira measures` on short runs that are recorded here. What it says is compared with the recorded samples, decoded
+// by the types that fastddsgen made.
+#include "launch/rodeira/commands/measures_command.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "common/core/base/files.hpp"
+#include "tests/launch/rodeira/replay/replay_fixture.hpp"
+#include "tests/launch/rodeira/said.hpp"
+
+namespace rodeira::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MeasuresCommand : public ReplayTest {
+ protected:
+  std::string Path(const char* name) const { return (folder_.path() / name).string(); }
+  std::string ReadBack(const char* name) const { return base::ReadText(Path(name)).value(); }
+  static Said Of(const MeasuresOptions& options) { return SaidBy<MeasuresOptions>(Measures, options); }
+
+  // The rows of a table without quotes, by column.
+  static std::vector<std::map<std::string, std::string>> Rows(const std::string& csv) {
+    std::vector<std::map<std::string, std::string>> rows;
+    std::vector<std::string> header;
+    std::istringstream lines(csv);
+    for (std::string line; std::getline(lines, line);) {
+      std::vector<std::string> cells;
+      std::istringstream in(line + ",");
+      for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+      if (header.empty()) {
+        header = cells;
+        continue;
+      }
+      std::map<std::string, std::string> row;
+      for (std::size_t i = 0; i < header.size() && i < cells.size(); ++i) row[header[i]] = cells[i];
+      rows.push_back(row);
+    }
+    return rows;
+  }
+};
+
+TEST_F(MeasuresCommand, ATableOfTwoDrivesOnAPlane) {
+  const std::string dry = Record("dry.mcap", LaunchFile("first_drive.yaml"),
+                                 {"--for", "4", "--meta", "participant=P07", "--meta", "condition=dry"});
+  const std::string wet = Record("wet.mcap", LaunchFile("first_drive.yaml"),
+                                 {"--for", "3", "--meta", "participant=P07", "--meta", "condition=rain"});
+  MeasuresOptions options;
+  options.recordings = {dry, wet};
+  options.intervals = {"first=0..1.5", "rest=1.5..end", "late=3.5..+9"};
+  options.out = Path("table.csv");
+  const Said said = Of(options);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  const auto rows = Rows(ReadBack("table.csv"));
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[0].at("participant"), "P07");
+  EXPECT_EQ(rows[0].at("condition"), "dry");
+  EXPECT_EQ(rows[3].at("condition"), "rain");
+  EXPECT_EQ(rows[5].at("speed_max_mps"), "") << "the second recording ends before: missing, and not 0";
+  EXPECT_EQ(rows[0].at("sdlp_m"), "") << "a plane has no lanes";
+  EXPECT_EQ(rows[0].at("gap_mean_m"), "");
+
+  // The same from the samples themselves: every tenth millisecond of the interval.
+  const auto run = replay::RecordedRun::Open(dry);
+  ASSERT_TRUE(run.ok());
+  double most = 0.0, sum = 0.0, throttle = 0.0;
+  int n = 0, in_motion = 0;
+  auto samples = run.value().Samples();
+  for (auto next = samples.Next(); next.ok() && next.value(); next = samples.Next()) {
+    const auto& sample = *next.value();
+    if (run.value().roster().source(sample.source()).topic != idl::topics::kVehicleState) continue;
+    if (sample.valid() < 1500 || sample.valid() % 10 != 0) continue;
+    const auto state = idl::Decode<msg::VehicleState>(*sample.payload).value();
+    // On the level the speed along the body's x axis is that in the plane but for slip.
+    const double speed = std::hypot(state.velocity_w_mps().x(), state.velocity_w_mps().y());
+    most = std::max(most, speed);
+    throttle += static_cast<double>(state.throttle());
+    ++n;
+    if (speed <= 0.1) continue;
+    sum += speed;
+    ++in_motion;
+  }
+  ASSERT_GT(in_motion, 0);
+  EXPECT_NEAR(std::stod(rows[1].at("speed_max_mps")), most, 0.01 * most);
+  EXPECT_NEAR(std::stod(rows[1].at("speed_mean_mps")), sum / in_motion, 0.01 * sum / in_motion);
+  EXPECT_NEAR(std::stod(rows[1].at("throttle_mean")), throttle / n, 1e-9);
+
+  // The sidecar has the digest that `rodeira info` says, and computes the same table again.
+  const auto info = RunCommand({Bin("rodeira"), "info", dry});
+  const auto at = info.out.find("content   ");
+  ASSERT_NE(at, std::string::npos);
+  const std::string sidecar = ReadBack("table.measures.yaml");
+  EXPECT_THAT(sidecar, HasSubstr("content: \"" + info.out.substr(at + 10, 16) + "\""));
+  EXPECT_THAT(sidecar, HasSubstr("world_hash: \"" + run.value().world_hash() + "\""));
+  MeasuresOptions again;
+  again.recordings = options.recordings;
+  again.spec = Path("table.measures.yaml");
+  again.out = Path("again.csv");
+  ASSERT_EQ(Of(again).status, 0);
+  EXPECT_EQ(ReadBack("again.csv"), ReadBack("table.csv"));
+}
+
+TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
+  const std::string drive = Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "6"});
+  MeasuresOptions options;
+  options.recordings = {drive};
+  options.series = Path("series.csv");
+  options.out = Path("long.csv");
+  options.long_format = true;
+  const Said said = Of(options);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  std::map<std::string, std::map<std::string, std::string>> values;
+  for (const auto& row : Rows(ReadBack("long.csv"))) values[row.at("measure")] = row;
+  const double sdlp = std::stod(values.at("sdlp_m").at("value"));
+  EXPECT_GT(sdlp, 0.0);
+  EXPECT_LT(sdlp, 0.5) << "the autopilot keeps its lane";
+  EXPECT_LT(std::abs(std::stod(values.at("lane_position_mean_m").at("value"))), 0.6);
+  EXPECT_THAT(values.at("sdlp_m").at("options"), HasSubstr("denominator=n-1"));
+  EXPECT_EQ(values.at("sdlp_m").at("unit"), "m");
+  EXPECT_EQ(values.at("steering_entropy_1999").at("missing"), "no interval is named as the baseline");
+  const auto series = Rows(ReadBack("series.csv"));
+  ASSERT_GE(series.size(), 600u);
+  int with_leader = 0;
+  for (const auto& row : series) {
+    if (row.at("leader_gap_m").empty()) continue;
+    ++with_leader;
+    EXPECT_GT(std::stod(row.at("leader_gap_m")), 0.0);
+  }
+  EXPECT_NEAR(std::stod(series[600 - 1].at("time_s")), 5.99, 1e-9);
+  // An agent of the same recording: it has lanes and speeds, and no pedals.
+  const std::string leader = [&] {
+    for (const auto& row : series) {
+      if (!row.at("leader_id").empty() && row.at("leader_id")[0] != '-') return row.at("leader_id");
+    }
+    return std::string();
+  }();
+  ASSERT_FALSE(leader.empty()) << with_leader;
+  MeasuresOptions agent;
+  agent.recordings = {drive};
+  agent.subject = "agent:" + leader;
+  agent.out = Path("agent.csv");
+  ASSERT_EQ(Of(agent).status, 0);
+  const auto row = Rows(ReadBack("agent.csv")).at(0);
+  EXPECT_NE(row.at("speed_max_mps"), "");
+  EXPECT_EQ(row.at("brake_onset_s"), "");
+}
+
+TEST_F(MeasuresCommand, WrongInputIsOneSentence) {
+  const std::string drive = Drive(2.0);
+  const auto refused = [](const MeasuresOptions& options, const char* sentence) {
+    const Said said = Of(options);
+    EXPECT_EQ(said.status, 2) << sentence;
+    EXPECT_THAT(said.errors, HasSubstr(sentence));
+    EXPECT_EQ(std::count(said.errors.begin(), said.errors.end(), '\n'), 1) << said.errors;
+  };
+  MeasuresOptions options;
+  refused(options, "no recording is named");
+  options.recordings = {Path("none.mcap")};
+  refused(options, "none.mcap");
+  options.recordings = {drive};
+  options.subject = "eg";
+  refused(options, "did you mean 'ego'?");
+  options.subject = "agent:1";
+  refused(options, "the recording has no traffic");
+  options.subject.clear();
+  options.intervals = {"a=mark:begin..end"};
+  refused(options, "the recording has no mark 'begin'");
+  options.intervals = {"a=2..1"};
+  refused(options, "is empty");
+  options.intervals = {"a=0..1", "a=1..2"};
+  refused(options, "two intervals are named 'a'");
+  options.intervals.clear();
+  options.baseline = "quiet";
+  refused(options, "there is no interval 'quiet'");
+  options.baseline.clear();
+  options.out = Path("table.txt");
+  refused(options, "a table is written as .csv or .json");
+  options.out.clear();
+  options.series = Path("s.csv");
+  options.recordings = {drive, drive};
+  refused(options, "2 recordings are named");
+  MeasuresOptions explain;
+  explain.explain = "sdlp";
+  refused(explain, "did you mean 'sdlp_m'?");
+}
+
+// A recording that says another world than it embeds, and one with a hole.
+TEST_F(MeasuresCommand, AnotherWorldAndAHole) {
+  const std::string drive = Drive(2.0);
+  MeasuresOptions options;
+  options.recordings = {Copied(
+      drive,
+      [](const std::string& name, record::TextMap& entries) {
+        if (name == "rodeira") entries["world_hash"] = "0123456789abcdef";
+      },
+      [](const std::string&, const record::Message&, base::Bytes&) { return true; })};
+  const Said other = Of(options);
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.errors, HasSubstr("the recording says world_hash 0123456789abcdef"));
+
+  std::uint64_t seen = 0;
+  options.recordings = {Copied(
+      drive, [](const std::string&, record::TextMap&) {},
+      [&](const std::string& topic, const record::Message&, base::Bytes&) {
+        return topic != idl::topics::kVehicleState || ++seen < 500 || seen > 1000;
+      })};
+  options.out = Path("hole.csv");
+  options.long_format = true;
+  ASSERT_EQ(Of(options).status, 0);
+  for (const auto& row : Rows(ReadBack("hole.csv"))) {
+    if (row.at("measure") != "throttle_mean") continue;
+    EXPECT_NEAR(std::stod(row.at("valid_share")), 0.75, 0.01) << "half a second of two is missing";
+  }
+}
+
+TEST_F(MeasuresCommand, ListAndExplain) {
+  MeasuresOptions options;
+  options.list = true;
+  const Said list = Of(options);
+  EXPECT_EQ(list.status, 0);
+  EXPECT_THAT(list.out, HasSubstr("sdlp_m"));
+  options.list = false;
+  options.explain = "tet_s";
+  const Said explained = Of(options);
+  EXPECT_EQ(explained.status, 0);
+  EXPECT_THAT(explained.out, HasSubstr("Minderhoud & Bovy 2001"));
+  EXPECT_THAT(explained.out, HasSubstr("threshold_s"));
+}
+
+}  // namespace
+}  // namespace rodeira::cli
