@@ -46,7 +46,7 @@ base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name);
 base::Result<Outcome> Drive(const Manoeuvre& manoeuvre, dynamics::VehicleModel& car, double step_s);
 
 // Acceleration from rest with the throttle on the floor, in automatic mode: 0-100 km/h, 0-400 m, top speed. The search
-// for the top speed ends where the gains of speed, as they shrink, have less than 0.01 km/h to come.
+// for the top speed ends where the gains of speed, as they shrink, have less than 0.002 km/h to come.
 base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s);
 // From 100 km/h to rest with the brake on the floor: distance, mean deceleration v²/2d, drift.
 base::Result<Outcome> Braking(dynamics::VehicleModel& car, double step_s);

@@ -61,7 +61,7 @@ class TopSpeedSearch {
   double fastest_mps() const { return std::max(fastest_mps_, window_mps_); }
 
  private:
-  static constexpr double kWindow_s = 2.0, kNothing_mps = 1e-5, kSlow_mps = 0.02, kRest_mps = 0.01 / 3.6;
+  static constexpr double kWindow_s = 2.0, kNothing_mps = 1e-5, kSlow_mps = 0.02, kRest_mps = 0.002 / 3.6;
 
   void Restart(double time_s, int gear) {
     gear_ = gear;

@@ -178,7 +178,7 @@ TEST(Manoeuvres, TheTopSpeedIsReachedAndNotGuessedEarly) {
   ground::PlaneGround plane;
   ASSERT_TRUE(car.Initialise({}, plane).ok());
   for (int i = 0; i < 300000; ++i) car.Step(controls, plane, 0.001);
-  EXPECT_NEAR(told_kmh, car.state().speed_mps() * 3.6, 0.02);
+  EXPECT_NEAR(told_kmh, car.state().speed_mps() * 3.6, 0.005);
 }
 
 // A car that slides sideways has no braking distance, and the outcome says why. With the right wheels on 0.3 no car
@@ -296,7 +296,7 @@ TEST(Manoeuvres, AnFmusFiguresAreThoseOfItsEquations) {
   auto car = dynamics::MakeModel(dynamics::kFmu);
   const Outcome fast = Driven(Acceleration(*car, kStep_s));
   EXPECT_NEAR(Value(fast, "0 to 100 km/h"), -20.0 * std::log(1.0 - 100.0 / 3.6 / 60.0), 0.01);
-  EXPECT_NEAR(Value(fast, "top speed"), 3.0 * 20.0 * 3.6, 0.02) << "where 3 m/s² are v / 20 s";
+  EXPECT_NEAR(Value(fast, "top speed"), 3.0 * 20.0 * 3.6, 0.005) << "where 3 m/s² are v / 20 s";
   const Outcome turned = Driven(StepSteer(*car, kStep_s));
   EXPECT_NEAR(Value(turned, "yaw rate gain"), 100.0 / 3.6 / 2.5 / 16.0, 0.01);
   EXPECT_NEAR(Value(turned, "yaw rate overshoot"), 0.0, 0.5);
