@@ -89,7 +89,7 @@ void TellIncludes(const Node& root) {
                file.empty()
                    ? std::string("<include> names no file")
                    : fmt::format("'{}', which <include> names, is not read{}{}", file, why.empty() ? "" : ": ", why),
-               {"it is left out", {node.Remove()}});
+               {RepairKind::kElementDropped, "it is left out", {node.Remove()}, "include"});
   }
 }
 
