@@ -227,6 +227,30 @@ TEST_F(ImportFileTest, LanesThatCarsMayNotUseAreNotDriven) {
   EXPECT_THAT(imported.value().drive, HasSubstr("id=\"in sign\" name=\"priority\""));
 }
 
+// A network of a newer SUMO, whose classes of vehicles this one does not know: the lanes are for the others as before.
+TEST_F(ImportFileTest, ForgetsClassesOfANewerSumo) {
+  Write("own.nod.xml", kBusNodes);
+  Write("own.edg.xml", kBusEdges);
+  Run("netconvert -n own.nod.xml -e own.edg.xml -o own.net.xml");
+  std::string text = base::ReadText(File("own.net.xml")).value();
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    ASSERT_NE(text.find(from), std::string::npos) << from;
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+  };
+  const auto before = Import("own.net.xml");
+  ASSERT_TRUE(before) << before.error().Text();
+  replace("disallow=\"passenger\"", "disallow=\"hovercraft passenger container\"");
+  replace("allow=\"pedestrian\"", "allow=\"hovercraft\"");
+  Write("newer.net.xml", text);
+  const auto newer = Import("newer.net.xml");
+  ASSERT_TRUE(newer) << newer.error().Text();
+  EXPECT_THAT(newer.value().table, HasSubstr("lanes closed to cars: 3\n"));
+  const auto network = Network(newer.value());
+  EXPECT_FALSE(IsDriven(lanes::Graph(*network), "in", 0));  // for a class that nobody is of
+  EXPECT_TRUE(IsDriven(lanes::Graph(*network), "in", 2));
+}
+
 // The same file gives the same bytes: no date, no path of a temporary folder.
 TEST_F(ImportFileTest, GivesTheSameBytesAgain) {
   Run("netgenerate --spider --spider.arm-number 5 --spider.circle-number 2 --seed 11 -o own.net.xml");
