@@ -29,7 +29,7 @@ class ImportFileTest : public testing::Test {
  protected:
   void SetUp() override {
     if (std::system("command -v netconvert netgenerate sumo > /dev/null 2>&1") != 0)
-      GTEST_SKIP() << "SUMO (package sumo) is not installed";
+      GTEST_SKIP() << "SUMO's netconvert is not installed";
   }
   std::filesystem::path File(const std::string& name) const { return folder_.path() / name; }
   void Write(const std::string& name, const std::string& text) const {

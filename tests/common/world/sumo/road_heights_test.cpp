@@ -22,7 +22,7 @@ class RoadHeightsTest : public testing::Test {
  protected:
   void SetUp() override {
     if (std::system("command -v netconvert netgenerate > /dev/null 2>&1") != 0)
-      GTEST_SKIP() << "SUMO (package sumo) is not installed";
+      GTEST_SKIP() << "SUMO's netconvert is not installed";
     const std::string command = "cd " + folder_.path().string() +
                                 " && SUMO_HOME=/usr/share/sumo netgenerate --grid --grid.number 3 --grid.length 220 "
                                 "--grid.attach-length 180 --seed 5 --no-turnarounds -o own.net.xml > log 2>&1";
@@ -106,7 +106,7 @@ TEST_F(RoadHeightsTest, NamesARoadWithoutGround) {
 // Zone 35 of UTM, of which zone 34 is another projection: the file's metres are not the network's. The ground rises by
 // 4 cm a metre to the east of zone 35 from 500 km on, where longitude 27 is.
 TEST(RoadHeights, MeetAnElevationFileOfAnotherProjection) {
-  if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "netconvert is not installed";
+  if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const base::TemporaryFolder folder = std::move(base::TemporaryFolder::Make("heights-test")).value();
   const std::filesystem::path map = folder.path() / "a.osm", ground = folder.path() / "ground.asc";
   // Longitude 23.99 lies in zone 34, and the file in zone 35, whose middle is longitude 27.

@@ -81,7 +81,7 @@ class WorldImportTest : public testing::Test {
 // The street and the junction lie where the file's degrees say, by another projection than the import's: metres on the
 // sphere from the file's first node.
 TEST_F(WorldImportTest, AVillageLiesWhereItsDegreesSay) {
-  if (!HasNetconvert()) GTEST_SKIP() << "netconvert (package sumo) is not installed";
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const std::string file = folder_.Write("village.osm", kVillage);
   const Said said = Import(file, Out("village.yaml"));
   ASSERT_EQ(said.status, 0) << said.errors;
@@ -106,7 +106,7 @@ TEST_F(WorldImportTest, AVillageLiesWhereItsDegreesSay) {
 
 // Sixty seconds of traffic by the command, and by the model: no vehicle off its lane, none passes a line at red.
 TEST_F(WorldImportTest, AVillageIsDriven) {
-  if (!HasNetconvert()) GTEST_SKIP() << "netconvert (package sumo) is not installed";
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const std::string file = folder_.path() / "village.osm.gz";
   gzFile packed = ::gzopen(file.c_str(), "wb");
   ASSERT_EQ(::gzwrite(packed, kVillage.data(), static_cast<unsigned>(kVillage.size())),
@@ -166,7 +166,7 @@ TEST_F(WorldImportTest, RefusesWhatIsNoMapWithOneSentence) {
 }
 
 TEST_F(WorldImportTest, RefusesAMapWithoutARoad) {
-  if (!HasNetconvert()) GTEST_SKIP() << "netconvert (package sumo) is not installed";
+  if (!HasNetconvert()) GTEST_SKIP() << "SUMO's netconvert is not installed";
   ExpectRefused(folder_.Write("sea.osm", "<osm version=\"0.6\"><node id=\"1\" lat=\"1\" lon=\"2\"/></osm>"), "");
   ExpectRefused(folder_.Write("cut.osm", kVillage.substr(0, kVillage.size() / 2)), "netconvert refuses it: ");
   // A network of one path for people on foot.
