@@ -22,17 +22,20 @@ driver::Footprint BoxOf(const AgentPose& pose, const BodySize& body) {
   return box;
 }
 
+constexpr double kOrigin = 1e9;  // cells to the origin, so that cutting off rounds down everywhere
+
 std::int64_t CellOf(double at_m, double per_cell_1pm) {
-  return static_cast<std::int64_t>(std::floor(at_m * per_cell_1pm));
+  return static_cast<std::int64_t>(at_m * per_cell_1pm + kOrigin);
 }
+
+// What a column and a row make of a bucket: the one more or less of a neighbour is added.
+constexpr std::uint64_t kColumn = 0x9E3779B97F4A7C15u, kRow = 0xC2B2AE3D27D4EB4Fu;
 
 }  // namespace
 
 // Cells far from one another may share a bucket; their items are compared in vain.
-std::size_t BoxCheck::BucketOf(std::int64_t column, std::int64_t row) const {
-  const auto mixed = (static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15u) ^
-                     (static_cast<std::uint64_t>(row) * 0xC2B2AE3D27D4EB4Fu);
-  return static_cast<std::size_t>(mixed >> 32) & mask_;
+std::size_t BoxCheck::BucketOf(std::uint64_t column, std::uint64_t row) const {
+  return static_cast<std::size_t>((column ^ row) >> 32) & mask_;
 }
 
 // A counting sort by bucket. A cell is as long as two vehicles reach together: boxes overlap only in cells that touch.
@@ -46,7 +49,8 @@ void BoxCheck::Sort(std::span<const AgentPose> poses, std::span<const BodySize> 
   items_.resize(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Vector3d& p_W = poses[i].p_WB_W;
-    const std::size_t bucket = BucketOf(CellOf(p_W.x(), per_cell_1pm_), CellOf(p_W.y(), per_cell_1pm_));
+    const std::size_t bucket = BucketOf(kColumn * static_cast<std::uint64_t>(CellOf(p_W.x(), per_cell_1pm_)),
+                                        kRow * static_cast<std::uint64_t>(CellOf(p_W.y(), per_cell_1pm_)));
     buckets_[i] = static_cast<std::uint32_t>(bucket);
     ++begins_[bucket + 1];
   }
@@ -76,19 +80,20 @@ const std::vector<BoxCheck::Pair>& BoxCheck::Find(std::span<const AgentPose> pos
   Sort(poses, bodies);
   // After Sort, begins_[b + 1] is the first item of bucket b, and begins_[b + 2] the one after its last.
   const auto compare = [&](const Item& item, std::size_t bucket) {
-    const std::size_t end = bucket == mask_ ? items_.size() : begins_[bucket + 2];
-    Compare(item, begins_[bucket + 1], end, poses, bodies);
+    const std::size_t begin = begins_[bucket + 1], end = bucket == mask_ ? items_.size() : begins_[bucket + 2];
+    if (begin != end) Compare(item, begin, end, poses, bodies);
   };
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const Item& item = items_[i];
-    const std::int64_t column = CellOf(item.x_m, per_cell_1pm_), row = CellOf(item.y_m, per_cell_1pm_);
+    const std::uint64_t column = kColumn * static_cast<std::uint64_t>(CellOf(item.x_m, per_cell_1pm_)),
+                        row = kRow * static_cast<std::uint64_t>(CellOf(item.y_m, per_cell_1pm_));
     const std::size_t own = buckets_[item.pose];
     Compare(item, i + 1, own == mask_ ? items_.size() : begins_[own + 2], poses, bodies);
     // Half of the cells around; the other half has this one among its own.
-    compare(item, BucketOf(column + 1, row - 1));
-    compare(item, BucketOf(column + 1, row));
-    compare(item, BucketOf(column + 1, row + 1));
-    compare(item, BucketOf(column, row + 1));
+    compare(item, BucketOf(column + kColumn, row - kRow));
+    compare(item, BucketOf(column + kColumn, row));
+    compare(item, BucketOf(column + kColumn, row + kRow));
+    compare(item, BucketOf(column, row + kRow));
   }
   std::sort(found_.begin(), found_.end());
   found_.erase(std::unique(found_.begin(), found_.end()), found_.end());

@@ -24,7 +24,7 @@ class BoxCheck {
     double x_m, y_m, reach_m;
     std::uint32_t pose;  // index into the poses
   };
-  std::size_t BucketOf(std::int64_t column, std::int64_t row) const;
+  std::size_t BucketOf(std::uint64_t column, std::uint64_t row) const;
   void Sort(std::span<const AgentPose> poses, std::span<const BodySize> bodies);
   void Compare(const Item& item, std::size_t from, std::size_t to, std::span<const AgentPose> poses,
                std::span<const BodySize> bodies);

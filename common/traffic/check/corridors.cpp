@@ -9,7 +9,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kBend_m = 0.12;       // at most from a chord to the middle that it stands for
+constexpr double kBend_m = 0.25;       // at most from a chord to the middle that it stands for
 constexpr double kMargin_m = 0.03;     // beside a lane's edge
 constexpr double kEnd_m = 0.01;        // inside of a lane's ends: there the network may find another road
 constexpr double kBow_m2 = 0.15;       // times the curvature: beside a lane's edge, for the arc between two nodes
@@ -78,7 +78,8 @@ void Corridors::Make(std::uint32_t track) {
       best = longer, ++to;
     }
     add(from, to, best);
-    from = to < last && to - from > 1 ? to - 1 : to;  // they overlap, so that the outside of a bend has no gaps
+    // They overlap by a half, so that most vehicles are in one of them as a whole.
+    from = to < last ? std::max(from + 1, (from + to) / 2) : to;
   }
   ranges_[track].end = static_cast<std::uint32_t>(corridors_.size());
   around_.resize(corridors_.size());

@@ -91,6 +91,13 @@ RoadCheck::Finding RoadCheck::Find(const AgentPose& pose, const BodySize& body) 
     known.rear = known.front = known.middle;
     return {};
   }
+  if (known.middle != Corridors::kNone) {
+    for (const std::uint32_t other : corridors_.Around(known.middle)) {
+      if (!corridors_[other].HoldsAll(pose.p_WB_W, ahead_W, left_W, half_base, half_track)) continue;
+      known.rear = known.middle = known.front = other;
+      return {};
+    }
+  }
   Finding found;
   if (!IsOnLane(pose.p_WB_W, known.middle)) found.beside_m = BesideLanes(pose.p_WB_W);
   if (known.middle != Corridors::kNone &&
