@@ -81,11 +81,12 @@ PlanElement ReadElement(const Map& item) {
 }
 
 // Where an element that has coordinates of its own stands; gaps to the one before are closed or refused.
-void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, PlanElement& element,
-               AxisReading& axis) {
+void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, const terrain::GroundMove& move,
+               PlanElement& element, AxisReading& axis) {
   const Map from = item.Child("from");
-  const Eigen::Vector2d p(from.Number("x_m", kCoordinate_m), from.Number("y_m", kCoordinate_m));
-  const double heading = geometry::WrapAngle(from.Number("heading_deg", {-360.0, 360.0}) * geometry::kPi / 180.0);
+  Eigen::Vector2d p(from.Number("x_m", kCoordinate_m), from.Number("y_m", kCoordinate_m));
+  double heading = geometry::WrapAngle(from.Number("heading_deg", {-360.0, 360.0}) * geometry::kPi / 180.0);
+  if (move) move(p, heading);
   const double gap = (p - before.p_W).norm(), kink = std::fabs(geometry::WrapAngle(heading - before.heading_rad));
   element.start_W = p;
   element.heading_rad = before.heading_rad + geometry::WrapAngle(heading - before.heading_rad);
@@ -102,7 +103,8 @@ void ReadPlace(const Map& item, const geometry::PlanPoint& before, bool first, P
   }
 }
 
-void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading& axis) {
+void ReadElements(const Map& road, const geometry::PlanPoint& start, const terrain::GroundMove& move,
+                  AxisReading& axis) {
   const config::List items = road.Items("axis");
   if (road.Has("axis") && items.size() == 0)
     road.Problem("axis", "the axis has no elements; at least one was expected");
@@ -116,7 +118,7 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading
     element.s_m = s;
     element.start_W = end.p_W;
     element.heading_rad = end.heading_rad;
-    if (item.Has("from")) ReadPlace(item, end, i == 0, element, axis);
+    if (item.Has("from")) ReadPlace(item, end, i == 0, move, element, axis);
     const double jump = element.curvature_start_1pm - end.curvature_1pm;
     if (i > 0 && std::fabs(jump) > 1e-6 && element.length_m < kLength_m.high) {
       axis.warnings.push_back(
@@ -130,19 +132,20 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, AxisReading
 
 }  // namespace
 
-AxisReading ReadAxis(const Map& road) {
+AxisReading ReadAxis(const Map& road, const terrain::GroundMove& move) {
   AxisReading axis;
   if (road.Has("points") && road.Has("axis"))
     road.Problem("points", "a road has either an 'axis' of elements or 'points'");
   if (road.Has("points")) {
-    ReadPoints(road.Child("points"), axis);
+    ReadPoints(road.Child("points"), move, axis);
     return axis;
   }
   const Map start = road.OptionalChild("start");
   geometry::PlanPoint at;
   at.p_W = {start.Number("x_m", kCoordinate_m, 0.0), start.Number("y_m", kCoordinate_m, 0.0)};
   at.heading_rad = geometry::WrapAngle(start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0);
-  ReadElements(road, at, axis);
+  if (move && start.Has("x_m")) move(at.p_W, at.heading_rad);
+  ReadElements(road, at, move, axis);
   return axis;
 }
 

@@ -10,6 +10,7 @@
 
 #include "common/core/config/config.hpp"
 #include "common/core/ground/ground.hpp"
+#include "common/world/terrain/ground_move.hpp"
 
 namespace rodeira::design {
 
@@ -26,6 +27,7 @@ struct Context {
   bool left_hand = false;                        // vehicles keep to the left
   std::map<std::string, Material> materials;     // the surfaces by their names, and the file's own
   std::map<std::string, config::Map> templates;  // by name: the mapping that has it
+  terrain::GroundMove move;                      // of places of the elevation file's map; often empty
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
 

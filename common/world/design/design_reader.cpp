@@ -294,10 +294,11 @@ std::vector<network::Laid> DistributeLaid(const std::vector<RoadDesign>& designs
 
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
                   const std::string& geo_reference, const StartSpec& start, const Map& start_map,
-                  const TerrainIsAt& terrain_is_at) {
+                  const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move) {
   Design design;
   const Files files(file);
   Context context;
+  context.move = move;
   context.materials = UsualMaterials(friction);
   const Map usual = UsualTemplates();
   for (const std::string& known : usual.Keys()) context.templates.emplace(known, usual);
@@ -318,7 +319,7 @@ Design ReadDesign(const config::File& file, const std::array<double, 7>& frictio
       designs.push_back(ReadRoad(item, context, designs));
     }
     root.IgnoreKey("junctions");
-    ReadStanding(root, terrain_is_at, design.standing);
+    ReadStanding(root, terrain_is_at, move, design.standing);
   }
   const auto sound = [&] {
     design.problems = files.Problems();

@@ -45,9 +45,10 @@ struct Design {
 
 // Reads 'include', 'rule', 'materials', 'templates', 'roads', 'junctions' and 'objects' of a file and of all files that
 // it includes. `friction` by surface. The start, where it is on a road, must be on a lane outside of the junctions;
-// `start_map` has it. Roads must keep within the terrain, and clear of themselves (CheckFits).
+// `start_map` has it. Places of the elevation file's map are moved by `move`. Roads must keep within the terrain, and
+// clear of themselves (CheckFits).
 Design ReadDesign(const config::File& file, const std::array<double, 7>& friction, const std::string& name,
                   const std::string& geo_reference, const StartSpec& start, const config::Map& start_map,
-                  const TerrainIsAt& terrain_is_at = {});
+                  const TerrainIsAt& terrain_is_at = {}, const terrain::GroundMove& move = {});
 
 }  // namespace rodeira::design

@@ -132,7 +132,7 @@ Points ReadList(const config::Map& map, bool& has_z) {
 
 }  // namespace
 
-void ReadPoints(const config::Map& map, AxisReading& axis) {
+void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisReading& axis) {
   Points points;
   bool has_z = false;
   if (map.Has("file") == map.Has("list"))
@@ -150,6 +150,14 @@ void ReadPoints(const config::Map& map, AxisReading& axis) {
     }
   } else if (map.Has("list")) {
     points = ReadList(map, has_z);
+  }
+  if (move) {
+    for (Eigen::Vector3d& p : points) {
+      Eigen::Vector2d at = p.head<2>();
+      double heading_rad = 0.0;
+      move(at, heading_rad);
+      p.head<2>() = at;
+    }
   }
   const bool smooth = map.Flag("smooth", true);
   const double within = map.Number("within_m", {0.001, 10.0}, 0.05);

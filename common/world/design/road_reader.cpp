@@ -83,7 +83,7 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   for (const RoadDesign& other : before) {
     if (other.spec.id == spec.id) map.Problem("id", fmt::format("there is a road '{}' already", spec.id));
   }
-  AxisReading axis = ReadAxis(map);
+  AxisReading axis = ReadAxis(map, context.move);
   context.warnings.insert(context.warnings.end(), axis.warnings.begin(), axis.warnings.end());
   design.elements = std::move(axis.elements);
   const std::optional<double> met = ReadPlacing(map, before, design.elements);

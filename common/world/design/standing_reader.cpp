@@ -70,7 +70,8 @@ void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t
   }
 }
 
-void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Standing& standing) {
+void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+               network::Standing& standing) {
   auto [object, continuous] = ReadObjectItself(item, fmt::format("object{}", standing.objects.size()));
   const std::size_t index = standing.objects.size(), first = standing.things.size();
   standing.objects.push_back(std::move(object));
@@ -80,6 +81,10 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
     }
     std::vector<Vector2d> line = ReadAlong(item);
     if (line.size() < 2) return;
+    for (Vector2d& p : line) {
+      double heading_rad = 0.0;
+      if (move) move(p, heading_rad);
+    }
     for (const Vector2d& p : line) {
       if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
         return item.Problem("along", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
@@ -97,6 +102,7 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
     standing.things.push_back({index,
                                {item.Number("x_m", kPlace_m), item.Number("y_m", kPlace_m)},
                                Radians(item.Number("heading_deg", kTurn_deg, 0.0))});
+    if (move) move(standing.things.back().at_W, standing.things.back().heading_rad);
     if (item.Has("every_m"))
       item.Problem("every_m", "what is repeated stands 'along' a line: 'along: [[x, y], [x, y]]'");
   }
@@ -110,9 +116,10 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, network::Stand
 
 }  // namespace
 
-void ReadStanding(const Map& file, const TerrainIsAt& terrain_is_at, network::Standing& standing) {
+void ReadStanding(const Map& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+                  network::Standing& standing) {
   const List objects = file.OptionalItems("objects");
-  for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, standing);
+  for (std::size_t i = 0; i < objects.size(); ++i) ReadThing(objects.At(i), terrain_is_at, move, standing);
 }
 
 }  // namespace rodeira::design

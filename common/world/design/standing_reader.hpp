@@ -9,6 +9,7 @@ namespace rodeira::design {
 
 // 'objects' of a file: what stands at no road; added to `standing`. Where there is no terrain under it, it is a
 // problem.
-void ReadStanding(const config::Map& file, const TerrainIsAt& terrain_is_at, network::Standing& standing);
+void ReadStanding(const config::Map& file, const TerrainIsAt& terrain_is_at, const terrain::GroundMove& move,
+                  network::Standing& standing);
 
 }  // namespace rodeira::design

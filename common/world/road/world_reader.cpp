@@ -18,6 +18,8 @@
 #include "common/world/road/surface_detail.hpp"
 #include "common/world/road/world_fit.hpp"
 #include "common/world/terrain/elevation_file.hpp"
+#include "common/world/terrain/ground_move.hpp"
+#include "common/world/terrain/nearest_ground.hpp"
 #include "common/world/weather/weather_plan.hpp"
 
 namespace rodeira::road {
@@ -141,6 +143,7 @@ struct Keys {
   std::optional<HillsSpec> hills;
   std::optional<std::filesystem::path> elevation_file, network_file;
   std::string elevation_place;  // "file:line" where it is named
+  terrain::GroundMove move;     // of places of the elevation file's map, where its heights were moved
   terrain::Registration registration = terrain::Registration::kUsual;
   bool second = false;  // version 2: the roads are read by common/world/design
   design::StartSpec start;
@@ -198,7 +201,8 @@ Keys ReadKeys(const Map& root) {
   return keys;
 }
 
-void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& spec, StartPose& start) {
+void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& spec, const terrain::GroundMove& move,
+              StartPose& start) {
   const Map map = root.OptionalChild("start");
   if (!root.Has("start")) {  // a lane in its direction where there is one, otherwise the middle of the terrain
     if (!roads.empty()) {
@@ -207,7 +211,13 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
     } else if (spec.grid != nullptr) {
       start.x_m = 0.5 * (spec.grid->frame().west_m + spec.grid->frame().east_m);
       start.y_m = 0.5 * (spec.grid->frame().south_m + spec.grid->frame().north_m);
+      if (const auto ground = terrain::NearestGround(*spec.grid, start.x_m, start.y_m))
+        start.x_m = ground->x(), start.y_m = ground->y();
     }
+  } else if (start.road < 0 && move) {
+    Eigen::Vector2d at(start.x_m, start.y_m);
+    move(at, start.heading_rad);
+    start.x_m = at.x(), start.y_m = at.y();
   }
   if (start.road >= 0) {
     const Road& road = roads[static_cast<std::size_t>(start.road)];
@@ -221,7 +231,16 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
     const double turned = lane.direction > 0 ? 0.0 : geometry::kPi;
     start.heading_rad = geometry::WrapAngle(road.Evaluate(start.s_m).heading_rad + turned);
   } else if (spec.grid != nullptr && !spec.grid->At(start.x_m, start.y_m).inside) {
-    map.Problem("x_m", fmt::format("the start ({}, {}) lies outside the terrain", start.x_m, start.y_m));
+    const auto& frame = spec.grid->frame();
+    const bool in_void = start.x_m >= frame.west_m && start.x_m <= frame.east_m && start.y_m >= frame.south_m &&
+                         start.y_m <= frame.north_m;
+    const auto nearest = terrain::NearestGround(*spec.grid, start.x_m, start.y_m);
+    map.Problem(root.Has("start") ? "x_m" : "",
+                !nearest  ? std::string("the elevation file has no height that a car could stand on")
+                : in_void ? fmt::format("the start ({}, {}) lies where the elevation file has no height; the nearest "
+                                        "place with ground is ({:.3f}, {:.3f})",
+                                        start.x_m, start.y_m, nearest->x(), nearest->y())
+                          : fmt::format("the start ({}, {}) lies outside the terrain", start.x_m, start.y_m));
   }
 }
 
@@ -229,12 +248,19 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
 template <class Axis>
 bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   if (keys.elevation_file) {
-    auto grid = terrain::LoadElevation(*keys.elevation_file, keys.registration);
-    if (!grid) {
-      reading.problems.push_back(base::WrongInput(grid.error().Text(), keys.elevation_place));
+    auto loaded = terrain::LoadGround(*keys.elevation_file, keys.registration);
+    if (!loaded) {
+      reading.problems.push_back(base::WrongInput(loaded.error().Text(), keys.elevation_place));
       return false;
     }
-    keys.spec.grid = std::move(grid).value();
+    keys.spec.grid = loaded.value().grid;
+    if (const auto& origin = loaded.value().origin) {
+      keys.move = terrain::MoveWith(*origin, keys.spec.grid->projection_wkt());
+      reading.warnings.push_back(fmt::format(
+          "{}: a metre on the ground is {:.4f} m in the map of '{}'; the heights are brought into true metres (UTM), "
+          "and x and y of this world that lie among them move with them",
+          keys.elevation_place, origin->units_a_m, keys.elevation_file->filename().string()));
+    }
     if (const auto missing = terrain::MissingProjection(*keys.elevation_file)) {
       reading.warnings.push_back(fmt::format(
           "{}: '{}' says that its coordinates are those of '{}', which is not there: {}", keys.elevation_place,
@@ -268,7 +294,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
                                  : keys.spec.grid != nullptr ? keys.spec.grid->projection_wkt()
                                                              : "";
   design::Design design = design::ReadDesign(file, keys.spec.friction, keys.spec.name, projection, keys.start,
-                                             root.OptionalChild("start"), TerrainOf(keys));
+                                             root.OptionalChild("start"), TerrainOf(keys), keys.move);
   std::move(design.warnings.begin(), design.warnings.end(), std::back_inserter(reading.warnings));
   reading.road_places = std::move(design.road_places);
   reading.missing = std::move(keys.missing);
@@ -293,7 +319,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (design.start)
     keys.spec.start = PoseOn(*design.network, {design.start->road, 0, design.start->lane}, design.start->s_m);
   else
-    PutStart(root, {}, keys.spec, keys.spec.start);
+    PutStart(root, {}, keys.spec, keys.move, keys.spec.start);
   if (design.network != nullptr) {
     auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
     if (!detail) {
@@ -330,10 +356,16 @@ WorldReading ReadWorld(const config::File& file) {
   reading.problems = file.Problems();
   if (!reading.problems.empty()) return reading;
 
+  if (keys.elevation_file) {
+    if (!PutTerrain(keys, std::span<const Road>(), reading)) return reading;
+    if (keys.move) {
+      for (RoadSpec& road : keys.roads) keys.move(road.start_W, road.heading_rad);
+    }
+  }
   std::vector<Road> roads;
   for (const RoadSpec& road : keys.roads) roads.emplace_back(road);
-  if (!PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
-  PutStart(root, roads, keys.spec, keys.spec.start);
+  if (keys.hills && !PutTerrain(keys, std::span<const Road>(roads), reading)) return reading;
+  PutStart(root, roads, keys.spec, keys.move, keys.spec.start);
   for (std::size_t i = 0; i < roads.size(); ++i)
     CheckRoadFits(roads[i], keys.spec.grid.get(), root.Items("roads").At(i));
   reading.problems = file.Problems();

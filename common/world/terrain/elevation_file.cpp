@@ -174,6 +174,29 @@ base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, cons
   return std::optional<BtHeader>(header.value());
 }
 
+// A raster in a map whose scale is off: how, and what the grid then says of its origin.
+struct Warping {
+  MapScale scale;
+  MapOrigin origin;
+};
+
+// By the map's scale in the raster's middle; nothing where it holds, or is not known.
+std::optional<Warping> OffScale(GDALDataset& dataset, const std::optional<BtHeader>& header,
+                                const Projection& projection) {
+  std::array<double, 6> g{};
+  if (projection.own_wkt.empty() || !projection.geographic_wkt.empty() ||
+      (!header && dataset.GetGeoTransform(g.data()) != CE_None))
+    return std::nullopt;
+  const int columns = dataset.GetRasterXSize(), rows = dataset.GetRasterYSize();
+  MapOrigin origin{projection.own_wkt, g[0], g[3] + rows * g[5], g[0] + columns * g[1], g[3]};
+  if (header) origin = {projection.own_wkt, header->left, header->bottom, header->right, header->top};
+  const auto scale =
+      ScaleAt(projection.own_wkt, 0.5 * (origin.west + origin.east), 0.5 * (origin.south + origin.north));
+  if (!scale || !IsOffScale(*scale, projection.metres_a_unit)) return std::nullopt;
+  origin.units_a_m = 0.5 * (scale->east_units_a_m + scale->north_units_a_m) * projection.metres_a_unit;
+  return Warping{*scale, origin};
+}
+
 }  // namespace
 
 std::optional<fs::path> MissingProjection(const fs::path& path) {
@@ -188,6 +211,12 @@ std::optional<fs::path> MissingProjection(const fs::path& path) {
 }
 
 base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path& path, Registration registration) {
+  auto loaded = LoadGround(path, registration);
+  if (!loaded) return loaded.error();
+  return std::move(loaded).value().grid;
+}
+
+base::Result<LoadedGround> LoadGround(const fs::path& path, Registration registration) {
   const QuietGdal quiet;
   const auto start = ReadStart(path);
   if (!start) return start.error();
@@ -224,14 +253,18 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   } else if (header && header->metres_a_unit != 0.0 && !projection.value().geographic_wkt.empty()) {
     return base::WrongInput("the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());
   }
-  if (!projection.value().geographic_wkt.empty()) {
+  const std::optional<Warping> off_scale = OffScale(*dataset, header, projection.value());
+  std::optional<MapOrigin> origin;
+  if (!projection.value().geographic_wkt.empty() || off_scale) {
     if (dataset->GetRasterCount() != 1)
       return base::WrongInput(BandsSentence(dataset->GetRasterCount()), path.string());
     auto metric =
-        WarpedToMetres(*dataset, projection.value().geographic_wkt, header,
+        WarpedToMetres(*dataset, off_scale ? projection.value().own_wkt : projection.value().geographic_wkt,
+                       off_scale ? std::optional(off_scale->scale) : std::nullopt, header,
                        registration == Registration::kPosts || (header && registration == Registration::kUsual), path);
     if (!metric) return metric.error();
     warped = std::move(metric).value();
+    if (off_scale) origin = off_scale->origin;
     projection = MetricProjection(*warped->GetSpatialRef());
     if (!projection) return projection.error();
   }
@@ -242,8 +275,9 @@ base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path&
   if (!frame) return frame.error();
   auto heights = ReadHeights(read, header, path);
   if (!heights) return heights.error();
-  return std::make_shared<const ElevationGrid>(frame.value(), std::move(heights).value(),
-                                               std::move(projection).value().wkt);
+  return LoadedGround{std::make_shared<const ElevationGrid>(frame.value(), std::move(heights).value(),
+                                                            std::move(projection).value().wkt),
+                      std::move(origin)};
 }
 
 }  // namespace rodeira::terrain

@@ -30,14 +30,18 @@ base::Result<OGRSpatialReference> FromDefinition(std::string_view definition) {
 }
 
 base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
-  if (reference.IsGeographic() == 0) return MetricProjection(reference);
-  Projection projection;
   char* text = nullptr;
   const OGRErr failed = reference.exportToWkt(&text);
-  projection.geographic_wkt = text == nullptr ? "" : text;
+  std::string wkt = text == nullptr || failed != OGRERR_NONE ? "" : text;
   CPLFree(text);
-  if (failed != OGRERR_NONE || projection.geographic_wkt.empty())
-    return base::WrongInput("the coordinate system cannot be written as WKT");
+  if (reference.IsGeographic() == 0) {
+    auto projection = MetricProjection(reference);
+    if (projection) projection.value().own_wkt = std::move(wkt);
+    return projection;
+  }
+  if (wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  Projection projection;
+  projection.geographic_wkt = std::move(wkt);
   return projection;
 }
 

@@ -16,6 +16,7 @@ namespace rodeira::terrain {
 struct Projection {
   std::string wkt;             // WKT 1 in the spelling of .prj files, its unit the metre; empty: the file names none
   double metres_a_unit = 1.0;  // of the coordinates in the file
+  std::string own_wkt;         // as the file says it, in its own unit
   std::string
       geographic_wkt;  // not empty: the file's coordinates are degrees of this system, and the two above say nothing
 };

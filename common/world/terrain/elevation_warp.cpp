@@ -45,12 +45,14 @@ class Arguments {
 
 }  // namespace
 
-base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& geographic_wkt,
+base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std::string& wkt,
+                                                  const std::optional<MapScale>& scale,
                                                   const std::optional<BtHeader>& bt, bool posts,
                                                   const std::filesystem::path& path) {
+  const std::string units = scale ? "in units of its map" : "in degrees";
   const auto refuse = [&] {
     return base::WrongInput(
-        fmt::format("the heights, in degrees, cannot be brought into metres; {}", QuietGdal::Words()), path.string());
+        fmt::format("the heights, {}, cannot be brought into metres; {}", units, QuietGdal::Words()), path.string());
   };
   const int columns = raster.GetRasterXSize(), rows = raster.GetRasterYSize();
   std::array<double, 6> g{};
@@ -61,37 +63,42 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
     const double step_x = g[1] * columns / (columns - 1), step_y = g[5] * rows / (rows - 1);
     g = {g[0] - 0.5 * step_x, step_x, 0.0, g[3] - 0.5 * step_y, 0.0, step_y};
   }
-  const double longitude = g[0] + 0.5 * columns * g[1] + 0.5 * rows * g[2],
-               latitude = g[3] + 0.5 * columns * g[4] + 0.5 * rows * g[5];
+  const double longitude = scale ? scale->place.longitude_deg : g[0] + 0.5 * columns * g[1] + 0.5 * rows * g[2],
+               latitude = scale ? scale->place.latitude_deg : g[3] + 0.5 * columns * g[4] + 0.5 * rows * g[5];
   if (!(std::fabs(latitude) <= 90.0 && std::fabs(longitude) <= 720.0)) {
     return base::WrongInput(fmt::format("the middle of the grid, in degrees, lies at longitude {} and latitude {}; a "
                                         "place on the earth was expected",
                                         longitude, latitude),
                             path.string());
   }
-  const double width = columns * std::fabs(g[1]) + rows * std::fabs(g[2]);
+  // Metres on the ground by unit of the raster's coordinates.
+  const double metres_x = scale ? 1.0 / scale->east_units_a_m : kDegree_m * std::cos(latitude * geometry::kPi / 180.0),
+               metres_y = scale ? 1.0 / scale->north_units_a_m : kDegree_m;
+  const double width = (columns * std::fabs(g[1]) + rows * std::fabs(g[2])) *
+                       (scale ? metres_x / (kDegree_m * std::cos(latitude * geometry::kPi / 180.0)) : 1.0);
   if (!(width <= kWidest_deg)) {
-    return base::WrongInput(fmt::format("the grid, in degrees, spans {:.6g} degrees of longitude; at most {} was "
+    return base::WrongInput(fmt::format("the grid, {}, spans {:.6g} degrees of longitude; at most {} was "
                                         "expected, which one map in metres holds (gdalwarp brings it into another one)",
-                                        width, kWidest_deg),
+                                        units, width, kWidest_deg),
                             path.string());
   }
   // Square cells as small as the raster's are in either direction: where larger ones are asked for, GDAL's warper takes
   // means of several heights.
-  const double across_m = std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0),
-               along_m = std::hypot(g[4], g[5]) * kDegree_m, cell_m = std::min(across_m, along_m);
+  const double across_m = scale ? std::hypot(g[1], g[2]) * metres_x
+                                : std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0),
+               along_m = std::hypot(g[4], g[5]) * metres_y, cell_m = std::min(across_m, along_m);
   if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMostTimes)) {
     return base::WrongInput(
-        fmt::format("the cells, in degrees, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in "
+        fmt::format("the cells, {}, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in "
                     "metres (gdalwarp brings them into one of cells as they should be)",
-                    across_m, along_m),
+                    units, across_m, along_m),
         path.string());
   }
   GDALRasterBand* band = raster.GetRasterBand(1);
   int has_void = 0;
   const double no_data = band->GetNoDataValue(&has_void);
   const std::string map = fmt::format("EPSG:{}", MapFor(longitude, latitude));
-  std::vector<std::string> lay{"-of", "VRT", "-a_srs", geographic_wkt, "-a_ullr"};
+  std::vector<std::string> lay{"-of", "VRT", "-a_srs", wkt, "-a_ullr"};
   for (const double corner : {g[0], g[3], g[0] + columns * g[1], g[3] + rows * g[5]})
     lay.push_back(fmt::format("{}", corner));
   if (g[2] != 0.0 || g[4] != 0.0) lay.resize(4);  // turned: as it says itself

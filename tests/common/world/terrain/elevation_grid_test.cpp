@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "common/core/base/random.hpp"
+#include "common/world/terrain/nearest_ground.hpp"
 
 namespace rodeira::terrain {
 namespace {
@@ -28,6 +29,34 @@ TEST(ElevationGrid, SplitsACellFromSouthEastToNorthWest) {
   EXPECT_NEAR(grid.At(5.0, 7.0).z_m, 8.0 * 0.2, 1e-12);  // (u + v - 1) of the height
   EXPECT_NEAR(grid.At(10.0, 10.0).z_m, 8.0, 1e-12);
   EXPECT_NEAR((grid.At(9.0, 9.0).normal_W() - Eigen::Vector3d(-0.8, -0.8, 1.0).normalized()).norm(), 0.0, 1e-12);
+}
+
+// A frame of ground, two posts wide, around a void: the nearest place with ground 3 m about it is told by looking at
+// every place of a fine raster.
+TEST(ElevationGrid, FindsTheNearestGroundBesideAVoid) {
+  const int columns = 21, rows = 15;
+  std::vector<float> heights(static_cast<std::size_t>(columns * rows), 7.0F);
+  for (int column = 3; column < 18; ++column) {
+    for (int row = 3; row < 12; ++row) heights[static_cast<std::size_t>(column * rows + row)] = ElevationGrid::kVoid;
+  }
+  const ElevationGrid grid({columns, rows, 0.0, 0.0, 200.0, 140.0}, heights);
+  const auto nearest = NearestGround(grid, 99.0, 68.0);
+  ASSERT_TRUE(nearest.has_value());
+  double least = std::numeric_limits<double>::infinity();
+  for (double x = 3.5; x < 197.0; x += 0.5) {
+    for (double y = 3.5; y < 137.0; y += 0.5) {
+      bool all = true;
+      for (const double dx : {-3.0, 0.0, 3.0}) {
+        for (const double dy : {-3.0, 0.0, 3.0}) all = all && grid.At(x + dx, y + dy).inside;
+      }
+      if (all) least = std::min(least, std::hypot(x - 99.0, y - 68.0));
+    }
+  }
+  EXPECT_TRUE(grid.At(nearest->x(), nearest->y()).inside);
+  EXPECT_LT(std::hypot(nearest->x() - 99.0, nearest->y() - 68.0), least + 7.1);  // half a cell's diagonal
+  EXPECT_EQ(*NearestGround(grid, 5.0, 5.0), Eigen::Vector2d(5.0, 5.0));
+  const ElevationGrid none({2, 2, 0.0, 0.0, 1.0, 1.0}, std::vector<float>(4, ElevationGrid::kVoid));
+  EXPECT_FALSE(NearestGround(none, 0.5, 0.5).has_value());
 }
 
 // z = 3 + x/4 - y/2 + x^2/64 + xy/32 - y^2/128 over cells of 8 m by 4 m: what the two triangles of a cell leave of it

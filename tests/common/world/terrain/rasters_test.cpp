@@ -19,6 +19,7 @@
 #include "common/core/base/random.hpp"
 #include "common/world/terrain/elevation_file.hpp"
 #include "common/world/terrain/geographic.hpp"
+#include "common/world/terrain/ground_move.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"
 
 namespace rodeira::terrain {
@@ -227,6 +228,79 @@ TEST_F(Rasters, DegreesComeIntoTheirUtmZone) {
   ASSERT_TRUE(beside.ok()) << beside.error().Text();
   ExpectLinear(*beside.value(), {kWest_deg + 2.0 * kCell_deg, kNorth_deg - last},
                {kWest_deg + last, kNorth_deg - 2.0 * kCell_deg});
+}
+
+// A square of 60 x 60 heights that are linear in zone 29, in another map; the places come from PROJ alone.
+GDALDatasetUniquePtr LinearIn(const char* definition, const Eigen::Vector2d& middle_deg, double cell) {
+  constexpr int kMany = 60;
+  const auto own = Geographic::Make(definition), zone = Geographic::Make("EPSG:32629");
+  const Eigen::Vector2d middle = *own.value().ToMap({middle_deg.x(), middle_deg.y()});
+  GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
+  GDALDatasetUniquePtr made(memory->Create("", kMany, kMany, 1, GDT_Float32, nullptr));
+  std::array<double, 6> transform = {middle.x() - 30.0 * cell, cell, 0.0, middle.y() + 30.0 * cell, 0.0, -cell};
+  made->SetGeoTransform(transform.data());
+  OGRSpatialReference reference;
+  EXPECT_EQ(reference.SetFromUserInput(definition), OGRERR_NONE);
+  made->SetSpatialRef(&reference);
+  std::vector<float> heights;
+  for (int row = 0; row < kMany; ++row) {
+    for (int column = 0; column < kMany; ++column) {
+      const auto place = own.value().ToEarth(transform[0] + (column + 0.5) * cell, transform[3] - (row + 0.5) * cell);
+      heights.push_back(static_cast<float>(Linear(*zone.value().ToMap(*place))));
+    }
+  }
+  EXPECT_EQ(made->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, kMany, kMany, heights.data(), kMany, kMany, GDT_Float32, 0,
+                                             0, nullptr),
+            CE_None);
+  return made;
+}
+
+LoadedGround Saved(const GDALDatasetUniquePtr& made, const fs::path& path) {
+  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
+  GDALDatasetUniquePtr(driver->CreateCopy(path.c_str(), made.get(), FALSE, nullptr, nullptr, nullptr)).reset();
+  const auto loaded = LoadGround(path);
+  EXPECT_TRUE(loaded.ok()) << loaded.error().Text();
+  return loaded.ok() ? loaded.value() : LoadedGround{};
+}
+
+// Web Mercator shows a metre at 42.5 degrees north as 1 / cos(42.5 degrees) = 1.3563 m, on WGS 84's ellipsoid by up to
+// 0.4 % more or less; the map of EPSG:3395 shows it likewise.
+TEST_F(Rasters, MapsWhoseScaleIsOffComeIntoTheirUtmZone) {
+  for (const auto& [definition, unit] :
+       {std::pair("EPSG:3857", 1.0), std::pair("EPSG:3395", 1.0),
+        std::pair("+proj=merc +datum=WGS84 +units=us-ft +type=crs", 1200.0 / 3937.0)}) {
+    const Eigen::Vector2d middle(-8.02, 42.52);
+    const auto [grid, origin] = Saved(LinearIn(definition, middle, 100.0 / unit), folder_ / "mercator.tif");
+    ASSERT_NE(grid, nullptr);
+    ExpectLinear(*grid, middle - Eigen::Vector2d(0.02, 0.015), middle + Eigen::Vector2d(0.02, 0.015));
+    ASSERT_TRUE(origin.has_value()) << definition;
+    EXPECT_NEAR(origin->units_a_m, 1.3567, 0.004) << definition;
+    EXPECT_NEAR(grid->spacing_x_m(), 100.0 / 1.3567, 0.3) << definition;
+    // A place among the heights moves with them, with its heading; another one is a place of the world already.
+    const auto own = Geographic::Make(definition), zone = Geographic::Make("EPSG:32629");
+    const GroundMove move = MoveWith(*origin, grid->projection_wkt());
+    ASSERT_TRUE(static_cast<bool>(move));
+    Eigen::Vector2d p = *own.value().ToMap({-8.01, 42.51});
+    double heading_rad = 0.5;
+    const Eigen::Vector2d step = Eigen::Vector2d(std::cos(0.5), std::sin(0.5)) / unit;
+    const Eigen::Vector2d before = *zone.value().ToMap({-8.01, 42.51}),
+                          ahead = *zone.value().ToMap(*own.value().ToEarth(p.x() + step.x(), p.y() + step.y()));
+    move(p, heading_rad);
+    EXPECT_NEAR((p - before).norm(), 0.0, 1e-4) << definition;
+    EXPECT_NEAR(heading_rad, std::atan2((ahead - before).y(), (ahead - before).x()), 1e-5) << definition;
+    move(p, heading_rad);
+    EXPECT_NEAR((p - before).norm(), 0.0, 1e-4) << definition;
+  }
+}
+
+// The scale of UTM is 0.9996 in a zone's middle and 1.0010 at its border; EPSG:3763's is 1.0000 in its middle.
+TEST_F(Rasters, MapsWhoseScaleHoldsStayWhatTheyAre) {
+  for (const char* definition : {"EPSG:32629", "EPSG:32630", "EPSG:3763"}) {
+    const auto [grid, origin] = Saved(LinearIn(definition, {-6.1, 42.5}, 30.0), folder_ / "utm.tif");
+    ASSERT_NE(grid, nullptr);
+    EXPECT_FALSE(origin.has_value()) << definition;
+    EXPECT_NEAR(grid->spacing_x_m(), 30.0, 1e-6) << definition;
+  }
 }
 
 // A .bt in degrees (unit 0): its outermost heights stand on its edges; the zone that it says too, another one, means
