@@ -40,6 +40,18 @@ std::optional<double> Number(std::string_view text) {
   return value;
 }
 
+// A number whose exponent is misspelt and nothing, as ASAM's own library reads it: "2.0+e00" is 2. Others may be meant
+// in more than one way.
+std::optional<double> LeadingNumber(std::string_view text, std::size_t& length) {
+  const std::size_t sign = text.starts_with('+') ? 1 : 0;
+  double value = 0.0;
+  const auto [end, problem] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
+  length = static_cast<std::size_t>(end - text.data());
+  if (problem != std::errc() || length == sign || !std::isfinite(value)) return std::nullopt;
+  if (text.substr(length).find_first_not_of("+-eEdD0") != std::string_view::npos) return std::nullopt;
+  return value;
+}
+
 class HeaderReader {
  public:
   HeaderReader(std::span<const std::byte> bytes, std::string_view name)
@@ -59,6 +71,7 @@ class HeaderReader {
         header_.data_line = line_ + 1;
         break;
       }
+      now_ = line;
       if (const auto status = Line(line); !status) return status.error();
     }
     if (header_.data_offset == 0 && header_.other_file.empty()) {
@@ -75,6 +88,9 @@ class HeaderReader {
   base::Error Wrong(std::string_view message) const {
     return base::WrongInput(message, fmt::format("{}:{}", name_, line_));
   }
+
+  // In the line that is read, from 1 on.
+  std::size_t ColumnOf(std::string_view part) const { return static_cast<std::size_t>(part.data() - now_.data()) + 1; }
 
   void Warn(std::string_view what) {
     if (header_.warnings.size() < kMostWarnings) {
@@ -148,8 +164,15 @@ class HeaderReader {
     }
     if (key->put == nullptr) return {};
     const std::string_view text = Trim(line.substr(equals + 1));
-    const auto value = Number(text);
-    if (!value) return Wrong(fmt::format("'{}' is '{}'; a number was expected", name, text.substr(0, 40)));
+    auto value = Number(text);
+    if (!value) {
+      std::size_t length = 0;
+      value = LeadingNumber(text, length);
+      const std::string what = fmt::format("'{}' is '{}'; a number was expected", name, text.substr(0, 40));
+      const std::size_t column = ColumnOf(text) + length;  // of what is wrong
+      if (!value) return base::WrongInput(what, fmt::format("{}:{}:{}", name_, line_, column));
+      Warn(fmt::format("column {}: {}; it is read as {}", column, what, *value));
+    }
     if (*value < key->low || *value > key->high || (key->whole && *value != std::floor(*value))) {
       return Wrong(fmt::format("'{}' is {}; a {} from {} to {} was expected", name, *value,
                                key->whole ? "whole number" : "number", key->low, key->high));
@@ -247,6 +270,7 @@ class HeaderReader {
 
   std::string_view text_;
   std::string_view name_;
+  std::string_view now_;  // the line that is read
   int line_ = 0;
   Section section_ = Section::kNone;
   CrgHeader header_;

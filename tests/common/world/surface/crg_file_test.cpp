@@ -146,7 +146,7 @@ TEST(CrgFile, WhatIsWrongIsSaidWithItsLine) {
   EXPECT_THAT(Refusal(""), HasSubstr("this is no OpenCRG file"));
   EXPECT_THAT(Refusal("$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 1\n$\n"), HasSubstr("this is no OpenCRG file"));
   EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = 0,5"),
-              HasSubstr("made.crg:5: 'reference_line_increment' is '0,5'; a number was expected"));
+              HasSubstr("made.crg:5:29: 'reference_line_increment' is '0,5'; a number was expected"));
   EXPECT_THAT(refusal("INCREMENT = 0.5", "INCREMENT = -1"),
               HasSubstr("'reference_line_increment' is -1; a number from"));
   EXPECT_THAT(refusal("REFERENCE_LINE_INCREMENT = 0.5", ""), HasSubstr("key 'REFERENCE_LINE_INCREMENT' is missing"));
@@ -232,6 +232,24 @@ TEST(CrgFile, WhatIsUnknownIsPassedOverWithAWarning) {
   EXPECT_THAT(file.value().warnings, ElementsAre(HasSubstr("line 8: key 'reference_line_strat_x' is unknown and passed "
                                                            "over; did you mean 'reference_line_start_x'?"),
                                                  HasSubstr("section '$something' is unknown")));
+}
+
+// ASAM's library reads the number before a misspelt exponent of nothing. Others are refused where they go wrong.
+TEST(CrgFile, AMisspeltNumberIsToldWithItsColumn) {
+  MadeCrg made;
+  made.sections = "$ROAD_CRG_OPTS\n BORDER_OFFSET_U = 1.500+e00 ! typo\n$\n";
+  const auto file = made.Parse();
+  ASSERT_TRUE(file.ok()) << file.error().Text();
+  EXPECT_THAT(file.value().warnings,
+              ElementsAre("line 10: column 25: 'border_offset_u' is '1.500+e00'; a number was expected; it is read as "
+                          "1.5"));
+  for (const auto& [number, column] : {std::pair("1.5+e01", 22), std::pair("1.5 m", 22), std::pair("x", 19)}) {
+    made.sections = fmt::format("$ROAD_CRG_OPTS\nBORDER_OFFSET_U = {}\n$\n", number);
+    const auto wrong = made.Parse();
+    ASSERT_FALSE(wrong.ok()) << number;
+    EXPECT_THAT(wrong.error().Text(),
+                HasSubstr(fmt::format(":10:{}: 'border_offset_u' is '{}'; a number was expected", column, number)));
+  }
 }
 
 TEST(CrgReport, SaysWhatTheFileHolds) {
