@@ -41,8 +41,8 @@ double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen:
   return left.norm() < 1e-9 ? 0.0 : left.norm();
 }
 
-double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
-                        double high_s_m, double t_m, double& s_m) {
+void MoveAlongEdge(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                   double high_s_m, double t_m, double& s_m) {
   for (int iteration = 0; iteration < 12; ++iteration) {
     const SurfaceSample at = SurfaceOn(road, panel, s_m, t_m);
     const Eigen::Vector2d ds = at.ds_W.head<2>();
@@ -51,6 +51,11 @@ double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, cons
     s_m = next;
     if (done) break;
   }
+}
+
+double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                        double high_s_m, double t_m, double& s_m) {
+  MoveAlongEdge(road, panel, p_W, low_s_m, high_s_m, t_m, s_m);
   return (p_W - SurfaceOn(road, panel, s_m, t_m).p_W.head<2>()).norm();
 }
 

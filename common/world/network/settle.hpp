@@ -12,6 +12,9 @@ namespace rodeira::network {
 
 double SettleOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
                 double high_s_m, double& s_m, double& t_m);
+// Moves s to where the line at t is nearest to p.
+void MoveAlongEdge(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
+                   double high_s_m, double t_m, double& s_m);
 double DistanceToEdgeOn(const Road& road, const geometry::AxisPanel* panel, const Eigen::Vector2d& p_W, double low_s_m,
                         double high_s_m, double t_m, double& s_m);
 

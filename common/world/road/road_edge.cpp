@@ -138,7 +138,7 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
   network::LaneSpan span = SpanAt(section, steady, place.found_t_m, centre, s, place.outside_m);
   place.t_m = place.found_t_m + (place.found_t_m > centre.value ? -place.outside_m : place.outside_m);
   if (road.rolled() && place.outside_m > 0.0) {  // the section leans: the nearest point of its edge lies elsewhere
-    (void)network::DistanceToEdgeOn(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
+    network::MoveAlongEdge(road, &panel, p_W, stretch.from_s_m, stretch.to_s_m, place.t_m, s);
     double outside_there;
     span = section.At(place.t_m, road.CentreAt(s), s, outside_there);
   }

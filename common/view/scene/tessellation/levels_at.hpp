@@ -12,7 +12,8 @@ namespace rodeira::scene {
 inline constexpr double kLevelApart_m = 2.0;
 
 // SUELO's surfaces at a place, from the highest to the lowest, at most `most`. Where SUELO knows no ground there is
-// one: the height of the nearest road goes on (land that is only seen), or nothing in a world without roads.
+// one: the height of the nearest road's edge goes on (land that is only seen), or nothing in a world without
+// roads.
 void LevelsAt(const road::World& world, const Eigen::Vector2d& p_W, std::size_t most,
               std::vector<road::SurfacePoint>& levels);
 

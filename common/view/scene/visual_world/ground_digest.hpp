@@ -10,7 +10,7 @@
 namespace rodeira::scene {
 
 // Changes whenever the same world is drawn otherwise than before.
-inline constexpr const char* kGroundVersion = "ground 20";
+inline constexpr const char* kGroundVersion = "ground 21";
 
 base::Digest PaintDigest(std::span<const PaintPiece> paint);
 base::Digest PaintDigest(const TilePaint& paint);

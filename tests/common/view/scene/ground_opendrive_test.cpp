@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "common/view/scene/tessellation/levels_at.hpp"
 #include "tests/common/view/scene/correlation.hpp"
 #include "tests/common/view/scene/ground_tiles.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
+#include "tests/launch/rodeira/temporary_folder.hpp"
 #include "tests/setting.hpp"
 #include "tests/tree.hpp"
 
@@ -191,6 +193,48 @@ TEST(Ground, LandOfRealFilesIsWhereTheTyresAre) {
     std::printf("%s: %d points of land, %d at steps, %d more than 5 mm from SUELO, worst %.4f m\n", name.c_str(), asked,
                 stepped, far, worst_m);
   }
+}
+
+// A straight road of two lanes of 3.75 m on a bank of 0.05 rad: its edges lie 3.75 m times the sine above and below the
+// axis, and the land beside it is level. What is drawn goes on so where SUELO ends, 100 m from the edges, and needs no
+// more triangles than beside a level road.
+TEST(Ground, GoesOnLevelBeyondTheLandOfABankedRoad) {
+  const auto text = [](double bank_rad) {
+    return fmt::format(
+        "<OpenDRIVE><header revMajor=\"1\" revMinor=\"7\"/><road id=\"1\" length=\"700\" junction=\"-1\"><planView>"
+        "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"700\"><line/></geometry></planView><lateralProfile>"
+        "<superelevation s=\"0\" a=\"{}\" b=\"0\" c=\"0\" d=\"0\"/></lateralProfile><lanes><laneSection s=\"0\"><left>"
+        "<lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3.75\" b=\"0\" c=\"0\" "
+        "d=\"0\"/></lane></left><center>"
+        "<lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" type=\"driving\"><width sOffset=\"0\" "
+        "a=\"3.75\" b=\"0\" c=\"0\" d=\"0\"/></lane></right></laneSection></lanes></road></OpenDRIVE>",
+        bank_rad);
+  };
+  const cli::TemporaryFolder folder;
+  const auto flat = road::World::Load(folder.Write("flat.xodr", text(0.0))),
+             banked = road::World::Load(folder.Write("banked.xodr", text(0.05)));
+  ASSERT_TRUE(flat.ok() && banked.ok());
+  std::vector<road::SurfacePoint> levels;
+  for (const double side : {-1.0, 1.0}) {
+    for (const double away_m : {20.0, 99.0, 110.0, 300.0, 490.0}) {
+      LevelsAt(*banked.value(), {333.3, side * away_m}, 1, levels);
+      ASSERT_EQ(levels.size(), 1u);
+      EXPECT_NEAR(levels[0].z_m, side * 3.75 * std::sin(0.05), 1e-6) << away_m;
+    }
+  }
+  // The tile in the road's middle, away from its ends.
+  const auto triangles = [](const road::World& world) {
+    const GroundPlan plan(world);
+    std::size_t count = 0;
+    for (const TileKey& key : plan.tiles()) {
+      if (key.column != 1 || (key.row != 0 && key.row != -1)) continue;
+      for (const Mesh& mesh : plan.BuildLevel(key, 0).ground) count += mesh.triangles.size() / 3;
+    }
+    return count;
+  };
+  const std::size_t level = triangles(*flat.value());
+  EXPECT_GT(level, 50u);
+  EXPECT_LE(triangles(*banked.value()), level + level / 4);
 }
 
 }  // namespace
