@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "common/world/lanes/approach.hpp"
+#include "common/world/network/sign_kinds.hpp"
 
 namespace rodeira::lanes {
 namespace {
@@ -22,6 +23,9 @@ std::optional<Sign> SignOf(const network::Signal& signal) {
   if (priority == "yield") return Sign::kGiveWay;
   if (priority == "priorityRoad") return Sign::kPriority;
   if (priority == "priorityRoadEnd") return Sign::kNone;
+  const auto kind = network::SignKindOf(signal);
+  if (kind == "stop") return Sign::kStop;
+  if (kind == "give_way") return Sign::kGiveWay;
   return std::nullopt;
 }
 

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "common/world/network/sign_catalogues.hpp"
+
 namespace rodeira::network {
 namespace {
 
@@ -22,6 +24,8 @@ constexpr Catalogued kCatalogue[] = {
     {"103", "20", "bend_right"},
     {"105", "10", "bends_left_first"},
     {"105", "20", "bends_right_first"},
+    {"103", "-1", "bend_right"},  // which way is not said
+    {"105", "-1", "bends_right_first"},
     {"108", "", "downhill"},
     {"110", "", "uphill"},
     {"112", "", "uneven_road"},
@@ -29,6 +33,7 @@ constexpr Catalogued kCatalogue[] = {
     {"205", "", "give_way"},
     {"206", "", "stop"},
     {"215", "", "roundabout"},
+    {"222", "", "keep_right"},
     {"250", "", "no_vehicles"},
     {"267", "", "no_entry"},
     {"274", "", "speed_limit"},
@@ -43,10 +48,24 @@ constexpr Catalogued kCatalogue[] = {
     {"311", "", "end_of_town"},
     {"314", "", "parking"},
     {"330", "", "motorway"},
+    {"332", "", "guide_blue"},
+    {"333", "", "guide_blue"},
     {"334", "", "end_of_motorway"},
     {"350", "", "crossing"},
+    {"406", "", "guide_blue"},
+    {"430", "", "guide_blue"},
+    {"436", "", "guide_yellow"},
+    {"440", "", "guide_blue"},
+    {"449", "", "guide_blue"},
+    {"450", "", "exit_beacon"},
+    {"451", "", "exit_beacon"},
+    {"452", "", "exit_beacon"},
+    {"605", "", "beacon"},
     {"625", "", "chevron"},
 };
+// Kinds that only other catalogues have.
+constexpr std::array<std::string_view, 6> kAbroad = {"guide_green",    "mandatory",       "prohibition",
+                                                     "speed_limit_us", "warning_diamond", "warning_yellow"};
 // Lines and crossings that are painted on the road: they have numbers, but nothing stands there.
 constexpr std::array<std::string_view, 9> kPaint = {"293", "294", "295", "296", "297", "298", "299", "340", "341"};
 
@@ -60,6 +79,7 @@ bool KnowsCatalogue(std::string country) {
 }  // namespace
 
 std::optional<std::string_view> SignKindOf(const Signal& signal) {
+  if (const auto abroad = SignKindAbroad(signal)) return abroad;
   if (!KnowsCatalogue(signal.country)) return std::nullopt;
   if (std::find(kPaint.begin(), kPaint.end(), signal.type) != kPaint.end()) return "";
   for (const Catalogued& sign : kCatalogue) {
@@ -70,7 +90,10 @@ std::optional<std::string_view> SignKindOf(const Signal& signal) {
 
 std::vector<std::string_view> SignKindNames() {
   std::vector<std::string_view> names;
-  for (const Catalogued& sign : kCatalogue) names.emplace_back(sign.kind);
+  for (const Catalogued& sign : kCatalogue) {
+    if (std::find(names.begin(), names.end(), sign.kind) == names.end()) names.emplace_back(sign.kind);
+  }
+  names.insert(names.end(), kAbroad.begin(), kAbroad.end());
   return names;
 }
 
@@ -85,7 +108,7 @@ std::string SignNumberOf(const Signal& signal) {
     const int number = std::stoi(signal.subtype);
     if (number >= 51 && number <= 63) return std::to_string(10 * (number - 50));
   }
-  return "";
+  return NumberInName(signal);
 }
 
 }  // namespace rodeira::network

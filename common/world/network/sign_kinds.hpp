@@ -12,9 +12,10 @@
 namespace rodeira::network {
 
 // The kind of a signal with a number of the German catalogue (StVO; most OpenDRIVE files use them, for the country
-// "OpenDRIVE" too): "stop", "speed_limit" …; empty: it is only paint on the road; nothing: it is none of these.
+// "OpenDRIVE" too) or of another one (SignKindAbroad): "stop", "speed_limit" …; empty: it is only paint on the road;
+// nothing: it is none of these.
 std::optional<std::string_view> SignKindOf(const Signal& signal);
-// Every kind, in the order of their numbers.
+// Every kind once, in the order of their numbers.
 std::vector<std::string_view> SignKindNames();
 
 // The number that a sign shows, in the unit that people read (km/h for limits); empty: none. Old files say limits by

@@ -19,13 +19,15 @@ enum class Shape { kRound, kTriangle, kTriangleDown, kOctagon, kDiamond, kRectan
 Shape SignShapeOf(std::string_view kind) {
   if (kind == "stop") return Shape::kOctagon;
   if (kind == "give_way") return Shape::kTriangleDown;
-  if (kind == "priority_road" || kind == "end_of_priority_road") return Shape::kDiamond;
+  if (kind == "priority_road" || kind == "end_of_priority_road" || kind == "warning_diamond") return Shape::kDiamond;
   for (const std::string_view square : {"town", "end_of_town", "motorway", "end_of_motorway", "crossing", "parking",
-                                        "chevron_left", "chevron_right", "plate", "board", "display"}) {
+                                        "chevron_left", "chevron_right", "plate", "board", "display", "guide_blue",
+                                        "guide_green", "guide_yellow", "exit_beacon", "beacon", "speed_limit_us"}) {
     if (kind == square) return Shape::kRectangle;
   }
-  for (const std::string_view round : {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking",
-                                       "end_of_speed_limit", "end_of_no_overtaking", "end_of_restrictions"}) {
+  for (const std::string_view round :
+       {"roundabout", "no_vehicles", "no_entry", "speed_limit", "no_overtaking", "end_of_speed_limit",
+        "end_of_no_overtaking", "end_of_restrictions", "keep_right", "mandatory", "prohibition"}) {
     if (kind == round) return Shape::kRound;
   }
   return Shape::kTriangle;
@@ -65,9 +67,10 @@ std::string FaceOf(const network::Signal& signal, bool bends_left) {
   if (*kind == "chevron") return bends_left ? "chevron_left" : "chevron_right";
   if (*kind == "town" || *kind == "end_of_town")
     return signal.text.empty() ? std::string(*kind) : fmt::format("{} {}", *kind, signal.text);
-  if (*kind == "speed_limit" || *kind == "end_of_speed_limit" || *kind == "downhill" || *kind == "uphill") {
+  if (*kind == "speed_limit" || *kind == "speed_limit_us" || *kind == "end_of_speed_limit" || *kind == "downhill" ||
+      *kind == "uphill") {
     const std::string number = network::SignNumberOf(signal);
-    if (number.empty()) return *kind == "speed_limit" ? "plate" : std::string(*kind);
+    if (number.empty()) return kind->starts_with("speed_limit") ? "plate" : std::string(*kind);
     return fmt::format("{} {}", *kind, number);
   }
   return std::string(*kind);
@@ -77,7 +80,7 @@ const std::vector<std::string>& FaceKinds() {
   static const std::vector<std::string> kinds = [] {
     std::vector<std::string> names = {"board", "chevron_left", "chevron_right", "display", "plate"};
     for (const std::string_view kind : network::SignKindNames()) {
-      if (kind != "chevron") names.emplace_back(kind);
+      if (kind != "chevron" && kind != "board") names.emplace_back(kind);
     }
     std::sort(names.begin(), names.end());
     return names;

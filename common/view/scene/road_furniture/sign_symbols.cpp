@@ -113,6 +113,17 @@ void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text)
     for (const double turn : {0.0, 120.0, 240.0}) Arrow(canvas, Arc(middle, 0.5, turn, turn + 70.0), 0.16, kWhite);
     return;
   }
+  if (kind == "keep_right" || kind == "mandatory") {
+    canvas.Disc(middle, 1.1, kWhite);
+    canvas.Disc(middle, 0.95, kBlue);
+    if (kind == "keep_right") Arrow(canvas, {P(-0.42, 0.42), P(0.3, -0.3)}, 0.2, kWhite);
+    return;
+  }
+  if (kind == "prohibition") {
+    canvas.Disc(middle, 1.1, kRed);
+    canvas.Disc(middle, 0.76, kWhite);
+    return canvas.Bar({-0.52, 0.52}, {0.52, -0.52}, 0.16, kRed);
+  }
   if (kind == "no_entry") {
     canvas.Disc(middle, 1.1, kWhite);
     canvas.Disc(middle, 0.95, kRed);
@@ -134,8 +145,9 @@ void DrawRound(Canvas& canvas, const std::string& kind, const std::string& text)
 void DrawTriangle(Canvas& canvas, const std::string& kind, const std::string& text) {
   // The box is filled: the plate's own outline cuts it.
   const Polyline outer = {P(-1.0, -1.0), P(1.0, -1.0), P(0.0, 1.0)};
-  canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, kRed);
-  canvas.Fill(Smaller(outer, {0.0, -0.33}, 0.68), kWhite);
+  const bool yellow = kind == "warning_yellow";
+  canvas.Fill(Polyline{P(-1.0, -1.0), P(1.0, -1.0), P(1.0, 1.0), P(-1.0, 1.0)}, yellow ? kBlack : kRed);
+  canvas.Fill(Smaller(outer, {0.0, -0.33}, yellow ? 0.82 : 0.68), yellow ? kYellow : kWhite);
   if (kind == "priority_to_the_right") {
     canvas.Bar({-0.34, -0.7}, {0.26, -0.02}, 0.13, kBlack);
     canvas.Bar({0.34, -0.7}, {-0.26, -0.02}, 0.13, kBlack);
@@ -188,6 +200,21 @@ void DrawRectangle(Canvas& canvas, const std::string& kind, const std::string& t
     }
     return;
   }
+  if (kind == "speed_limit_us") {
+    ground(kBlack, kWhite, 0.05);
+    Letter(canvas, "SPEED", {0.0, 0.68}, 0.3, 1.6, kBlack);
+    Letter(canvas, "LIMIT", {0.0, 0.28}, 0.3, 1.6, kBlack);
+    return Letter(canvas, text, {0.0, -0.42}, 0.8, 1.6, kBlack);
+  }
+  if (kind == "guide_yellow") return ground(kBlack, kYellow, 0.06);
+  if (kind == "guide_green") return ground(kWhite, Colour::Of(0x006b54), 0.07);
+  if (kind == "exit_beacon" || kind == "beacon") {  // stripes that fall towards the road
+    const bool blue = kind == "exit_beacon";
+    ground(kWhite, blue ? kBlue : kWhite, 0.07);
+    for (const double y : {-0.6, 0.0, 0.6})
+      canvas.Bar({-0.7, y - 0.2}, {0.7, y + 0.2}, blue ? 0.16 : 0.28, blue ? kWhite : kRed);
+    return;
+  }
   if (kind == "board") return ground(kBlack, kWhite, 0.03);
   if (kind == "display") return ground(Colour::Of(0x3a3d40), Colour::Of(0x101112), 0.05);  // switched off
   if (kind == "plate") return ground(Colour::Of(0x85898b), Colour::Of(0xa4a7a8), 0.06);
@@ -215,6 +242,8 @@ void DrawPriority(Canvas& canvas, const std::string& kind) {
     return canvas.Fill(Smaller({P(-1.0, 1.0), P(0.0, -1.0), P(1.0, 1.0)}, {0.0, 0.33}, 0.68), kWhite);
   }
   canvas.Fill(Polyline{P(-0.95, 0.0), P(0.0, -0.95), P(0.95, 0.0), P(0.0, 0.95)}, kBlack);
+  if (kind == "warning_diamond")
+    return canvas.Fill(Polyline{P(-0.89, 0.0), P(0.0, -0.89), P(0.89, 0.0), P(0.0, 0.89)}, kYellow);
   canvas.Fill(Polyline{P(-0.91, 0.0), P(0.0, -0.91), P(0.91, 0.0), P(0.0, 0.91)}, kWhite);
   canvas.Fill(Polyline{P(-0.62, 0.0), P(0.0, -0.62), P(0.62, 0.0), P(0.0, 0.62)}, kYellow);
   if (kind == "end_of_priority_road") {

@@ -112,6 +112,54 @@ TEST(SignFace, NumbersOfTheCatalogueAndWhatIsNotInIt) {
   EXPECT_EQ(FaceOf(signal, false), "chevron_right");
 }
 
+// By the catalogues: StVO, annexes 2 and 3; MUTCD 2009, chapters 2B to 2D; TSRGD 2016; GB 5768.2-2009. RoadRunner's
+// names are those of its own export.
+TEST(SignFace, OtherCataloguesHaveTheirShapeAndColour) {
+  const auto face = [](const char* country, const char* type, const char* subtype = "-1", const char* name = "") {
+    network::Signal signal;
+    signal.country = country, signal.type = type, signal.subtype = subtype, signal.name = name;
+    return FaceOf(signal, false);
+  };
+  EXPECT_EQ(face("DE", "222"), "keep_right");
+  for (const char* blue : {"332", "333", "406", "430", "440", "449"}) EXPECT_EQ(face("DE", blue), "guide_blue") << blue;
+  for (const char* beacon : {"450", "451", "452"}) EXPECT_EQ(face("OpenDRIVE", beacon, "50"), "exit_beacon") << beacon;
+  EXPECT_EQ(face("DE", "605", "10"), "beacon");
+  EXPECT_EQ(face("DE", "103"), "bend_right");
+  EXPECT_EQ(face("US", "R1-1"), "stop");
+  EXPECT_EQ(face("usa", "R1", "2"), "give_way");
+  EXPECT_EQ(face("US", "R10-11b"), "board");
+  EXPECT_EQ(face("US", "R1-10"), "board");
+  EXPECT_EQ(face("US", "W1-2"), "warning_diamond");
+  EXPECT_EQ(face("US", "D1-1"), "guide_green");
+  EXPECT_EQ(face("GB", "601.1"), "stop");
+  EXPECT_EQ(face("uk", "602"), "give_way");
+  EXPECT_EQ(face("GB", "512"), "danger");
+  EXPECT_EQ(face("GB", "629"), "prohibition");
+  EXPECT_EQ(face("CN", "禁1"), "stop");
+  EXPECT_EQ(face("CN", "禁12"), "prohibition");
+  EXPECT_EQ(face("CN", "警13"), "warning_yellow");
+  EXPECT_EQ(face("CN", "指4"), "mandatory");
+  EXPECT_EQ(face("", "-1", "-1", "Sign_SpeedLimit_25"), "speed_limit_us 25");
+  EXPECT_EQ(face("", "-1", "-1", "Sign_Stop"), "stop");
+  EXPECT_EQ(face("", "-1", "-1", "Signal_3Light_Post01"), "plate");
+  EXPECT_EQ(face("", "-1", "-1", "Sign_Elephants"), "plate");
+  EXPECT_EQ(face("FR", "R1-1"), "plate");
+  network::Signal limit;
+  limit.country = "US", limit.type = "R2-1", limit.value = 55.0, limit.unit = "mph";
+  EXPECT_EQ(FaceOf(limit, false), "speed_limit_us 55");
+  // Yellow diamonds and triangles, blue discs and boards, green guides.
+  const auto middle = [](const char* kind) { return DrawFace(kind).At(64, 64); };
+  for (const char* yellow : {"warning_diamond", "guide_yellow"}) {
+    EXPECT_GT(middle(yellow).red, 220) << yellow;
+    EXPECT_LT(middle(yellow).blue, 60) << yellow;
+  }
+  for (const char* blue : {"mandatory", "guide_blue"}) EXPECT_GT(middle(blue).blue, 120) << blue;
+  EXPECT_GT(middle("guide_green").green, middle("guide_green").red + 60);
+  EXPECT_EQ(PlateOutline("warning_diamond").size(), 4u);
+  EXPECT_EQ(PlateOutline("speed_limit_us 25").size(), 4u);
+  EXPECT_EQ(PlateOutline("keep_right").size(), 20u);
+}
+
 TEST(SignFace, LeftAndRightMirrorOneAnother) {
   for (const auto& [left, right] : {std::pair("chevron_left", "chevron_right"), std::pair("bend_left", "bend_right"),
                                     std::pair("bends_left_first", "bends_right_first")}) {
