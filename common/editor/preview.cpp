@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/editor/preview.hpp"
 
-#include <memory>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/traffic/demand/map_demand.hpp"
 #include "common/world/traffic_map/map_network.hpp"

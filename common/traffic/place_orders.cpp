@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,10 +24,10 @@ void Obey(TrafficModel& model, std::uint32_t id, OrderKind kind, double value) {
       model.Release(id);
       return;
     case OrderKind::kOvertake:
-      model.TellToPass(id);
+      model.CommandOvertake(id);
       return;
     case OrderKind::kChangeLane:
-      model.TellToChange(id, value > 0.0 ? 1 : -1);
+      model.CommandLaneChange(id, value > 0.0 ? 1 : -1);
       return;
   }
 }

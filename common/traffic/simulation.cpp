@@ -23,53 +23,80 @@ TrafficData::TrafficData(const TrafficSettings& of, std::shared_ptr<const Traffi
 void Simulation::Observe(std::span<const driver::Footprint> others) {
   seen.bodies.assign(others.begin(), others.end());
   for (const AgentPose& pose : store.poses) {
-    if (store.agents[pose.id].is_struck) seen.bodies.push_back(FootprintOf(pose, store.traits[pose.id]));
+    if (store.agents[pose.id].is_crashed) seen.bodies.push_back(FootprintOf(pose, store.traits[pose.id]));
   }
   observation.See(seen.bodies);
   // Else with what comes next, while a vehicle is in near memory.
-  if (store.people || !store.motors.empty()) observation.LookAhead();
+  if (store.people || !store.motors.empty()) observation.FindLeaders();
+}
+
+// Writes where vehicles wait for people on foot, and which people may go.
+void Simulation::LetPeopleCross(double dt_s) {
+  if (store.people && store.motors.empty()) crosswalks.LookAtPeople(dt_s);
+}
+
+void Simulation::Reserve(double dt_s) {
+  if (store.motors.empty()) right_of_way.Arbitrate(dt_s);
+}
+
+void Simulation::ChangeLanes(std::int64_t step_ns) {
+  if (store.motors.empty()) lane_changes.ChangeLanes(step_ns);
+}
+
+void Simulation::Overtake(std::int64_t step_ns) {
+  if (store.motors.empty()) overtaking.Overtake(step_ns);
 }
 
 // How each driver holds the car during the step.
-void Simulation::Decide(double dt_s) {
+void Simulation::Accelerate(double dt_s) {
   if (!store.motors.empty()) {
     motors_driving.GiveWay();
     EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { motors_driving.DriveMotors(id, dt_s); });
     return;
   }
-  const std::int64_t step_ns = std::llround(dt_s * 1e9);
-  if (store.people) crosswalks.LookAtPeople(dt_s);
-  right_of_way.Arbitrate(dt_s);
-  lane_changes.ChangeLanes(step_ns);
-  overtaking.Overtake(step_ns);
   EachDriving(pool.get(), store.agents,
               [&](std::uint32_t id) { step.wanted[id] = acceleration.Smoothed(id, acceleration.Wanted(id), dt_s); });
   if (!store.full) return;
   EachDriving(pool.get(), store.agents, [&](std::uint32_t id) { full_motion.DriveFull(id, step.wanted[id], dt_s); });
 }
 
-void Simulation::LeaveAtEnds() {
+// At the end of its last lane a vehicle leaves; vehicles that have been hit slide.
+void Simulation::LeaveOrSlide(double dt_s) {
   for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
     store.missed += step.missed_now[id];
     if (step.ends[id]) entering.Leave(id);
   }
+  crashes.StepCrashed(dt_s);
+}
+
+// Vehicles of flows arrive, waiting ones enter, and a scenario's ones appear.
+void Simulation::Enter(std::int64_t step_ns) {
+  arriving.Arrive(store.time_ns + step_ns);
+  entering.Enter();
+  appearing_vehicles.SpawnAll();
+}
+
+// What the next step, and others, see.
+void Simulation::Show(std::int64_t step_ns) {
+  store.time_ns += step_ns;
+  signals.FindColours();
+  body_poses.FindPoses();
 }
 
 void Simulation::Step(double dt_s, std::span<const driver::Footprint> others) {
   RODEIRA_ASSERT(dt_s > 0.0);
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   Observe(others);
-  Decide(dt_s);       // reads the old state …
-  motion.Move(dt_s);  // … writes the new one
-  LeaveAtEnds();
-  crashes.SlideStruck(dt_s);
+  LetPeopleCross(dt_s);
+  Reserve(dt_s);
+  ChangeLanes(step_ns);
+  Overtake(step_ns);
+  Accelerate(dt_s);
+  motion.Move(dt_s);  // up to here the old state is read, from here on the new one is written
+  LeaveOrSlide(dt_s);
   if (store.people) store.people->Step(dt_s, store.time_ns + step_ns);
-  arriving.Arrive(store.time_ns + step_ns);
-  entering.Enter();
-  appearing_vehicles.AppearAll();
-  store.time_ns += step_ns;
-  signals.FindColours();
-  body_poses.FindPoses();
+  Enter(step_ns);
+  Show(step_ns);
 }
 
 }  // namespace rodeira::traffic

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 
@@ -101,14 +102,20 @@ struct Simulation : TrafficData {
   MotorsDriving motors_driving;
   Arriving arriving;
   Entering entering;
-  Appearing appearing_vehicles;
+  Spawning appearing_vehicles;
   Placing placing;
   DetailReport details;
 
  private:
   void Observe(std::span<const driver::Footprint> others);
-  void Decide(double dt_s);
-  void LeaveAtEnds();
+  void LetPeopleCross(double dt_s);
+  void Reserve(double dt_s);
+  void ChangeLanes(std::int64_t step_ns);
+  void Overtake(std::int64_t step_ns);
+  void Accelerate(double dt_s);
+  void LeaveOrSlide(double dt_s);
+  void Enter(std::int64_t step_ns);
+  void Show(std::int64_t step_ns);
 };
 
 }  // namespace rodeira::traffic

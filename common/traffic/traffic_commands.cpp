@@ -27,17 +27,17 @@ void TrafficModel::Release(std::uint32_t id) {
   simulation_->store.agents[id].told_past = false;
 }
 
-void TrafficModel::TellToPass(std::uint32_t id) {
+void TrafficModel::CommandOvertake(std::uint32_t id) {
   RODEIRA_ASSERT(id < simulation_->store.agents.size());
   simulation_->store.agents[id].told_past = true;
 }
 
-void TrafficModel::TellToChange(std::uint32_t id, int side) {
+void TrafficModel::CommandLaneChange(std::uint32_t id, int side) {
   RODEIRA_ASSERT(id < simulation_->store.agents.size() && (side == 1 || side == -1));
   simulation_->store.agents[id].told_side = side;
 }
 
-std::optional<std::uint32_t> TrafficModel::AheadOf(const driver::Footprint& other) const {
+std::optional<std::uint32_t> TrafficModel::LeaderOf(const driver::Footprint& other) const {
   constexpr double kWidest_m = 4.0;
   constexpr std::size_t kMostWays = 256;
   std::vector<std::vector<std::pair<double, std::uint32_t>>> on(
@@ -83,22 +83,22 @@ void TrafficModel::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, c
   simulation_->crashes.Strike(id, impulse_Ns, point_W);
 }
 
-bool TrafficModel::IsAppearing(std::uint32_t id) const { return simulation_->appearing_vehicles.IsAppearing(id); }
+bool TrafficModel::IsSpawning(std::uint32_t id) const { return simulation_->appearing_vehicles.IsSpawning(id); }
 
-base::Status TrafficModel::CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const {
-  return simulation_->appearing_vehicles.CheckAppear(id, lane, s_m);
+base::Status TrafficModel::CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const {
+  return simulation_->appearing_vehicles.CheckSpawn(id, lane, s_m);
 }
 
-base::Result<bool> TrafficModel::LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
-  return simulation_->appearing_vehicles.LetAppear(id, lane, s_m, speed_mps);
+base::Result<bool> TrafficModel::Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
+  return simulation_->appearing_vehicles.Spawn(id, lane, s_m, speed_mps);
 }
 
-base::Status TrafficModel::CheckCall(std::string_view road, double s_m) const {
-  return simulation_->crosswalks.CheckCall(road, s_m);
+base::Status TrafficModel::CheckSpawnPedestrian(std::string_view road, double s_m) const {
+  return simulation_->crosswalks.CheckSpawnPedestrian(road, s_m);
 }
 
-base::Status TrafficModel::CallPedestrian(std::string_view road, double s_m, bool from_left) {
-  return simulation_->crosswalks.CallPedestrian(road, s_m, from_left);
+base::Status TrafficModel::SpawnPedestrian(std::string_view road, double s_m, bool from_left) {
+  return simulation_->crosswalks.SpawnPedestrian(road, s_m, from_left);
 }
 
 void TrafficModel::HitPedestrian(std::uint32_t id) {

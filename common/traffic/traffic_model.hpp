@@ -67,18 +67,18 @@ class TrafficModel {
   void CapSpeed(std::uint32_t id, double speed_mps);  // never faster
   // Once, as soon as the plan of overtaking allows it, without being held up first, or, on a road of several lanes, as
   // soon as the lane beside is free.
-  void TellToPass(std::uint32_t id);
+  void CommandOvertake(std::uint32_t id);
   // Once, to the lane on its left (+1) or right (-1), as soon as marks, road and safety allow it, whatever it brings.
-  void TellToChange(std::uint32_t id, int side);
+  void CommandLaneChange(std::uint32_t id, int side);
   void Release(std::uint32_t id);  // forgets all that
   // One of the settings' `scripted` comes onto a lane (ROAD:LANE), with its middle at a station of the road, no faster
   // than asked and than lets it stop before what is ahead: in this step's end, or the first one in which there is room
   // for it. Wrong input with a sentence where there can never be room; false where it is on the road already, or waits
   // to be.
-  base::Result<bool> LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
-  // Whether it ever could; Wrong input as LetAppear's.
-  base::Status CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const;
-  bool IsAppearing(std::uint32_t id) const;
+  base::Result<bool> Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
+  // Whether it ever could; Wrong input as Spawn's.
+  base::Status CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const;
+  bool IsSpawning(std::uint32_t id) const;
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
   // 1 mm/s is nothing to it as long as it drives; nothing happens to who is not there.
@@ -86,7 +86,7 @@ class TrafficModel {
   // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or
   // further on the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front
   // of itself.
-  std::optional<std::uint32_t> AheadOf(const driver::Footprint& other) const;
+  std::optional<std::uint32_t> LeaderOf(const driver::Footprint& other) const;
 
   // Those on the road, driving or struck, by ascending id.
   const std::vector<AgentPose>& poses() const;
@@ -109,8 +109,8 @@ class TrafficModel {
   const Pedestrians* people() const;
   // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input
   // where there is none, or the settings have no `pedestrians`.
-  base::Status CallPedestrian(std::string_view road, double s_m, bool from_left);
-  base::Status CheckCall(std::string_view road, double s_m) const;  // whether somebody can be called there
+  base::Status SpawnPedestrian(std::string_view road, double s_m, bool from_left);
+  base::Status CheckSpawnPedestrian(std::string_view road, double s_m) const;  // whether somebody can be called there
   // Who has been hit, by his number, stays where he is.
   void HitPedestrian(std::uint32_t id);
   // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.

@@ -3,9 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
-#include <filesystem>
 
 #include "common/driving/scenario/scenario_file.hpp"
 #include "idl/topics.hpp"
@@ -45,14 +45,14 @@ std::optional<traffic::OrderKind> OrderOf(std::string_view event) {
 base::Status CheckAgainst(const traffic::TrafficModel& model, const scenario::Event& event) {
   if (event.name == scenario::kTrafficPedestrian) {
     const auto crossing = scenario::ParseCrossing(event.argument);
-    return crossing ? model.CheckCall(crossing.value().road, crossing.value().s_m) : crossing.error();
+    return crossing ? model.CheckSpawnPedestrian(crossing.value().road, crossing.value().s_m) : crossing.error();
   }
   if (event.name == scenario::kTrafficAppear) {
     const auto choice = scenario::ParseAgentOnLane(event.argument);
     if (!choice) return choice.error();
     if (!(event.value >= 0.0))
       return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", event.value));
-    return model.CheckAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m);
+    return model.CheckSpawn(choice.value().id, choice.value().at->road, choice.value().at->s_m);
   }
   const auto kind = OrderOf(event.name);
   if (!kind) return base::WrongInput("the traffic does not know this event");

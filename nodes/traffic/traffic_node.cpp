@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,17 +17,16 @@
 #include "common/driving/scenario/event.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/network/tight_bends.hpp"
+#include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/place_orders.hpp"
 #include "common/traffic/signals/map_lights.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "common/world/road/map_world.hpp"
+#include "common/world/road/world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
-#include "common/traffic/pedestrians/pedestrians.hpp"
-#include "common/world/road/world.hpp"
-#include "common/world/lanes/signs.hpp"
 #include "nodes/traffic/event_check.hpp"
 
 namespace rodeira::nodes {
@@ -197,7 +196,7 @@ class TrafficNode final : public lockstep::Node {
         continue;
       }
       if (event.name() == scenario::kTrafficAppear) {
-        if (auto status = LetAppear(event.argument(), event.value(), where); !status) return status;
+        if (auto status = Spawn(event.argument(), event.value(), where); !status) return status;
         continue;
       }
       if (auto status = Tell(event.argument(), *OrderOf(event.name()), event.value(), where); !status) return status;
@@ -205,10 +204,10 @@ class TrafficNode final : public lockstep::Node {
     return {};
   }
   // That there is no room for it, or that it is there, is no mistake of the scenario's, but a person should know.
-  base::Status LetAppear(const std::string& argument, double speed_mps, const std::string& where) {
+  base::Status Spawn(const std::string& argument, double speed_mps, const std::string& where) {
     const auto choice = scenario::ParseAgentOnLane(argument);
     if (!choice) return base::WrongInput(choice.error().message, where);
-    const auto told = model_.LetAppear(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
+    const auto told = model_.Spawn(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
     if (!told) return base::WrongInput(told.error().message, where);
     if (told.value())
       told_to_appear_.emplace_back(choice.value().id, where);
@@ -220,7 +219,7 @@ class TrafficNode final : public lockstep::Node {
   }
   void TellWhoWaits() {
     for (const auto& [id, where] : told_to_appear_) {
-      if (model_.IsAppearing(id))
+      if (model_.IsSpawning(id))
         base::Log(base::LogLevel::kWarning, name_,
                   fmt::format("{}: there is no room for agent {} yet; it appears as soon as there is", where, id));
     }
@@ -229,7 +228,7 @@ class TrafficNode final : public lockstep::Node {
   base::Status Call(const std::string& argument, const std::string& where) {
     const auto crossing = scenario::ParseCrossing(argument);
     if (!crossing) return base::WrongInput(crossing.error().message, where);
-    const auto status = model_.CallPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
+    const auto status = model_.SpawnPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
     return status ? status : base::WrongInput(status.error().message, where);
   }
   // Those that an event speaks to, at once or when they come to a place.
@@ -265,7 +264,7 @@ class TrafficNode final : public lockstep::Node {
         for (std::uint32_t id = 0; id < model_.vehicles(); ++id) agents.push_back(id);
         break;
       case scenario::AgentChoice::Kind::kAhead:
-        if (const auto ahead = others_.empty() ? std::nullopt : model_.AheadOf(others_.front()))
+        if (const auto ahead = others_.empty() ? std::nullopt : model_.LeaderOf(others_.front()))
           agents.push_back(*ahead);
         else
           base::Log(base::LogLevel::kWarning, name_,

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
-#include <optional>
-#include <string>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
@@ -219,7 +219,7 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
           EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
           if (event.name != scenario::kTrafficAppear) continue;
           const auto choice = scenario::ParseAgentOnLane(event.argument).value();
-          const auto told = model.LetAppear(choice.id, choice.at->road, choice.at->s_m, event.value);
+          const auto told = model.Spawn(choice.id, choice.at->road, choice.at->s_m, event.value);
           if (!told)
             refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too
           appeared += told && told.value() ? 1 : 0;

@@ -25,13 +25,13 @@ constexpr double kNear_m = 30.0;               // farther away nobody's rectangl
 
 }  // namespace
 
-bool Appearing::IsAppearing(std::uint32_t id) const {
+bool Spawning::IsSpawning(std::uint32_t id) const {
   return std::any_of(out_.appearing.begin(), out_.appearing.end(),
-                     [id](const AppearingVehicle& next) { return next.id == id; });
+                     [id](const SpawningVehicle& next) { return next.id == id; });
 }
 
 // Whether it could ever stand there.
-base::Status Appearing::CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const {
+base::Status Spawning::CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const {
   const double half = 0.5 * in_.traits[id].length_m, low = d_m - half - kZoneClearance_m,
                high = d_m + half + kZoneClearance_m;
   const lanes::Track& lane = in_.map.graph[track];
@@ -56,8 +56,8 @@ base::Status Appearing::CheckPlace(std::uint32_t id, std::uint32_t track, double
 }
 
 // Where it would: the track and d on it.
-base::Result<std::pair<std::uint32_t, double>> Appearing::PlaceToAppear(std::uint32_t id, const std::string& lane,
-                                                                        double s_m) const {
+base::Result<std::pair<std::uint32_t, double>> Spawning::PlaceToSpawn(std::uint32_t id, const std::string& lane,
+                                                                      double s_m) const {
   if (id < in_.settings.vehicles || id >= out_.agents.size()) {
     if (in_.settings.scripted.empty())
       return base::WrongInput(fmt::format(
@@ -85,22 +85,22 @@ base::Result<std::pair<std::uint32_t, double>> Appearing::PlaceToAppear(std::uin
   return std::pair(*there, d);
 }
 
-base::Status Appearing::CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const {
-  const auto place = PlaceToAppear(id, lane, s_m);
+base::Status Spawning::CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const {
+  const auto place = PlaceToSpawn(id, lane, s_m);
   return place ? base::Status() : place.error();
 }
 
-base::Result<bool> Appearing::LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
+base::Result<bool> Spawning::Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
   RODEIRA_ASSERT(speed_mps >= 0.0);
-  const auto place = PlaceToAppear(id, lane, s_m);
+  const auto place = PlaceToSpawn(id, lane, s_m);
   if (!place) return place.error();
-  if (out_.agents[id].on_road || out_.agents[id].is_struck || IsAppearing(id)) return false;
+  if (out_.agents[id].on_road || out_.agents[id].is_crashed || IsSpawning(id)) return false;
   out_.appearing.push_back({id, place.value().first, place.value().second, speed_mps});
   return true;
 }
 
 // Nobody's rectangle is nearer than it would stand behind him.
-bool Appearing::IsClearFor(const AppearingVehicle& next) const {
+bool Spawning::IsClearFor(const SpawningVehicle& next) const {
   const AgentTraits& traits = in_.traits[next.id];
   const lanes::CurvePoint at = in_.map.graph[next.track].curve.At(next.d_m);
   const driver::Footprint own{next.id,       at.p_W.x(),
@@ -122,7 +122,7 @@ bool Appearing::IsClearFor(const AppearingVehicle& next) const {
 
 // Whether somebody counts on that place: he has been let into zones before it, or comes back to it from overtaking, or
 // overtakes along it.
-bool Appearing::IsTakenUp(std::uint32_t id) const {
+bool Spawning::IsTakenUp(std::uint32_t id) const {
   const std::uint32_t track = out_.agents[id].path.front().track;
   if (!in_.facing[track].empty()) return true;
   const double half = 0.5 * in_.traits[id].length_m, low = out_.agents[id].o_m - half,
@@ -134,7 +134,7 @@ bool Appearing::IsTakenUp(std::uint32_t id) const {
     if (!agent.grants.empty()) to = agent.granted_m + kBehindZones_m;
     if (agent.overtaking.active()) to = std::max(to, agent.overtaking.to_m + kBehindZones_m);
     const double rear = agent.o_m - 0.5 * in_.traits[other].length_m;
-    for (const Stretch& stretch : in_.stretches[other]) {
+    for (const RouteSegment& stretch : in_.stretches[other]) {
       if (stretch.track == track && stretch.zero_m + low < to && stretch.zero_m + high > rear) return true;
     }
   }
@@ -142,7 +142,7 @@ bool Appearing::IsTakenUp(std::uint32_t id) const {
 }
 
 // At the speed that it was told, or what the way ahead bears, once nobody has to brake hard for it, nor it for anybody.
-bool Appearing::TryAppear(const AppearingVehicle& next) {
+bool Spawning::TrySpawn(const SpawningVehicle& next) {
   Agent& agent = out_.agents[next.id];
   const AgentTraits& traits = in_.traits[next.id];
   const Agent before = agent;
@@ -157,17 +157,17 @@ bool Appearing::TryAppear(const AppearingVehicle& next) {
   agent.speed_mps = next.speed_mps;
   agent.path = {{next.track, 0.0, 0.0, 0.0, 0.0, 1.0}};
   if (!IsClearFor(next) || IsTakenUp(next.id)) return wait();
-  out_.ways.FindStretches(next.id, in_.settings.sight_m);
+  out_.ways.FindRouteSegments(next.id, in_.settings.sight_m);
   double speed = std::min({next.speed_mps, in_.limits.Allowed(next.id, out_.agents[next.id].o_m).speed_mps,
                            Cap_mps(out_.agents[next.id], in_.traits[next.id]), out_.entering.AtMostForLine(next.id)});
   if (in_.people) speed = std::min(speed, in_.crosswalks.AtMostForPeople(next.id));
   if (speed < 0.0) return wait();
   agent.speed_mps = speed;
   const double limit = std::max(speed, in_.limits.Limit_mps(next.id, next.track, next.d_m));
-  const Ahead ahead = in_.neighbours.FindAhead(next.id);
+  const Leader ahead = in_.neighbours.FindLeader(next.id);
   if (ahead.any && in_.following.Following(next.id, limit, true, ahead.gap_m, ahead.speed_mps) < -kMaxSpawnBraking_mps2)
     return wait();
-  const Behind follower = in_.neighbours.FindBehind(next.id, next.track, next.d_m, next.d_m - half);
+  const Follower follower = in_.neighbours.FindFollower(next.id, next.track, next.d_m, next.d_m - half);
   if (follower.any && in_.following.FollowerDoes(follower, true, follower.gap_m, speed) < -kMaxSpawnBraking_mps2)
     return wait();
   if (in_.full && !out_.full_motion.PlaceFull(next.id)) return wait();
@@ -177,8 +177,8 @@ bool Appearing::TryAppear(const AppearingVehicle& next) {
   return true;
 }
 
-void Appearing::AppearAll() {
-  std::erase_if(out_.appearing, [this](const AppearingVehicle& next) { return TryAppear(next); });
+void Spawning::SpawnAll() {
+  std::erase_if(out_.appearing, [this](const SpawningVehicle& next) { return TrySpawn(next); });
 }
 
 }  // namespace rodeira::traffic

@@ -31,7 +31,7 @@
 namespace rodeira::traffic {
 
 // Vehicles that a scenario puts onto a lane.
-class Appearing {
+class Spawning {
  public:
   struct Reads {
     const TrafficSettings& settings;
@@ -40,8 +40,8 @@ class Appearing {
     const std::optional<FullCars>& full;
     const std::optional<Pedestrians>& people;
     const std::vector<driver::Footprint>& bodies;
-    std::span<const Stretches> stretches;
-    std::span<const std::vector<Facing>> facing;
+    std::span<const RouteSegments> stretches;
+    std::span<const std::vector<OncomingOvertaker>> facing;
     const Neighbours& neighbours;
     const SpeedLimits& limits;
     const CarFollowing& following;
@@ -50,33 +50,33 @@ class Appearing {
   };
   struct Writes {
     std::span<Agent> agents;
-    std::vector<AppearingVehicle>& appearing;
+    std::vector<SpawningVehicle>& appearing;
     Occupancy& occupants;
-    std::span<Ahead> ahead;
+    std::span<Leader> ahead;
     Ways& ways;
     Observation& observation;
     FullMotion& full_motion;
     Entering& entering;
   };
-  Appearing(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
+  Spawning(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  bool IsAppearing(std::uint32_t id) const;
-  // Whether it ever could; Wrong input as LetAppear's.
-  base::Status CheckAppear(std::uint32_t id, const std::string& lane, double s_m) const;
+  bool IsSpawning(std::uint32_t id) const;
+  // Whether it ever could; Wrong input as Spawn's.
+  base::Status CheckSpawn(std::uint32_t id, const std::string& lane, double s_m) const;
   // One of the settings' `scripted` comes onto a lane (ROAD:LANE), with its middle at a station of the road, no faster
   // than asked and than lets it stop before what is ahead: in this step's end, or the first one in which there is room
   // for it. Wrong input with a sentence where there can never be room; false where it is on the road already, or waits
   // to be.
-  base::Result<bool> LetAppear(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
-  void AppearAll();
+  base::Result<bool> Spawn(std::uint32_t id, const std::string& lane, double s_m, double speed_mps);
+  void SpawnAll();
 
  private:
   base::Status CheckPlace(std::uint32_t id, std::uint32_t track, double d_m) const;
-  base::Result<std::pair<std::uint32_t, double>> PlaceToAppear(std::uint32_t id, const std::string& lane,
-                                                               double s_m) const;
-  bool IsClearFor(const AppearingVehicle& next) const;
+  base::Result<std::pair<std::uint32_t, double>> PlaceToSpawn(std::uint32_t id, const std::string& lane,
+                                                              double s_m) const;
+  bool IsClearFor(const SpawningVehicle& next) const;
   bool IsTakenUp(std::uint32_t id) const;
-  bool TryAppear(const AppearingVehicle& next);
+  bool TrySpawn(const SpawningVehicle& next);
 
   Reads in_;
   Writes out_;

@@ -68,7 +68,7 @@ void Entering::Enter() {
     if (!among_others) return;
     const double front = out_.agents[id].o_m + 0.5 * in_.traits[id].length_m,
                  sight = out_.ways.SightOf(out_.agents[id]);
-    for (const Stretch& stretch : in_.stretches[id]) {
+    for (const RouteSegment& stretch : in_.stretches[id]) {
       if (stretch.begin_m > front - 1.0 && stretch.begin_m - front < sight) out_.expected[stretch.track] = 1;
     }
   };
@@ -136,7 +136,7 @@ bool Entering::TryEnter(std::uint32_t id) {
     std::swap(agent, entering);
     return false;
   };
-  out_.ways.FindStretches(id, in_.settings.sight_m);
+  out_.ways.FindRouteSegments(id, in_.settings.sight_m);
   const double limit = in_.map.plans[agent.entry].limit_mps * traits.speed_factor;
   double speed = kEnteringShare *
                  std::min(in_.limits.Allowed(id, out_.agents[id].o_m).speed_mps * traits.speed_factor, traits.top_mps);
@@ -152,7 +152,7 @@ bool Entering::TryEnter(std::uint32_t id) {
         return wait();
     }
   }
-  const Ahead ahead = in_.neighbours.FindAhead(id);
+  const Leader ahead = in_.neighbours.FindLeader(id);
   if (ahead.any) {
     const auto safe = [&](double v) {
       return ahead.gap_m > 2.0 * traits.idm.standing_gap_m &&

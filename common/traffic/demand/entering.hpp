@@ -35,7 +35,7 @@ class Entering {
     std::span<const AgentTraits> traits;
     const std::optional<Pedestrians>& people;
     const std::vector<FlowCount>& flows;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     std::span<const std::vector<Block>> blocks;
     std::span<const std::uint8_t> at_entry;
     const Neighbours& neighbours;
@@ -49,7 +49,7 @@ class Entering {
     std::uint64_t& next_grant;
     std::uint64_t& ended;
     std::uint64_t& missed;
-    std::span<Passage> passages;
+    std::span<ConflictPassage> passages;
     std::span<std::uint32_t> missed_now;
     Lists<std::uint32_t>& present;
     std::vector<std::uint8_t>& expected;

@@ -78,7 +78,7 @@ void Placing::PlaceAll(std::span<const driver::Footprint> others) {
   }
   for (Agent& agent : out_.agents) agent.speed_mps = agent.on_road ? kFast_mps : 0.0;  // that they look far
   out_.observation.See(others);
-  out_.observation.LookAhead();
+  out_.observation.FindLeaders();
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
     Agent& agent = out_.agents[id];
     if (!agent.on_road) continue;

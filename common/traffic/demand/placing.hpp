@@ -23,7 +23,7 @@ class Placing {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Ahead> ahead;
+    std::span<const Leader> ahead;
     const SpeedLimits& limits;
   };
   struct Writes {

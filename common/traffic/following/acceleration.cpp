@@ -58,7 +58,7 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, (Cap_mps(in_.agents[id], in_.traits[id]) - v) / in_.settings.tracking_s);
   if (agent.seeks)
     wanted = std::min(wanted, std::max(-kSeeking_mps2, (kSeekingShare * planned - v) / in_.settings.tracking_s));
-  const Ahead& ahead = in_.ahead[id];
+  const Leader& ahead = in_.ahead[id];
   if (ahead.any && ahead.gap_m < in_.settings.sight_m) {
     const bool eased = ahead.id >= 0 && ahead.id == agent.eased_for;
     const double behind = eased ? in_.following.FollowComing(id, static_cast<std::uint32_t>(ahead.id), ahead.gap_m)
@@ -71,7 +71,7 @@ double Acceleration::Wanted(std::uint32_t id) const {
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
   if (in_.bars[id] < kNoBarrier_m) wanted = std::min(wanted, in_.following.StopAt(id, in_.bars[id], kYieldingShare));
   wanted = std::min(wanted, in_.leaves[id]);
-  wanted = std::min({wanted, in_.oncoming.WantedFacing(id, limit), in_.lane_changes.WantedCourteous(id, limit)});
+  wanted = std::min({wanted, in_.oncoming.WantedForOvertaker(id, limit), in_.lane_changes.WantedCourteous(id, limit)});
   wanted = std::clamp(in_.overtaking.WantedBeside(id, wanted), -idm.hardest_mps2, idm.acceleration_mps2);
   return agent.brake_mps2 > 0.0 ? std::min(wanted, -agent.brake_mps2) : wanted;
 }

@@ -28,8 +28,8 @@ class Acceleration {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const std::optional<FullCars>& full;
-    std::span<const Ahead> ahead;
-    std::span<const Passage> passages;
+    std::span<const Leader> ahead;
+    std::span<const ConflictPassage> passages;
     std::span<const double> leaves;
     std::span<const double> bars;
     const SpeedLimits& limits;

@@ -43,7 +43,7 @@ double CarFollowing::Following(std::uint32_t id, double limit_mps, bool any, dou
 }
 
 // What who follows does behind a leader.
-double CarFollowing::FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const {
+double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const {
   if (!behind.any) return 0.0;
   const double d = std::max(0.0, behind.d_m);
   if (behind.id >= 0) {

@@ -24,7 +24,7 @@ class CarFollowing {
 
   double StopAt(std::uint32_t id, double odometer_m, double share = 1.0) const;
   double Following(std::uint32_t id, double limit_mps, bool any, double gap_m, double leader_mps) const;
-  double FollowerDoes(const Behind& behind, bool any, double gap_m, double leader_mps) const;
+  double FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const;
   double FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const;
 
  private:

@@ -18,10 +18,10 @@ constexpr double kAbove = 1.0 + 1e-9;  // than any rounding of a square
 // are.
 driver::SpeedPlan::Allowed SpeedLimits::Allowed(std::uint32_t id, double odometer_m) const {
   driver::SpeedPlan::Allowed allowed{1e3, 0.0};
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < odometer_m) continue;
     if (stretch.begin_m <= odometer_m) {
-      const Below& below = in_.below[id];
+      const CurrentTrackCache& below = in_.below[id];
       const double d = odometer_m - stretch.zero_m;
       const bool here = below.track == stretch.track && d >= below.plan.from_m && d < below.plan.to_m;
       allowed = here ? below.plan.nodes.At(d) : in_.map.plans[stretch.track].plan.At(d);
@@ -49,7 +49,7 @@ double SpeedLimits::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m)
 // By the limit where it is: the speed without anybody and any bend.
 double SpeedLimits::Desired_mps(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < agent.o_m) continue;
     const double limit =
         stretch.limit_mps >= 0.0 ? stretch.limit_mps : LimitOn(stretch.track, agent.o_m - stretch.zero_m);
@@ -59,7 +59,7 @@ double SpeedLimits::Desired_mps(std::uint32_t id) const {
 }
 
 double SpeedLimits::AllowedAt(std::uint32_t id, double odometer_m) const {
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < odometer_m && &stretch != &in_.stretches[id].back()) continue;
     const double d = odometer_m - stretch.zero_m;
     for (const PlannedAt& known : in_.known[id]) {

@@ -24,8 +24,8 @@ class SpeedLimits {
     const TrafficMap& map;
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
-    std::span<const Stretches> stretches;
-    std::span<const Below> below;
+    std::span<const RouteSegments> stretches;
+    std::span<const CurrentTrackCache> below;
     std::span<const std::array<PlannedAt, 2>> known;
   };
   explicit SpeedLimits(const Reads& reads) : in_(reads) {}

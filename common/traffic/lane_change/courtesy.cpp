@@ -20,7 +20,7 @@ double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const AgentTraits& traits = in_.traits[id];
   double wanted = traits.idm.hardest_mps2;
   const double front = FrontOf(out_.agents[id], in_.traits[id]);
-  const auto beside_it = [&](const Stretch& stretch) { return stretch.has_beside && stretch.begin_m <= front; };
+  const auto beside_it = [&](const RouteSegment& stretch) { return stretch.has_beside && stretch.begin_m <= front; };
   if (agent.change.side != 0 || std::none_of(out_.stretches[id].begin(), out_.stretches[id].end(), beside_it))
     return wanted;
   const Piece& here = agent.path.back();

@@ -14,7 +14,7 @@ constexpr double kSeeks_m = 350.0;  // so far before its lane parts from its rou
 
 }  // namespace
 
-void LaneChanges::BeginChange(std::uint32_t id, Sideways&& way) {
+void LaneChanges::BeginChange(std::uint32_t id, LaneChangeOption&& way) {
   Agent& agent = out_.agents[id];
   agent.seeks = false;
   agent.change = {way.side, way.piece.blend_from_m, way.piece.blend_from_m + way.piece.blend_m};
@@ -24,7 +24,7 @@ void LaneChanges::BeginChange(std::uint32_t id, Sideways&& way) {
   const double front = way.piece.begin_m - way.piece.zero_m;
   out_.observation.Part(way.piece.track);
   out_.occupants.Insert(way.piece.track, {id, -1, front - in_.traits[id].length_m, front});
-  out_.ahead[id] = in_.neighbours.FindAhead(id);
+  out_.ahead[id] = in_.neighbours.FindLeader(id);
 }
 
 // To which side it is to go over now: of a road of several lanes, who is ahead is passed on the lane beside. 0: to
@@ -67,7 +67,7 @@ void LaneChanges::ChangeLanes(std::int64_t step_ns) {
       continue;
     }
     if (!in_.settings.changes_lanes || !ThinksOfLanes(id, step_ns)) continue;
-    std::optional<Sideways> best;
+    std::optional<LaneChangeOption> best;
     for (const int side : {1, -1}) {
       auto way = Weigh(id, side);
       if (way && way->surplus_mps2 > 0.0 && (!best || way->surplus_mps2 > best->surplus_mps2)) best = std::move(way);

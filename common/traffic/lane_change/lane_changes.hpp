@@ -30,7 +30,7 @@ class LaneChanges {
     std::span<const AgentTraits> traits;
     const std::int64_t& time_ns;
     std::span<const std::uint8_t> beside;
-    std::span<const Passage> passages;
+    std::span<const ConflictPassage> passages;
     const CurrentTracks& tracks;
     const Neighbours& neighbours;
     const SpeedLimits& limits;
@@ -39,9 +39,9 @@ class LaneChanges {
   };
   struct Writes {
     std::span<Agent> agents;
-    std::span<Stretches> stretches;
+    std::span<RouteSegments> stretches;
     Occupancy& occupants;
-    std::span<Ahead> ahead;
+    std::span<Leader> ahead;
     Ways& ways;
     Observation& observation;
   };
@@ -54,8 +54,8 @@ class LaneChanges {
   double WantedCourteous(std::uint32_t id, double limit_mps) const;
 
  private:
-  std::optional<Sideways> Weigh(std::uint32_t id, int side, bool told = false);
-  void BeginChange(std::uint32_t id, Sideways&& way);
+  std::optional<LaneChangeOption> Weigh(std::uint32_t id, int side, bool told = false);
+  void BeginChange(std::uint32_t id, LaneChangeOption&& way);
   int ToldSide(std::uint32_t id) const;
   void ChangeAsTold(std::uint32_t id, int side);
 

@@ -72,8 +72,8 @@ std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side) const {
 // Whether its way between two odometers is plain lane: no junction, no conflict zone, no line, no crossing for people
 // on foot, easy to drive, and it goes on.
 bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
-  const Stretch* before = nullptr;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  const RouteSegment* before = nullptr;
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     const bool beside = before != nullptr && before->changes;  // then it is there from its rear on
     const double begin = beside ? from_m : stretch.begin_m;
     if (begin > to_m) break;
@@ -100,7 +100,7 @@ bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
 
 // Whether the marks let it over to that side all the way.
 bool LaneWays::MayCross(std::uint32_t id, int side, double from_m, double to_m) const {
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < from_m) continue;
     if (!in_.map.marks.MayCross(stretch.track, side > 0 ? lanes::Side::kLeft : lanes::Side::kRight,

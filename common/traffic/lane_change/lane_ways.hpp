@@ -23,7 +23,7 @@ class LaneWays {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const std::optional<Pedestrians>& people;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     const SpeedLimits& limits;
   };
   explicit LaneWays(const Reads& reads) : in_(reads) {}

@@ -26,7 +26,7 @@ constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much 
 }  // namespace
 
 // A change to one side with what it would bring; nothing where it cannot be, or is not safe.
-std::optional<Sideways> LaneChanges::Weigh(std::uint32_t id, int side, bool told) {
+std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, bool told) {
   Agent& agent = out_.agents[id];
   const auto piece = in_.lanes_beside.PieceBeside(id, side);
   if (!piece) return std::nullopt;
@@ -40,26 +40,27 @@ std::optional<Sideways> LaneChanges::Weigh(std::uint32_t id, int side, bool told
     if (other.middle_m() > beside_m + kAlongsideTolerance_m) break;
     if (other.id != id) return std::nullopt;
   }
-  const Ahead own_ahead = out_.ahead[id];
+  const Leader own_ahead = out_.ahead[id];
   const double own_ends = in_.lanes_beside.LaneEnds(id);
   // The way on the other lane, looked along as the own one is.
-  Stretches own = std::move(out_.stretches[id]);
+  RouteSegments own = std::move(out_.stretches[id]);
   out_.stretches[id].clear();
   agent.path.push_back(*piece);
-  out_.ways.FindStretches(id, out_.ways.SightOf(agent));
+  out_.ways.FindRouteSegments(id, out_.ways.SightOf(agent));
   const double v = agent.speed_mps,
                stops = piece->begin_m + std::min(out_.ways.SightOf(agent),
                                                  kAnticipation_s * v + v * v / (2.0 * kAnticipatedBraking_mps2));
   const bool plain = in_.lanes_beside.IsPlain(id, rear, std::max(to, stops));
   const double ends = in_.lanes_beside.LaneEnds(id);
-  const Ahead ahead = plain ? in_.neighbours.FindAhead(id) : Ahead();
+  const Leader ahead = plain ? in_.neighbours.FindLeader(id) : Leader();
   agent.path.pop_back();
-  Sideways way{*piece, side, 0.0, std::exchange(out_.stretches[id], std::move(own))};
+  LaneChangeOption way{*piece, side, 0.0, std::exchange(out_.stretches[id], std::move(own))};
   const int fewer = in_.lanes_beside.FewerChanges(id, piece->track);
   if (!plain || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)))) return std::nullopt;
-  const Behind old_follower = in_.neighbours.FindBehind(
+  const Follower old_follower = in_.neighbours.FindFollower(
       id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
-  const Behind follower = in_.neighbours.FindBehind(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
+  const Follower follower =
+      in_.neighbours.FindFollower(id, piece->track, agent.o_m - piece->zero_m, rear - piece->zero_m);
   if (ahead.any && ahead.gap_m < traits.idm.standing_gap_m) return std::nullopt;
   if (follower.any && follower.gap_m < in_.settings.idm.standing_gap_m) return std::nullopt;
   const double at = piece->begin_m - piece->zero_m;

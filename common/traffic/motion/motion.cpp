@@ -27,7 +27,7 @@ void Motion::MoveOne(std::uint32_t id, double dt_s) {
   if (!out_.ends[id]) {
     AgentPose& pose = out_.moved[id];
     pose = in_.body_poses.PoseOf(id);
-    const Below& below = in_.below[id];
+    const CurrentTrackCache& below = in_.below[id];
     const bool as_below = below.turned && pose.q_WB.coeffs() == below.turned->coeffs();
     out_.agents[id].grade = as_below ? below.grade : GradeOf(pose.q_WB);
   }

@@ -23,7 +23,7 @@ class Motion {
   struct Reads {
     const TrafficMap& map;
     std::span<const double> wanted;
-    std::span<const Below> below;
+    std::span<const CurrentTrackCache> below;
     base::ThreadPool* pool;
     const Poses& body_poses;
   };

@@ -18,7 +18,7 @@ class Paths {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Below> below;
+    std::span<const CurrentTrackCache> below;
   };
   struct Writes {
     std::span<Agent> agents;

@@ -28,7 +28,7 @@ void PlanarMotion::FetchBend(std::size_t id) const {
     for (std::size_t at = 0; at < sizeof(lanes::Curve); at += kLine_bytes) __builtin_prefetch(curve + at);
   }
   if (const std::size_t soon = id + kBendPrefetch; bends(soon)) {
-    const Below& below = in_.below[soon];  // all that may be read of it: another thread may move it now
+    const CurrentTrackCache& below = in_.below[soon];  // all that may be read of it: another thread may move it now
     in_.map.graph[below.track].curve.Fetch(
         0.5 * (std::max(0.0, below.plan.from_m) + std::min(below.length_m, below.plan.to_m)));
   }

@@ -20,7 +20,7 @@ class PlanarMotion {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Below> below;
+    std::span<const CurrentTrackCache> below;
     const CurrentTracks& tracks;
   };
   struct Writes {

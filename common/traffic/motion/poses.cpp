@@ -45,7 +45,7 @@ double GradeOf(const Eigen::Quaterniond& q_WB) {
 AgentPose Poses::PoseOf(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];
-  const Below& below = in_.below[id];
+  const CurrentTrackCache& below = in_.below[id];
   AgentPose pose;
   pose.id = id;
   pose.trip = agent.trip;
@@ -80,7 +80,7 @@ AgentPose Poses::PoseOf(std::uint32_t id) const {
   return pose;
 }
 
-AgentPose Poses::PoseOfStruck(std::uint32_t id) const {
+AgentPose Poses::PoseOfCrashed(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
   AgentPose pose;
   pose.id = id;
@@ -96,7 +96,7 @@ AgentPose Poses::PoseOfStruck(std::uint32_t id) const {
 void Poses::FindPoses() {
   std::vector<std::uint32_t> ids;
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
-    if (in_.is_moved[id] != 0 || out_.agents[id].on_road || out_.agents[id].is_struck) ids.push_back(id);
+    if (in_.is_moved[id] != 0 || out_.agents[id].on_road || out_.agents[id].is_crashed) ids.push_back(id);
   }
   out_.poses.resize(ids.size());
   const auto some = [&](std::size_t begin, std::size_t end) {
@@ -105,7 +105,7 @@ void Poses::FindPoses() {
         out_.poses[i] = in_.moved[ids[i]];
         continue;
       }
-      out_.poses[i] = out_.agents[ids[i]].on_road ? PoseOf(ids[i]) : PoseOfStruck(ids[i]);
+      out_.poses[i] = out_.agents[ids[i]].on_road ? PoseOf(ids[i]) : PoseOfCrashed(ids[i]);
       out_.agents[ids[i]].grade = GradeOf(out_.poses[i].q_WB);
     }
   };

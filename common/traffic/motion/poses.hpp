@@ -23,7 +23,7 @@ class Poses {
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
     const std::optional<FullCars>& full;
-    std::span<const Below> below;
+    std::span<const CurrentTrackCache> below;
     std::span<const AgentPose> moved;
     std::span<const std::uint8_t> is_moved;
     base::ThreadPool* pool;
@@ -36,7 +36,7 @@ class Poses {
   Poses(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
   AgentPose PoseOf(std::uint32_t id) const;
-  AgentPose PoseOfStruck(std::uint32_t id) const;
+  AgentPose PoseOfCrashed(std::uint32_t id) const;
   void FindPoses();
 
  private:

@@ -16,7 +16,7 @@ constexpr double kNoticed_mps = 1e-3;     // some kilonewtons for a millisecond
 constexpr double kReach_m = 12.0;         // lanes so near give it its height
 
 // What static friction holds: less than its wheels can take in a step, of momentum and of its moment about the middle.
-bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
+bool Holds(const Crashed& struck, const AgentTraits& traits, double dt_s) {
   const double takes_mps = kSlidingFriction * base::kGravity_mps2 * dt_s,
                arm = 0.5 * std::hypot(traits.wheelbase_m, traits.width_m);
   const double gyration2 = (traits.length_m * traits.length_m + traits.width_m * traits.width_m) / 12.0;
@@ -28,7 +28,7 @@ bool Holds(const Struck& struck, const AgentTraits& traits, double dt_s) {
 void Crashes::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
   RODEIRA_ASSERT(id < out_.agents.size());
   Agent& agent = out_.agents[id];
-  if (!agent.is_struck) {
+  if (!agent.is_crashed) {
     if (!agent.on_road || impulse_Ns.norm() < kNoticed_mps * in_.traits[id].mass_kg) return;
     const AgentPose pose = in_.body_poses.PoseOf(id);
     const driver::Footprint body = FootprintOf(pose, in_.traits[id]);
@@ -41,7 +41,7 @@ void Crashes::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const 
     agent.trip = trip;
     agent.flow = flow, agent.arrival = arrival;
     agent.driven_m = driven;
-    agent.is_struck = true;
+    agent.is_crashed = true;
     agent.struck_z_m = pose.p_WB_W.z();
     agent.struck.p_W = {body.x_m, body.y_m};
     agent.struck.heading_rad = body.heading_rad;
@@ -51,13 +51,13 @@ void Crashes::Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const 
   agent.speed_mps =
       agent.struck.v_W.dot(Eigen::Vector2d(std::cos(agent.struck.heading_rad), std::sin(agent.struck.heading_rad)));
   *std::find_if(out_.poses.begin(), out_.poses.end(), [&](const AgentPose& pose) { return pose.id == id; }) =
-      in_.body_poses.PoseOfStruck(id);
+      in_.body_poses.PoseOfCrashed(id);
 }
 
-void Crashes::SlideStruck(double dt_s) {
+void Crashes::StepCrashed(double dt_s) {
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
     Agent& agent = out_.agents[id];
-    if (!agent.is_struck) continue;
+    if (!agent.is_crashed) continue;
     const Eigen::Vector2d before = agent.struck.v_W;
     if (agent.waited_s > 0.0 && Holds(agent.struck, in_.traits[id], dt_s))
       agent.struck.v_W.setZero(), agent.struck.yaw_rate_radps = 0.0;
@@ -71,7 +71,7 @@ void Crashes::SlideStruck(double dt_s) {
 }
 
 // Of the nearest lane's surface on its level, which goes on level beside it; beside all lanes as before.
-double Crashes::HeightAt(const Struck& struck, double near_z_m) const {
+double Crashes::HeightAt(const Crashed& struck, double near_z_m) const {
   double height = near_z_m, nearest = kReach_m;
   for (const lanes::Graph::Beside& beside : in_.map.graph.TracksAt(struck.p_W, kReach_m)) {
     const lanes::CurvePoint at = in_.map.graph[beside.track].curve.At(beside.foot.d_m);

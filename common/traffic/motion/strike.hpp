@@ -35,10 +35,10 @@ class Crashes {
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
   // 1 mm/s is nothing to it as long as it drives; nothing happens to who is not there.
   void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
-  void SlideStruck(double dt_s);
+  void StepCrashed(double dt_s);
 
  private:
-  double HeightAt(const Struck& struck, double near_z_m) const;
+  double HeightAt(const Crashed& struck, double near_z_m) const;
 
   Reads in_;
   Writes out_;

@@ -23,13 +23,13 @@ Eigen::Vector2d RotationalVelocity(const Eigen::Vector2d& r, double rate) { retu
 
 }  // namespace
 
-void Struck::Push(const AgentTraits& traits, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
+void Crashed::Push(const AgentTraits& traits, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W) {
   v_W += impulse_Ns / traits.mass_kg;
   yaw_rate_radps += geometry::Cross(point_W - p_W, impulse_Ns) / Inertia(traits);
 }
 
 // By the middle of short steps. What friction would turn round within one of them comes to rest.
-void Struck::Slide(const AgentTraits& traits, double mu, double dt_s) {
+void Crashed::Slide(const AgentTraits& traits, double mu, double dt_s) {
   const int count = std::max(1, static_cast<int>(std::ceil(dt_s / kSubstep_s)));
   const double h = dt_s / count, weight = 0.25 * traits.mass_kg * mu * base::kGravity_mps2, inertia = Inertia(traits);
   const Eigen::Vector2d corner(0.5 * traits.wheelbase_m, 0.5 * traits.width_m);
@@ -61,14 +61,14 @@ void Struck::Slide(const AgentTraits& traits, double mu, double dt_s) {
   }
 }
 
-void Struck::Save(base::StateWriter& writer) const {
+void Crashed::Save(base::StateWriter& writer) const {
   writer.Put("p_W", std::span<const double>(p_W.data(), 2));
   writer.Put("heading_rad", heading_rad);
   writer.Put("v_W", std::span<const double>(v_W.data(), 2));
   writer.Put("yaw_rate_radps", yaw_rate_radps);
 }
 
-void Struck::Restore(base::StateReader& reader) {
+void Crashed::Restore(base::StateReader& reader) {
   reader.Get("p_W", std::span<double>(p_W.data(), 2));
   reader.Get("heading_rad", heading_rad);
   reader.Get("v_W", std::span<double>(v_W.data(), 2));

@@ -9,7 +9,7 @@
 namespace rodeira::traffic {
 
 // A car that has been hit: a rectangle that slides on four locked wheels and stays where it comes to rest.
-struct Struck {
+struct Crashed {
   Eigen::Vector2d p_W = Eigen::Vector2d::Zero();  // of its middle
   double heading_rad = 0.0;
   Eigen::Vector2d v_W = Eigen::Vector2d::Zero();

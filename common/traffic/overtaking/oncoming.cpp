@@ -31,7 +31,7 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
     found.speed_mps = std::max(found.speed_mps, speed_mps);
   };
   std::int64_t before = -1;  // the track that comes from there
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < rear) continue;
     if (stretch.begin_m > found.from_m) break;
     const std::int64_t opposite = in_.map.opposites[stretch.track];
@@ -48,7 +48,7 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
       found.speed_mps = std::max(found.speed_mps, fastest * in_.map.graph.SpeedLimit_mps(track, d));
     for (const Occupant& other : in_.occupants.On(track))
       comes(here(other.front_m), here(other.rear_m), in_.agents[other.id].speed_mps);
-    for (const Facing& other : in_.facing[track]) {
+    for (const OncomingOvertaker& other : in_.facing[track]) {
       if (other.id != id && here(other.rear_m) > rear - kOvertakers_m) found.own_way = true;
     }
     for (const Block& block : in_.blocks[track]) {
@@ -70,13 +70,13 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
 
 // Who comes towards somebody who overtakes goes on as long as that one will be back in time by what it does; else it
 // stops where both can stop.
-double OncomingLane::WantedFacing(std::uint32_t id, double limit_mps) const {
+double OncomingLane::WantedForOvertaker(std::uint32_t id, double limit_mps) const {
   const Agent& agent = in_.agents[id];
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m, v = agent.speed_mps;
   double wanted = in_.traits[id].idm.hardest_mps2;
   if (!in_.any_facing) return wanted;
-  for (const Stretch& stretch : in_.stretches[id]) {
-    for (const Facing& other : in_.facing[stretch.track]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
+    for (const OncomingOvertaker& other : in_.facing[stretch.track]) {
       const Agent& overtakes = in_.agents[other.id];
       if (other.id == id || stretch.zero_m + other.rear_m < agent.o_m) continue;
       const double gap = stretch.zero_m + other.front_m - front;

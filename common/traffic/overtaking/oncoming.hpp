@@ -22,16 +22,16 @@ class OncomingLane {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const double& longest_half_m;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     const Occupancy& occupants;
     std::span<const std::vector<Block>> blocks;
-    std::span<const std::vector<Facing>> facing;
+    std::span<const std::vector<OncomingOvertaker>> facing;
     const bool& any_facing;
   };
   explicit OncomingLane(const Reads& reads) : in_(reads) {}
 
   Oncoming FindOncoming(std::uint32_t id) const;
-  double WantedFacing(std::uint32_t id, double limit_mps) const;
+  double WantedForOvertaker(std::uint32_t id, double limit_mps) const;
 
  private:
   Reads in_;

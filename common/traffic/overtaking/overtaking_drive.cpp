@@ -26,12 +26,12 @@ bool OvertakingDrive::MayGoBack(std::uint32_t id, bool behind) const {
   const Piece& last = agent.path.back();
   const double half = 0.5 * in_.traits[id].length_m, v = agent.speed_mps, gap = in_.traits[id].idm.standing_gap_m;
   if (agent.o_m + half < last.blend_from_m + last.blend_m) return false;  // still on its path out
-  const Behind follower =
-      in_.neighbours.FindBehind(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
+  const Follower follower =
+      in_.neighbours.FindFollower(id, last.track, agent.o_m - last.zero_m, agent.o_m - half - last.zero_m);
   if (follower.any && (follower.gap_m < gap || (!behind && in_.following.FollowerDoes(follower, true, follower.gap_m,
                                                                                       v) < -kMaxFollowerBraking_mps2)))
     return false;
-  const Ahead ahead = in_.neighbours.FindAhead(id);
+  const Leader ahead = in_.neighbours.FindLeader(id);
   if (!ahead.any) return true;
   return ahead.gap_m >= gap &&
          in_.following.Following(id, in_.limits.Limit_mps(id, last.track, agent.o_m - last.zero_m), true, ahead.gap_m,
@@ -57,7 +57,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   Overtaking& way = agent.overtaking;
   const double length = in_.traits[id].length_m, front = agent.o_m + 0.5 * length, v = std::max(1.0, agent.speed_mps);
-  const auto passed = in_.neighbours.FindPassed(id);
+  const auto passed = in_.neighbours.FindOvertaken(id);
   const bool is_past = !passed || passed->gap_m + 0.5 * (passed->length_m + length) < 0.0;
   if (!way.back && (is_past || way.gives_up) && MayGoBack(id, !is_past)) GoBack(id);
   if (way.back) {
@@ -68,7 +68,8 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   }
   const double aside = agent.path.back().aside_m,
                top = std::max(v, out_.overtaking_start.TopSpeed(id, front, std::max(front, way.to_m)));
-  PassCase pass = out_.overtaking_start.CaseOf(id, passed.value_or(Ahead{-1e9}), top, aside, std::max(front, way.to_m));
+  PassCase pass =
+      out_.overtaking_start.CaseOf(id, passed.value_or(Leader{-1e9}), top, aside, std::max(front, way.to_m));
   pass.to_clear_m = std::max(0.0, way.clear_m - front);
   pass.gains_mps2 = std::max(0.1, pass.gains_mps2);
   const PassPlan on = PlanPass(pass);
@@ -98,7 +99,7 @@ double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const
   const Overtaking& way = agent.overtaking;
   if (way.active() && way.back) return std::min(wanted_mps2, 0.0);  // its path is for the speed that it had
   if (!way.active() || !way.gives_up) return wanted_mps2;
-  const auto passed = in_.neighbours.FindPassed(id);
+  const auto passed = in_.neighbours.FindOvertaken(id);
   if (!passed || passed->gap_m > in_.traits[id].idm.standing_gap_m) return wanted_mps2;
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps);
   return std::min(wanted_mps2, std::clamp((slower - agent.speed_mps) / in_.settings.tracking_s, -kFallsBack_mps2, 0.5));

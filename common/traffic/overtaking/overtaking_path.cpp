@@ -50,13 +50,13 @@ std::optional<Piece> OvertakingStart::PieceOut(std::uint32_t id, double top_mps)
 }
 
 // What is still to be done from now on behind, or beside, who is passed.
-PassCase OvertakingStart::CaseOf(std::uint32_t id, const Ahead& passed, double top_mps, double aside_m,
+PassCase OvertakingStart::CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m,
                                  double to_m) const {
   const Agent& agent = out_.agents[id];
   const AgentTraits& traits = in_.traits[id];
   const double front = agent.o_m + 0.5 * traits.length_m;
   double steepest = 0.0;
-  for (const Stretch& stretch : out_.stretches[id]) {
+  for (const RouteSegment& stretch : out_.stretches[id]) {
     for (double at = std::max(front, stretch.begin_m); at < std::min(to_m, stretch.end_m);
          at += kOvertakingSamplingStep_m) {
       steepest = std::max(steepest, in_.map.graph[stretch.track].curve.At(at - stretch.zero_m).grade);
@@ -85,7 +85,7 @@ bool OvertakingStart::MayOvertake(std::uint32_t id, double to_m, double aside_m)
   if (!in_.lanes_beside.IsPlain(id, rear, to_m + in_.traits[id].length_m) ||
       !in_.lanes_beside.MayCross(id, aside_m > 0.0 ? 1 : -1, front, to_m))
     return false;
-  for (const Stretch& stretch : out_.stretches[id]) {
+  for (const RouteSegment& stretch : out_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < rear) continue;
     const std::int64_t opposite = in_.map.opposites[stretch.track];

@@ -44,7 +44,7 @@ driver::IdmSettings OvertakingStart::IdmOf(std::uint32_t id) const {
 }
 
 bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
-  const Ahead& ahead = in_.ahead[id];
+  const Leader& ahead = in_.ahead[id];
   if (!ahead.any || ahead.gap_m > in_.settings.sight_m || ahead.speed_mps < -0.1) return false;
   if (ahead.id >= 0) {
     const auto other = static_cast<std::size_t>(ahead.id);
@@ -63,11 +63,11 @@ bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
 // Whether there is room for it between who is passed and who drives before that one.
 bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps) {
   Agent& agent = out_.agents[id];
-  const Ahead& passed = in_.ahead[id];
+  const Leader& passed = in_.ahead[id];
   const AgentTraits& traits = in_.traits[id];
   const Overtaking own = std::exchange(agent.overtaking, way);
   agent.overtaking.clear_m = -kNoBarrier_m;
-  const Ahead next = in_.neighbours.FindAhead(id);
+  const Leader next = in_.neighbours.FindLeader(id);
   agent.overtaking = own;
   if (!next.any) return true;
   const double v = std::max(0.0, passed.speed_mps);
@@ -81,7 +81,7 @@ bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, con
 // as who overtakes looks.
 std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaking& way) {
   const AgentTraits& traits = in_.traits[id];
-  const Ahead& passed = in_.ahead[id];
+  const Leader& passed = in_.ahead[id];
   const double front = out_.agents[id].o_m + 0.5 * traits.length_m, v = out_.agents[id].speed_mps;
   const Oncoming oncoming = in_.oncoming.FindOncoming(id);
   if (oncoming.own_way) return std::nullopt;
@@ -121,9 +121,9 @@ void OvertakingStart::ThinkOfOvertaking(std::uint32_t id) {
   if (in_.map.opposites[agent.path.back().track] < 0 || agent.change.side != 0 || in_.is_overtaken[id] != 0 ||
       !IsHeldUp(id))
     return;
-  Stretches own = std::move(out_.stretches[id]);
+  RouteSegments own = std::move(out_.stretches[id]);
   out_.stretches[id].clear();
-  out_.ways.FindStretches(id, in_.settings.overtaking.sight_m);
+  out_.ways.FindRouteSegments(id, in_.settings.overtaking.sight_m);
   Overtaking way;
   const auto piece = WeighOvertaking(id, way);
   out_.stretches[id] = std::move(own);
@@ -132,7 +132,7 @@ void OvertakingStart::ThinkOfOvertaking(std::uint32_t id) {
   out_.any_overtaking = true;
   agent.told_past = false;
   agent.path.push_back(*piece);
-  out_.observation.FaceOncoming(id);
+  out_.observation.ShowToOncoming(id);
 }
 
 }  // namespace rodeira::traffic

@@ -29,7 +29,7 @@ class OvertakingStart {
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
     std::span<const std::uint8_t> is_overtaken;
-    std::span<const Ahead> ahead;
+    std::span<const Leader> ahead;
     const Neighbours& neighbours;
     const SpeedLimits& limits;
     const CarFollowing& following;
@@ -38,7 +38,7 @@ class OvertakingStart {
   };
   struct Writes {
     std::span<Agent> agents;
-    std::span<Stretches> stretches;
+    std::span<RouteSegments> stretches;
     bool& any_overtaking;
     Ways& ways;
     Observation& observation;
@@ -48,7 +48,7 @@ class OvertakingStart {
   driver::IdmSettings IdmOf(std::uint32_t id) const;
   void ThinkOfOvertaking(std::uint32_t id);
   double TopSpeed(std::uint32_t id, double from_m, double to_m) const;
-  PassCase CaseOf(std::uint32_t id, const Ahead& passed, double top_mps, double aside_m, double to_m) const;
+  PassCase CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m, double to_m) const;
 
  private:
   bool IsHeldUp(std::uint32_t id) const;

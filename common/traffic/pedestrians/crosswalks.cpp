@@ -53,7 +53,7 @@ void Crosswalks::CarsAtCrossings() {
     if (!agent.on_road) continue;
     const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half,
                  v = agent.speed_mps;
-    for (const Stretch& stretch : in_.stretches[id]) {
+    for (const RouteSegment& stretch : in_.stretches[id]) {
       for (const Pedestrians::OnTrack& on : out_.people->OfTrack(stretch.track)) {
         const lanes::FootPass& pass = out_.people->crossings()[on.crossing].passes[on.pass];
         const double in = stretch.zero_m + pass.in_m, out = stretch.zero_m + pass.out_m,
@@ -173,7 +173,7 @@ double Crosswalks::AtMostForPeople(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const double front = agent.o_m + 0.5 * in_.traits[id].length_m, rear = front - in_.traits[id].length_m;
   double speed = Agent::kNoCap_mps;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     for (const Pedestrians::OnTrack& on : out_.people->OfTrack(stretch.track)) {
       if (!out_.people->IsUsed(on.crossing, on.pass) && !out_.people->Waits(on.crossing)) continue;
       const lanes::FootPass& pass = out_.people->crossings()[on.crossing].passes[on.pass];
@@ -188,7 +188,7 @@ double Crosswalks::AtMostForPeople(std::uint32_t id) const {
   return speed;
 }
 
-base::Status Crosswalks::CheckCall(std::string_view road, double s_m) const {
+base::Status Crosswalks::CheckSpawnPedestrian(std::string_view road, double s_m) const {
   if (!out_.people)
     return base::WrongInput(
         "the traffic has no people on foot; 'pedestrians' in its settings was expected (its 'per_hour' may be 0)");
@@ -196,8 +196,8 @@ base::Status Crosswalks::CheckCall(std::string_view road, double s_m) const {
                                                            : base::WrongInput(WithoutCrossing(*in_.map.network, road));
 }
 
-base::Status Crosswalks::CallPedestrian(std::string_view road, double s_m, bool from_left) {
-  if (const auto status = CheckCall(road, s_m); !status) return status;
+base::Status Crosswalks::SpawnPedestrian(std::string_view road, double s_m, bool from_left) {
+  if (const auto status = CheckSpawnPedestrian(road, s_m); !status) return status;
   const auto crossing = out_.people->Nearest(*in_.map.network, road, s_m);
   const network::Road& at = in_.map.network->roads()[out_.people->crossings()[*crossing].road];
   const double heading =

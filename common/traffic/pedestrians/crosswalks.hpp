@@ -28,9 +28,9 @@ class Crosswalks {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const std::int64_t& time_ns;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     std::span<const std::vector<Block>> blocks;
-    std::span<const Ahead> ahead;
+    std::span<const Leader> ahead;
     const Signals& signals;
   };
   struct Writes {
@@ -45,10 +45,10 @@ class Crosswalks {
   // People on foot.
   void LookAtPeople(double dt_s);
   double AtMostForPeople(std::uint32_t id) const;
-  base::Status CheckCall(std::string_view road, double s_m) const;
+  base::Status CheckSpawnPedestrian(std::string_view road, double s_m) const;
   // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input
   // where there is none, or the settings have no `pedestrians`.
-  base::Status CallPedestrian(std::string_view road, double s_m, bool from_left);
+  base::Status SpawnPedestrian(std::string_view road, double s_m, bool from_left);
 
  private:
   bool LightsLetGo(const lanes::FootCrossing& crossing) const;

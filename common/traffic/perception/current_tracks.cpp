@@ -4,7 +4,7 @@
 namespace rodeira::traffic {
 
 void CurrentTracks::LookBelow(std::uint32_t id) {
-  Below& below = out_.below[id];
+  CurrentTrackCache& below = out_.below[id];
   const Piece& piece = PieceAt(in_.agents[id].path, in_.agents[id].o_m);
   const std::uint32_t track = piece.track;
   const double d = in_.agents[id].o_m - piece.zero_m;
@@ -31,7 +31,7 @@ void CurrentTracks::LookBelow(std::uint32_t id) {
 PathFrame CurrentTracks::FrameOf(std::uint32_t id, double odometer_m) const {
   const Piece& piece = PieceAt(in_.agents[id].path, odometer_m);
   const double d = odometer_m - piece.zero_m;
-  const Below& below = out_.below[id];
+  const CurrentTrackCache& below = out_.below[id];
   return FrameOn(
       piece,
       below.track == piece.track && below.straight ? below.straight->At(d) : in_.map.graph[piece.track].curve.At(d),

@@ -18,7 +18,7 @@ class CurrentTracks {
     std::span<const Agent> agents;
   };
   struct Writes {
-    std::span<Below> below;
+    std::span<CurrentTrackCache> below;
   };
   CurrentTracks(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 

@@ -11,8 +11,8 @@
 namespace rodeira::traffic {
 
 // Who follows a rectangle whose middle and rear are there on a track: on it, or on those that lead to it.
-Behind Neighbours::FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
-  Behind behind;
+Follower Neighbours::FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
+  Follower behind;
   bool here = false;  // who is farther back on the same branch is nobody's follower
   const auto consider = [&](std::int64_t other, std::uint32_t on, double d_m, double gap_m, double speed_mps) {
     here = true;
@@ -52,19 +52,19 @@ Behind Neighbours::FindBehind(std::uint32_t id, std::uint32_t track, double midd
 }
 
 // Where the one is that it passes, from its front bumper on: behind it, below 0.
-std::optional<Ahead> Neighbours::FindPassed(std::uint32_t id) const {
+std::optional<Leader> Neighbours::FindOvertaken(std::uint32_t id) const {
   const Overtaking& way = in_.agents[id].overtaking;
   const double front = in_.agents[id].o_m + 0.5 * in_.traits[id].length_m;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     for (const Occupant& other : in_.occupants.On(stretch.track)) {
       if (other.id == way.passed)
-        return Ahead{stretch.zero_m + other.rear_m - front, in_.agents[other.id].speed_mps, other.id, true, -1,
-                     other.front_m - other.rear_m};
+        return Leader{stretch.zero_m + other.rear_m - front, in_.agents[other.id].speed_mps, other.id, true, -1,
+                      other.front_m - other.rear_m};
     }
     for (const Block& block : in_.blocks[stretch.track]) {
       if (block.body == way.passed_body)
-        return Ahead{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body,
-                     block.span.front_m - block.span.rear_m};
+        return Leader{stretch.zero_m + block.span.rear_m - front, block.span.speed_mps, -1, true, block.body,
+                      block.span.front_m - block.span.rear_m};
     }
   }
   return std::nullopt;

@@ -20,7 +20,8 @@ constexpr double kAnySpeed_mps = 1e3;
 
 // The lane that it is leaving, beside a stretch of its way, as long as something of it at this odometer reaches into
 // it.
-std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const {
+std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const RouteSegment& stretch,
+                                                  double odometer_m) const {
   const Agent& agent = in_.agents[id];
   if (agent.change.side == 0 || stretch.changes || stretch.end_m < agent.change.from_m) return std::nullopt;
   const lanes::Track& track = in_.map.graph[stretch.track];
@@ -39,14 +40,14 @@ std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const Stretc
 // leaving, and of agents on tracks that part from the way, as long as they are not clear, the one who lets it drive on
 // least (he need not be the nearest: of two who turn off to different sides one may drive away while the other one
 // stands, and who drives away on the new lane may be nearer than a queue on the old one), if that is less.
-Ahead Neighbours::FindAhead(std::uint32_t id) const {
+Leader Neighbours::FindLeader(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half;
   const double half_width = 0.5 * in_.traits[id].width_m + in_.settings.side_margin_m;
   const double aside = agent.path.back().aside_m;  // it drives there, and everywhere between
-  Ahead ahead, apart;
+  Leader ahead, apart;
   double apart_lets = 0.0;
-  const auto lets = [&](const Ahead& other) {
+  const auto lets = [&](const Leader& other) {
     return driver::IdmAcceleration(in_.traits[id].idm, agent.speed_mps, kAnySpeed_mps, other.gap_m, other.speed_mps);
   };
   const auto is_before = [&](const Occupant& other, double zero_m) {
@@ -56,7 +57,7 @@ Ahead Neighbours::FindAhead(std::uint32_t id) const {
     if (agent.overtaking.active() && IsPassed(agent.overtaking, front, other.id, -1, gap)) return true;
     return in_.any_overtaking && in_.agents[other.id].overtaking.passed == id && !in_.agents[other.id].overtaking.back;
   };
-  const auto seen = [&](const Occupant& other, double gap) -> Ahead {
+  const auto seen = [&](const Occupant& other, double gap) -> Leader {
     const double side = 0.5 * in_.traits[other.id].width_m;
     return {gap, in_.agents[other.id].speed_mps, other.id, true, -1, in_.traits[other.id].length_m, side, -side};
   };
@@ -65,7 +66,7 @@ Ahead Neighbours::FindAhead(std::uint32_t id) const {
     if (!is_before(other, zero_m) || (ahead.any && gap >= ahead.gap_m) || is_beside(other, gap)) return;
     ahead = seen(other, gap);
   };
-  const auto consider_apart = [&](const Ahead& next) {
+  const auto consider_apart = [&](const Leader& next) {
     const double next_lets = lets(next);
     if (!apart.any || next_lets < apart_lets) apart = next, apart_lets = next_lets;
   };
@@ -73,7 +74,7 @@ Ahead Neighbours::FindAhead(std::uint32_t id) const {
     const double gap = zero_m + other.rear_m - front;
     if (is_before(other, zero_m) && !is_beside(other, gap)) consider_apart(seen(other, gap));
   };
-  const auto seen_block = [&](const Block& block, double zero_m) -> std::optional<Ahead> {
+  const auto seen_block = [&](const Block& block, double zero_m) -> std::optional<Leader> {
     const bool comes =
         block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
     const double left = half_width + (comes ? 0.0 : std::max(0.0, aside)),
@@ -84,17 +85,17 @@ Ahead Neighbours::FindAhead(std::uint32_t id) const {
     if (gap >= in_.settings.sight_m ||
         (agent.overtaking.active() && IsPassed(agent.overtaking, front, -1, block.body, gap)))
       return std::nullopt;
-    return Ahead{gap,
-                 block.span.speed_mps,
-                 -1,
-                 true,
-                 block.body,
-                 block.span.front_m - block.span.rear_m,
-                 block.span.left_m,
-                 block.span.right_m};
+    return Leader{gap,
+                  block.span.speed_mps,
+                  -1,
+                  true,
+                  block.body,
+                  block.span.front_m - block.span.rear_m,
+                  block.span.left_m,
+                  block.span.right_m};
   };
   std::int64_t before = -1;  // the track by which its own way comes
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     const std::int64_t from = std::exchange(before, stretch.track);
     if (stretch.end_m < agent.o_m || (stretch.changes && agent.change.side == 0)) continue;
     if (ahead.any && agent.change.side == 0 && stretch.begin_m > front + ahead.gap_m + 10.0) break;

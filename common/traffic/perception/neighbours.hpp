@@ -24,7 +24,7 @@ class Neighbours {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const double& longest_half_m;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     const Occupancy& occupants;
     std::span<const std::uint8_t> parts;
     std::span<const std::vector<Block>> blocks;
@@ -33,12 +33,12 @@ class Neighbours {
   };
   explicit Neighbours(const Reads& reads) : in_(reads) {}
 
-  std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const Stretch& stretch, double odometer_m) const;
+  std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const RouteSegment& stretch, double odometer_m) const;
   // The leader, with the gap to it: the next vehicle on the agent's way.
-  Ahead FindAhead(std::uint32_t id) const;
+  Leader FindLeader(std::uint32_t id) const;
   std::span<const lanes::Parting> PartingsOf(std::uint32_t track) const;
-  Behind FindBehind(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
-  std::optional<Ahead> FindPassed(std::uint32_t id) const;
+  Follower FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
+  std::optional<Leader> FindOvertaken(std::uint32_t id) const;
 
  private:
   Reads in_;

@@ -38,23 +38,23 @@ void Observation::BeSeen(std::uint32_t id) {
   const Agent& agent = in_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
   std::int32_t from = -1;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m >= front) break;
     if (stretch.end_m > rear)
       out_.occupants.Add(stretch.track, {id, from, rear - stretch.zero_m, front - stretch.zero_m});
     from = static_cast<std::int32_t>(stretch.track);
   }
-  if (agent.change.side != 0) AppearOnLaneLeft(id);
+  if (agent.change.side != 0) ShowOnLaneLeft(id);
   if (!agent.overtaking.active()) return;
   out_.any_overtaking = true;
-  FaceOncoming(id);
+  ShowToOncoming(id);
 }
 
 // It is seen on the lane that it is leaving, too.
-void Observation::AppearOnLaneLeft(std::uint32_t id) {
+void Observation::ShowOnLaneLeft(std::uint32_t id) {
   const Agent& agent = in_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, rear = agent.o_m - half;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > agent.o_m) break;
     if (stretch.changes && stretch.end_m > rear) return;  // as long as its rear is on that path it is there anyway
     if (stretch.end_m < agent.o_m) continue;
@@ -67,12 +67,12 @@ void Observation::AppearOnLaneLeft(std::uint32_t id) {
 }
 
 // It is seen on the lane of those who come, and who is passed keeps his speed.
-void Observation::FaceOncoming(std::uint32_t id) {
+void Observation::ShowToOncoming(std::uint32_t id) {
   const Agent& agent = in_.agents[id];
   const Overtaking& way = agent.overtaking;
   const double half = 0.5 * in_.traits[id].length_m;
   if (way.passed >= 0 && !way.back && !way.gives_up) out_.is_overtaken[static_cast<std::size_t>(way.passed)] = 1;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < agent.o_m) continue;
     const std::int64_t opposite = in_.map.opposites[stretch.track];
     if (opposite < 0) return;
@@ -106,7 +106,7 @@ void Observation::See(std::span<const driver::Footprint> others) {
     out_.tracks.LookBelow(id);
     const Agent& agent = in_.agents[id];
     const double own = agent.granted_m - agent.o_m - 0.5 * in_.traits[id].length_m;
-    out_.ways.FindStretches(
+    out_.ways.FindRouteSegments(
         id, std::max({out_.ways.SightOf(agent), own, agent.overtaking.active() ? in_.settings.overtaking.sight_m : 0.0,
                       in_.people ? StoppingWay(in_.agents[id], in_.traits[id]) : 0.0}));
     if (in_.pool == nullptr) BeSeen(id);
@@ -118,8 +118,8 @@ void Observation::See(std::span<const driver::Footprint> others) {
   for (const std::uint32_t track : out_.occupants.taken()) Part(track);
 }
 
-void Observation::LookAhead() {
-  EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) { out_.ahead[id] = in_.neighbours.FindAhead(id); });
+void Observation::FindLeaders() {
+  EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) { out_.ahead[id] = in_.neighbours.FindLeader(id); });
 }
 
 }  // namespace rodeira::traffic

@@ -29,7 +29,7 @@ class Observation {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const std::optional<Pedestrians>& people;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     base::ThreadPool* pool;
     const Neighbours& neighbours;
   };
@@ -37,27 +37,27 @@ class Observation {
     Occupancy& occupants;
     std::span<std::uint8_t> parts;
     std::span<std::vector<Block>> blocks;
-    std::span<std::vector<Facing>> facing;
+    std::span<std::vector<OncomingOvertaker>> facing;
     bool& any_block;
     bool& any_facing;
     bool& any_overtaking;
     std::span<std::uint8_t> is_overtaken;
-    std::span<Ahead> ahead;
+    std::span<Leader> ahead;
     Ways& ways;
     CurrentTracks& tracks;
   };
   Observation(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  void FaceOncoming(std::uint32_t id);
+  void ShowToOncoming(std::uint32_t id);
   void Part(std::uint32_t track);
   // Sight: who is where.
   void See(std::span<const driver::Footprint> others);
-  void LookAhead();
+  void FindLeaders();
 
  private:
   void SeeOthers(std::span<const driver::Footprint> others);
   void BeSeen(std::uint32_t id);
-  void AppearOnLaneLeft(std::uint32_t id);
+  void ShowOnLaneLeft(std::uint32_t id);
 
   Reads in_;
   Writes out_;

@@ -24,8 +24,8 @@ Seen::Seen(std::size_t vehicles, std::size_t tracks)
 
 void Seen::Forget() {
   for (WayKey& key : way_keys) key = {};
-  for (Stretches& stretch : stretches) stretch = {};
-  for (Below& track : below) track = {};
+  for (RouteSegments& stretch : stretches) stretch = {};
+  for (CurrentTrackCache& track : below) track = {};
 }
 
 }  // namespace rodeira::traffic

@@ -18,10 +18,10 @@ inline std::span<const Block> BlocksOn(bool any_block, std::span<const std::vect
                                        std::uint32_t track) {
   return any_block ? std::span<const Block>(blocks[track]) : std::span<const Block>();
 }
-inline double LengthOf(const lanes::Graph& graph, const Below& below, std::uint32_t track) {
+inline double LengthOf(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.length_m : graph[track].length_m();
 }
-inline bool GoesOn(const lanes::Graph& graph, const Below& below, std::uint32_t track) {
+inline bool GoesOn(const lanes::Graph& graph, const CurrentTrackCache& below, std::uint32_t track) {
   return below.track == track ? below.goes_on : !graph[track].next.empty();
 }
 // Whether a vehicle ahead, by its id or that of its body, is the one that is overtaken, and has been cleared already.

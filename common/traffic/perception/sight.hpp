@@ -18,7 +18,7 @@ namespace rodeira::traffic {
 
 // A track on an agent's way, in its odometer, with what is asked of that track in each step: beside the agent it is in
 // near memory.
-struct Stretch {
+struct RouteSegment {
   std::uint32_t track = 0;
   double zero_m = 0.0, begin_m = 0.0, end_m = 0.0;
   bool changes = false;      // goes over to the lane beside at its end
@@ -32,11 +32,11 @@ struct Stretch {
 
 // From the track under its rear bumper to as far as it looks: most look over no more than three, which lie in its own
 // place in memory.
-using Stretches = boost::container::small_vector<Stretch, 3>;
+using RouteSegments = boost::container::small_vector<RouteSegment, 3>;
 
 // Of the track below an agent's middle what is asked in each step, beside the agent in near memory: nothing that the
 // map does not say.
-struct Below {
+struct CurrentTrackCache {
   std::uint32_t track = 0xFFFFFFFF;
   std::int32_t road = 0, lane = 0;
   bool goes_on = false;     // leads to other tracks
@@ -73,12 +73,12 @@ struct Block {
 };
 
 // An agent that overtakes, on the track of those who come towards it, in its d: the front lies before the rear.
-struct Facing {
+struct OncomingOvertaker {
   std::uint32_t id = 0;
   double front_m = 0.0, rear_m = 0.0;
 };
 
-struct Ahead {
+struct Leader {
   double gap_m = 1e9;
   double speed_mps = 0.0;
   std::int64_t id = -1;  // of an agent
@@ -89,7 +89,7 @@ struct Ahead {
 };
 
 // Who follows, on a track and up to a place on it.
-struct Behind {
+struct Follower {
   double gap_m = 1e9;
   double speed_mps = 0.0;
   std::int64_t id = -1;  // of an agent
@@ -99,11 +99,11 @@ struct Behind {
 };
 
 // A change to the lane beside that could begin now, and the way then.
-struct Sideways {
+struct LaneChangeOption {
   Piece piece;
   int side = 0;
   double surplus_mps2 = 0.0;  // by which it is worth while
-  Stretches stretches;
+  RouteSegments stretches;
 };
 
 // The lane of oncoming traffic, as who overtakes sees it, in its odometer.

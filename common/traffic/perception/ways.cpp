@@ -21,8 +21,8 @@ double Ways::SightOf(const Agent& agent) const {
                   agent.speed_mps * agent.speed_mps / (2.0 * kComfort_mps2) + 3.0 * agent.speed_mps + kSightMargin_m);
 }
 
-// Whether those of the last time, without some at their end, are still what FindStretches would find.
-bool Ways::KeepStretches(std::uint32_t id, double far_m) {
+// Whether those of the last time, without some at their end, are still what FindRouteSegments would find.
+bool Ways::KeepRouteSegments(std::uint32_t id, double far_m) {
   const Agent& agent = in_.agents[id];
   auto& stretches = out_.stretches[id];
   const WayKey key{agent.trip,
@@ -39,7 +39,7 @@ bool Ways::KeepStretches(std::uint32_t id, double far_m) {
   return true;
 }
 
-Stretch Ways::StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const {
+RouteSegment Ways::SegmentOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const {
   const lanes::Track& on = in_.map.graph[track];
   const TrackPlan& plan = in_.map.plans[track];
   return {track,
@@ -57,16 +57,16 @@ Stretch Ways::StretchOn(std::uint32_t track, double zero_m, double begin_m, doub
 
 // Whether its stretches go as far as that, or to the end of its way.
 bool Ways::SeesTo(std::uint32_t id, double odometer_m) const {
-  const Stretch& last = out_.stretches[id].back();
+  const RouteSegment& last = out_.stretches[id].back();
   return last.end_m >= odometer_m || !last.goes_on;
 }
 
 // From the piece under the rear bumper to `range` beyond the front one.
-void Ways::FindStretches(std::uint32_t id, double range_m) {
+void Ways::FindRouteSegments(std::uint32_t id, double range_m) {
   const Agent& agent = in_.agents[id];
   auto& stretches = out_.stretches[id];
   const double far = agent.o_m + 0.5 * in_.traits[id].length_m + range_m;
-  if (KeepStretches(id, far)) return;
+  if (KeepRouteSegments(id, far)) return;
   ++out_.way_numbers[id];
   stretches.clear();
   for (std::size_t i = 0; i < agent.path.size(); ++i) {
@@ -79,17 +79,17 @@ void Ways::FindStretches(std::uint32_t id, double range_m) {
       stretches.back().changes = end < piece.zero_m + in_.map.graph[piece.track].length_m() - kWithout_m;
       continue;
     }
-    stretches.push_back(StretchOn(piece.track, piece.zero_m, piece.begin_m, end,
+    stretches.push_back(SegmentOn(piece.track, piece.zero_m, piece.begin_m, end,
                                   end < piece.zero_m + in_.map.graph[piece.track].length_m() - kWithout_m));
   }
   const Route* route = RouteOf(in_.map, agent);
   Choice choice{agent.links, route != nullptr ? route->LegOn(agent.leg, stretches.back().track) : 0};
   while (stretches.back().end_m < far) {
-    const Stretch& last = stretches.back();
+    const RouteSegment& last = stretches.back();
     if (!last.goes_on) break;
     const lanes::Link& on = NextLink(in_.map, in_.settings.seed, id, in_.agents[id], last.track, choice);
     const double zero = last.end_m - on.from_d_m;
-    stretches.push_back(StretchOn(on.to, zero, last.end_m, zero + in_.map.graph[on.to].length_m(), false));
+    stretches.push_back(SegmentOn(on.to, zero, last.end_m, zero + in_.map.graph[on.to].length_m(), false));
   }
 }
 

@@ -21,7 +21,7 @@ class Ways {
     std::span<const AgentTraits> traits;
   };
   struct Writes {
-    std::span<Stretches> stretches;
+    std::span<RouteSegments> stretches;
     std::span<WayKey> way_keys;
     std::span<std::uint32_t> way_numbers;
   };
@@ -29,11 +29,11 @@ class Ways {
 
   double SightOf(const Agent& agent) const;
   bool SeesTo(std::uint32_t id, double odometer_m) const;
-  void FindStretches(std::uint32_t id, double range_m);
+  void FindRouteSegments(std::uint32_t id, double range_m);
 
  private:
-  bool KeepStretches(std::uint32_t id, double far_m);
-  Stretch StretchOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const;
+  bool KeepRouteSegments(std::uint32_t id, double far_m);
+  RouteSegment SegmentOn(std::uint32_t track, double zero_m, double begin_m, double end_m, bool changes) const;
 
   Reads in_;
   Writes out_;

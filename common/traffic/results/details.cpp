@@ -67,8 +67,8 @@ std::vector<AgentDetail> DetailReport::Details() {
     detail.id = id;
     if (agent.on_road) {
       const double sight_m = out_.ways.SightOf(agent), rear_m = agent.o_m - HalfBase(in_.traits[id]);
-      out_.ways.FindStretches(id, sight_m);
-      const Stretch& last = in_.stretches[id].back();
+      out_.ways.FindRouteSegments(id, sight_m);
+      const RouteSegment& last = in_.stretches[id].back();
       const double sees_m = std::min(agent.o_m + 0.5 * in_.traits[id].length_m + sight_m, last.end_m);
       detail.look_ahead_W = in_.map.graph[last.track].curve.At(sees_m - last.zero_m).p_W.head<2>();
       Path path = agent.path;

@@ -30,7 +30,7 @@ class DetailReport {
     const std::optional<FullCars>& full;
     const std::vector<MotorsDriver>& motors;
     const std::vector<AgentPose>& poses;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     const SpeedLimits& limits;
     const MotorsDriving& motors_driving;
   };

@@ -3,19 +3,21 @@
 
 #include <fmt/format.h>
 
-#include <memory>
-#include <optional>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "common/core/base/constants.hpp"
 #include "common/traffic/check/checker.hpp"
 #include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/network/road_network.hpp"
-#include "common/world/road/world.hpp"
 #include "common/traffic/right_of_way/queueing.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::traffic {
 namespace {

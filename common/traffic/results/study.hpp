@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/traffic/results/lane_intervals.hpp"
-#include "common/world/road/world.hpp"
 #include "common/traffic/results/lane_statistics.hpp"
+#include "common/world/road/world.hpp"
 
 namespace rodeira::traffic {
 

@@ -20,13 +20,13 @@ void RightOfWay::Arbitrate(double dt_s) {
   const std::int64_t step_ns = std::llround(dt_s * 1e9);
   out_.book.Clear();
   EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {
-    if (!in_.people) out_.ahead[id] = in_.neighbours.FindAhead(id);
+    if (!in_.people) out_.ahead[id] = in_.neighbours.FindLeader(id);
     out_.passages_ahead.ComeToLine(id, dt_s);
   });
   std::fill(out_.reaches.begin(), out_.reaches.end(), -1.0);
   out_.heads.clear(), out_.order.clear(), out_.coming.clear(), out_.held_up.clear();
   for (std::uint32_t id = 0; id < in_.agents.size(); ++id) {
-    Passage& passage = out_.passages[id];
+    ConflictPassage& passage = out_.passages[id];
     if (!in_.agents[id].on_road) {
       passage.any = false, passage.key = {};
       continue;
@@ -37,7 +37,7 @@ void RightOfWay::Arbitrate(double dt_s) {
   }
   for (std::uint32_t id = 0; id < in_.agents.size();
        ++id) {  // how far who is ahead comes depends on who holds his zones
-    Passage& passage = out_.passages[id];
+    ConflictPassage& passage = out_.passages[id];
     if (!passage.any) continue;
     out_.coming.push_back(id);
     if (!passage.due) continue;
@@ -62,7 +62,7 @@ void RightOfWay::Arbitrate(double dt_s) {
     return a < b;
   });
   for (const std::uint32_t id : out_.order) {
-    Passage& passage = out_.passages[id];
+    ConflictPassage& passage = out_.passages[id];
     if (passage.able && out_.grants.Grant(id, true)) continue;
     if (!out_.grants.Urgent(id)) {
       if (passage.able) out_.claims.ComeLater(id);

@@ -40,10 +40,10 @@ class RightOfWay {
   struct Writes {
     std::span<std::uint8_t> beside;
     std::span<std::uint8_t> passes;
-    std::span<Ahead> ahead;
-    std::span<Passage> passages;
+    std::span<Leader> ahead;
+    std::span<ConflictPassage> passages;
     std::span<double> reaches;
-    ZoneBook& book;
+    ReservationTable& book;
     std::vector<std::uint32_t>& coming;
     std::vector<std::uint32_t>& heads;
     std::vector<std::uint32_t>& held_up;

@@ -11,7 +11,7 @@ Claimed::Claimed(std::size_t vehicles, std::size_t zones)
 }
 
 void Claimed::Forget() {
-  for (Passage& passage : passages) passage = {};
+  for (ConflictPassage& passage : passages) passage = {};
   for (auto& places : known) places = {};
 }
 

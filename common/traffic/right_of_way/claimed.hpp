@@ -17,12 +17,12 @@ struct Claimed {
   void Forget();  // what is remembered of steps before
 
   // By vehicle.
-  std::vector<Passage> passages;
+  std::vector<ConflictPassage> passages;
   std::vector<std::array<PlannedAt, 2>> known;  // at the beginning and the end of its passage; the map alone says it
   std::vector<double> reaches;  // how far its front comes whatever others decide; below 0: not computed yet
   std::vector<double> leaves;   // acceleration that vehicles which hold its zones before it leave it
   // Of zones.
-  ZoneBook book;
+  ReservationTable book;
   std::vector<std::uint8_t> is_asked;      // by 2 zone + side: a vehicle asks what comes there
   std::vector<std::uint32_t> asked_sides;  // sides of which one does
   // Numbers of vehicles, ascending but for `order`.

@@ -25,7 +25,7 @@ constexpr double kEntryStandingMargin_m = 2.0;  // beyond its length, to stand b
 // meanwhile.
 void Claims::FetchZones(std::size_t id) const {
   if (id >= out_.agents.size() || out_.agents[id].granted_m < out_.agents[id].o_m) return;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > out_.agents[id].granted_m) break;
     if (!stretch.crosses) continue;
     const auto sides = in_.map.zones.ConflictsOf(stretch.track);
@@ -40,7 +40,7 @@ void Claims::HoldZones(std::uint32_t id) {
   const Agent& agent = out_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
   const double to = std::max(front - kZoneOverhang_m, agent.granted_m);
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear || !stretch.crosses) continue;
     for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
@@ -68,7 +68,7 @@ void Claims::AskForZones() {
 
 // A head that waits to be granted its zones comes to them; where nobody asks it is not told.
 void Claims::ComeToZones(std::uint32_t id) {
-  const Passage& passage = out_.passages[id];
+  const ConflictPassage& passage = out_.passages[id];
   if (out_.agents[id].brake_mps2 > 0.0 || passage.red || passage.barred ||
       (passage.due && !(passage.head && passage.able)))
     return;
@@ -86,14 +86,14 @@ void Claims::ComeToZones(std::uint32_t id) {
 }
 
 // Its front at the zone's beginning.
-double Claims::ArrivesAt(const Comer& comer) const {
+double Claims::ArrivesAt(const ApproachingVehicle& comer) const {
   if (comer.id >= out_.agents.size()) return comer.arrives_s;
   return ComesWithin(comer, comer.in_m - FrontOf(out_.agents[comer.id], in_.traits[comer.id])) +
          out_.passages[comer.id].later_s;
 }
 
 // Its rear at the zone's end.
-double Claims::ClearsAt(const Comer& comer) const {
+double Claims::ClearsAt(const ApproachingVehicle& comer) const {
   if (comer.id >= out_.agents.size()) return comer.clears_s;
   return ComesWithin(comer, comer.out_m - (FrontOf(out_.agents[comer.id], in_.traits[comer.id]) -
                                            in_.traits[comer.id].length_m)) +
@@ -101,7 +101,7 @@ double Claims::ClearsAt(const Comer& comer) const {
 }
 
 // When it has come so far, if it may go on as fast as it may at the zone's beginning.
-double Claims::ComesWithin(const Comer& comer, double way_m) const {
+double Claims::ComesWithin(const ApproachingVehicle& comer, double way_m) const {
   const Agent& agent = out_.agents[comer.id];
   return TravelTime(way_m, agent.speed_mps, in_.limits.AllowedAt(comer.id, comer.in_m), in_.traits[comer.id].start_mps2,
                     {agent.wish_mps2, in_.settings.smooth.planned_mps3});
@@ -109,7 +109,7 @@ double Claims::ComesWithin(const Comer& comer, double way_m) const {
 
 // Where two ways merge, whether who comes, surely behind it, need not brake much for it to stay there until it is out
 // of the zone.
-bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s,
+bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
                          double clears_s) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge ||
       comer.id >= out_.agents.size())
@@ -126,7 +126,7 @@ bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer
 
 // Who has just been refused does not come before whoever keeps it out is gone.
 void Claims::ComeLater(std::uint32_t id) {
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   passage.later_s = std::max(0.0, passage.delay_s);
 }
 
@@ -180,11 +180,11 @@ void Claims::OthersAtZones() {
 bool Claims::TakeFirstZones(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   const double stand = in_.traits[id].length_m + kEntryStandingMargin_m;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > agent.granted_m + stand) break;
     for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
       if (stretch.zero_m + part.in_m > agent.granted_m + stand) break;
-      if (!out_.book.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side)).empty()) return false;
+      if (!out_.book.ReservationsOf(part.zone, static_cast<std::size_t>(1 - part.side)).empty()) return false;
       agent.granted_m = std::max(agent.granted_m, stretch.zero_m + part.out_m);
     }
   }

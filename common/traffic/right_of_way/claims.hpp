@@ -25,7 +25,7 @@ class Claims {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     std::span<const std::vector<Block>> blocks;
     const bool& any_block;
     const std::vector<std::uint32_t>& order;
@@ -34,8 +34,8 @@ class Claims {
   };
   struct Writes {
     std::span<Agent> agents;
-    std::span<Passage> passages;
-    ZoneBook& book;
+    std::span<ConflictPassage> passages;
+    ReservationTable& book;
     std::span<std::uint8_t> is_asked;
     std::vector<std::uint32_t>& asked_sides;
     Room& room;
@@ -46,16 +46,16 @@ class Claims {
   void HoldZones(std::uint32_t id);
   void AskForZones();
   void ComeToZones(std::uint32_t id);
-  double ArrivesAt(const Comer& comer) const;
-  double ClearsAt(const Comer& comer) const;
-  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const Comer& comer, double comes_s,
+  double ArrivesAt(const ApproachingVehicle& comer) const;
+  double ClearsAt(const ApproachingVehicle& comer) const;
+  bool IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
                    double clears_s) const;
   void ComeLater(std::uint32_t id);
   void OthersAtZones();
   bool TakeFirstZones(std::uint32_t id);
 
  private:
-  double ComesWithin(const Comer& comer, double way_m) const;
+  double ComesWithin(const ApproachingVehicle& comer, double way_m) const;
 
   Reads in_;
   Writes out_;

@@ -21,8 +21,8 @@ constexpr double kQueuedGap_m = 1.0;
 // only where it has come up to him, and else for who keeps it in its own zones.
 std::int64_t Deadlocks::WaitsFor(std::uint32_t id) const {
   if (out_.agents[id].speed_mps > kStandstill_mps) return -1;
-  const Ahead& ahead = in_.ahead[id];
-  const Passage& passage = in_.passages[id];
+  const Leader& ahead = in_.ahead[id];
+  const ConflictPassage& passage = in_.passages[id];
   const bool is_in = !out_.agents[id].grants.empty();
   if (is_in && ahead.id >= 0 && ahead.gap_m < in_.traits[id].idm.standing_gap_m + kQueuedGap_m) return ahead.id;
   const std::int64_t keeps = is_in ? in_.merging.KeptInZonesBy(id) : -1;
@@ -33,7 +33,7 @@ std::int64_t Deadlocks::WaitsFor(std::uint32_t id) const {
 
 // The circle in which a chain closes, from where it does; empty where it does not, or comes to one that has been
 // `seen`.
-std::vector<std::uint32_t> Deadlocks::CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
+std::vector<std::uint32_t> Deadlocks::FindWaitCycle(std::uint32_t start, std::vector<std::uint8_t>& seen) const {
   std::vector<std::uint32_t> chain;
   std::int64_t at = start;
   while (at >= 0 && static_cast<std::size_t>(at) < out_.agents.size() && seen[static_cast<std::size_t>(at)] == 0) {
@@ -48,18 +48,18 @@ std::vector<std::uint32_t> Deadlocks::CircleOf(std::uint32_t start, std::vector<
 // Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless
 // somebody else holds one of those it stands in: nobody counts on it in the others, and it stands where it would have
 // waited.
-bool Deadlocks::GiveBack(std::uint32_t id) {
+bool Deadlocks::RevokeReservation(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return false;
   const double front = FrontOf(out_.agents[id], in_.traits[id]), rear = front - in_.traits[id].length_m,
                to = front - kZoneOverhang_m;
   if (agent.granted_m <= to) return false;
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to) break;
     if (stretch.end_m < rear || !stretch.crosses) continue;
     for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
       if (stretch.zero_m + part.in_m >= to || stretch.zero_m + part.out_m <= rear) continue;
-      for (const Holder& holder : in_.book.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
+      for (const Reservation& holder : in_.book.ReservationsOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
         if (holder.id != id) return false;
       }
     }
@@ -72,7 +72,7 @@ bool Deadlocks::GiveBack(std::uint32_t id) {
 
 // Whether it waits at a line and might be let in now.
 bool Deadlocks::IsAtLine(std::uint32_t id) const {
-  const Passage& passage = in_.passages[id];
+  const ConflictPassage& passage = in_.passages[id];
   return passage.any && passage.head && passage.due && !passage.must_stop && !passage.red && !passage.barred;
 }
 
@@ -83,7 +83,7 @@ bool Deadlocks::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
     for (const Crossing& crossing : in_.passages[id].crossings) {
       if (crossing.zone >= 0)
         sides.push_back(
-            ZoneBook::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
+            ReservationTable::Side(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side)));
     }
   }
   std::sort(sides.begin(), sides.end());
@@ -98,7 +98,7 @@ bool Deadlocks::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
 // nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
 // else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good
 // where they wait for one whom he is in the way of.
-bool Deadlocks::LetIn(const std::vector<std::uint32_t>& circle) {
+bool Deadlocks::GrantCycle(const std::vector<std::uint32_t>& circle) {
   struct AtLine {
     std::uint32_t id = 0;
     std::size_t next = 0;  // of those at a line whom those before it wait for
@@ -106,7 +106,7 @@ bool Deadlocks::LetIn(const std::vector<std::uint32_t>& circle) {
   };
   std::vector<AtLine> lines;
   for (const std::uint32_t id : circle) {
-    const Passage& passage = in_.passages[id];
+    const ConflictPassage& passage = in_.passages[id];
     if (passage.any && passage.head && passage.due) lines.push_back({id, lines.size() + 1});
   }
   if (lines.empty()) return false;
@@ -147,7 +147,7 @@ bool Deadlocks::LetIn(const std::vector<std::uint32_t>& circle) {
     return any;
   }
   for (const std::size_t i : order) {  // … or one who comes to stand in nobody's way of them
-    const Passage& passage = in_.passages[lines[i].id];
+    const ConflictPassage& passage = in_.passages[lines[i].id];
     const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
     const auto keeps_out = [&](const Crossing& mine) {
       return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
@@ -166,11 +166,11 @@ bool Deadlocks::LetIn(const std::vector<std::uint32_t>& circle) {
 
 // Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside:
 // first he who has come up to somebody ahead, of several he who was let in last.
-void Deadlocks::OpenCircle(std::vector<std::uint32_t> circle) {
-  if (LetIn(circle)) return;
+void Deadlocks::BreakDeadlock(std::vector<std::uint32_t> circle) {
+  if (GrantCycle(circle)) return;
   const std::uint32_t first = circle.front();
   std::vector<std::uint8_t> seen(out_.agents.size(), 0);
-  if (CircleOf(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
+  if (FindWaitCycle(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
   const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == in_.ahead[id].id; };
   const auto number = [&](std::uint32_t id) {
     return out_.agents[id].grants.empty() ? 0 : out_.agents[id].grants.back().number;
@@ -180,7 +180,7 @@ void Deadlocks::OpenCircle(std::vector<std::uint32_t> circle) {
     return number(a) != number(b) ? number(a) > number(b) : a < b;
   });
   for (const std::uint32_t id : circle) {
-    if (GiveBack(id)) return;
+    if (RevokeReservation(id)) return;
   }
 }
 
@@ -188,8 +188,8 @@ void Deadlocks::ResolveDeadlocks() {
   std::vector<std::uint8_t> seen(out_.agents.size(), 0);  // on a chain that has been looked at
   const auto look_from = [&](std::uint32_t start) {
     if (seen[start] != 0) return;
-    const auto circle = CircleOf(start, seen);
-    if (!circle.empty()) OpenCircle(circle);
+    const auto circle = FindWaitCycle(start, seen);
+    if (!circle.empty()) BreakDeadlock(circle);
   };
   for (const std::uint32_t id : in_.heads) {
     if (in_.passages[id].any) look_from(id);

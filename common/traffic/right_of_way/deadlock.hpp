@@ -23,10 +23,10 @@ class Deadlocks {
   struct Reads {
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Stretches> stretches;
-    std::span<const Ahead> ahead;
-    std::span<const Passage> passages;
-    const ZoneBook& book;
+    std::span<const RouteSegments> stretches;
+    std::span<const Leader> ahead;
+    std::span<const ConflictPassage> passages;
+    const ReservationTable& book;
     const std::vector<std::uint32_t>& heads;
     const std::vector<std::uint32_t>& held_up;
     const Merging& merging;
@@ -42,12 +42,12 @@ class Deadlocks {
 
  private:
   std::int64_t WaitsFor(std::uint32_t id) const;
-  std::vector<std::uint32_t> CircleOf(std::uint32_t start, std::vector<std::uint8_t>& seen) const;
-  bool GiveBack(std::uint32_t id);
+  std::vector<std::uint32_t> FindWaitCycle(std::uint32_t start, std::vector<std::uint8_t>& seen) const;
+  bool RevokeReservation(std::uint32_t id);
   bool IsAtLine(std::uint32_t id) const;
   bool AreInOneAnothersWay(std::span<const std::uint32_t> some) const;
-  bool LetIn(const std::vector<std::uint32_t>& circle);
-  void OpenCircle(std::vector<std::uint32_t> circle);
+  bool GrantCycle(const std::vector<std::uint32_t>& circle);
+  void BreakDeadlock(std::vector<std::uint32_t> circle);
 
   Reads in_;
   Writes out_;

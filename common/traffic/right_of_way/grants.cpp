@@ -18,11 +18,11 @@ constexpr double kZipSpeed_mps = 7.0,
                  kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
 
 // The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
-int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
+int LastLetIn(const ReservationTable& book, std::size_t zone, std::size_t agents) {
   int last = -1;
   std::uint64_t number = 0;
   for (const int side : {0, 1}) {
-    for (const Holder& holder : book.HoldersOf(zone, static_cast<std::size_t>(side))) {
+    for (const Reservation& holder : book.ReservationsOf(zone, static_cast<std::size_t>(side))) {
       if (holder.id < agents && holder.number > number) number = holder.number, last = side;
     }
   }
@@ -34,8 +34,8 @@ int LastLetIn(const ZoneBook& book, std::size_t zone, std::size_t agents) {
 bool Grants::Urgent(std::uint32_t id) const { return out_.agents[id].waited_s > kPriorityWait_s; }
 
 // Where two ways merge who holds the zone takes up room behind it, too.
-bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder) {
-  const Passage& passage = out_.passages[id];
+bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder) {
+  const ConflictPassage& passage = out_.passages[id];
   if (!passage.able || in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge)
     return true;
   const double its_rear = out_.agents[holder.id].o_m - 0.5 * in_.traits[holder.id].length_m;
@@ -58,7 +58,7 @@ bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
   const Agent& agent = out_.agents[id];
   const double to_zone = crossing.in_m - agent.o_m - 0.5 * in_.traits[id].length_m;
   double arrives = -1.0;
-  for (const Holder& holder : out_.book.HoldersOf(zone, theirs)) {
+  for (const Reservation& holder : out_.book.ReservationsOf(zone, theirs)) {
     if (holder.id == id) continue;
     if (holder.id < out_.agents.size()) {
       const Agent& other = out_.agents[holder.id];
@@ -78,7 +78,7 @@ bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
     return true;
   }
   if (!heeded) return false;
-  if (const ZoneBook::Wish wish = out_.book.RoomWanted(zone, mine); wish.waited_s > agent.waited_s) {
+  if (const ReservationTable::Wish wish = out_.book.RoomWanted(zone, mine); wish.waited_s > agent.waited_s) {
     out_.passages[id].waits_for = static_cast<std::int64_t>(wish.id);
     return true;
   }
@@ -98,7 +98,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
   const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(index)];
-  const auto comers = out_.book.ComersTo(index, static_cast<std::size_t>(theirs));
+  const auto comers = out_.book.ApproachingTo(index, static_cast<std::size_t>(theirs));
   if (comers.empty()) return false;
   const int last = in_.map.zips[index] ? LastLetIn(out_.book, index, out_.agents.size()) : -1;
   if (zone.first == crossing.side && last != crossing.side) return false;
@@ -106,7 +106,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   const double way_out = crossing.out_m - agent.o_m + 0.5 * in_.traits[id].length_m;
   const double clears = TravelTime(way_out, agent.speed_mps, in_.limits.AllowedAt(id, crossing.out_m),
                                    in_.traits[id].start_mps2, {agent.wish_mps2, in_.settings.smooth.planned_mps3});
-  for (const Comer& comer : comers) {
+  for (const ApproachingVehicle& comer : comers) {
     if (comer.id == id) continue;
     const bool agents = comer.id < out_.agents.size();
     const bool slow =
@@ -133,7 +133,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
 // Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to
 // one or has waited longer.
 bool Grants::Grant(std::uint32_t id, bool yields) {
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   if (IsHeld(id, yields)) return false;
   for (const Crossing& crossing : passage.crossings) {
     if (yields && crossing.zone >= 0 && Yields(id, crossing)) return false;

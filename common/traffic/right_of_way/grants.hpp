@@ -30,8 +30,8 @@ class Grants {
   struct Writes {
     std::span<Agent> agents;
     std::uint64_t& next_grant;
-    std::span<Passage> passages;
-    ZoneBook& book;
+    std::span<ConflictPassage> passages;
+    ReservationTable& book;
     Room& room;
   };
   Grants(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
@@ -42,7 +42,7 @@ class Grants {
   bool Grant(std::uint32_t id, bool yields);
 
  private:
-  bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Holder& holder);
+  bool RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder);
   bool Held(std::uint32_t id, const Crossing& crossing, bool heeded);
   bool Yields(std::uint32_t id, const Crossing& crossing);
 

@@ -13,22 +13,22 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kUnhindered_mps2 = 1e3;       // more than any vehicle accelerates by
-constexpr double kFollowing_mps2 = 1.5;  // who is let in behind somebody brakes no harder for it
+constexpr double kUnhindered_mps2 = 1e3;  // more than any vehicle accelerates by
+constexpr double kFollowing_mps2 = 1.5;   // who is let in behind somebody brakes no harder for it
 constexpr double kLeast_mps2 = 1e-3;  // who is left less than this at rest does not drive on; with pedals who is left
 
 }  // namespace
 
 // From its front to the rear of who goes before it through a zone in which their ways come together, both by their way
 // to its end.
-double Merging::MergingGap(std::uint32_t id, double out_m, const Holder& before) const {
+double Merging::MergingGap(std::uint32_t id, double out_m, const Reservation& before) const {
   const double to_end = out_m - out_.agents[id].o_m - 0.5 * in_.traits[id].length_m;
   return to_end - (before.out_m - out_.agents[before.id].o_m + 0.5 * in_.traits[before.id].length_m);
 }
 
 // Where two ways merge it may come behind who is nearer to the end of the zone, as behind a leader, if it need not
 // brake much for that.
-bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const {
+bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return false;
   const double gap = MergingGap(id, crossing.out_m, holder);
   return gap > 0.0 && in_.following.FollowComing(id, holder.id, gap) > -kFollowing_mps2;
@@ -40,7 +40,7 @@ bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Holder
 template <class Tell>
 void Merging::EachLeaves(std::uint32_t id, const Tell& tell) const {
   const double front = FrontOf(out_.agents[id], in_.traits[id]);
-  EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
+  EachBefore(id, [&](const Reservation& holder, double in, double out, bool merges) {
     const double gap = merges ? MergingGap(id, out, holder) : -1.0;
     double leaves = in >= front ? in_.following.StopAt(id, in - kStopDistance_m) : kUnhindered_mps2;
     if (gap > 0.0) {
@@ -61,7 +61,7 @@ void Merging::YieldInZones(std::uint32_t id) {
     if (gap_m > 0.0 && gap_m < nearest) nearest = gap_m, agent.eased_for = other;
     leaves = std::min(leaves, leaves_mps2);
   });
-  const Ahead& ahead = in_.ahead[id];
+  const Leader& ahead = in_.ahead[id];
   if (agent.eased_for >= 0 || eased_for < 0 || ahead.id != eased_for) return;
   const Agent& other = out_.agents[static_cast<std::size_t>(eased_for)];
   if (!driver::AccIsIdm(in_.traits[id].idm, agent.speed_mps, in_.limits.Desired_mps(id), ahead.gap_m, ahead.speed_mps,

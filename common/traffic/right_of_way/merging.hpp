@@ -26,9 +26,9 @@ class Merging {
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
     const std::optional<FullCars>& full;
-    std::span<const Stretches> stretches;
-    std::span<const Ahead> ahead;
-    const ZoneBook& book;
+    std::span<const RouteSegments> stretches;
+    std::span<const Leader> ahead;
+    const ReservationTable& book;
     const SpeedLimits& limits;
     const CarFollowing& following;
   };
@@ -38,8 +38,8 @@ class Merging {
   };
   Merging(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  double MergingGap(std::uint32_t id, double out_m, const Holder& before) const;
-  bool MayFollow(std::uint32_t id, const Crossing& crossing, const Holder& holder) const;
+  double MergingGap(std::uint32_t id, double out_m, const Reservation& before) const;
+  bool MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const;
   void YieldInZones(std::uint32_t id);
   std::int64_t KeptInZonesBy(std::uint32_t id) const;
   // Those who hold its zones before it, and which: tell(holder, in_m, out_m, whether ways merge there), in its own
@@ -48,7 +48,7 @@ class Merging {
   void EachBefore(std::uint32_t id, const Tell& tell) const {
     const Agent& agent = out_.agents[id];
     const double front = FrontOf(out_.agents[id], in_.traits[id]);
-    for (const Stretch& stretch : in_.stretches[id]) {
+    for (const RouteSegment& stretch : in_.stretches[id]) {
       if (agent.grants.empty() || stretch.begin_m > agent.granted_m)
         break;  // without any nobody goes before it by his number
       if (!stretch.crosses) continue;
@@ -57,7 +57,7 @@ class Merging {
         const bool merges = part.kind == lanes::ZoneKind::kMerge;
         if (in >= agent.granted_m || (merges ? out : in) < front) continue;
         const std::uint64_t number = agent.GrantOf(out).number;
-        for (const Holder& holder : in_.book.HoldersOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
+        for (const Reservation& holder : in_.book.ReservationsOf(part.zone, static_cast<std::size_t>(1 - part.side))) {
           if (holder.id < out_.agents.size() && holder.id != id && holder.number < number)
             tell(holder, in, out, merges);
         }

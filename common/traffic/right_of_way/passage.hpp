@@ -18,13 +18,13 @@ struct Crossing {
 
 // Of what the zones of a passage were found from: as long as that is the same, and its front is before the first of
 // them, they are as well.
-struct PassageKey {
+struct ConflictPassageKey {
   std::uint32_t way = 0;                  // number of the way as it was seen (TrafficModel::ways_); 0: of none
   double granted_m = 0.0, until_m = 0.0;  // odometers: to which zones were its own; of its front
 };
 
 // The next stretch of conflict zones on an agent's way that are not yet its own, up to where it may stand again.
-struct Passage {
+struct ConflictPassage {
   bool any = false;
   bool due = false;   // it must know now whether it may go on
   bool head = false;  // nobody stands between it and the line who waits himself (this, and the next: of whom must know,
@@ -37,7 +37,7 @@ struct Passage {
   bool barred = false;     // it waits before the line for people on foot
   double line_m = 0.0;     // odometer at which its front stops
   double end_m = 0.0;
-  PassageKey key;
+  ConflictPassageKey key;
   double room_m = 0.0;     // odometer up to which who is ahead must have left
   double lacks_m = 0.0;    // of that, at most, when all ahead have come as far as they surely do
   double arrives_s = 0.0;  // of whom others ask about

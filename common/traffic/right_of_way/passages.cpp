@@ -24,7 +24,7 @@ constexpr double kAtLine_m = 1.5;  // a full stop counts within this before the 
 
 // The same of the place that an agent asks of again and again, and then knows.
 double Passages::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t place) {
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < odometer_m && &stretch != &in_.stretches[id].back()) continue;
     const double d = odometer_m - stretch.zero_m;
     PlannedAt& known = out_.known[id][place];
@@ -37,7 +37,7 @@ double Passages::KnowAllowedAt(std::uint32_t id, double odometer_m, std::size_t 
 
 // What else a passage has is found anew.
 bool Passages::KeepPassage(std::uint32_t id) {
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   if (passage.key.way != in_.way_numbers[id] || passage.key.granted_m != out_.agents[id].granted_m ||
       FrontOf(out_.agents[id], in_.traits[id]) > passage.key.until_m)
     return false;
@@ -52,12 +52,12 @@ bool Passages::KeepPassage(std::uint32_t id) {
 // the next ones may begin where those end, and who has taken the first ones alone would stand in them.
 void Passages::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
-  const Passage& passage = out_.passages[id];
+  const ConflictPassage& passage = out_.passages[id];
   if (!passage.any) return;
   const double to_line = passage.line_m - FrontOf(out_.agents[id], in_.traits[id]), v = out_.agents[id].speed_mps;
   const bool due = to_line < v * v / (2.0 * in_.traits[id].idm.braking_mps2) + kReaction_s * v + kEarly_m;
   while (due && !out_.ways.SeesTo(id, passage.room_m)) {
-    out_.ways.FindStretches(id, passage.room_m - FrontOf(out_.agents[id], in_.traits[id]) + kFarther_m);
+    out_.ways.FindRouteSegments(id, passage.room_m - FrontOf(out_.agents[id], in_.traits[id]) + kFarther_m);
     FindCrossings(id);
   }
   out_.passages[id].due = due;
@@ -66,10 +66,10 @@ void Passages::FindPassage(std::uint32_t id) {
 void Passages::FindCrossings(std::uint32_t id) {
   const Agent& agent = out_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half, rear = agent.o_m - half;
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   auto crossings = std::move(passage.crossings);
   crossings.clear();
-  passage = Passage();
+  passage = ConflictPassage();
   const double stand = in_.traits[id].length_m + kStandingMargin_m;
   passage.key = {in_.way_numbers[id], agent.granted_m, kNoBarrier_m};
   const auto take = [&](const Crossing& crossing) {
@@ -81,7 +81,7 @@ void Passages::FindCrossings(std::uint32_t id) {
     crossings.push_back(crossing);
     passage.key.until_m = std::min(passage.key.until_m, crossing.in_m - kStopDistance_m);
   };
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.end_m < rear || stretch.end_m < agent.granted_m || stretch.changes) continue;
     if (passage.any && stretch.begin_m > passage.end_m + stand) break;
     if (!stretch.crosses && !stretch.has_lines) continue;
@@ -131,7 +131,7 @@ void Passages::ComeToLine(std::uint32_t id, double dt_s) {
                        agent.grants.end());
   out_.signals.ObeyLights(id);
   FindPassage(id);
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   passage.barred = in_.bars[id] < passage.line_m;
   const double to_line = passage.line_m - agent.o_m - half;
   if (passage.any && passage.must_stop && agent.speed_mps < kStandstill_mps && to_line < kAtLine_m) {

@@ -23,13 +23,13 @@ class Passages {
     const TrafficSettings& settings;
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     std::span<const std::uint32_t> way_numbers;
     std::span<const double> bars;
   };
   struct Writes {
     std::span<Agent> agents;
-    std::span<Passage> passages;
+    std::span<ConflictPassage> passages;
     std::span<std::array<PlannedAt, 2>> known;
     Signals& signals;
     Ways& ways;

@@ -41,7 +41,7 @@ void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell)
     if (comes < clear_m) tell(static_cast<std::int64_t>(other.id), rear, zero_m + comes);
   };
   const auto by_id = [](const Occupant& a, const Occupant& b) { return a.id < b.id; };
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     if (stretch.end_m < agent.o_m) continue;
     auto near = in_.occupants.Beyond(stretch.track, agent.o_m - stretch.zero_m);
@@ -79,7 +79,7 @@ void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell)
 double Room::ReachOf(std::uint32_t id, int depth) {
   if (out_.reaches[id] >= 0.0) return out_.reaches[id];
   const Agent& agent = in_.agents[id];
-  const Passage& passage = out_.passages[id];
+  const ConflictPassage& passage = out_.passages[id];
   if (agent.brake_mps2 > 0.0) return out_.reaches[id] = StopsWithin(agent.speed_mps);
   out_.reaches[id] = 0.0;
   if (depth > kDeepest) return 0.0;
@@ -98,7 +98,7 @@ double Room::ReachOf(std::uint32_t id, int depth) {
 // sees, and who has room behind his zones, leaves them.
 double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
   const double front = FrontOf(in_.agents[id], in_.traits[id]), apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
-  in_.merging.EachBefore(id, [&](const Holder& holder, double in, double out, bool merges) {
+  in_.merging.EachBefore(id, [&](const Reservation& holder, double in, double out, bool merges) {
     const double line = in >= front ? in - kStopDistance_m - kShort_m : front;
     if (line >= to_m) return;
     const double comes = ReachOf(holder.id, depth + 1);
@@ -121,7 +121,7 @@ bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) con
   std::uint32_t at = other;
   for (int depth = 0; depth < kDeepest; ++depth) {
     const Agent& agent = in_.agents[at];
-    const Ahead& ahead = in_.ahead[at];
+    const Leader& ahead = in_.ahead[at];
     const bool stands = agent.speed_mps < kStands_mps;
     const std::int64_t next = agent.eased_for >= 0 ? agent.eased_for : ahead.id;
     const double gap = next == ahead.id ? ahead.gap_m : 0.0,
@@ -146,7 +146,7 @@ bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) con
 // Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at
 // the same line makes it no head.
 void Room::FindRoom(std::uint32_t id) {
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   passage.head = passage.able = true;
   const double to = passage.room_m;
   double nearest = kNever_m;
@@ -167,7 +167,7 @@ void Room::FindRoom(std::uint32_t id) {
 }
 
 bool Room::RoomAhead(std::uint32_t id) const {
-  const Passage& passage = out_.passages[id];
+  const ConflictPassage& passage = out_.passages[id];
   const double front = in_.agents[id].o_m + 0.5 * in_.traits[id].length_m;
   const bool at_line = passage.any && passage.line_m < front + kMinGapAhead_m;
   return at_line ? !passage.taken && in_.ahead[id].gap_m > passage.room_m - front
@@ -176,7 +176,7 @@ bool Room::RoomAhead(std::uint32_t id) const {
 
 // What others, and it, must know of who may come to its zones soon: when, and whether there is room behind them.
 void Room::TellComing(std::uint32_t id) {
-  Passage& passage = out_.passages[id];
+  ConflictPassage& passage = out_.passages[id];
   const double in = passage.crossings.front().in_m, most = out_.passages_ahead.KnowAllowedAt(id, in, 0);
   (void)out_.passages_ahead.KnowAllowedAt(id, passage.end_m, 1);
   passage.arrives_s =

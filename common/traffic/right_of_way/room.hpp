@@ -26,11 +26,11 @@ class Room {
     std::span<const Agent> agents;
     std::span<const AgentTraits> traits;
     const double& longest_half_m;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
     const Occupancy& occupants;
     std::span<const std::vector<Block>> blocks;
     const bool& any_block;
-    std::span<const Ahead> ahead;
+    std::span<const Leader> ahead;
     std::span<const double> bars;
     const Ways& ways;
     const Neighbours& neighbours;
@@ -38,7 +38,7 @@ class Room {
     const Merging& merging;
   };
   struct Writes {
-    std::span<Passage> passages;
+    std::span<ConflictPassage> passages;
     std::span<double> reaches;
     Passages& passages_ahead;
   };

@@ -3,21 +3,21 @@
 
 namespace rodeira::traffic {
 
-ZoneBook::ZoneBook(std::size_t zones)
+ReservationTable::ReservationTable(std::size_t zones)
     : holders_(2 * zones), comers_(2 * zones), awaited_(2 * zones), room_for_(2 * zones) {}
 
-void ZoneBook::Clear() {
+void ReservationTable::Clear() {
   holders_.Clear(), comers_.Clear();
   for (const std::size_t side : urged_) awaited_[side] = 0, room_for_[side] = {};
   urged_.clear();
 }
 
-void ZoneBook::Await(std::size_t zone, std::size_t side) {
+void ReservationTable::Await(std::size_t zone, std::size_t side) {
   awaited_[Side(zone, side)] = 1;
   urged_.push_back(Side(zone, side));
 }
 
-void ZoneBook::WantRoom(std::size_t zone, std::size_t side, const Wish& wish) {
+void ReservationTable::WantRoom(std::size_t zone, std::size_t side, const Wish& wish) {
   Wish& wanted = room_for_[Side(zone, side)];
   if (wish.waited_s > wanted.waited_s) wanted = wish;
   urged_.push_back(Side(zone, side));

@@ -10,7 +10,7 @@
 namespace rodeira::traffic {
 
 // Somebody who holds a side of a zone. Ids from the number of agents on are others.
-struct Holder {
+struct Reservation {
   std::uint32_t id = 0;
   bool sure = false;         // there is room for it behind its zones
   std::uint64_t number = 0;  // of its grant; 0: none
@@ -18,24 +18,30 @@ struct Holder {
 };
 
 // Somebody who comes to a side of a zone. When, is found out where it is asked for: few are.
-struct Comer {
+struct ApproachingVehicle {
   std::uint32_t id = 0;
   double in_m = 0.0, out_m = 0.0;          // odometer; of agents
   double arrives_s = 0.0, clears_s = 0.0;  // of others
 };
 
 // Who has or wants each side of each conflict zone in a step. Only zones that something is said of cost anything.
-class ZoneBook {
+class ReservationTable {
  public:
-  explicit ZoneBook(std::size_t zones);
+  explicit ReservationTable(std::size_t zones);
 
   void Clear();  // all, for the next step
 
   static std::size_t Side(std::size_t zone, std::size_t side) { return 2 * zone + side; }
-  void Hold(std::size_t zone, std::size_t side, const Holder& holder) { holders_.Add(Side(zone, side), holder); }
-  Lists<Holder>::Range HoldersOf(std::size_t zone, std::size_t side) const { return holders_.Of(Side(zone, side)); }
-  void Come(std::size_t zone, std::size_t side, const Comer& comer) { comers_.Add(Side(zone, side), comer); }
-  Lists<Comer>::Range ComersTo(std::size_t zone, std::size_t side) const { return comers_.Of(Side(zone, side)); }
+  void Hold(std::size_t zone, std::size_t side, const Reservation& holder) { holders_.Add(Side(zone, side), holder); }
+  Lists<Reservation>::Range ReservationsOf(std::size_t zone, std::size_t side) const {
+    return holders_.Of(Side(zone, side));
+  }
+  void Come(std::size_t zone, std::size_t side, const ApproachingVehicle& comer) {
+    comers_.Add(Side(zone, side), comer);
+  }
+  Lists<ApproachingVehicle>::Range ApproachingTo(std::size_t zone, std::size_t side) const {
+    return comers_.Of(Side(zone, side));
+  }
 
   // An urgent agent waits for this side to end …
   void Await(std::size_t zone, std::size_t side);
@@ -54,8 +60,8 @@ class ZoneBook {
   }
 
  private:
-  Lists<Holder> holders_;
-  Lists<Comer> comers_;
+  Lists<Reservation> holders_;
+  Lists<ApproachingVehicle> comers_;
   std::vector<std::uint8_t> awaited_;  // by side
   std::vector<Wish> room_for_;         // by side
   std::vector<std::size_t> urged_;     // sides of which one of both says something: hardly ever any

@@ -49,7 +49,7 @@ double Signals::RedAhead(std::uint32_t track, double from_m, double speed_mps) c
 
 // Whether all lights on its way between two odometers show green.
 bool Signals::AllGreen(std::uint32_t id, double from_m, double to_m) const {
-  for (const Stretch& stretch : in_.stretches[id]) {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
     if (stretch.begin_m > to_m) break;
     for (const StopLine& line : in_.map.plans[stretch.track].lines) {
       const double at = stretch.zero_m + line.d_m;

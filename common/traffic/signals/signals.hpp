@@ -22,7 +22,7 @@ class Signals {
     const TrafficMap& map;
     std::span<const AgentTraits> traits;
     const std::int64_t& time_ns;
-    std::span<const Stretches> stretches;
+    std::span<const RouteSegments> stretches;
   };
   struct Writes {
     std::span<Agent> agents;

@@ -20,7 +20,7 @@ constexpr std::size_t kPieceNumbers = 7;
 
 void Agent::Save(base::StateWriter& writer) const {
   writer.Put("on_road", on_road);
-  writer.Put("is_struck", is_struck);
+  writer.Put("is_struck", is_crashed);
   writer.Put("struck", struck);
   writer.Put("struck_z_m", struck_z_m);
   writer.Put("entry", entry);
@@ -79,7 +79,7 @@ void Agent::Save(base::StateWriter& writer) const {
 
 void Agent::Restore(base::StateReader& reader) {
   reader.Get("on_road", on_road);
-  reader.Get("is_struck", is_struck);
+  reader.Get("is_struck", is_crashed);
   reader.Get("struck", struck);
   reader.Get("struck_z_m", struck_z_m);
   reader.Get("entry", entry);
@@ -134,7 +134,7 @@ void Agent::Restore(base::StateReader& reader) {
     const double* at = &numbers[kPieceNumbers * i];
     path.push_back({tracks[i], at[0], at[1], at[2], at[3], at[4], at[5], at[6]});
   }
-  on_road = on_road && !is_struck && !path.empty();
+  on_road = on_road && !is_crashed && !path.empty();
 }
 
 PathFrame FrameAt(const lanes::Graph& graph, const Path& path, double odometer_m) {

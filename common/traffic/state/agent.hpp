@@ -77,7 +77,7 @@ struct alignas(64) Agent {
   static constexpr double kNoCap_mps = 1e3;
 
   bool on_road = false;        // drives
-  bool is_struck = false;      // has been hit, and drives no more
+  bool is_crashed = false;     // has been hit, and drives no more
   bool seeks = false;          // drives slower to find a gap beside, for its route
   bool told_past = false;      // told to overtake who is ahead, and has not begun yet
   std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
@@ -107,7 +107,7 @@ struct alignas(64) Agent {
   std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
   LaneChange change;
   Overtaking overtaking;
-  Struck struck;
+  Crashed struck;
   double struck_z_m = 0.0;  // its height, where no lane is below it
 
   // That of a zone with this end; nothing for zones that it came into without any.

@@ -14,7 +14,7 @@ struct FlowCount {
 };
 
 // A vehicle that waits for room in the middle of a lane.
-struct AppearingVehicle {
+struct SpawningVehicle {
   std::uint32_t id = 0, track = 0;
   double d_m = 0.0, speed_mps = 0.0;
 };

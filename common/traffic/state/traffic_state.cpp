@@ -18,7 +18,7 @@ void Simulation::Save(base::StateWriter& writer) const {
   writer.Put("waiting", store.waiting);
   std::vector<std::uint32_t> appearing;
   std::vector<double> appearing_at;
-  for (const AppearingVehicle& next : store.appearing) {
+  for (const SpawningVehicle& next : store.appearing) {
     appearing.insert(appearing.end(), {next.id, next.track});
     appearing_at.insert(appearing_at.end(), {next.d_m, next.speed_mps});
   }
@@ -64,7 +64,7 @@ void Simulation::Restore(base::StateReader& reader) {
   }
   store.appearing.clear();
   for (std::size_t i = 0; 2 * i + 1 < appearing.size() && 2 * i + 1 < appearing_at.size(); ++i) {
-    const AppearingVehicle next{appearing[2 * i], appearing[2 * i + 1], appearing_at[2 * i], appearing_at[2 * i + 1]};
+    const SpawningVehicle next{appearing[2 * i], appearing[2 * i + 1], appearing_at[2 * i], appearing_at[2 * i + 1]};
     if (next.id < settings.vehicles || next.id >= store.agents.size() || next.track >= map->graph.tracks().size())
       continue;
     if (next.d_m >= 0.0 && next.d_m <= map->graph[next.track].length_m() && next.speed_mps >= 0.0)

@@ -26,9 +26,9 @@ struct VehicleStore {
   std::vector<MotorsDriver> motors;  // empty where other drivers drive
   std::optional<FullCars> full;      // none: planar
   std::optional<Pedestrians> people;
-  double longest_half_m = 0.0;              // of all vehicles that there may be
-  std::vector<std::uint32_t> waiting;       // to enter, first come first
-  std::vector<AppearingVehicle> appearing;  // in the order of the commands
+  double longest_half_m = 0.0;             // of all vehicles that there may be
+  std::vector<std::uint32_t> waiting;      // to enter, first come first
+  std::vector<SpawningVehicle> appearing;  // in the order of the commands
   std::vector<FlowCount> flows;
   std::uint64_t next_grant = 1;
   std::uint64_t ended = 0, missed = 0;  // trips; lanes for routes

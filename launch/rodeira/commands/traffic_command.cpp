@@ -5,12 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <string>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
-#include <optional>
+#include <string>
 #include <utility>
 
 #include "common/core/base/print_error.hpp"
@@ -22,11 +21,10 @@
 #include "common/traffic/signals/map_lights.hpp"
 #include "common/world/lanes/lights.hpp"
 #include "common/world/road/map_world.hpp"
+#include "common/world/road/world.hpp"
 #include "common/world/traffic_map/heights.hpp"
 #include "launch/rodeira/commands/traffic_files.hpp"
 #include "launch/rodeira/input_files.hpp"
-#include "common/world/road/world.hpp"
-#include "common/world/lanes/signs.hpp"
 #include "launch/rodeira/wall_clock.hpp"
 #include "launch/rodeira/world_warnings.hpp"
 

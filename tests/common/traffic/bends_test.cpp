@@ -2,9 +2,9 @@
 // How drivers come to the speeds that bends allow.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>

@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
 #include <string>
-#include <cstdlib>
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "common/traffic/traffic_model.hpp"

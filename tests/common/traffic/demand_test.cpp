@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 
 #include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/demand_road.hpp"

@@ -12,13 +12,13 @@
 #include "common/traffic/motion/car_of.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/results/study.hpp"
+#include "common/world/lanes/lights.hpp"
 #include "common/world/lanes/signs.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 #include "tests/long_form.hpp"
-#include "common/world/road/world.hpp"
-#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -12,6 +12,7 @@
 
 #include "common/driving/driver/idm.hpp"
 #include "common/traffic/motion/car_of.hpp"
+#include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
@@ -21,7 +22,6 @@
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/traffic/motion/full_cars.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::traffic {
@@ -152,8 +152,8 @@ TEST(FullPhysics, KeepsTheEquilibriumGapOnAGrade) {
       settings.overtaking.allowed = false;
       TrafficModel model = TrafficModel::Make(settings, driver::StraightWorld(3000.0, kLimit_mps, grade), {}).value();
       model.CapSpeed(0, speed_mps);
-      ASSERT_TRUE(model.LetAppear(0, "test:-1", 60.0, speed_mps).value());
-      ASSERT_TRUE(model.LetAppear(1, "test:-1", 25.0, speed_mps).value());
+      ASSERT_TRUE(model.Spawn(0, "test:-1", 60.0, speed_mps).value());
+      ASSERT_TRUE(model.Spawn(1, "test:-1", 25.0, speed_mps).value());
       for (int i = 0; i < 18000; ++i) model.Step(kStep_s, {});
       ASSERT_EQ(model.on_road(), 2u);
       EXPECT_NEAR(model.agent(0).grade, grade, 5e-3);  // the car pitches a little

@@ -3,11 +3,11 @@
 // him.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>

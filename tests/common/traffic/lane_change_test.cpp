@@ -2,13 +2,13 @@
 // Changes of lanes: each against MOBIL's inequality, worked out here from the published poses alone.
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/traffic/results/study.hpp"
@@ -336,7 +336,7 @@ TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
     Put(model, 0, "1:-2", kJoin_m - before_m, kSpeed_mps);
     model.CapSpeed(0, kSpeed_mps);
     Step(model);
-    model.TellToChange(0, 1);
+    model.CommandLaneChange(0, 1);
     Step(model);
     ASSERT_EQ(model.agent(0).change.side, 1) << before_m;
     const auto& agent = model.agent(0);
@@ -375,7 +375,7 @@ TEST(LaneChange, WhoStandsOnTheOldLaneIsSeenBeyondWhoDrivesAwayOnTheNewOne) {
       model.Brake(2, 2.0);
       Step(model);
       ASSERT_EQ(model.on_road(), 3u) << stands_m;
-      model.TellToChange(0, 1);
+      model.CommandLaneChange(0, 1);
       for (int i = 0; i * kStep_s < 20.0 && (i == 0 || model.agent(0).change.side != 0); ++i) {
         Step(model);
         if (i == 0) {

@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <array>
 #include <algorithm>
-#include <memory>
-#include <string>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <pugixml.hpp>
 #include <set>
 #include <sstream>
+#include <string>
 
 #include "common/traffic/results/floating_cars.hpp"
 #include "common/traffic/results/lane_tables.hpp"

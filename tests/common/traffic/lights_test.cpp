@@ -2,19 +2,19 @@
 // Traffic at lights: who stops and who goes on at amber, nobody at red, and what a green lets pass.
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <span>
-#include <optional>
-#include <string>
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "common/traffic/results/study.hpp"
+#include "common/world/lanes/lights.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
-#include "common/world/lanes/signs.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

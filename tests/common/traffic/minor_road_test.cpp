@@ -2,9 +2,9 @@
 // What a minor road carries across a major one: Siegloch's formula with the gaps that its own cars take.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
 #include <vector>

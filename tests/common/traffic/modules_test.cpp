@@ -39,7 +39,7 @@ class TwoOnARing : public testing::Test {
   void SeeBoth(double range_m) {
     Ways ways{{settings_, map_, agents_, traits_}, {seen_.stretches, seen_.way_keys, seen_.way_numbers}};
     for (std::uint32_t id = 0; id < 2; ++id) {
-      ways.FindStretches(id, range_m);
+      ways.FindRouteSegments(id, range_m);
       seen_.occupants.Add(0, {id, -1, agents_[id].o_m - Half(id), agents_[id].o_m + Half(id)});
     }
     seen_.occupants.Sort();
@@ -65,7 +65,7 @@ class TwoOnARing : public testing::Test {
 TEST_F(TwoOnARing, LeaderIsTheNextVehicleOnTheWay) {
   SeeBoth(kRing_m);
   const Neighbours neighbours = MakeNeighbours();
-  const Ahead before_first = neighbours.FindAhead(0), before_second = neighbours.FindAhead(1);
+  const Leader before_first = neighbours.FindLeader(0), before_second = neighbours.FindLeader(1);
   ASSERT_TRUE(before_first.any);
   EXPECT_EQ(before_first.id, 1);
   EXPECT_NEAR(before_first.gap_m, 60.0 - Half(0) - Half(1), 1e-9);
@@ -78,13 +78,13 @@ TEST_F(TwoOnARing, LeaderIsTheNextVehicleOnTheWay) {
 TEST_F(TwoOnARing, LeaderOutOfSightIsNone) {
   SeeBoth(10.0);
   seen_.occupants.Clear();
-  EXPECT_FALSE(MakeNeighbours().FindAhead(0).any);
+  EXPECT_FALSE(MakeNeighbours().FindLeader(0).any);
 }
 
 // The follower of a rectangle at 95 m, whose rear is at 93 m, is the vehicle at 40 m.
 TEST_F(TwoOnARing, FollowerIsTheNextVehicleBehind) {
   SeeBoth(kRing_m);
-  const Behind follower = MakeNeighbours().FindBehind(7, 0, 95.0, 93.0);
+  const Follower follower = MakeNeighbours().FindFollower(7, 0, 95.0, 93.0);
   ASSERT_TRUE(follower.any);
   EXPECT_EQ(follower.id, 0);
   EXPECT_NEAR(follower.gap_m, 93.0 - 40.0 - Half(0), 1e-9);

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/scripted.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/traffic/motion/full_cars.hpp"
 #include "tests/long_form.hpp"
 
 namespace rodeira::traffic {

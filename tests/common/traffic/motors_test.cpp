@@ -3,14 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
 #include <cmath>
 #include <numbers>
+#include <string>
 
+#include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/results/study.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/traffic/motion/full_cars.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {

@@ -2,16 +2,15 @@
 // Where MOTORS' driver steers for, and to whom he gives way: against points and rules worked out by hand.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
+#include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/motors/motors_driver.hpp"
 #include "common/traffic/traffic_model.hpp"
-#include "common/traffic/motion/full_cars.hpp"
-#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {
@@ -56,7 +55,7 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
   TrafficModel model =
       TrafficModel::Make(AsMotors({VehicleKind::kCar}), opendrive::MustRead(opendrive::Document(road.Text())), {})
           .value();
-  ASSERT_TRUE(model.LetAppear(0, "1:-1", 5.0, 8.0).value());
+  ASSERT_TRUE(model.Spawn(0, "1:-1", 5.0, 8.0).value());
   model.Step(kStep_s, {});
   ASSERT_EQ(model.on_road(), 1u);
   Lap lap;
@@ -162,8 +161,8 @@ TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
               .value();
       const double meets_m = left_hand ? 200.0 - 1.75 : 200.0 + 1.75, other_m = left_hand ? 200.0 + 1.75 : 200.0 - 1.75;
       const std::string lane = left_hand ? ":1" : ":-1";
-      ASSERT_TRUE(model.LetAppear(0, "1" + lane, meets_m - 40.0, 11.0).value());
-      ASSERT_TRUE(model.LetAppear(1, "2" + lane, other_m - 40.0, 11.0).value());
+      ASSERT_TRUE(model.Spawn(0, "1" + lane, meets_m - 40.0, 11.0).value());
+      ASSERT_TRUE(model.Spawn(1, "2" + lane, other_m - 40.0, 11.0).value());
       model.Step(kStep_s, {});
       ASSERT_EQ(model.on_road(), 2u);
       int stops[2] = {0, 0};
@@ -195,10 +194,10 @@ TEST(MotorsYielding, AThirdWhoComesLaterLetsBothGo) {
                                .value();
       const double side = left_hand ? -1.0 : 1.0, meets_m = 200.0 - 1.75 * side;
       if (is_there) {
-        ASSERT_TRUE(model.LetAppear(0, left_hand ? "1:1" : "1:-1", 201.75 - 40.0, 11.0).value());
+        ASSERT_TRUE(model.Spawn(0, left_hand ? "1:1" : "1:-1", 201.75 - 40.0, 11.0).value());
       }
-      ASSERT_TRUE(model.LetAppear(1, "2:-1", meets_m - 40.0 * side, 11.0).value());
-      ASSERT_TRUE(model.LetAppear(2, "2:1", meets_m + 75.0 * side, 11.0).value());
+      ASSERT_TRUE(model.Spawn(1, "2:-1", meets_m - 40.0 * side, 11.0).value());
+      ASSERT_TRUE(model.Spawn(2, "2:1", meets_m + 75.0 * side, 11.0).value());
       model.Step(kStep_s, {});
       ASSERT_EQ(model.on_road(), is_there ? 3u : 2u);
       int stops[3] = {0, 0, 0};

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "common/core/base/random.hpp"
@@ -18,10 +18,10 @@
 #include "common/traffic/motors/motors_looks.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/results/study.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/traffic/restored.hpp"
 #include "tests/common/world/lanes/closed_grid.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -4,21 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
-#include <string>
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <memory>
 #include <numbers>
+#include <string>
 
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/world/lanes/signs.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 #include "tests/long_form.hpp"
-#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {

@@ -2,16 +2,15 @@
 // Overtaking on the lane of oncoming traffic: everything is told from the published poses.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
-#include "common/traffic/right_of_way/passage.hpp"
 #include "tests/common/traffic/two_way_ring.hpp"
 
 namespace rodeira::traffic {

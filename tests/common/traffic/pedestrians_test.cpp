@@ -2,20 +2,20 @@
 // People on foot: nobody is touched, who waits is let go, and the arithmetic of it.
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <string>
 
 #include "common/traffic/network/road_network.hpp"
+#include "common/traffic/pedestrians/pedestrians.hpp"
 #include "common/traffic/results/study.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/duration.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/traffic/pedestrians/pedestrians.hpp"
 #include "tests/common/world/opendrive/sample.hpp"
 
 namespace rodeira::traffic {
@@ -214,7 +214,7 @@ TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
     for (int i = 0; i * kStep_s < at_s + 20.0; ++i) {
       const double now = i * kStep_s;
       if (!called && now >= at_s) {
-        ASSERT_TRUE(model.CallPedestrian("1", 200.0, phase % 2 == 0).ok());
+        ASSERT_TRUE(model.SpawnPedestrian("1", 200.0, phase % 2 == 0).ok());
         called = true;
       }
       std::vector<driver::Footprint> others;
@@ -258,7 +258,7 @@ void YieldsWhereItCan(bool left_hand) {
     for (int i = 0; i < 6000 && model.on_road() == 1 && to_walkway() < 1e8; ++i) {
       const double v = model.agent(0).speed_mps, way = to_walkway();
       // He walks to the kerb meanwhile.
-      if (!called && way < far + comes_m / 1.35 * v) called = model.CallPedestrian("1", 200.0, false).ok();
+      if (!called && way < far + comes_m / 1.35 * v) called = model.SpawnPedestrian("1", 200.0, false).ok();
       if (called && !judged && model.people()->Waits(0)) {
         judged = true;
         able = way - 1.0 >= v * v / (2.0 * 0.75 * settings.idm.braking_mps2) + 0.5 * v;
@@ -343,7 +343,7 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
 // Who is hit stays, and so do those who come: nobody drives over him.
 TEST(Pedestrians, WhoIsHitStays) {
   TrafficModel model = TrafficModel::Make(WithPeople(6, 0.0), Street(), {}).value();
-  ASSERT_TRUE(model.CallPedestrian("1", 200.0, true).ok());
+  ASSERT_TRUE(model.SpawnPedestrian("1", 200.0, true).ok());
   while (model.people()->counts()[0].let_go == 0) model.Step(0.05, {});
   for (int i = 0; i < 60; ++i) model.Step(0.05, {});
   model.HitPedestrian(Pedestrians::kFirstId);
@@ -384,7 +384,7 @@ TEST(Pedestrians, WrongSettingsAreNamed) {
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.error().Text().find("has no crossing for people on foot"), std::string::npos) << none.error().Text();
   TrafficModel without = TrafficModel::Make(Identical(1, 1.4), Street(), {}).value();
-  EXPECT_FALSE(without.CallPedestrian("1", 200.0, false).ok());
+  EXPECT_FALSE(without.SpawnPedestrian("1", 200.0, false).ok());
 }
 
 }  // namespace

@@ -12,12 +12,12 @@
 
 #include "common/core/base/hash.hpp"
 #include "common/traffic/network/road_network.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/traffic/demand_road.hpp"
 #include "tests/common/traffic/digest_of.hpp"
 #include "tests/common/traffic/ring.hpp"
 #include "tests/common/traffic/with_crossings.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
-#include "common/world/road/world.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::traffic {
@@ -108,13 +108,13 @@ std::vector<driver::Footprint> CarAt(const TrafficModel& model, double time_s) {
 void Command(TrafficModel& model, std::int64_t step) {
   if (step == 50) model.Brake(1, 2.0);
   if (step == 100) model.CapSpeed(2, 5.0);
-  if (step == 150) model.TellToPass(3);
-  if (step == 200) model.TellToChange(4, +1), model.TellToChange(5, -1);
+  if (step == 150) model.CommandOvertake(3);
+  if (step == 200) model.CommandLaneChange(4, +1), model.CommandLaneChange(5, -1);
   if (step == 300) model.Release(1);
   if (step == 250) {
     const network::Road& road = model.graph().network().roads()[0];
     const std::string lane = road.id() + ":" + std::to_string(model.graph()[0].lane.lane);
-    const auto told = model.LetAppear(static_cast<std::uint32_t>(model.vehicles() - 2), lane, 30.0, 8.0);
+    const auto told = model.Spawn(static_cast<std::uint32_t>(model.vehicles() - 2), lane, 30.0, 8.0);
     EXPECT_TRUE(told.ok()) << told.error().Text();
   }
   if (step == 400 && !model.poses().empty()) {

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
+#include <string>
 
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"

@@ -3,16 +3,16 @@
 // their cars move.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <vector>
 
+#include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/identical.hpp"
 #include "tests/common/traffic/ring.hpp"
-#include "common/traffic/motion/full_cars.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
@@ -28,9 +28,9 @@ TrafficSettings One(Physics physics) {
 }
 
 // Where the agent of a model will be, step by step; nothing where its trip ends before.
-std::optional<std::vector<AgentPose>> Ahead(const TrafficModel& model,
-                                            const std::shared_ptr<const network::Network>& network,
-                                            const TrafficSettings& settings, int steps) {
+std::optional<std::vector<AgentPose>> Leader(const TrafficModel& model,
+                                             const std::shared_ptr<const network::Network>& network,
+                                             const TrafficSettings& settings, int steps) {
   base::StateWriter writer;
   model.Save(writer);
   TrafficModel goes_on = TrafficModel::Make(settings, network, {}).value();
@@ -91,7 +91,7 @@ TEST(Reactions, WithinOneStepOnARoad) {
     TrafficModel model = TrafficModel::Make(settings, network, {}).value();
     for (int i = 0; i < 3000; ++i) model.Step(kStep_s, {});
     ASSERT_GT(model.poses()[0].speed_mps, 10.0);
-    const auto way = Ahead(model, network, settings, 400);
+    const auto way = Leader(model, network, settings, 400);
     ASSERT_TRUE(way);
     AnswersAtOnce(model, network, settings, way->back(), 0.0, 0.0, "stands there");
     AnswersAtOnce(model, network, settings, way->back(), 0.5 * std::numbers::pi, 0.0, "stands across");
@@ -114,7 +114,7 @@ TEST(Reactions, WithinOneStepInAJunction) {
       const Agent& agent = model.agent(0);
       const bool is_within = pose.p_WB_W.head<2>().norm() < kMiddle_m + 3.0;
       if (agent.granted_m <= agent.o_m || (is_within ? within : before) >= 3) continue;
-      const auto way = Ahead(model, network, settings, 500);
+      const auto way = Leader(model, network, settings, 500);
       if (!way) continue;
       for (const AgentPose& later : *way) {
         const double gone = (later.p_WB_W - pose.p_WB_W).head<2>().norm();

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
-#include <string>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "common/core/base/random.hpp"
 #include "common/traffic/traffic_model.hpp"

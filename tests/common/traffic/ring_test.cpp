@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +11,7 @@
 #include <cstdlib>
 #include <numbers>
 #include <optional>
+#include <string>
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/curves.hpp"

@@ -30,7 +30,7 @@ inline void Step(TrafficModel& model, int steps = 1) {
 }
 
 inline void Put(TrafficModel& model, std::uint32_t id, const std::string& lane, double s_m, double speed_mps) {
-  const auto told = model.LetAppear(id, lane, s_m, speed_mps);
+  const auto told = model.Spawn(id, lane, s_m, speed_mps);
   ASSERT_TRUE(told.ok()) << told.error().Text();
   ASSERT_TRUE(told.value());
 }

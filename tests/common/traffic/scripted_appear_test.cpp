@@ -9,9 +9,9 @@
 #include <string>
 
 #include "common/world/lanes/signs.hpp"
+#include "common/world/road/world.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/common/traffic/scripted.hpp"
-#include "common/world/road/world.hpp"
 #include "tests/common/world/lanes/lane_networks.hpp"
 
 namespace rodeira::traffic {
@@ -48,7 +48,7 @@ TEST(Scripted, AVehicleAppearsWhereAndAsFastAsIsTold) {
   Step(model);
   EXPECT_NEAR((PoseOf(model, 0)->p_WB_W - before.p_WB_W).norm(), 0.5 * (13.0 + PoseOf(model, 0)->speed_mps) * kStep_s,
               1e-6);
-  EXPECT_FALSE(model.LetAppear(0, "test:-1", 900.0, 3.0).value());  // it is there
+  EXPECT_FALSE(model.Spawn(0, "test:-1", 900.0, 3.0).value());  // it is there
   // They drive to the end, are gone, and may appear again, on another trip.
   Step(model, 50 * 150);
   EXPECT_EQ(model.on_road(), 0u);
@@ -90,11 +90,11 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   Put(model, 1, "test:-1", 503.0, 0.0);
   Put(model, 2, "test:-1", 300.0, 20.0);
   Step(model);
-  EXPECT_TRUE(model.IsAppearing(1));
-  EXPECT_FALSE(model.IsAppearing(2));
-  EXPECT_FALSE(model.LetAppear(1, "test:-1", 900.0, 3.0).value());
+  EXPECT_TRUE(model.IsSpawning(1));
+  EXPECT_FALSE(model.IsSpawning(2));
+  EXPECT_FALSE(model.Spawn(1, "test:-1", 900.0, 3.0).value());
   Step(model, 1500);  // the third one stands behind the first, which then drives on
-  EXPECT_TRUE(model.IsAppearing(1));
+  EXPECT_TRUE(model.IsSpawning(1));
   EXPECT_EQ(model.on_road(), 2u);
   EXPECT_LT(model.agent(2).speed_mps, 0.05);
   model.Release(0);
@@ -113,7 +113,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
                : -driver::IdmAcceleration(model.traits(2).idm, model.agent(2).speed_mps, 20.0, gap(2), 0.0);
   };
   int waited = 0;
-  for (; model.IsAppearing(1) && waited < 2000; ++waited) {
+  for (; model.IsSpawning(1) && waited < 2000; ++waited) {
     if (waited > 0 && clear()) {
       EXPECT_GT(brakes_mps2(), 4.0 - 0.3) << waited;
     }
@@ -139,7 +139,7 @@ TEST(Scripted, NobodyHasToBrakeHardForIt) {
     Step(model);
     const double gap = distance_m - 0.5 * (model.traits(0).length_m + model.traits(1).length_m);
     const double brakes = driver::IdmAcceleration(model.traits(0).idm, 20.0, 20.0, gap, 5.0);
-    EXPECT_EQ(model.IsAppearing(1), brakes < -4.0) << distance_m << " m: " << brakes;
+    EXPECT_EQ(model.IsSpawning(1), brakes < -4.0) << distance_m << " m: " << brakes;
   }
 }
 
@@ -148,7 +148,7 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   settings.vehicles = 3;
   TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
   const auto refused = [&](std::uint32_t id, const std::string& lane, double s_m) {
-    const auto told = model.LetAppear(id, lane, s_m, 5.0);
+    const auto told = model.Spawn(id, lane, s_m, 5.0);
     if (told) return std::string();
     EXPECT_EQ(told.error().exit_status(), 2);
     return told.error().Text();
@@ -174,7 +174,7 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
       const std::string name = whole.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane);
       for (double d = 5.0; d < at.length_m(); d += 5.0) {
         TrafficModel fresh = whole;
-        const auto told = fresh.LetAppear(3, name, at.curve.StationAt(d), 5.0);
+        const auto told = fresh.Spawn(3, name, at.curve.StationAt(d), 5.0);
         bool plain = at.junction < 0 && d > half && d < at.length_m() - half;
         for (const lanes::ZoneSide& part : whole.zones().Of(track)) {
           if (part.in_m < d + half + 1.0 && part.out_m > d - half - 1.0) plain = false;
@@ -192,7 +192,7 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
   none.scripted.clear();
   EXPECT_NE(TrafficModel::Make(none, lanes::MapNetwork("crossing"), {})
                 .value()
-                .LetAppear(3, lane, 20.0, 5.0)
+                .Spawn(3, lane, 20.0, 5.0)
                 .error()
                 .Text()
                 .find("have no 'scripted' vehicles, as in 'scripted: [car]'"),
@@ -211,7 +211,7 @@ TEST(Scripted, NobodyAppearsWithinAJunction) {
     if (track.junction < 0 || track.length_m() < model.traits(1).length_m + 1.0) continue;
     const std::string lane =
         model.graph().network().roads()[track.lane.road].id() + ":" + std::to_string(track.lane.lane);
-    const auto told = model.LetAppear(1, lane, track.curve.StationAt(0.5 * track.length_m()), 5.0);
+    const auto told = model.Spawn(1, lane, track.curve.StationAt(0.5 * track.length_m()), 5.0);
     ASSERT_FALSE(told.ok()) << lane;
     EXPECT_EQ(told.error().exit_status(), 2);
     EXPECT_NE(told.error().Text().find("of lane '" + lane +
@@ -258,11 +258,11 @@ TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
       const std::string lane =
           fresh.graph().network().roads()[out.lane.road].id() + ":" + std::to_string(out.lane.lane);
       double d = 5.0;
-      while (d < 30.0 && !fresh.LetAppear(10, lane, out.curve.StationAt(d), 8.0)) d += 1.0;
-      if (!fresh.IsAppearing(10) || agent.granted_m + 20.0 < ends + d) continue;
+      while (d < 30.0 && !fresh.Spawn(10, lane, out.curve.StationAt(d), 8.0)) d += 1.0;
+      if (!fresh.IsSpawning(10) || agent.granted_m + 20.0 < ends + d) continue;
       Step(fresh);
       ++tried;
-      waited += fresh.IsAppearing(10) ? 1 : 0;
+      waited += fresh.IsSpawning(10) ? 1 : 0;
     }
   }
   EXPECT_GT(tried, 100);
@@ -283,8 +283,8 @@ TEST(Scripted, AmongOthersNobodyIsTouched) {
         const std::uint32_t id = 40 + static_cast<std::uint32_t>(told++ % 12);
         const lanes::Track& at = model.graph()[track];
         const auto status =
-            model.LetAppear(id, model.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane),
-                            at.curve.StationAt(0.5 * at.length_m()), 8.0);
+            model.Spawn(id, model.graph().network().roads()[at.lane.road].id() + ":" + std::to_string(at.lane.lane),
+                        at.curve.StationAt(0.5 * at.length_m()), 8.0);
         appeared += status && status.value() ? 1 : 0;
       }
     }

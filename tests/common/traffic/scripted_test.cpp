@@ -2,9 +2,9 @@
 // What experiments tell single vehicles: to overtake, and to change lanes.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -41,7 +41,7 @@ TEST(Scripted, WhoIsToldOvertakesAsSoonAsItIsSafe) {
     for (const double comes_m : {1800.0, 300.0}) {
       TrafficModel calm = Following(left_hand, comes_m), model = calm;
       RingWatch still(left_hand), watch(left_hand);
-      model.TellToPass(1);
+      model.CommandOvertake(1);
       std::optional<int> began;
       for (int i = 0; i < 50 * 90; ++i) {
         Step(calm), still.Look(calm, i * kStep_s);
@@ -68,7 +68,7 @@ TEST(Scripted, NobodyAppearsBeforeWhoOvertakes) {
   Put(model, 1, "1:-1", 375.0, 12.0);
   model.CapSpeed(0, 12.0);
   Step(model, 25);
-  model.TellToPass(1);
+  model.CommandOvertake(1);
   Step(model, 50);
   ASSERT_TRUE(model.agent(1).overtaking.active());
   Put(model, 2, "1:1", PoseOf(model, 1) == nullptr ? 0.0 : model.agent(1).o_m + 120.0, 5.0);
@@ -76,7 +76,7 @@ TEST(Scripted, NobodyAppearsBeforeWhoOvertakes) {
   const auto beside = [&] { return model.agent(1).overtaking.active() && !model.agent(1).overtaking.back; };
   for (; beside() && waits < 1500; ++waits) {
     Step(model);
-    ASSERT_TRUE(model.IsAppearing(2) || !beside()) << waits;
+    ASSERT_TRUE(model.IsSpawning(2) || !beside()) << waits;
   }
   EXPECT_GT(waits, 100);
   Step(model, 50 * 10);
@@ -85,7 +85,7 @@ TEST(Scripted, NobodyAppearsBeforeWhoOvertakes) {
 
 TEST(Scripted, ToOvertakeIsForgottenByARelease) {
   TrafficModel model = Following(false, 300.0);
-  model.TellToPass(1);
+  model.CommandOvertake(1);
   Step(model);
   EXPECT_TRUE(model.agent(1).told_past);
   model.Release(1);
@@ -111,12 +111,12 @@ TEST(Scripted, WhoIsToldChangesLanesAtOnceWhereNobodyIs) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar}), TwoLanes("broken"), {}).value();
   Put(model, 0, "1:-2", 300.0, 15.0);
   Step(model);
-  model.TellToChange(0, -1);  // no lane there: it waits for one
+  model.CommandLaneChange(0, -1);  // no lane there: it waits for one
   Step(model, 50);
   EXPECT_EQ(model.agent(0).change.side, 0);
   for (const int side : {1, -1, 1}) {
     EXPECT_NEAR(LaneOf(model, 0), side > 0 ? 2.0 : 1.0, 1e-3);
-    model.TellToChange(0, side);
+    model.CommandLaneChange(0, side);
     Step(model);
     EXPECT_EQ(model.agent(0).change.side, side);
     Step(model, 50 * 9);
@@ -129,7 +129,7 @@ TEST(Scripted, MarksAreKeptWhateverIsTold) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar}), TwoLanes("solid"), {}).value();
   Put(model, 0, "1:-2", 300.0, 15.0);
   Step(model);
-  model.TellToChange(0, 1);
+  model.CommandLaneChange(0, 1);
   Step(model, 1000);
   EXPECT_NEAR(LaneOf(model, 0), 2.0, 1e-3);
   EXPECT_EQ(model.agent(0).told_side, 1);
@@ -145,7 +145,7 @@ TEST(Scripted, WhoIsToldChangesLanesWhenItIsSafe) {
     model.CapSpeed(0, 12.0);
     Step(model);
     ASSERT_EQ(model.on_road(), 2u);
-    model.TellToChange(0, 1);
+    model.CommandLaneChange(0, 1);
     const auto angle = [&](std::uint32_t id) {
       return std::atan2(PoseOf(model, id)->p_WB_W.x(), 500.0 - PoseOf(model, id)->p_WB_W.y());
     };
@@ -182,7 +182,7 @@ TEST(Scripted, OnSeveralLanesWhoIsToldPassesOnTheOther) {
   model.CapSpeed(0, 12.0);
   Step(model, 500);
   EXPECT_NEAR(LaneOf(model, 1), 2.0, 1e-3);
-  model.TellToPass(1);
+  model.CommandOvertake(1);
   Step(model);
   EXPECT_EQ(model.agent(1).change.side, 1);
   Step(model, 50 * 30);
@@ -224,8 +224,8 @@ TEST(Scripted, ToldWhenTheyPassAPlace) {
 // Restored while one waits to appear, one to overtake and one to change lanes: the same bits.
 TEST(Scripted, RestoredTheSameBits) {
   TrafficModel model = Following(false, 300.0);
-  model.TellToPass(1);
-  model.TellToChange(0, 1);
+  model.CommandOvertake(1);
+  model.CommandLaneChange(0, 1);
   PlaceOrders orders;
   PlaceOrder order = PlaceOrders::At(model, "1", 700.0).value();
   order.kind = OrderKind::kOvertake, order.whom = PlaceOrder::Whom::kAll;
@@ -253,13 +253,13 @@ TEST(Scripted, RestoredTheSameBits) {
   Step(full);
   Put(full, 1, "test:-1", 501.0, 4.0);
   Step(full);
-  ASSERT_TRUE(full.IsAppearing(1));
+  ASSERT_TRUE(full.IsSpawning(1));
   base::StateWriter writer;
   full.Save(writer);
   base::StateReader reader(writer.bytes());
   fresh.Restore(reader);
   ASSERT_TRUE(reader.Finish().ok());
-  ASSERT_TRUE(fresh.IsAppearing(1));
+  ASSERT_TRUE(fresh.IsSpawning(1));
   for (int i = 0; i < 1500; ++i) {
     Step(full), Step(fresh);
     ASSERT_EQ(DigestOf(full), DigestOf(fresh)) << i;

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <string>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <regex>
 #include <set>
 #include <sstream>
+#include <string>
 
 #include "common/core/base/files.hpp"
 #include "tests/launch/rodeira/temporary_folder.hpp"

@@ -21,11 +21,11 @@ AgentTraits Saloon() {
 }
 
 // v = J/m; it comes to rest after v/(mu g), v²/(2 mu g) further on.
-TEST(Struck, SlidesAsFarAsFrictionSays) {
+TEST(Crashed, SlidesAsFarAsFrictionSays) {
   for (const double v : {1.0, 5.0, 20.0}) {
     for (const double way_rad : {0.0, 0.7, 2.9}) {
       const AgentTraits traits = Saloon();
-      Struck struck;
+      Crashed struck;
       struck.heading_rad = 0.4;
       struck.p_W = {10.0, -3.0};
       const Eigen::Vector2d way(std::cos(way_rad), std::sin(way_rad));
@@ -43,10 +43,10 @@ TEST(Struck, SlidesAsFarAsFrictionSays) {
 
 // A couple turns it about its middle: r × J = I ω; all wheels slide at the distance R, so that it stops after ω I/(m mu
 // g R).
-TEST(Struck, SpinsAsLongAsFrictionSays) {
+TEST(Crashed, SpinsAsLongAsFrictionSays) {
   const AgentTraits traits = Saloon();
   const double inertia = traits.mass_kg * (4.5 * 4.5 + 1.8 * 1.8) / 12.0, R = std::hypot(1.35, 0.9);
-  Struck struck;
+  Crashed struck;
   struck.Push(traits, {0.0, 3000.0}, {1.0, 0.0});
   struck.Push(traits, {0.0, -3000.0}, {-1.0, 0.0});
   const double rate = 6000.0 / inertia;
@@ -74,9 +74,9 @@ void StaysAnObstacle(Physics physics) {
                         left(-ahead.y(), ahead.x());
   const double mass = model.traits(id).mass_kg;
   model.Strike(id, 0.0005 * mass * left, before.p_WB_W.head<2>());
-  EXPECT_FALSE(model.agent(id).is_struck) << "a touch is nothing";
+  EXPECT_FALSE(model.agent(id).is_crashed) << "a touch is nothing";
   model.Strike(id, 1.0 * mass * left - 2.0 * mass * ahead, before.p_WB_W.head<2>());
-  ASSERT_TRUE(model.agent(id).is_struck);
+  ASSERT_TRUE(model.agent(id).is_crashed);
   const Eigen::Vector2d expected = (before.speed_mps - 2.0) * ahead + 1.0 * left;
   EXPECT_NEAR((model.agent(id).struck.v_W - expected).norm(), 0.0, 1e-9);
   base::StateWriter writer;
@@ -112,10 +112,10 @@ void StaysAnObstacle(Physics physics) {
     EXPECT_LT(pose.speed_mps, 0.05) << pose.id << " has not come to rest behind it";
 }
 
-TEST(Struck, StaysAnObstacleToTheOthers) { StaysAnObstacle(Physics::kPlanar); }
+TEST(Crashed, StaysAnObstacleToTheOthers) { StaysAnObstacle(Physics::kPlanar); }
 
 // The others' cars feel the ground; his is one that slides, as in the plane.
-TEST(Struck, StaysAnObstacleToOthersWithFullPhysics) { StaysAnObstacle(Physics::kFull); }
+TEST(Crashed, StaysAnObstacleToOthersWithFullPhysics) { StaysAnObstacle(Physics::kFull); }
 
 }  // namespace
 }  // namespace rodeira::traffic

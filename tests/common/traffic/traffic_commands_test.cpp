@@ -2,9 +2,9 @@
 // What a scenario may tell agents.
 #include <gtest/gtest.h>
 
-#include <optional>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/traffic/traffic_model.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
@@ -110,11 +110,11 @@ TEST(TrafficCommands, AheadIsInTheOwnLaneAndInFront) {
       nearest = along;
       expected = other.id;
     }
-    EXPECT_EQ(model.AheadOf(footprint(own)), expected) << own.id;
+    EXPECT_EQ(model.LeaderOf(footprint(own)), expected) << own.id;
     found += expected ? 1 : 0;
     driver::Footprint turned = footprint(own);
     turned.heading_rad += 3.14159;
-    EXPECT_FALSE(model.AheadOf(turned).has_value()) << "it faces the traffic of its lane";
+    EXPECT_FALSE(model.LeaderOf(turned).has_value()) << "it faces the traffic of its lane";
   }
   EXPECT_GE(found, 10);
 }

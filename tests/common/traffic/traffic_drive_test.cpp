@@ -2,10 +2,10 @@
 // The autopilot drives the bicycle among the traffic of N222: everyone sees everyone, nobody touches anybody.
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "common/driving/driver/autopilot.hpp"
 #include "common/driving/driver/route_path.hpp"

@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <span>
-#include <string>
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <span>
+#include <string>
 
 #include "common/driving/driver/idm.hpp"
 #include "tests/common/driving/driver/test_road.hpp"

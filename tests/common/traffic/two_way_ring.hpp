@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/traffic/traffic_model.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/traffic_model.hpp"
 #include "tests/common/traffic/ring.hpp"
 
 namespace rodeira::traffic {

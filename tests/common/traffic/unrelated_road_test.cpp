@@ -2,10 +2,10 @@
 // A road far away that is added to the network changes nothing of the traffic that has nothing to do with it.
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <string>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <string>
 #include <tuple>
 #include <utility>
 

@@ -7,8 +7,8 @@
 namespace rodeira::traffic {
 namespace {
 
-TEST(ZoneBook, RoomIsWantedByWhoHasWaitedLongest) {
-  ZoneBook book(3);
+TEST(ReservationTable, RoomIsWantedByWhoHasWaitedLongest) {
+  ReservationTable book(3);
   EXPECT_EQ(book.RoomWanted(1, 0).waited_s, 0.0);
   book.WantRoom(1, 0, {50.0, 7});
   book.WantRoom(1, 0, {80.0, 3});

@@ -2,10 +2,10 @@
 // A car of traffic is hit by the driver's: it takes what the collisions say.
 #include <gtest/gtest.h>
 
-#include <string>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
 
 #include "common/runtime/launch/launch.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
