@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,7 @@
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/signals/map_lights.hpp"
 #include "common/world/lanes/lights.hpp"
+#include "common/world/lanes/signs.hpp"
 #include "common/world/road/map_world.hpp"
 #include "common/world/road/world.hpp"
 #include "common/world/traffic_map/heights.hpp"
