@@ -214,7 +214,7 @@ base::Result<std::shared_ptr<const Pyramid>> ReadPyramid(std::string_view bytes,
 }
 
 base::Result<std::string> ImportPicture(const std::filesystem::path& path) {
-  auto bytes = base::ReadText(path, traffic_map::kMostBytes / 2);
+  auto bytes = base::ReadText(path, traffic_map::kMaxBytes / 2);
   if (!bytes) return bytes.error();
   auto pixels = DecodePicture(bytes.value());
   if (!pixels) return base::WrongInput(pixels.error().message, path.string());

@@ -11,7 +11,7 @@
 namespace rodeira::editor {
 namespace {
 
-constexpr double kMostHeight_m = 1e4;
+constexpr double kMaxHeight_m = 1e4;
 
 base::Error NoLane(std::string_view number) { return base::WrongInput(fmt::format("lane {} does not exist", number)); }
 
@@ -20,7 +20,7 @@ base::Error NoLane(std::string_view number) { return base::WrongInput(fmt::forma
 base::Result<Edit> SetHeights(Document& document, std::int32_t curve, const std::array<double, 4>& z_m) {
   if (!Find(document.map.curves, curve)) return base::WrongInput(fmt::format("curve {} does not exist", curve));
   for (const double z : z_m) {
-    if (!(std::abs(z) <= kMostHeight_m))
+    if (!(std::abs(z) <= kMaxHeight_m))
       return base::WrongInput(fmt::format("the height is {} m; one from -10000 to 10000 was expected", z));
   }
   Recorder recorder(document);

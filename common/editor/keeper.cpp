@@ -113,7 +113,7 @@ base::Result<Opened> Keeper::Restore(const Left& left) {
   if (!file) return file.error();
   Opened opened;
   opened.document.map = std::move(file).value();
-  auto picture = base::ReadText(left.folder / kPicture, traffic_map::kMostBytes);
+  auto picture = base::ReadText(left.folder / kPicture, traffic_map::kMaxBytes);
   if (picture) opened.document.map.picture = std::move(picture).value();
   const auto text = base::ReadText(left.folder / kCompanion);
   if (text && !text.value().empty()) {

@@ -10,7 +10,7 @@ namespace rodeira::editor {
 namespace {
 
 constexpr double kSame_m = 1e-6;
-constexpr std::int32_t kMostNumber = INT32_MAX - 1000;  // a template has fewer elements than this leaves
+constexpr std::int32_t kMaxNumber = INT32_MAX - 1000;  // a template has fewer elements than this leaves
 
 bool Same(const Points& a, const Points& b, bool reversed) {
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -52,7 +52,7 @@ std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, traf
 }
 
 base::Result<Edit> Sketch::Finish(Document& document, std::string what) const {
-  if (next_curve_ > kMostNumber || next_lane_ > kMostNumber)
+  if (next_curve_ > kMaxNumber || next_lane_ > kMaxNumber)
     return base::WrongInput("there are no numbers left for so many curves and lanes");
   std::vector<traffic_map::Curve> curves;
   for (const auto& [number, points] : curves_) {

@@ -15,7 +15,7 @@
 namespace rodeira::editor {
 namespace {
 
-constexpr std::size_t kMostCompanionBytes = 16u << 20;
+constexpr std::size_t kMaxCompanionBytes = 16u << 20;
 
 }  // namespace
 
@@ -29,7 +29,7 @@ base::Result<Opened> Open(const std::filesystem::path& map_file) {
   const std::filesystem::path beside = CompanionPath(map_file);
   std::error_code problem;
   if (!std::filesystem::exists(beside, problem)) return opened;
-  auto text = base::ReadText(beside, kMostCompanionBytes);
+  auto text = base::ReadText(beside, kMaxCompanionBytes);
   if (!text) return text.error();
   const auto heights = traffic_map::ParseHeights(text.value(), beside);
   if (!heights) return heights.error();

@@ -39,7 +39,7 @@ void TrafficModel::CommandLaneChange(std::uint32_t id, int side) {
 
 std::optional<std::uint32_t> TrafficModel::LeaderOf(const driver::Footprint& other) const {
   constexpr double kWidest_m = 4.0;
-  constexpr std::size_t kMostWays = 256;
+  constexpr std::size_t kMaxWays = 256;
   std::vector<std::vector<std::pair<double, std::uint32_t>>> on(
       simulation_->map->graph.tracks().size());  // middles of the agents, by track
   for (std::uint32_t id = 0; id < simulation_->store.agents.size(); ++id) {
@@ -63,7 +63,7 @@ std::optional<std::uint32_t> TrafficModel::LeaderOf(const driver::Footprint& oth
   }
   std::optional<std::uint32_t> nearest;
   double gap_m = simulation_->settings.sight_m;
-  for (std::size_t i = 0; i < ways.size() && i < kMostWays; ++i) {
+  for (std::size_t i = 0; i < ways.size() && i < kMaxWays; ++i) {
     const Way way = ways[i];
     const double end = way.from_m + simulation_->map->graph[way.track].length_m();
     for (const auto& [middle, id] : on[way.track]) {

@@ -455,7 +455,7 @@ int ChooseCommand() {
 namespace {
 
 int RunCommandLine(int argc, char** argv) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   base::NameExhaustion("rodeira");
   KeepArguments(argc, argv);
   CLI::App app{"Rodeira, a distributed driving simulator."};

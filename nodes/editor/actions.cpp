@@ -13,10 +13,10 @@ namespace {
 
 using editor::Document;
 
-std::filesystem::path Start(const Work& work, const char* otherwise) {
+std::filesystem::path Start(const Work& work, const char* default_value) {
   if (!work.session.path().empty()) return work.session.path();
   std::error_code problem;
-  return std::filesystem::current_path(problem) / otherwise;
+  return std::filesystem::current_path(problem) / default_value;
 }
 
 }  // namespace

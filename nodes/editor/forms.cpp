@@ -14,14 +14,14 @@ using editor::Document;
 enum class Answer { kNone, kYes, kNo, kOtherwise };
 
 // The buttons at a form's end; Enter and Escape say the same as the first and the last.
-Answer Buttons(Work& work, const char* yes, const char* no = "Cancel", const char* otherwise = nullptr) {
+Answer Buttons(Work& work, const char* yes, const char* no = "Cancel", const char* default_value = nullptr) {
   const ImVec2 size(110.0f, 0.0f);
   const auto key = [](ImGuiKey which) { return ImGui::IsKeyPressed(ImGui::GetKeyIndex(which), false); };
   Answer answer = Answer::kNone;
   if (Button(work, yes, yes, size) || key(ImGuiKey_Enter) || key(ImGuiKey_KeyPadEnter)) answer = Answer::kYes;
   ImGui::SameLine();
-  if (otherwise != nullptr) {
-    if (Button(work, otherwise, otherwise, size)) answer = Answer::kOtherwise;
+  if (default_value != nullptr) {
+    if (Button(work, default_value, default_value, size)) answer = Answer::kOtherwise;
     ImGui::SameLine();
   }
   if (Button(work, no, no, size) || key(ImGuiKey_Escape)) answer = Answer::kNo;

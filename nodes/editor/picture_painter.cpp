@@ -9,8 +9,8 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr int kMostMade = 4;             // a picture
-constexpr std::size_t kMostTiles = 160;  // of some 1 MB
+constexpr int kMaxMade = 4;             // a picture
+constexpr std::size_t kMaxTiles = 160;  // of some 1 MB
 
 }  // namespace
 
@@ -65,7 +65,7 @@ void PicturePainter::DrawLevel(std::size_t number, double metres_per_px, const e
        row <= std::min(rows - 1, tile_of(north_m - seen_low.y(), level.height_px)); ++row) {
     for (int column = std::max(0, tile_of(seen_low.x() - west_m, level.width_px));
          column <= std::min(columns - 1, tile_of(seen_high.x() - west_m, level.width_px)); ++column) {
-      const Tile* tile = TileOf({number, column, row}, all_at_once || made_ < kMostMade);
+      const Tile* tile = TileOf({number, column, row}, all_at_once || made_ < kMaxMade);
       if (tile == nullptr) {
         incomplete_ = true;
         continue;
@@ -114,7 +114,7 @@ void PicturePainter::Draw(const std::shared_ptr<const editor::Pyramid>& picture,
   }
   glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
   glDisable(GL_TEXTURE_2D);
-  while (tiles_.size() > kMostTiles) {
+  while (tiles_.size() > kMaxTiles) {
     const auto oldest = std::min_element(tiles_.begin(), tiles_.end(),
                                          [](const auto& a, const auto& b) { return a.second.used < b.second.used; });
     if (oldest->second.used == frame_) break;

@@ -8,13 +8,13 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr int kMostPieces = 24;
+constexpr int kMaxPieces = 24;
 constexpr double kPiece_px = 12.0;
 
 }  // namespace
 
 int Shapes::PiecesOf(const traffic_map::Cubic& cubic) const {
-  return std::clamp(static_cast<int>(cubic.PolygonLength() / metres_per_px / kPiece_px), 2, kMostPieces);
+  return std::clamp(static_cast<int>(cubic.PolygonLength() / metres_per_px / kPiece_px), 2, kMaxPieces);
 }
 
 Vertex Shapes::At(const Eigen::Vector2d& p_W, const Colour& colour) const {
@@ -38,7 +38,7 @@ void Shapes::AddGround(Vertices& triangles, const editor::Borders& borders, cons
 }
 
 void Shapes::AddCurve(Vertices& lines, const traffic_map::Cubic& cubic, const Colour& colour, bool dashed) const {
-  const int pieces = dashed ? kMostPieces : PiecesOf(cubic);
+  const int pieces = dashed ? kMaxPieces : PiecesOf(cubic);
   Eigen::Vector2d before = cubic.At(0.0);
   for (int i = 1; i <= pieces; ++i) {
     const Eigen::Vector2d next = cubic.At(static_cast<double>(i) / pieces);

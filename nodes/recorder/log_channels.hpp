@@ -17,7 +17,7 @@ class LogChannels {
  public:
   LogChannels(std::unique_ptr<launch::RunLogReceiver> log, std::int64_t base_step_ns);
   base::Status Begin(record::McapWriter& writer);
-  // A message of these channels that an earlier life of the recorder has written: it is not written again.
+  // A message of these channels that an earlier incarnation of the recorder has written: it is not written again.
   void Remember(const record::Channel& channel, const record::Message& message);
   // What has come so far.
   base::Status Write(record::McapWriter& writer);

@@ -43,7 +43,7 @@ class RecorderNode final : public lockstep::Node {
       std::filesystem::remove(file_, problem);
   }
 
-  // A file of its own, or that of an earlier life.
+  // A file of its own, or that of an earlier incarnation.
   base::Status Open(launch::NodeContext& context, const record::TextMap& meta) {
     if (auto status = AskForTheWorld(context); !status) return status;
     record::WriterSettings settings;
@@ -127,7 +127,7 @@ class RecorderNode final : public lockstep::Node {
         {"launch_file", launch.path().filename().string()},
         {"roster_hash", base::Hex(roster_.hash())},
         {"protocol_hash", base::Hex(idl::ProtocolHash())},
-        {"mathematics_hash", base::Hex(base::MathematicsDigest())},
+        {"mathematics_hash", base::Hex(base::MathLibraryFingerprint())},
         {"base_step_ns", std::to_string(roster_.base_step_ns())},
         {"seed", std::to_string(launch.seed())},
         {"version", std::string(base::Version())},
@@ -203,7 +203,7 @@ class RecorderNode final : public lockstep::Node {
     const std::uint64_t written_bytes = writer_->written_bytes();
     payload_ = *sample.payload;
     std::memset(payload_.data() + lockstep::SampleHeader::kIncarnationAt, 0,
-                4);  // which life it was is no part of the run
+                4);  // which incarnation it was is no part of the run
     const auto time_ns = static_cast<std::uint64_t>(sample.header.time_ns);
     const auto sequence = static_cast<std::uint32_t>(sample.valid() / roster_.source(sample.source()).period);
     if (auto status = writer_->Write(channels_[sample.source()], sequence, time_ns, time_ns, payload_); !status)
@@ -213,7 +213,7 @@ class RecorderNode final : public lockstep::Node {
     if (tell_safe_ && writer_->written_bytes() != written_bytes) tell_safe_(sample.valid() - 1);
     return {};
   }
-  // By an earlier life: the file is in the order of (step, source).
+  // By an earlier incarnation: the file is in the order of (step, source).
   bool IsWritten(const lockstep::Sample& sample) const {
     return sample.valid() < last_step_ || (sample.valid() == last_step_ && sample.source() <= last_source_);
   }
@@ -229,7 +229,7 @@ class RecorderNode final : public lockstep::Node {
   std::vector<record::ChannelId> channels_;  // by source
   base::Bytes payload_;
   std::function<void(lockstep::Step)> tell_safe_;
-  lockstep::Step last_step_ = -1;  // of an earlier life's last sample
+  lockstep::Step last_step_ = -1;  // of an earlier incarnation's last sample
   lockstep::SourceIndex last_source_ = 0;
 };
 

@@ -15,11 +15,11 @@ class WrittenSamples {
   // Of the sources that node `recorder` hears.
   WrittenSamples(const lockstep::Roster& roster, lockstep::NodeIndex recorder);
 
-  // An earlier life has written everything up to here, in the order of (step, source).
+  // An earlier incarnation has written everything up to here, in the order of (step, source).
   void BeginBehind(lockstep::Step step, lockstep::SourceIndex source);
   void Note(lockstep::Step valid, lockstep::SourceIndex source);
-  // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier life among
-  // them, and how many are `missing` of a run that ended at `last_step`.
+  // What the file says at its end: how many `samples` of how many `sources` are in it, those of an earlier incarnation
+  // among them, and how many are `missing` of a run that ended at `last_step`.
   record::TextMap Entries(lockstep::Step last_step) const;
 
  private:

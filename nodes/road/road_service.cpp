@@ -11,7 +11,7 @@
 namespace rodeira::nodes {
 namespace {
 
-constexpr std::size_t kMostPoints = 1'000'000;  // a larger batch is no node's question
+constexpr std::size_t kMaxPoints = 1'000'000;  // a larger batch is no node's question
 
 class RoadService final : public launch::Service {
  public:
@@ -39,7 +39,7 @@ class RoadService final : public launch::Service {
     auto request = idl::Decode<msg::GroundRequest>(bytes);
     if (!request) return request.error();
     const auto& asked = request.value().points();
-    if (asked.size() > kMostPoints) return base::WrongInput("a request of more than a million points was found");
+    if (asked.size() > kMaxPoints) return base::WrongInput("a request of more than a million points was found");
     queries_.resize(asked.size());
     points_.resize(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) queries_[i] = {asked[i].x_m(), asked[i].y_m(), asked[i].z_hint_m()};

@@ -108,8 +108,8 @@ void ObstacleMap::AddBody(const network::Placed& placed, const Vector3d& foot, c
   }
   if (!object.outlines.empty() || (placed.height_m < kLow_m && !IsBody(object))) return;
   const bool house = object.type == "building";
-  const auto usual = [&](double said, double otherwise) {
-    return said > 0.0 ? said : placed.radius_m > 0.0 ? 2.0 * placed.radius_m : otherwise;
+  const auto usual = [&](double said, double default_value) {
+    return said > 0.0 ? said : placed.radius_m > 0.0 ? 2.0 * placed.radius_m : default_value;
   };
   AddBox(object.id, foot, placed.heading_rad,
          {usual(placed.length_m, house ? 12.0 : 0.12), usual(placed.width_m, house ? 9.0 : 0.12),

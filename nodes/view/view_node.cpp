@@ -13,7 +13,7 @@
 #include "nodes/view/run_connection/from_wire.hpp"
 #include "nodes/view/view_settings.hpp"
 #include "nodes/view/visual_database/find_built.hpp"
-#include "nodes/view/window/stage.hpp"
+#include "nodes/view/window/render_thread.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -35,32 +35,35 @@ base::Result<std::vector<scenario::Event>> EventsOf(const base::Bytes& payload) 
 class ViewNode final : public lockstep::Node {
  public:
   ViewNode(const lockstep::Roster& roster, std::string name, nodes::ViewSettings settings,
-           std::unique_ptr<nodes::Stage> stage)
-      : roster_(roster), name_(std::move(name)), settings_(std::move(settings)), stage_(std::move(stage)) {}
+           std::unique_ptr<nodes::RenderThread> render_thread)
+      : roster_(roster),
+        name_(std::move(name)),
+        settings_(std::move(settings)),
+        render_thread_(std::move(render_thread)) {}
 
   base::Status Initialise(lockstep::Outbox&) override { return {}; }
 
   // A view that takes a dead one's place begins at its last activation at the earliest: pictures of those before must
   // be written.
   base::Status Flush() override {
-    return stage_ == nullptr || settings_.frame_steps.empty() ? base::Status() : stage_->Drain();
+    return render_thread_ == nullptr || settings_.frame_steps.empty() ? base::Status() : render_thread_->Drain();
   }
 
   base::Status Step(const lockstep::StepInfo& info, const lockstep::Inbox& inbox, lockstep::Outbox&) override {
     if (auto status = Take(inbox, info.step - info.period, info.step); !status) return status;
-    if (stage_ == nullptr || !stage_->has_window()) return {};
+    if (render_thread_ == nullptr || !render_thread_->has_window()) return {};
     if (auto status = TellEvents(inbox); !status) return status;
     auto moment = nodes::MakeMoment(roster_, info.step, newest_);
     if (!moment) return moment.error();
-    stage_->Show(std::move(moment).value());
+    render_thread_->Show(std::move(moment).value());
     return {};
   }
 
   base::Status Finish(const lockstep::Inbox& rest, lockstep::Step last_step, bool complete) override {
     const lockstep::Step after = taken_through_;
     if (auto status = Take(rest, after, last_step); !status) return status;
-    if (stage_ != nullptr) {
-      if (auto status = stage_->Drain(); !status) return status;
+    if (render_thread_ != nullptr) {
+      if (auto status = render_thread_->Drain(); !status) return status;
     }
     const auto missed = std::upper_bound(settings_.frame_steps.begin(), settings_.frame_steps.end(), last_step);
     if (complete && missed != settings_.frame_steps.end()) {
@@ -130,7 +133,7 @@ class ViewNode final : public lockstep::Node {
     for (const Sample& sample : inbox.All(topics::kScenarioEvents)) {
       auto events = EventsOf(*sample.payload);
       if (!events) return events.error();
-      if (!events.value().empty()) stage_->Tell(events.value());
+      if (!events.value().empty()) render_thread_->Tell(events.value());
     }
     return {};
   }
@@ -138,14 +141,14 @@ class ViewNode final : public lockstep::Node {
   base::Status WriteFrame(lockstep::Step step) {
     auto moment = nodes::MakeMoment(roster_, step, newest_);
     if (!moment) return moment.error();
-    return stage_->Order(nodes::PictureOf(settings_, std::move(moment).value()),
-                         settings_.folder / nodes::FrameName(step));
+    return render_thread_->Order(nodes::PictureOf(settings_, std::move(moment).value()),
+                                 settings_.folder / nodes::FrameName(step));
   }
 
   const lockstep::Roster& roster_;
   std::string name_;
   nodes::ViewSettings settings_;
-  std::unique_ptr<nodes::Stage> stage_;  // null: nothing is drawn
+  std::unique_ptr<nodes::RenderThread> render_thread_;  // null: nothing is drawn
   nodes::NewestSamples newest_;
   lockstep::Step taken_through_ = -1;
 };
@@ -163,11 +166,12 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeViewNode(launch::NodeContext& 
     if (!built.remark.empty()) base::Log(base::LogLevel::kInfo, context.spec().name, built.remark);
     return nodes::ReadWorld{std::move(world).value(), std::move(built.folder)};
   };
-  auto stage = nodes::Stage::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
-                                  settings.value().can_ask ? context.RequestsSender() : nullptr);
-  if (!stage) return stage.error();
+  auto render_thread =
+      nodes::RenderThread::Open(settings.value(), read, settings.value().drives ? context.KeysSender() : nullptr,
+                                settings.value().can_ask ? context.RequestsSender() : nullptr);
+  if (!render_thread) return render_thread.error();
   return std::unique_ptr<lockstep::Node>(std::make_unique<ViewNode>(
-      context.roster(), context.spec().name, std::move(settings).value(), std::move(stage).value()));
+      context.roster(), context.spec().name, std::move(settings).value(), std::move(render_thread).value()));
 }
 
 }  // namespace rodeira::nodes

@@ -72,7 +72,7 @@ void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettin
 
 // A film instead of single pictures.
 void ReadFilm(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
-  const double fps = frames.Number("fps", {0.01, kMostFps}), from_s = frames.Number("from_s", {0.0, 1e6}, 0.0),
+  const double fps = frames.Number("fps", {0.01, kMaxFps}), from_s = frames.Number("from_s", {0.0, 1e6}, 0.0),
                to_s = frames.Number("to_s", {0.0, 1e6});
   auto steps = FilmSteps(context.roster(), CarSources(context.spec()), fps, from_s, to_s);
   if (steps)
@@ -303,7 +303,7 @@ base::Status PrepareFolder(const std::filesystem::path& folder) {
   return {};
 }
 
-Picture PictureOf(const ViewSettings& settings, scene::Moment moment) {
+Picture PictureOf(const ViewSettings& settings, scene::SceneSnapshot moment) {
   Picture picture;
   picture.moment = std::move(moment);
   PaintCars(picture.moment, settings.paints);

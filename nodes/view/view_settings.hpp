@@ -83,13 +83,13 @@ base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std
 base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& roster,
                                                     const std::vector<lockstep::SourceIndex>& cars, double fps,
                                                     double from_s, double to_s);
-inline constexpr double kMostFps = 1'000.0;
+inline constexpr double kMaxFps = 1'000.0;
 
 // Makes a folder for frames where it is missing, and tries to write there before time is spent.
 base::Status PrepareFolder(const std::filesystem::path& folder);
 
 // The picture of a frame.
-Picture PictureOf(const ViewSettings& settings, scene::Moment moment);
+Picture PictureOf(const ViewSettings& settings, scene::SceneSnapshot moment);
 
 // The world of the run; a run without one stands on a level plane of asphalt.
 base::Result<std::shared_ptr<const road::World>> WorldOf(const launch::Launch& launch);

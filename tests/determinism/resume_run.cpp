@@ -14,7 +14,7 @@
 
 int main(int argc, char** argv) {
   using namespace rodeira;
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   if (argc != 5) return 2;
   const auto launch = launch::Launch::Load(argv[1]);
   if (!launch) return 2;

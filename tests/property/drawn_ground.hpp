@@ -12,7 +12,7 @@
 // Shared by the tests of broken texts and the fuzzer's program.
 namespace rodeira::property {
 
-inline constexpr double kMostRoad_m = 3000.0;  // longer ones take longer than a text may
+inline constexpr double kMaxRoad_m = 3000.0;  // longer ones take longer than a text may
 
 inline bool IsDrawn(const scene::Mesh& mesh) {
   for (const auto& p : mesh.positions) {
@@ -29,7 +29,7 @@ inline bool IsDrawn(const scene::Mesh& mesh) {
 inline std::string DrawnWrongly(const road::World& world) {
   double length_m = 0.0;
   for (const network::Road& road : world.network()->roads()) length_m += road.length_m();
-  if (length_m > kMostRoad_m) return "";
+  if (length_m > kMaxRoad_m) return "";
   const scene::GroundPlan plan(world, 1);
   if (plan.tiles().empty()) return "a road, and no tile of ground";
   const scene::WorldStep start = scene::ToSteps({world.start().x_m, world.start().y_m});

@@ -142,7 +142,7 @@ TEST_F(Crash, IntoTheCarOfAnotherNode) {
   EXPECT_EQ(FirstDifference(SamplesOf(recording), SamplesOf(Path("again.mcap"))), "");
 }
 
-TEST_F(Crash, NobodyIsTouchedWhereCollisionsAreOff) {
+TEST_F(Crash, NothingIsTouchedWhereCollisionsAreOff) {
   const std::string recording = Path("none.mcap");
   const Ended run = Run("crash_wall.yaml", {"--for", "10", "--in-process", "--set", "nodes.ego.config.collisions=none",
                                             "--record", recording});

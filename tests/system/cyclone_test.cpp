@@ -92,7 +92,7 @@ class OtherTopics {
     participant_ = dds::Participant::Open(settings).value();
     for (const std::string_view topic :
          {idl::topics::kNack, idl::topics::kRetransmissions, idl::topics::kWindowKeys, idl::topics::kOperatorRequests})
-      writers_.push_back(participant_->MakeWriter(topic, dds::Delivery::kSaidAgain).value());
+      writers_.push_back(participant_->MakeWriter(topic, dds::Delivery::kBestEffortRepeated).value());
   }
   // Of no roster and for no consumer: the run passes them over.
   void Write() {

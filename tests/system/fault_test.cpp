@@ -118,7 +118,7 @@ TEST(Fault, AnotherTypeOfAUsedTopicIsRefused) {
       << ended.out;
 }
 
-TEST(Fault, ANodeWhoseUnusedTopicDiffersTakesPart) {
+TEST(Fault, ANodeWithAnotherUnusedTopicTakesPart) {
   std::vector<std::unique_ptr<Started>> nodes;
   for (const char* node : {"a", "b", "c", "d"}) {
     nodes.push_back(std::make_unique<Started>(std::vector<std::string>{
@@ -167,7 +167,7 @@ TEST(Fault, AnotherWorldIsRefused) {
   EXPECT_NE(ended.out.find("both need the same world files"), std::string::npos) << ended.out;
 }
 
-TEST(Fault, WhoIsMissingIsSaid) {
+TEST(Fault, MissingNodesAreNamed) {
   Started clock(
       {Bin("rodeira-clock"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set", "limits.start_s=1"});
   Started node({Bin("rodeira-empty"), "--launch", LaunchFile("empty.yaml"), "--run", "lonely", "--set",

@@ -150,7 +150,7 @@ TEST_F(Live, WhatAWindowAsksForBecomesARecordedEvent) {
   EXPECT_NE(verified.out.find("identical: 4000 steps, "), std::string::npos) << verified.out;
 }
 
-TEST_F(Live, NobodyTouchesAKeyAndTwoRunsAreEqual) {
+TEST_F(Live, WithoutAKeyTwoRunsAreEqual) {
   const auto digest = [&](std::vector<std::string> more) {
     more.insert(more.begin(), {Bin("rodeira"), "run", Path("live.yaml"), "--for", "2"});
     const Ended ended = RunCommand(more);

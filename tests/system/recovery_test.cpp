@@ -409,7 +409,7 @@ TEST_F(Recovery, ARunThatWaitsForADeadNodeCanBeStopped) {
   EXPECT_NE(info.out.find("no gaps; the run was broken off at step "), std::string::npos) << info.out;
 }
 
-TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
+TEST_F(Recovery, RepeatedCrashWithoutProgressEndsRun) {
   const std::string run_name = "recovery-loop-" + std::to_string(::getpid());
   Started run(Command(run_name, File("loop.mcap"), "1000", "restart"));
   std::this_thread::sleep_for(1500ms);
@@ -426,7 +426,7 @@ TEST_F(Recovery, WhoDiesAgainAndAgainWithoutGettingOnEndsTheRun) {
 }
 
 // Its other life computes what it has said already: the keeper of that notices, and the node is named, not the keeper.
-TEST_F(Recovery, WhoReadsAClockIsFoundOutWhenItIsStartedAgain) {
+TEST_F(Recovery, ANodeThatReadsAClockIsDetectedWhenItIsRestarted) {
   const auto launch = folder_.Write(
       "broken.yaml",
       "rodeira: launch/1\nrecovery: restart\nnodes:\n  a: {kind: empty}\n  b: {kind: empty, config: {broken: clock}}\n"

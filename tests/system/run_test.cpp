@@ -73,7 +73,7 @@ TEST(Run, RealPaceTakesRealTime) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 500ms);
 }
 
-TEST(Run, CtrlCStopsEverybodyAtTheSameStepAndIsNoFault) {
+TEST(Run, CtrlCStopsAllNodesAtTheSameStepAndIsNoFault) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
                "--run", "ctrlc"});
   ASSERT_TRUE(Runs("ctrlc"));
@@ -96,7 +96,7 @@ TEST(Run, LeavesNothingInSharedMemoryAndNoProcess) {
   EXPECT_TRUE(ProcessesWith("--run tidy").empty());
 }
 
-TEST(Run, WhereRodeiraItselfIsKilledNobodyIsLeftAfterTwoSeconds) {
+TEST(Run, WhereRodeiraItselfIsKilledNoProcessIsLeftAfterTwoSeconds) {
   Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "1000", "--pace", "real",
                "--run", "orphans"});
   ASSERT_TRUE(Runs("orphans"));

@@ -201,8 +201,8 @@ std::optional<std::size_t> DriveChannels::SampleOf(const record::Message& messag
   std::int64_t step = 0;
   if (message.data.size() < kStepAt + sizeof(step)) return std::nullopt;
   std::memcpy(&step, message.data.data() + kStepAt, sizeof(step));
-  constexpr std::int64_t kMostSamples = std::int64_t{1} << 26;  // a week at 100 Hz: what is later is damage
-  if (step < 0 || step % grid_steps_ != 0 || step / grid_steps_ > kMostSamples) return std::nullopt;
+  constexpr std::int64_t kMaxSamples = std::int64_t{1} << 26;  // a week at 100 Hz: what is later is damage
+  if (step < 0 || step % grid_steps_ != 0 || step / grid_steps_ > kMaxSamples) return std::nullopt;
   return static_cast<std::size_t>(step / grid_steps_);
 }
 

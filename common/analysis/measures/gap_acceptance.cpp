@@ -99,8 +99,8 @@ Measure TroutbeckCriticalGap(std::span<const GapDecision> drivers) {
     return PlaceOfMaximum(std::log(low), std::log(high), [&](double mu) { return LogLikelihood(used, mu, sigma); });
   };
   // Drivers of one and the same critical gap have a deviation of 0: the least one that is tried stands for it.
-  constexpr double kLeastSigma = 1e-3, kMostSigma = 3.0;
-  const double log_sigma = PlaceOfMaximum(std::log(kLeastSigma), std::log(kMostSigma), [&](double log_s) {
+  constexpr double kMinSigma = 1e-3, kMaxSigma = 3.0;
+  const double log_sigma = PlaceOfMaximum(std::log(kMinSigma), std::log(kMaxSigma), [&](double log_s) {
     const double sigma = std::exp(log_s);
     return LogLikelihood(used, best_mu(sigma), sigma);
   });

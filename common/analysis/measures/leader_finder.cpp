@@ -19,7 +19,7 @@ std::optional<std::uint32_t> Preferred(const Candidates& candidates, std::span<c
   return track_of(candidates.front());
 }
 
-constexpr int kMostTracks = 200;  // of a way; roads that are cut into very short sections end earlier
+constexpr int kMaxTracks = 200;  // of a way; roads that are cut into very short sections end earlier
 
 }  // namespace
 
@@ -55,7 +55,7 @@ NearBoth LeaderFinder::Find(std::uint32_t track, double along_m, double front_m,
   take(track, -along_m, true, true);
   std::uint32_t at = track;
   double offset = -along_m;
-  for (int i = 0; i < kMostTracks; ++i) {
+  for (int i = 0; i < kMaxTracks; ++i) {
     const auto& links = graph_[at].next;
     const auto next = Preferred(links, later, [](const lanes::Link& link) { return link.to; });
     if (!next) break;
@@ -67,7 +67,7 @@ NearBoth LeaderFinder::Find(std::uint32_t track, double along_m, double front_m,
   }
   at = track;
   offset = -along_m;
-  for (int i = 0; i < kMostTracks; ++i) {
+  for (int i = 0; i < kMaxTracks; ++i) {
     const auto before = Preferred(graph_[at].before, earlier, [](std::uint32_t t) { return t; });
     if (!before) break;
     const auto& links = graph_[*before].next;

@@ -120,9 +120,9 @@ EntropyShares SharesOf(Series errors_deg, double pe_deg) {
   for (const double e : errors_deg) {
     if (!std::isnan(e)) shares[BinOf(e, cuts)] += 1.0;
   }
-  constexpr double kLeastShare = 1e-3;
+  constexpr double kMinShare = 1e-3;
   const auto n = static_cast<double>(CountValid(errors_deg));
-  for (double& share : shares) share = std::max(n > 0.0 ? share / n : 0.0, kLeastShare);
+  for (double& share : shares) share = std::max(n > 0.0 ? share / n : 0.0, kMinShare);
   return shares;
 }
 

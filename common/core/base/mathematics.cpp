@@ -24,7 +24,7 @@ double Ask(double (*function)(double), double x) {
 
 }  // namespace
 
-Digest MathematicsDigest() {
+Digest MathLibraryFingerprint() {
   using Function = double (*)(double);
   const Function functions[] = {std::sin, std::cos,   std::tan,  std::asin, std::acos, std::atan, std::exp,  std::exp2,
                                 std::log, std::log10, std::log2, std::sinh, std::cosh, std::tanh, std::sqrt, std::cbrt};
@@ -55,7 +55,7 @@ bool MathematicsFixed() {
   return tunables != nullptr && std::strstr(tunables, kTunables) != nullptr;
 }
 
-void FixMathematics(char** argv) {
+void PinMathLibrary(char** argv) {
   if (MathematicsFixed()) return;
   const char* tunables = std::getenv("GLIBC_TUNABLES");
   const std::string wanted =

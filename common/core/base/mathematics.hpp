@@ -7,13 +7,13 @@ namespace rodeira::base {
 
 // The digest of some sixty thousand results of the mathematics library (sin … pow, arguments without
 // pattern). Two processes with equal digests compute the same bits; glibc chooses code by processor (law L7).
-Digest MathematicsDigest();
+Digest MathLibraryFingerprint();
 
 // Whether this process was started with the choice of code that law L7 fixes.
 bool MathematicsFixed();
 
 // Law L7: glibc's choice is fixed by GLIBC_TUNABLES, which is read before main. Where it is not set as needed, sets it
 // and executes this program anew with the same arguments; returns where nothing was to be done. Call it first in main.
-void FixMathematics(char** argv);
+void PinMathLibrary(char** argv);
 
 }  // namespace rodeira::base

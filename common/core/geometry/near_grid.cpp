@@ -12,7 +12,7 @@ namespace rodeira::geometry {
 namespace {
 
 constexpr double kSmallestCell_m = 4.0;
-constexpr double kMostCells = 2e6;
+constexpr double kMaxCells = 2e6;
 
 double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
@@ -34,7 +34,7 @@ NearGrid::NearGrid(std::span<const Chord> chords, double reach_m) {
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(reach_m + bulge);
   const Eigen::Vector2d size = high - low + 2.0 * margin;
   origin_W_ = low - margin;
-  cell_m_ = std::max(kSmallestCell_m, std::sqrt(size.x() * size.y() / kMostCells));
+  cell_m_ = std::max(kSmallestCell_m, std::sqrt(size.x() * size.y() / kMaxCells));
   columns_ = std::floor(size.x() / cell_m_) + 1.0;
   rows_ = std::floor(size.y() / cell_m_) + 1.0;
   const auto cells = static_cast<std::size_t>(columns_ * rows_);

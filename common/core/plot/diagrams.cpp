@@ -11,8 +11,8 @@ namespace rodeira::plot {
 namespace {
 
 constexpr int kWidth = 720, kHeight = 120, kLeft = 110, kTop = 44, kGap = 26;
-constexpr std::size_t kMostDiagrams = 24;
-constexpr std::size_t kMostPoints = 800;  // along the axis; between two of them the extremes are kept
+constexpr std::size_t kMaxDiagrams = 24;
+constexpr std::size_t kMaxPoints = 800;  // along the axis; between two of them the extremes are kept
 
 struct Extent {
   double low = 0.0;
@@ -59,7 +59,7 @@ void AddLine(const Table& table, std::size_t column, int top, const Extent& exte
   const auto x = [&](double t) { return kLeft + (to > from ? (t - from) / (to - from) : 0.0) * kWidth; };
   const auto y = [&](double v) { return top + kHeight * (extent.high - v) / (extent.high - extent.low); };
   svg += "<polyline fill='none' stroke='#1f5f8b' stroke-width='1.2' points='";
-  const std::size_t stride = std::max<std::size_t>(1, 2 * table.rows() / kMostPoints);
+  const std::size_t stride = std::max<std::size_t>(1, 2 * table.rows() / kMaxPoints);
   for (std::size_t row = 0; row < table.rows(); row += stride) {
     std::size_t low = row, high = row;
     for (std::size_t i = row; i < std::min(row + stride, table.rows()); ++i) {
@@ -76,7 +76,7 @@ void AddLine(const Table& table, std::size_t column, int top, const Extent& exte
 }  // namespace
 
 std::string ToSvg(const Table& table, const std::string& title) {
-  const std::size_t diagrams = std::min(kMostDiagrams, table.names.size() - 1);
+  const std::size_t diagrams = std::min(kMaxDiagrams, table.names.size() - 1);
   const int height = kTop + static_cast<int>(diagrams) * (kHeight + kGap) + 20;
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' font-family='sans-serif' "

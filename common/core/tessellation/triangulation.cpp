@@ -73,8 +73,8 @@ std::uint32_t Triangulation::Find(GridPoint p) const {
 }
 
 std::uint32_t Triangulation::FindWithin(GridPoint p, std::uint32_t near) const {
-  constexpr int kMostSteps = 64;
-  for (int step = 0; step < kMostSteps; ++step) {
+  constexpr int kMaxSteps = 64;
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Triangle& triangle = triangles_[near];
     bool within = true;
     std::uint32_t next = kNone;

@@ -34,7 +34,7 @@ class Builder {
   explicit Builder(Layout& layout) : layout_(layout) {}
 
   bool Add(const Type& type, const std::string& path, bool in_rows) {
-    if (layout_.slots.size() > kMostColumns) return false;
+    if (layout_.slots.size() > kMaxColumns) return false;
     const bool one_value = IsOctets(type) || decode::IsPlain(type.kind) || type.kind == Kind::kString;
     if (one_value) return Put(in_rows ? Use::kRowCell : Use::kCell, path);
     if (type.kind == Kind::kStruct) return Members(type, path, in_rows);
@@ -96,8 +96,8 @@ base::Result<Layout> LayoutOf(const Type& type) {
   std::vector<std::string> rows;
   FindRows(type, "", rows);
   if (rows.size() == 1) layout.rows = rows.front();
-  if (!Builder(layout).Add(type, "", false) || layout.slots.size() > kMostColumns) {
-    return base::WrongInput(fmt::format("'{}' would make a table of more than {} columns", type.name, kMostColumns));
+  if (!Builder(layout).Add(type, "", false) || layout.slots.size() > kMaxColumns) {
+    return base::WrongInput(fmt::format("'{}' would make a table of more than {} columns", type.name, kMaxColumns));
   }
   return layout;
 }

@@ -36,9 +36,9 @@ struct Layout {
   std::vector<Slot> slots;
 };
 
-inline constexpr std::size_t kMostColumns = 10'000;
+inline constexpr std::size_t kMaxColumns = 10'000;
 
-// Wrong input where the type is no structure, or its table would have more than kMostColumns columns.
+// Wrong input where the type is no structure, or its table would have more than kMaxColumns columns.
 base::Result<Layout> LayoutOf(const decode::Type& type);
 
 }  // namespace rodeira::csv

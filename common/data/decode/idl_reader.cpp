@@ -15,7 +15,7 @@
 namespace rodeira::decode {
 namespace {
 
-constexpr std::uint64_t kMostElements = std::uint64_t{1} << 32;  // of an array or a bound: what a length in CDR can say
+constexpr std::uint64_t kMaxElements = std::uint64_t{1} << 32;  // of an array or a bound: what a length in CDR can say
 
 // Words that begin or name what is not read here.
 const std::set<std::string, std::less<>> kNotRead = {
@@ -235,8 +235,8 @@ class IdlParser {
         return Refuse(fmt::format("'{}' is no whole number that is defined before this line", name));
       length = found->second;
     }
-    const bool fits = length > 0 && length <= kMostElements;
-    return fits || Refuse(fmt::format("a length of {} was found; 1 to {} was expected", length, kMostElements));
+    const bool fits = length > 0 && length <= kMaxElements;
+    return fits || Refuse(fmt::format("a length of {} was found; 1 to {} was expected", length, kMaxElements));
   }
 
   static bool ToNumber(const std::string& text, std::uint64_t& number) {

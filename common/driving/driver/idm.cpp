@@ -8,7 +8,7 @@
 namespace rodeira::driver {
 namespace {
 
-constexpr double kLeastDesired_mps = 0.1;
+constexpr double kMinDesired_mps = 0.1;
 
 double FreePart(const IdmSettings& idm, double v, double v0) {
   if (v <= v0) {
@@ -21,13 +21,13 @@ double FreePart(const IdmSettings& idm, double v, double v0) {
 }  // namespace
 
 double IdmFreeAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps) {
-  return std::max(-idm.hardest_mps2, FreePart(idm, std::max(0.0, speed_mps), std::max(desired_mps, kLeastDesired_mps)));
+  return std::max(-idm.hardest_mps2, FreePart(idm, std::max(0.0, speed_mps), std::max(desired_mps, kMinDesired_mps)));
 }
 
 double IdmAcceleration(const IdmSettings& idm, double speed_mps, double desired_mps, double gap_m, double leader_mps) {
   if (!(gap_m > 0.0)) return -idm.hardest_mps2;
   const double v = std::max(0.0, speed_mps);
-  const double v0 = std::max(desired_mps, kLeastDesired_mps);
+  const double v0 = std::max(desired_mps, kMinDesired_mps);
   const double approach = v * (v - leader_mps) / (2.0 * std::sqrt(idm.acceleration_mps2 * idm.braking_mps2));
   const double wanted = idm.standing_gap_m + std::max(0.0, v * idm.time_gap_s + approach);
   const double ratio = wanted / gap_m;
@@ -36,7 +36,7 @@ double IdmAcceleration(const IdmSettings& idm, double speed_mps, double desired_
 }
 
 double IdmEquilibriumGap(const IdmSettings& idm, double speed_mps, double desired_mps) {
-  const double ratio = speed_mps / std::max(desired_mps, kLeastDesired_mps);
+  const double ratio = speed_mps / std::max(desired_mps, kMinDesired_mps);
   if (ratio >= 1.0) return std::numeric_limits<double>::infinity();
   return (idm.standing_gap_m + speed_mps * idm.time_gap_s) / std::sqrt(1.0 - ratio * ratio * ratio * ratio);
 }

@@ -9,7 +9,7 @@
 namespace rodeira::driver {
 namespace {
 
-constexpr double kLeastGap_m = 0.3;
+constexpr double kMinGap_m = 0.3;
 constexpr double kLeast_mps = 0.01;
 constexpr double kStanding_mps = 0.3;
 constexpr double kHold_mps2 = -1.0;
@@ -44,11 +44,11 @@ std::optional<double> LightStops::Step(const LightSettings& settings, std::span<
     passes_ = v > kStanding_mps && v * v > 2.0 * most * std::max(0.0, then);
   }
   if (passes_) return std::nullopt;
-  if (gap < kLeastGap_m && v < kStanding_mps) return kHold_mps2;
+  if (gap < kMinGap_m && v < kStanding_mps) return kHold_mps2;
   const double there = std::sqrt(2.0 * settings.braking_mps2 * std::max(0.0, then));
   const double planned = -settings.braking_mps2 * v / std::max(there, kLeast_mps) + (there - v) / settings.tracking_s;
   if (v <= there) return planned;
-  return -std::max(v * v / (2.0 * std::max(gap, kLeastGap_m)), std::min(settings.braking_mps2, -planned));
+  return -std::max(v * v / (2.0 * std::max(gap, kMinGap_m)), std::min(settings.braking_mps2, -planned));
 }
 
 void LightStops::Save(base::StateWriter& writer) const {

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kRolling_mps = 0.03;
 constexpr double kGentle_1ps = 0.5;
-constexpr double kMostLag_mps = 0.8;
-constexpr double kMostTrim_mps2 = 1.5;
+constexpr double kMaxLag_mps = 0.8;
+constexpr double kMaxTrim_mps2 = 1.5;
 
 double Toward(double now, double wanted, double most) { return now + std::clamp(wanted - now, -most, most); }
 
@@ -31,10 +31,10 @@ void Pedals::Step(const PedalSettings& settings, double wanted_mps2, double spee
     brake_ = Toward(brake_, hold, (speed_mps > kRolling_mps ? kGentle_1ps : settings.brake_rate_1ps) * dt_s);
     return;
   }
-  reference_mps_ = std::clamp(reference_mps_ + wanted_mps2 * dt_s, speed_mps - kMostLag_mps, speed_mps + kMostLag_mps);
+  reference_mps_ = std::clamp(reference_mps_ + wanted_mps2 * dt_s, speed_mps - kMaxLag_mps, speed_mps + kMaxLag_mps);
   reference_mps_ = std::max(reference_mps_, 0.0);
   const double lag = reference_mps_ - speed_mps;
-  trim_mps2_ = std::clamp(trim_mps2_ + settings.trim_1ps2 * lag * dt_s, -kMostTrim_mps2, kMostTrim_mps2);
+  trim_mps2_ = std::clamp(trim_mps2_ + settings.trim_1ps2 * lag * dt_s, -kMaxTrim_mps2, kMaxTrim_mps2);
 
   const double resisting = settings.rolling_mps2 + settings.air_1pm * speed_mps * speed_mps + climb;
   const double needed = wanted_mps2 + resisting + settings.follow_1ps * lag + trim_mps2_;

@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kPlanNodeStep_m = 1.0;
 constexpr double kSame_m2ps2 = 1e-9;  // a step
-constexpr double kLeastSquared_m2ps2 = 1e-4;
-constexpr double kLeastShare = 0.25;  // of the comfortable, for a bend on ground that leans outward by itself
-constexpr double kTipShare = 0.6;     // of what tips the car over: springs lean, and wheels meet bumps
+constexpr double kMinSquared_m2ps2 = 1e-4;
+constexpr double kMinShare = 0.25;  // of the comfortable, for a bend on ground that leans outward by itself
+constexpr double kTipShare = 0.6;   // of what tips the car over: springs lean, and wheels meet bumps
 constexpr double kCrawl_mps2 = 0.2;
 constexpr double kBankHalfWidth_m = 0.5;  // the bank is measured over twice this
 
@@ -43,7 +43,7 @@ SpeedPlan::Allowed Between(const SpeedPlan::Node& a, const SpeedPlan::Node& b, d
     return {std::sqrt(a.squared_m2ps2), 0.0};                                 // most of a street, and the same bits
   const double rise = (b.squared_m2ps2 - a.squared_m2ps2) / (b.d_m - a.d_m);  // d(v²)/dd = 2 v dv/dd
   const double squared = a.squared_m2ps2 + (std::max(0.0, d_m) - a.d_m) * rise;
-  return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kLeastSquared_m2ps2))};
+  return {std::sqrt(std::max(0.0, squared)), 0.5 * rise / std::sqrt(std::max(squared, kMinSquared_m2ps2))};
 }
 
 }  // namespace
@@ -54,7 +54,7 @@ double LateralAllowed(double outward, const SpeedPlanSettings& settings) {
   const auto beside = [&](double most_mps2) {
     return base::kGravity_mps2 * std::tan(std::atan(most_mps2 / base::kGravity_mps2) - lean);
   };
-  const double comfortable = std::max(beside(settings.lateral_mps2), kLeastShare * settings.lateral_mps2);
+  const double comfortable = std::max(beside(settings.lateral_mps2), kMinShare * settings.lateral_mps2);
   return std::min(settings.lateral_mps2,
                   std::max(kCrawl_mps2, std::min(comfortable, beside(kTipShare * settings.tips_mps2))));
 }

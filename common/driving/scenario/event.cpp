@@ -15,7 +15,7 @@
 namespace rodeira::scenario {
 namespace {
 
-constexpr std::uint32_t kMostAgents = 100'000;
+constexpr std::uint32_t kMaxAgents = 100'000;
 
 constexpr std::array kKinds = std::to_array<EventKind>({
     {kMark, "text", ArgumentKind::kText, "", 0.0, 0.0},
@@ -83,7 +83,7 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
     return choice;
   }
   const auto [end, problem] = std::from_chars(whom.data(), whom.data() + whom.size(), choice.id);
-  if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMostAgents) {
+  if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMaxAgents) {
     return base::WrongInput("'" + std::string(whom.substr(0, 40)) +
                             "' is no agent; its number, all or ahead was expected");
   }

@@ -10,7 +10,7 @@
 
 namespace rodeira::dds {
 
-ClockGate::ClockGate(LedRun& run, std::uint64_t clock_id)
+ClockGate::ClockGate(ClockRun& run, std::uint64_t clock_id)
     : run_(run), clock_id_(clock_id), who_(run.roster.nodes().size()) {
   for (lockstep::NodeIndex n = 0; n < run.roster.nodes().size(); ++n) expected_.push_back(OwnHello(run.launch, n));
 }
@@ -31,8 +31,8 @@ void ClockGate::Take(NamedReport& named) {
         base::DidYouMean(named.node, run_.roster.Names()));
     return;
   }
-  if (named.clock_id != 0 && named.clock_id != clock_id_) return;  // meant for another clock
-  if (named.report.incarnation < run_.clock.life(node)) return;    // of a life that is over
+  if (named.clock_id != 0 && named.clock_id != clock_id_) return;       // meant for another clock
+  if (named.report.incarnation < run_.clock.incarnation(node)) return;  // of an incarnation that is over
   if (named.report.phase == lockstep::Phase::kLost) {
     lost_.push_back({named.node, named.report.incarnation, named.report.message});
     return;

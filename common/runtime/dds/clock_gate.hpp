@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/clock_run.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
 #include "common/runtime/dds/wire.hpp"
 
@@ -15,7 +15,7 @@ namespace rodeira::dds {
 // processes may not drive together.
 class ClockGate {
  public:
-  ClockGate(LedRun& run, std::uint64_t clock_id);
+  ClockGate(ClockRun& run, std::uint64_t clock_id);
 
   // A report as it came. What it says goes to clock, watchdog and losses.
   void Take(const base::Bytes& payload);
@@ -24,7 +24,7 @@ class ClockGate {
   // Nodes that were lost by their own word or by that of another PC, each once.
   std::vector<LostNode> TakeLost();
   // Another process will say that it is this node.
-  void ExpectNextLife(lockstep::NodeIndex node) { who_[node] = {}; }
+  void ExpectRestart(lockstep::NodeIndex node) { who_[node] = {}; }
 
  private:
   struct Who {
@@ -36,7 +36,7 @@ class ClockGate {
   base::Status MayTakePart(lockstep::NodeIndex node, const NamedReport& named);
   base::Status CheckOnce(lockstep::NodeIndex node, const NamedReport& named);
 
-  LedRun& run_;
+  ClockRun& run_;
   std::vector<Hello> expected_;  // by node: what this program would say as that node
   base::Digest world_ = 0;       // of the first node that has one
   std::uint64_t clock_id_;

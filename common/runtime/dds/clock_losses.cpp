@@ -11,36 +11,37 @@ namespace rodeira::dds {
 
 using lockstep::Phase;
 
-std::optional<RunsEnd> ClockLosses::TakeLost(const LostNode& lost) {
+std::optional<RunTermination> ClockLosses::TakeLost(const LostNode& lost) {
   const lockstep::NodeIndex node = run_.roster.Find(lost.node);
-  if (node == run_.roster.nodes().size() || lost.incarnation < run_.clock.life(node)) return std::nullopt;
-  return Lose(node, fmt::format("node '{}' {} at about step {}", lost.node, lost.text, run_.clock.reached(node)), 1);
+  if (node == run_.roster.nodes().size() || lost.incarnation < run_.clock.incarnation(node)) return std::nullopt;
+  return HandleLoss(node, fmt::format("node '{}' {} at about step {}", lost.node, lost.text, run_.clock.reached(node)),
+                    1);
 }
 
 // A node that reported a failure would fail again; one that was not ready in time would not be the next time either.
-std::optional<RunsEnd> ClockLosses::Watch() {
+std::optional<RunTermination> ClockLosses::Watch() {
   const auto fault = run_.watchdog.Check(run_.NowMs(), run_.clock.grant());
   if (!fault) return std::nullopt;
   const lockstep::Report& report = run_.clock.report(fault->node);
   const bool by_its_own_word = report.phase == Phase::kFailed || report.phase == Phase::kRefused;
-  if (by_its_own_word || report.phase < Phase::kReady) return RunsEnd{fault->reason, fault->status};
-  return Lose(fault->node, fault->reason, fault->status);
+  if (by_its_own_word || report.phase < Phase::kReady) return RunTermination{fault->reason, fault->status};
+  return HandleLoss(fault->node, fault->reason, fault->status);
 }
 
 // Names the fault and does what the node's policy says; an end where that is the end of the run.
-std::optional<RunsEnd> ClockLosses::Lose(lockstep::NodeIndex node, const std::string& reason, int status) {
+std::optional<RunTermination> ClockLosses::HandleLoss(lockstep::NodeIndex node, const std::string& reason, int status) {
   const lockstep::Grant& grant = run_.clock.grant();
   const Phase phase = run_.clock.report(node).phase;
   const bool ended_in_order = phase == Phase::kFinished && !lockstep::EndedEarly(phase, grant);
   if (grant.abort || ended_in_order || run_.missed.Has(node)) return std::nullopt;
-  const auto decision = run_.clock.Lose(node);
+  const auto decision = run_.clock.HandleLoss(node);
   switch (decision.policy) {
     case lockstep::Policy::kStop:
-      return RunsEnd{decision.why.empty() ? reason : reason + "; " + decision.why, status};
+      return RunTermination{decision.why.empty() ? reason : reason + "; " + decision.why, status};
     case lockstep::Policy::kPause:
-      run_.watchdog.Excuse(node);
+      run_.watchdog.Suspend(node);
       Say("paused {} {}", run_.roster.node(node).name, OneLine(reason));
-      run_.conductor.NoteFault(reason + "; the run waits for it", run_.Now());
+      run_.controller.NoteFault(reason + "; the run waits for it", run_.Now());
       run_.missed.Lost(node, reason, run_.NowNs());
       return std::nullopt;
     case lockstep::Policy::kRestart:
@@ -50,13 +51,13 @@ std::optional<RunsEnd> ClockLosses::Lose(lockstep::NodeIndex node, const std::st
   return std::nullopt;
 }
 
-// To `rodeira run`, here by this line and on other PCs by the lives in the grant, which end the old process and start
-// another.
+// To `rodeira run`, here by this line and on other PCs by the incarnations in the grant, which end the old process and
+// start another.
 void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) {
-  run_.watchdog.ExpectNextLife(node, run_.NowMs());
+  run_.watchdog.ExpectRestart(node, run_.NowMs());
   run_.missed.Restarted(node);
-  Say("restart {} {} {}", run_.roster.node(node).name, run_.clock.life(node), OneLine(reason));
-  run_.conductor.NoteFault(reason + "; it is started again", run_.Now());
+  Say("restart {} {} {}", run_.roster.node(node).name, run_.clock.incarnation(node), OneLine(reason));
+  run_.controller.NoteFault(reason + "; it is started again", run_.Now());
   on_next_life_(node);
 }
 
@@ -77,7 +78,7 @@ base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
     return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
   const std::string reason =
       fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
-  run_.clock.ExpectNextLife(node);
+  run_.clock.ExpectRestart(node);
   Announce(node, reason);
   return fmt::format("'{}' is started again", name);
 }

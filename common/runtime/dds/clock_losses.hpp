@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/clock_run.hpp"
 #include "common/runtime/dds/supervisor_pipe.hpp"
 
 namespace rodeira::dds {
 
 // Ends a run: the sentence, and the status to leave with.
-struct RunsEnd {
+struct RunTermination {
   std::string reason;
   int status = 1;
 };
@@ -19,23 +19,23 @@ struct RunsEnd {
 // What becomes of a run that has lost a part: named, and then what the node's policy or a person says.
 class ClockLosses {
  public:
-  // on_next_life: another life of the node is expected; the grant that says so is to be said.
-  ClockLosses(LedRun& run, std::function<void(lockstep::NodeIndex)> on_next_life)
-      : run_(run), on_next_life_(std::move(on_next_life)) {}
+  // on_restart: another incarnation of the node is expected; the grant that says so is to be said.
+  ClockLosses(ClockRun& run, std::function<void(lockstep::NodeIndex)> on_restart)
+      : run_(run), on_next_life_(std::move(on_restart)) {}
 
   // Reported by the node itself or by the supervisor of its process. An end where the run cannot go on. Nothing where
   // another incarnation has taken its place.
-  std::optional<RunsEnd> TakeLost(const LostNode& lost);
+  std::optional<RunTermination> TakeLost(const LostNode& lost);
   // The node that the watchdog names, if any.
-  std::optional<RunsEnd> Watch();
+  std::optional<RunTermination> Watch();
   // By the operator's word: a sentence of what is done, or why it cannot be.
   base::Result<std::string> RestartByHand(const std::string& name);
 
  private:
-  std::optional<RunsEnd> Lose(lockstep::NodeIndex node, const std::string& reason, int status);
+  std::optional<RunTermination> HandleLoss(lockstep::NodeIndex node, const std::string& reason, int status);
   void Announce(lockstep::NodeIndex node, const std::string& reason);
 
-  LedRun& run_;
+  ClockRun& run_;
   std::function<void(lockstep::NodeIndex)> on_next_life_;
 };
 

@@ -6,15 +6,15 @@
 
 namespace rodeira::dds {
 
-std::string ProgressLine(const LedRun& run) {
-  if (!run.conductor.begun())
+std::string ProgressLine(const ClockRun& run) {
+  if (!run.controller.begun())
     return fmt::format("waiting for {}", fmt::join(run.clock.Missing(lockstep::Phase::kReady), ", "));
   return fmt::format("progress step={} wall_s={:.3f} pace={:g} paused={} begun_ns={}", run.clock.slowest_progress(),
-                     run.RunSeconds(), run.conductor.pacer().pace(), run.conductor.pacer().paused() ? 1 : 0,
+                     run.RunSeconds(), run.controller.pacer().pace(), run.controller.pacer().paused() ? 1 : 0,
                      run.BegunNs());
 }
 
-std::string NodeLines(const LedRun& run) {
+std::string NodeLines(const ClockRun& run) {
   std::string lines;
   for (lockstep::NodeIndex n = 0; n < run.roster.nodes().size(); ++n) {
     const lockstep::Report& report = run.clock.report(n);
@@ -30,8 +30,8 @@ std::string NodeLines(const LedRun& run) {
   return lines;
 }
 
-std::string EndLine(const LedRun& run, const char* how, lockstep::Step last_step, base::Digest digest, int status) {
-  const lockstep::Pacer& pacer = run.conductor.pacer();
+std::string EndLine(const ClockRun& run, const char* how, lockstep::Step last_step, base::Digest digest, int status) {
+  const lockstep::Pacer& pacer = run.controller.pacer();
   const lockstep::Lateness& late = pacer.lateness();
   const auto seconds = [](auto ns) { return static_cast<double>(ns) * 1e-9; };
   return fmt::format(

@@ -43,13 +43,14 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
       mailbox_(mailbox),
       settings_(settings),
       listens_(settings.incarnation == 0),
-      parcels_(roster, settings.node, settings.most_parcel_bytes) {
+      batches_(roster, settings.node, settings.max_batch_bytes) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
-  answers_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
-                   [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
-                     if (asker != settings_.node) (void)answers_writer_->Write(EncodeParcel(asker, samples));
-                   });
+  retransmit_server_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
+                             [this](lockstep::NodeIndex asker, std::span<const lockstep::Sample> samples) {
+                               if (asker != settings_.node)
+                                 (void)answers_writer_->Write(EncodeSampleBatch(asker, samples));
+                             });
 }
 
 base::Result<std::unique_ptr<NodeBus>> NodeBus::Open(Participant& participant, const lockstep::Roster& roster,
@@ -67,8 +68,8 @@ NodeBus::~NodeBus() {
   }
   woken_.notify_all();
   if (heartbeat_.joinable()) heartbeat_.join();
-  readers_.clear();  // first: their callbacks use the rest
-  answers_.reset();  // then: it uses the writers
+  readers_.clear();            // first: their callbacks use the rest
+  retransmit_server_.reset();  // then: it uses the writers
 }
 
 base::Status NodeBus::Connect(Participant& participant) {
@@ -81,64 +82,66 @@ base::Status NodeBus::Connect(Participant& participant) {
   outputs_ = roster_.node(settings_.node).outputs;
   if (const auto& snapshots = roster_.node(settings_.node).snapshots) outputs_.push_back(*snapshots);
   for (const lockstep::SourceIndex output : outputs_) {
-    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kSaidAgain);
+    auto writer = participant.MakeWriter(roster_.source(output).topic, Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
     writers_.push_back(std::move(writer).value());
   }
   for (const lockstep::Port& port : roster_.node(settings_.node).inputs) {
     const std::string_view topic = port.topic;
-    const auto in_parcels = [&](lockstep::SourceIndex source) {
-      return lockstep::GetsParcels(roster_, source, settings_.node);
+    const auto in_batches = [&](lockstep::SourceIndex source) {
+      return lockstep::GetsSampleBatches(roster_, source, settings_.node);
     };
-    if (std::all_of(port.sources.begin(), port.sources.end(), in_parcels)) continue;
-    if (auto status = add_reader(topic, Delivery::kSaidAgain,
+    if (std::all_of(port.sources.begin(), port.sources.end(), in_batches)) continue;
+    if (auto status = add_reader(topic, Delivery::kBestEffortRepeated,
                                  [this, topic](base::Bytes&& bytes) { OnSample(topic, std::move(bytes)); });
         !status)
       return status;
   }
-  if (auto status = ConnectParcels(participant); !status) return status;
+  if (auto status = ConnectSampleBatches(participant); !status) return status;
   // Answers have a topic of their own, which no step is published on: two threads that write on a topic which their
   // process also reads can stop each other for good, each within a lock of Fast DDS that the other wants.
-  auto answers = participant.MakeWriter(topics::kRetransmissions, Delivery::kSaidAgain);
+  auto answers = participant.MakeWriter(topics::kRetransmissions, Delivery::kBestEffortRepeated);
   if (!answers) return answers.error();
   answers_writer_ = std::move(answers).value();
-  if (auto status =
-          add_reader(topics::kRetransmissions, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAnswer(bytes); });
+  if (auto status = add_reader(topics::kRetransmissions, Delivery::kBestEffortRepeated,
+                               [this](base::Bytes&& bytes) { OnAnswer(bytes); });
       !status)
     return status;
   if (!writers_.empty() || settings_.keeps_all) {
-    if (auto status = add_reader(topics::kNack, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+    if (auto status =
+            add_reader(topics::kNack, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) { OnAsk(bytes); });
         !status)
       return status;
   }
-  auto questions = participant.MakeWriter(topics::kNack, Delivery::kSaidAgain);
+  auto questions = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
   if (!questions) return questions.error();
-  questions_ = std::move(questions).value();
-  auto reports = participant.MakeWriter(topics::kReport, Delivery::kSaidAgain);
+  pending_nacks_ = std::move(questions).value();
+  auto reports = participant.MakeWriter(topics::kReport, Delivery::kBestEffortRepeated);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
-  return add_reader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
+  return add_reader(topics::kGrant, Delivery::kBestEffortRepeated,
+                    [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
-// The nodes to which this node sends parcels, and those for it.
-base::Status NodeBus::ConnectParcels(Participant& participant) {
+// The nodes to which this node sends batches, and those for it.
+base::Status NodeBus::ConnectSampleBatches(Participant& participant) {
   const auto topic_of = [&](lockstep::NodeIndex n) {
     return std::string(topics::kSampleBatches) + roster_.node(n).name;
   };
-  for (const lockstep::NodeIndex n : parcels_.Consumers()) {
-    auto writer = participant.MakeWriter(topic_of(n), Delivery::kSaidAgain);
+  for (const lockstep::NodeIndex n : batches_.Consumers()) {
+    auto writer = participant.MakeWriter(topic_of(n), Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
-    parcel_writers_.emplace(n, std::move(writer).value());
+    batch_writers_.emplace(n, std::move(writer).value());
   }
-  const auto gets_parcels = [&](const lockstep::Port& port) {
+  const auto gets_batches = [&](const lockstep::Port& port) {
     return std::any_of(port.sources.begin(), port.sources.end(), [&](lockstep::SourceIndex source) {
-      return lockstep::GetsParcels(roster_, source, settings_.node);
+      return lockstep::GetsSampleBatches(roster_, source, settings_.node);
     });
   };
   const auto& inputs = roster_.node(settings_.node).inputs;
-  if (std::none_of(inputs.begin(), inputs.end(), gets_parcels)) return {};
-  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kSaidAgain,
-                                       [this](base::Bytes&& bytes) { OnParcel(bytes); });
+  if (std::none_of(inputs.begin(), inputs.end(), gets_batches)) return {};
+  auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kBestEffortRepeated,
+                                       [this](base::Bytes&& bytes) { OnSampleBatch(bytes); });
   if (!reader) return reader.error();
   readers_.push_back(std::move(reader).value());
   return {};
@@ -146,12 +149,12 @@ base::Status NodeBus::ConnectParcels(Participant& participant) {
 
 base::Status NodeBus::Publish(const lockstep::Sample& sample) {
   const lockstep::Grant grant = mailbox_.grant();
-  answers_->Keep(sample);
-  for (const auto& parcel : parcels_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
-    if (auto status = parcel_writers_.at(parcel.to)->Write(EncodeParcel(parcel.to, parcel.samples)); !status)
+  retransmit_server_->Keep(sample);
+  for (const auto& batch : batches_.Add(sample, grant.final ? grant.through : lockstep::kNever)) {
+    if (auto status = batch_writers_.at(batch.to)->Write(EncodeSampleBatch(batch.to, batch.samples)); !status)
       return status;
   }
-  return Say(sample);  // also where every consumer gets parcels: others may look on
+  return Say(sample);  // also where every consumer gets batches: others may look on
 }
 
 base::Status NodeBus::Say(const lockstep::Sample& sample) { return WriterOf(sample.source()).Write(*sample.payload); }
@@ -163,23 +166,23 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
 }
 
 void NodeBus::Ask(const lockstep::Gap& gap) {
-  (void)questions_->Write(
-      EncodeAsk(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
+  (void)pending_nacks_->Write(
+      EncodeNack(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
 }
 
 void NodeBus::OnAsk(const base::Bytes& payload) {
-  if (const auto question = DecodeAsk(roster_.hash(), payload)) answers_->Take(*question);
+  if (const auto question = DecodeNack(roster_.hash(), payload)) retransmit_server_->Take(*question);
 }
 
-void NodeBus::OnParcel(const base::Bytes& payload) {
+void NodeBus::OnSampleBatch(const base::Bytes& payload) {
   if (!listens_) return;
-  auto opened = DecodeParcel(payload);
+  auto opened = DecodeSampleBatch(payload);
   if (!opened) return EndEarly(LifeEvent::kFailed, opened.error().Text());
   for (base::Bytes& sample : opened.value().samples) OnSample({}, std::move(sample));
 }
 
 void NodeBus::OnAnswer(const base::Bytes& payload) {
-  auto opened = DecodeParcel(payload);
+  auto opened = DecodeSampleBatch(payload);
   if (!opened) return EndEarly(LifeEvent::kFailed, opened.error().Text());
   if (opened.value().to != settings_.node) return;
   for (base::Bytes& sample : opened.value().samples) {
@@ -199,7 +202,7 @@ void NodeBus::TakeSnapshot(const base::Bytes& payload) {
   woken_.notify_all();
 }
 
-base::Status NodeBus::Remember(const lockstep::Sample& sample) { return answers_->Remember(sample); }
+base::Status NodeBus::Remember(const lockstep::Sample& sample) { return retransmit_server_->Remember(sample); }
 
 std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
   const base::WaitNote note("the clock's first grant");
@@ -276,7 +279,7 @@ void NodeBus::OnSample(std::string_view topic, base::Bytes&& payload) {
 }
 
 void NodeBus::AbortBy(const base::Error& error, const lockstep::Sample& came) {
-  auto kept = answers_->Kept(came.source(), came.valid());
+  auto kept = retransmit_server_->Kept(came.source(), came.valid());
   if (!kept) kept = mailbox_.Kept(came.source(), came.valid());
   EndEarly(LifeEvent::kFailed, kept && kept->valid() == came.valid() && !lockstep::SameContent(*kept, came)
                                    ? launch::ContradictionText(roster_, settings_.topics, *kept, came)
@@ -293,11 +296,11 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     heard_ = grant.value().grant;
     clock_heard_ = WallClock::now();
   }
-  const std::vector<std::uint32_t>& lives = grant.value().grant.lives;
-  if (settings_.node < lives.size() && lives[settings_.node] > settings_.incarnation)
+  const std::vector<std::uint32_t>& incarnations = grant.value().grant.incarnations;
+  if (settings_.node < incarnations.size() && incarnations[settings_.node] > settings_.incarnation)
     return EndEarly(LifeEvent::kLost, "was replaced by another process");
   mailbox_.DeliverGrant(grant.value().grant);
-  answers_->Granted(grant.value().grant);
+  retransmit_server_->Granted(grant.value().grant);
   if (grant.value().grant.over || grant.value().grant.abort) woken_.notify_all();
 }
 

@@ -13,13 +13,13 @@
 #include <thread>
 #include <vector>
 
-#include "common/runtime/dds/answers.hpp"
 #include "common/runtime/dds/participant.hpp"
+#include "common/runtime/dds/retransmit_server.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "common/runtime/lockstep/bus.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
-#include "common/runtime/lockstep/parcels.hpp"
 #include "common/runtime/lockstep/runner.hpp"
+#include "common/runtime/lockstep/sample_batches.hpp"
 
 namespace rodeira::dds {
 
@@ -34,7 +34,7 @@ class NodeBus final : public lockstep::Bus {
     idl::TopicTable topics;  // of the launch
     bool keeps_all =
         false;  // a recorder, in a run of which a part may be started again: answers for all nodes' samples
-    std::size_t most_parcel_bytes = 8'000;  // as Parcels
+    std::size_t max_batch_bytes = 8'000;    // as SampleBatches
     std::size_t most_answer_bytes = 1'200;  // as Answers; what is small gets through where large datagrams do not
     std::chrono::milliseconds heartbeat{25};
     std::chrono::milliseconds clock_silence{
@@ -55,7 +55,7 @@ class NodeBus final : public lockstep::Bus {
   void SetSafe(lockstep::Step safe);
   // The newest grant, waited for; none where the run was aborted or nothing came.
   std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit);
-  // Another life than the first takes samples only from then on: its mailbox must know before where it begins.
+  // Another incarnation than the first takes samples only from then on: its mailbox must know before where it begins.
   void Listen() { listens_ = true; }
   // This node's snapshot at `step`, from the node that keeps it: asked for until it comes; none after `limit` or an
   // abort.
@@ -71,9 +71,9 @@ class NodeBus final : public lockstep::Bus {
  private:
   NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, const Settings& settings);
   base::Status Connect(Participant& participant);
-  base::Status ConnectParcels(Participant& participant);
+  base::Status ConnectSampleBatches(Participant& participant);
   base::Status Say(const lockstep::Sample& sample);
-  void OnParcel(const base::Bytes& payload);
+  void OnSampleBatch(const base::Bytes& payload);
   void OnAnswer(const base::Bytes& payload);
   void TakeSnapshot(const base::Bytes& payload);
   // On a receive thread of Fast DDS. `topic`: the sample's topic; empty for a sample of a batch.
@@ -94,15 +94,15 @@ class NodeBus final : public lockstep::Bus {
   std::atomic<bool> listens_;
   std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
   std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
-  std::unique_ptr<Writer> questions_;
+  std::unique_ptr<Writer> pending_nacks_;
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
 
-  std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> parcel_writers_;  // by the node that they are for
-  std::unique_ptr<Writer> answers_writer_;                                 // of the answering thread
+  std::map<lockstep::NodeIndex, std::unique_ptr<Writer>> batch_writers_;  // by the node that they are for
+  std::unique_ptr<Writer> answers_writer_;                                // of the answering thread
 
-  lockstep::Parcels parcels_;  // of the thread that publishes
-  std::optional<Answers> answers_;
+  lockstep::SampleBatches batches_;  // of the thread that publishes
+  std::optional<RetransmitServer> retransmit_server_;
 
   mutable std::mutex mutex_;
   std::condition_variable woken_;

@@ -23,10 +23,11 @@ struct ProcessOptions {
   double pace = 0.0;  // 0: as fast as possible
   std::optional<double> duration_s;
   bool listen = false;         // take lines from standard input: a parent saw a process die, an operator asks
-  std::uint64_t clock_id = 0;  // 0: drawn by lot; another life of a clock keeps that of the first
-  std::int64_t begun_ns = -1;  // another life: when the run began, as std::chrono::steady_clock counts; -1: it has not
-  bool paused = false;         // another life: begin paused
-  std::string follow;          // name of this host: grant nothing, say what the run's clock elsewhere says
+  std::uint64_t clock_id = 0;  // 0: drawn by lot; another incarnation of a clock keeps that of the first
+  std::int64_t begun_ns =
+      -1;               // another incarnation: when the run began, as std::chrono::steady_clock counts; -1: it has not
+  bool paused = false;  // another incarnation: begin paused
+  std::string follow;   // name of this host: grant nothing, say what the run's clock elsewhere says
 };
 
 // The options, or the status to leave with (0 after --help, 2 after a wrong option); what a person should read has been

@@ -91,7 +91,7 @@ class FastParticipant final : public Participant {
     Common(qos, delivery);
     qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
     qos.reliability().kind =
-        delivery == Delivery::kSaidAgain ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
+        delivery == Delivery::kBestEffortRepeated ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     auto& times = qos.reliable_writer_qos().times;
     times.initialHeartbeatDelay = Duration_t{0, 0};
     times.heartbeatPeriod = Duration_t{0, 3u * kNanosecondsPerMillisecond};
@@ -109,7 +109,7 @@ class FastParticipant final : public Participant {
     fdds::DataReaderQos qos = fdds::DATAREADER_QOS_DEFAULT;
     Common(qos, delivery);
     qos.durability().kind = IsKept(delivery) ? fdds::TRANSIENT_LOCAL_DURABILITY_QOS : fdds::VOLATILE_DURABILITY_QOS;
-    const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kSaidAgain;
+    const bool best_effort = delivery == Delivery::kObserve || delivery == Delivery::kBestEffortRepeated;
     qos.reliability().kind = best_effort ? fdds::BEST_EFFORT_RELIABILITY_QOS : fdds::RELIABLE_RELIABILITY_QOS;
     qos.reliable_reader_qos().times.heartbeatResponseDelay = Duration_t{0, 0};
     auto reader = std::make_unique<FastReader>(subscriber_, std::move(on_payload));
@@ -120,14 +120,11 @@ class FastParticipant final : public Participant {
   }
 
  private:
-  static bool IsKept(Delivery delivery) {
-    return delivery == Delivery::kForLateComers || delivery == Delivery::kHistory;
-  }
+  static bool IsKept(Delivery delivery) { return delivery == Delivery::kLatched || delivery == Delivery::kHistory; }
   template <class Qos>
   static void Common(Qos& qos, Delivery delivery) {
     qos.history().kind = fdds::KEEP_LAST_HISTORY_QOS;
-    qos.history().depth =
-        delivery == Delivery::kForLateComers ? 1 : 256;  // of all writers together: the types have no keys
+    qos.history().depth = delivery == Delivery::kLatched ? 1 : 256;  // of all writers together: the types have no keys
     qos.resource_limits().max_samples = 1000;
     qos.resource_limits().max_instances = 1;
     qos.resource_limits().max_samples_per_instance = 1000;

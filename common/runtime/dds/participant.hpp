@@ -16,8 +16,9 @@ namespace rodeira::dds {
 
 // How a topic's samples are kept and handed over (docs/explanation/architecture.md says why).
 enum class Delivery {
-  kSaidAgain,      // best effort: what is repeated where it is missed (samples, grants, reports, questions and answers)
-  kForLateComers,  // reliable, transient local, the newest: world information
+  kBestEffortRepeated,  // best effort: what is repeated where it is missed (samples, grants, reports, questions and
+                        // answers)
+  kLatched,             // reliable, transient local, the newest: world information
   kHistory,  // reliable, transient local, the newest 256: what happens seldom and must reach every node (triggers)
   kObserve,  // best effort: observers, which never slow a run (law L5)
 };

@@ -18,10 +18,10 @@ RemoteGround::RemoteGround(lockstep::NodeIndex asker, std::uint32_t incarnation,
 base::Result<std::unique_ptr<RemoteGround>> RemoteGround::Open(Participant& participant, lockstep::NodeIndex asker,
                                                                std::uint32_t incarnation, std::function<bool()> over) {
   std::unique_ptr<RemoteGround> ground(new RemoteGround(asker, incarnation, std::move(over)));
-  auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kSaidAgain);
+  auto requests = participant.MakeWriter(topics::kGroundRequest, Delivery::kBestEffortRepeated);
   if (!requests) return requests.error();
   ground->requests_ = std::move(requests).value();
-  auto replies = participant.MakeReader(topics::kGroundReply, Delivery::kSaidAgain,
+  auto replies = participant.MakeReader(topics::kGroundReply, Delivery::kBestEffortRepeated,
                                         [raw = ground.get()](base::Bytes&& bytes) { raw->OnReply(std::move(bytes)); });
   if (!replies) return replies.error();
   ground->replies_ = std::move(replies).value();

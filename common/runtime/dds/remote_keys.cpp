@@ -37,7 +37,7 @@ class RemoteKeysSender final : public launch::LiveKeysSender {
 class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader = participant.MakeReader(idl::topics::kWindowKeys, Delivery::kSaidAgain,
+    auto reader = participant.MakeReader(idl::topics::kWindowKeys, Delivery::kBestEffortRepeated,
                                          [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
@@ -63,7 +63,7 @@ class RemoteKeysReceiver final : public launch::LiveKeysReceiver {
 }  // namespace
 
 base::Result<std::unique_ptr<launch::LiveKeysSender>> OpenKeysSender(Participant& participant) {
-  auto writer = participant.MakeWriter(idl::topics::kWindowKeys, Delivery::kSaidAgain);
+  auto writer = participant.MakeWriter(idl::topics::kWindowKeys, Delivery::kBestEffortRepeated);
   if (!writer) return writer.error();
   return std::unique_ptr<launch::LiveKeysSender>(std::make_unique<RemoteKeysSender>(std::move(writer).value()));
 }

@@ -33,11 +33,11 @@ class Speaker final : public LogSpeaker {
   Speaker(base::Digest roster_hash, std::uint64_t clock_id, std::int64_t base_step_ns)
       : roster_hash_(roster_hash), clock_id_(clock_id), base_step_ns_(base_step_ns) {}
   base::Status Open(Participant& participant) {
-    auto writer = participant.MakeWriter(topics::kRunLog, Delivery::kSaidAgain);
+    auto writer = participant.MakeWriter(topics::kRunLog, Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
     writer_ = std::move(writer).value();
-    auto reader =
-        participant.MakeReader(topics::kNack, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { OnAsk(bytes); });
+    auto reader = participant.MakeReader(topics::kNack, Delivery::kBestEffortRepeated,
+                                         [this](base::Bytes&& bytes) { OnAsk(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -52,7 +52,7 @@ class Speaker final : public LogSpeaker {
 
  private:
   void OnAsk(const base::Bytes& bytes) {
-    const auto ask = DecodeAsk(roster_hash_, bytes);
+    const auto ask = DecodeNack(roster_hash_, bytes);
     if (!ask || ask->gap.source != kLogSource) return;
     std::vector<lockstep::LogBatch> again;
     {
@@ -75,11 +75,11 @@ class Receiver final : public launch::RunLogReceiver {
  public:
   explicit Receiver(base::Digest roster_hash) : roster_hash_(roster_hash) {}
   base::Status Open(Participant& participant) {
-    auto writer = participant.MakeWriter(topics::kNack, Delivery::kSaidAgain);
+    auto writer = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
-    questions_ = std::move(writer).value();
-    auto reader =
-        participant.MakeReader(topics::kRunLog, Delivery::kSaidAgain, [this](base::Bytes&& bytes) { Hear(bytes); });
+    pending_nacks_ = std::move(writer).value();
+    auto reader = participant.MakeReader(topics::kRunLog, Delivery::kBestEffortRepeated,
+                                         [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
     return {};
@@ -100,7 +100,7 @@ class Receiver final : public launch::RunLogReceiver {
 
  private:
   void Ask(std::uint64_t from) {
-    (void)questions_->Write(EncodeAsk(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
+    (void)pending_nacks_->Write(EncodeNack(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
   }
   void Hear(const base::Bytes& bytes) {
     auto heard = DecodeLog(bytes);
@@ -114,7 +114,7 @@ class Receiver final : public launch::RunLogReceiver {
   std::mutex mutex_;
   std::uint64_t clock_id_ = 0;  // one clock a run: the first
   lockstep::LogInbox inbox_;
-  std::unique_ptr<Writer> questions_;
+  std::unique_ptr<Writer> pending_nacks_;
   std::unique_ptr<Reader> reader_;  // last: its callback uses the rest
 };
 

@@ -37,7 +37,7 @@ class RemoteRequestsSender final : public launch::LiveRequestsSender {
 class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
  public:
   base::Status Open(Participant& participant) {
-    auto reader = participant.MakeReader(idl::topics::kOperatorRequests, Delivery::kSaidAgain,
+    auto reader = participant.MakeReader(idl::topics::kOperatorRequests, Delivery::kBestEffortRepeated,
                                          [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
     reader_ = std::move(reader).value();
@@ -64,7 +64,7 @@ class RemoteRequestsReceiver final : public launch::LiveRequestsReceiver {
 }  // namespace
 
 base::Result<std::unique_ptr<launch::LiveRequestsSender>> OpenRequestsSender(Participant& participant) {
-  auto writer = participant.MakeWriter(idl::topics::kOperatorRequests, Delivery::kSaidAgain);
+  auto writer = participant.MakeWriter(idl::topics::kOperatorRequests, Delivery::kBestEffortRepeated);
   if (!writer) return writer.error();
   return std::unique_ptr<launch::LiveRequestsSender>(std::make_unique<RemoteRequestsSender>(std::move(writer).value()));
 }

@@ -19,11 +19,11 @@
 #include "common/core/base/log.hpp"
 #include "common/core/base/mathematics.hpp"
 #include "common/core/base/print_error.hpp"
-#include "common/runtime/dds/clock_desk.hpp"
 #include "common/runtime/dds/clock_gate.hpp"
 #include "common/runtime/dds/clock_losses.hpp"
+#include "common/runtime/dds/clock_run.hpp"
 #include "common/runtime/dds/clock_words.hpp"
-#include "common/runtime/dds/led_run.hpp"
+#include "common/runtime/dds/operator_commands.hpp"
 #include "common/runtime/dds/options.hpp"
 #include "common/runtime/dds/participant.hpp"
 #include "common/runtime/dds/remote_log.hpp"
@@ -87,7 +87,7 @@ class ClockProcess {
 
   base::Status Connect(Participant& participant) {
     // Before anything is said: another clock's word in this run means that this one is too many.
-    auto other = participant.MakeReader(topics::kGrant, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
+    auto other = participant.MakeReader(topics::kGrant, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) {
       const auto grant = DecodeGrant(bytes);
       if (grant && grant.value().clock_id != clock_id_) other_clock_ = grant.value().clock_id;
     });
@@ -95,14 +95,14 @@ class ClockProcess {
     others_ = std::move(other).value();
     if (options_.incarnation == 0) std::this_thread::sleep_for(300ms);
     if (other_clock_ != 0) return SecondClock();
-    auto reports = participant.MakeReader(topics::kReport, Delivery::kSaidAgain, [this](base::Bytes&& bytes) {
+    auto reports = participant.MakeReader(topics::kReport, Delivery::kBestEffortRepeated, [this](base::Bytes&& bytes) {
       const std::lock_guard lock(mutex_);
       inbox_.push_back(std::move(bytes));
       woken_.notify_one();
     });
     if (!reports) return reports.error();
     reports_ = std::move(reports).value();
-    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kSaidAgain);
+    auto grants = participant.MakeWriter(topics::kGrant, Delivery::kBestEffortRepeated);
     if (!grants) return grants.error();
     grants_ = std::move(grants).value();
     auto log = OpenLogSpeaker(participant, run_.roster.hash(), clock_id_, run_.roster.base_step_ns());
@@ -127,13 +127,13 @@ class ClockProcess {
     woken_.notify_one();
   }
 
-  // This life of the clock takes the place of one that has died: the nodes' reports say where the run stands.
+  // This incarnation of the clock takes the place of one that has died: the nodes' reports say where the run stands.
   void GoOn() {
     run_.clock.Rebuild();
     serial_ = options_.incarnation << 24;
     if (options_.begun_ns < 0) return;
-    run_.conductor.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(),
-                        options_.paused, run_.Now());
+    run_.controller.GoOn(options_.begun_ns - std::chrono::nanoseconds(run_.start.time_since_epoch()).count(),
+                         options_.paused, run_.Now());
   }
 
   int Loop() {
@@ -153,8 +153,8 @@ class ClockProcess {
       if (run_.clock.grant().abort) return Abort({run_.clock.grant().reason, 1});
       if (desk_.stop_asked() && !run_.missed.empty())
         return Abort({"stopped while the run waited: " + run_.missed.Text(run_.NowNs()), 1});
-      const lockstep::Grant grant = run_.conductor.Move(run_.Now());
-      if (const std::string warning = run_.conductor.TakeWarning(); !warning.empty())
+      const lockstep::Grant grant = run_.controller.Move(run_.Now());
+      if (const std::string warning = run_.controller.TakeWarning(); !warning.empty())
         base::Log(base::LogLevel::kWarning, "", warning);
       const auto now = WallClock::now();
       if (grant.through != before.through || grant.final != before.final || now - said >= 10ms) {
@@ -162,7 +162,7 @@ class ClockProcess {
         SayGrant(grant);
         ShowProgress(now);
       }
-      if (grant.final && run_.clock.all_sources_finished()) run_.conductor.CloseLog(run_.Now());
+      if (grant.final && run_.clock.all_sources_finished()) run_.controller.CloseLog(run_.Now());
       FlushLog();
       Wait();
     }
@@ -172,7 +172,7 @@ class ClockProcess {
   }
 
   // The nodes that are lost, as this PC, another one, or the watchdog says; and a signal to this process.
-  std::optional<RunsEnd> LookAfterLosses() {
+  std::optional<RunTermination> LookAfterLosses() {
     std::vector<LostNode> lost = gate_.TakeLost();
     for (LostNode& one : supervisor_.TakeLost()) lost.push_back(std::move(one));
     for (const LostNode& one : lost) {
@@ -183,17 +183,17 @@ class ClockProcess {
     checked_ = now;
     if (auto end = losses_.Watch()) return end;
     const int signals = StopSignals();
-    if (signals > 2 || supervisor_.must_abort()) return RunsEnd{"stopped by a signal" + NotFinished(), 1};
-    if (signals > 0 && run_.clock.grant().through < 0) return RunsEnd{"stopped by a signal", 1};
+    if (signals > 2 || supervisor_.must_abort()) return RunTermination{"stopped by a signal" + NotFinished(), 1};
+    if (signals > 0 && run_.clock.grant().through < 0) return RunTermination{"stopped by a signal", 1};
     if (signals > 0) desk_.StopBySignal();
     return LookAfterSupervisor(now);
   }
   // Without `rodeira run` the run ends: in order at its last granted step, or after a moment by an abort.
-  std::optional<RunsEnd> LookAfterSupervisor(WallClock::time_point now) {
+  std::optional<RunTermination> LookAfterSupervisor(WallClock::time_point now) {
     if (!supervisor_.is_closed()) return std::nullopt;
     if (!alone_since_) alone_since_ = now;
     if (run_.clock.grant().through < 0 || now - *alone_since_ > kOrderlyStop)
-      return RunsEnd{"'rodeira run' has ended" + NotFinished(), 1};
+      return RunTermination{"'rodeira run' has ended" + NotFinished(), 1};
     desk_.StopBySignal();
     return std::nullopt;
   }
@@ -202,7 +202,7 @@ class ClockProcess {
     return names.empty() ? "" : fmt::format(" before these nodes had finished: '{}'", fmt::join(names, "', '"));
   }
   void OnNextLife(lockstep::NodeIndex node) {
-    gate_.ExpectNextLife(node);
+    gate_.ExpectRestart(node);
     SayGrant(run_.clock.grant());
   }
 
@@ -216,7 +216,7 @@ class ClockProcess {
   }
   void Wait() {
     std::unique_lock lock(mutex_);
-    const auto due = std::chrono::nanoseconds(run_.conductor.NextDueIn(run_.Now()));
+    const auto due = std::chrono::nanoseconds(run_.controller.NextDueIn(run_.Now()));
     const std::chrono::nanoseconds limit = due > 0ns ? std::min<std::chrono::nanoseconds>(due, 10ms) : 10ms;
     woken_.wait_for(lock, limit, [this] { return !inbox_.empty() || supervisor_.is_waiting(); });
   }
@@ -228,7 +228,7 @@ class ClockProcess {
     SayLine(ProgressLine(run_));
   }
   void FlushLog() {
-    const auto batch = run_.conductor.log().Take(run_.NowNs());
+    const auto batch = run_.controller.log().Take(run_.NowNs());
     if (!batch) return;
     log_->Say(*batch);
     for (const lockstep::Remark& remark : batch->remarks) triggers_->Say(remark);
@@ -247,8 +247,8 @@ class ClockProcess {
     SayLine(words);
   }
   // Time stops everywhere; sinks get a moment to close their files.
-  int Abort(const RunsEnd& end) {
-    run_.conductor.Abort(end.reason, run_.Now());
+  int Abort(const RunTermination& end) {
+    run_.controller.Abort(end.reason, run_.Now());
     FlushLog();
     triggers_->SayEnd(run_.clock.slowest_progress() - 1, run_.Now().utc_ns, run_.clock.grant().reason);
     Say("fault {}", OneLine(end.reason));
@@ -271,10 +271,10 @@ class ClockProcess {
 
   const ProcessOptions& options_;
   const std::uint64_t clock_id_;
-  LedRun run_;
+  ClockRun run_;
   ClockGate gate_;
   ClockLosses losses_;
-  ClockDesk desk_;
+  OperatorCommands desk_;
   std::uint32_t serial_ = 0;
   std::atomic<std::uint64_t> other_clock_ = 0;
   WallClock::time_point shown_{};
@@ -295,7 +295,7 @@ class ClockProcess {
 }  // namespace
 
 int RunClock(int argc, char** argv) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   base::TraceCrashes();
   base::NameExhaustion("rodeira-clock");
   const ParsedOptions parsed = ParseOptions("rodeira-clock", true, argc, argv);

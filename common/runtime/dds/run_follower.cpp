@@ -70,7 +70,7 @@ class Follower {
         participant_->MakeReader(topics::kReport, Delivery::kObserve, [this](base::Bytes&& bytes) { OnReport(bytes); });
     if (!reports) return reports.error();
     reports_in_ = std::move(reports).value();
-    auto out = participant_->MakeWriter(topics::kReport, Delivery::kSaidAgain);
+    auto out = participant_->MakeWriter(topics::kReport, Delivery::kBestEffortRepeated);
     if (!out) return out.error();
     reports_out_ = std::move(out).value();
     return {};
@@ -142,7 +142,7 @@ class Follower {
                                      std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
-      TellLives(now);
+      TellIncarnations(now);
       ShowProgress(now);
     }
   }
@@ -159,7 +159,7 @@ class Follower {
     return status;
   }
 
-  // Said again until the clock has stopped time or has called for another life of the node.
+  // Said again until the clock has stopped time or has called for another incarnation of the node.
   void TellFaults(const Now& now) {
     if (now.grant.abort) return;
     for (const LostNode& lost : supervisor_.TakeLost()) {
@@ -167,17 +167,17 @@ class Follower {
       if (node == roster_.nodes().size()) continue;
       lost_.push_back({node, lost.incarnation, fmt::format("{} (host '{}')", lost.text, options_.follow)});
     }
-    std::erase_if(lost_, [&](const Lost& lost) { return LifeOf(now, lost.node) > lost.life; });
+    std::erase_if(lost_, [&](const Lost& lost) { return IncarnationOf(now, lost.node) > lost.incarnation; });
     for (const Lost& lost : lost_) TellFault(now, lost, Phase::kLost);
     if (StopSignals() > 0)
       TellFault(now,
-                {AnyOwnNode(), LifeOf(now, AnyOwnNode()),
+                {AnyOwnNode(), IncarnationOf(now, AnyOwnNode()),
                  fmt::format("it was stopped by a signal (host '{}')", options_.follow)},
                 Phase::kFailed);
   }
   struct Lost {
     NodeIndex node = 0;
-    std::uint32_t life = 0;
+    std::uint32_t incarnation = 0;
     std::string text;
   };
   void TellFault(const Now& now, const Lost& lost, Phase phase) {
@@ -186,23 +186,23 @@ class Follower {
     report.clock_id = now.clock_id;
     report.hello = OwnHello(launch_, lost.node);
     if (now.reports[lost.node]) report.report = *now.reports[lost.node];
-    report.report.incarnation = lost.life;
+    report.report.incarnation = lost.incarnation;
     report.report.phase = phase;
     report.report.message = lost.text;
     (void)reports_out_->Write(EncodeReport(report));
   }
-  static std::uint32_t LifeOf(const Now& now, NodeIndex node) {
-    return node < now.grant.lives.size() ? now.grant.lives[node] : 0;
+  static std::uint32_t IncarnationOf(const Now& now, NodeIndex node) {
+    return node < now.grant.incarnations.size() ? now.grant.incarnations[node] : 0;
   }
 
-  // The clock calls for another life of a node by its grant; what starts processes on this host is told.
-  void TellLives(const Now& now) {
-    lives_.resize(roster_.nodes().size(), 0);
-    for (NodeIndex n = 0; n < lives_.size(); ++n) {
-      if (LifeOf(now, n) <= lives_[n]) continue;
-      lives_[n] = LifeOf(now, n);
+  // The clock calls for another incarnation of a node by its grant; what starts processes on this host is told.
+  void TellIncarnations(const Now& now) {
+    incarnations_.resize(roster_.nodes().size(), 0);
+    for (NodeIndex n = 0; n < incarnations_.size(); ++n) {
+      if (IncarnationOf(now, n) <= incarnations_[n]) continue;
+      incarnations_[n] = IncarnationOf(now, n);
       if (launch_.node(n).host == options_.follow)
-        Say("restart {} {} asked for by the clock", launch_.node(n).name, lives_[n]);
+        Say("restart {} {} asked for by the clock", launch_.node(n).name, incarnations_[n]);
     }
   }
   NodeIndex AnyOwnNode() const {
@@ -261,7 +261,7 @@ class Follower {
   WallClock::time_point heard_at_{};
   std::vector<std::optional<lockstep::Report>> reports_;
   std::vector<Lost> lost_;
-  std::vector<std::uint32_t> lives_;
+  std::vector<std::uint32_t> incarnations_;
   std::unique_ptr<Participant> participant_;  // outlives its endpoints
   std::unique_ptr<Writer> reports_out_;
   std::unique_ptr<Reader> grants_;

@@ -33,8 +33,8 @@ namespace {
 using namespace std::chrono_literals;
 
 // A datagram is lost with any of its fragments of 1 500 bytes.
-constexpr std::size_t kParcelOnWire_bytes = 8'000;
-constexpr std::size_t kParcelInMemory_bytes = 40'000;
+constexpr std::size_t kSampleBatchOnWire_bytes = 8'000;
+constexpr std::size_t kSampleBatchInMemory_bytes = 40'000;
 constexpr std::size_t kAnswerOnWire_bytes = 1'200;
 
 class ProcessContext final : public launch::NodeContext {
@@ -59,7 +59,7 @@ class ProcessContext final : public launch::NodeContext {
     std::mutex mutex;
     std::condition_variable woken;
     std::optional<launch::WorldSummary> summary;
-    auto reader = participant_.MakeReader(idl::topics::kWorldInfo, Delivery::kForLateComers, [&](base::Bytes&& bytes) {
+    auto reader = participant_.MakeReader(idl::topics::kWorldInfo, Delivery::kLatched, [&](base::Bytes&& bytes) {
       const auto info = idl::Decode<msg::WorldInfo>(bytes);
       if (!info) return;
       const std::lock_guard lock(mutex);
@@ -124,7 +124,7 @@ class ProcessContext final : public launch::NodeContext {
   std::unique_ptr<RemoteGround> ground_;
 };
 
-// For another life than the first.
+// For another incarnation than the first.
 base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
                            lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
@@ -182,7 +182,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
 }  // namespace
 
 int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFactory& factory) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   base::TraceCrashes();
   // An external node is called as its file is.
   const std::string program = kind == launch::kExternalKind ? std::filesystem::path(argv[0]).filename().string()
@@ -211,10 +211,10 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   settings.incarnation = options.incarnation;
   settings.hello = OwnHello(launch.value(), index);
   settings.topics = launch.value().topics();
-  settings.most_parcel_bytes =
-      domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kParcelOnWire_bytes;
+  settings.max_batch_bytes =
+      domain.transport == launch::Transport::kSharedMemory ? kSampleBatchInMemory_bytes : kSampleBatchOnWire_bytes;
   settings.most_answer_bytes =
-      domain.transport == launch::Transport::kSharedMemory ? kParcelInMemory_bytes : kAnswerOnWire_bytes;
+      domain.transport == launch::Transport::kSharedMemory ? kSampleBatchInMemory_bytes : kAnswerOnWire_bytes;
   settings.keeps_all = launch.value().keeps_for_restarts() && roster.node(index).keeps_snapshots();
   auto bus = NodeBus::Open(*participant.value(), roster, mailbox, settings);
   if (!bus) return base::PrintError(program, bus.error());

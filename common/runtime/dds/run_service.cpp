@@ -29,7 +29,7 @@ class ServiceContext final : public launch::NodeContext {
 }  // namespace
 
 int RunService(std::string_view kind, int argc, char** argv, const launch::ServiceFactory& factory) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   base::TraceCrashes();
   const std::string program = fmt::format("rodeira-{}", kind);
   base::NameExhaustion(program);
@@ -71,21 +71,21 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
     return error.exit_status();
   }
   bus.value()->SetWorldHash(service.value()->world_hash());
-  auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kSaidAgain);
-  auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kForLateComers);
+  auto replies = participant.value()->MakeWriter(topics::kGroundReply, Delivery::kBestEffortRepeated);
+  auto information = participant.value()->MakeWriter(topics::kWorldInfo, Delivery::kLatched);
   if (!replies) return base::PrintError(program, replies.error());
   if (!information) return base::PrintError(program, information.error());
   if (auto status = information.value()->Write(service.value()->Announcement()); !status)
     return base::PrintError(program, status.error());
   std::atomic<std::uint64_t> answered = 0;
   // The server waits for no node, so it may answer on the receive thread itself: one thread change less in every step.
-  auto requests =
-      participant.value()->MakeReader(topics::kGroundRequest, Delivery::kSaidAgain, [&](base::Bytes&& request) {
-        auto reply = service.value()->Answer(request);
-        if (!reply) return;
-        (void)replies.value()->Write(reply.value());
-        ++answered;
-      });
+  auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kBestEffortRepeated,
+                                                  [&](base::Bytes&& request) {
+                                                    auto reply = service.value()->Answer(request);
+                                                    if (!reply) return;
+                                                    (void)replies.value()->Write(reply.value());
+                                                    ++answered;
+                                                  });
   if (!requests) return base::PrintError(program, requests.error());
   report.phase = lockstep::Phase::kRunning;
   report.waiting = lockstep::Waiting::kGrant;

@@ -106,7 +106,7 @@ Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
   hello.report = base::Hash(FindText(topics, idl::topics::kReport)->idl);
   hello.protocol = idl::ProtocolHash(topics);
   hello.roster = launch::Agreement(launch);
-  hello.mathematics = base::MathematicsDigest();
+  hello.mathematics = base::MathLibraryFingerprint();
   hello.host = HostName();
   hello.pid = static_cast<std::uint32_t>(::getpid());
   hello.topics = std::make_shared<const std::vector<idl::TopicText>>(std::move(topics));
@@ -236,7 +236,7 @@ base::Bytes EncodeGrant(const NumberedGrant& in) {
   out.finished(in.grant.over);
   out.recorded_step(in.grant.safe);
   out.resume_step(in.grant.resume);
-  out.incarnations(in.grant.lives);
+  out.incarnations(in.grant.incarnations);
   out.reason(in.grant.reason);
   return idl::Encode(out);
 }
@@ -257,12 +257,12 @@ base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   out.grant.over = in.finished();
   out.grant.safe = in.recorded_step();
   out.grant.resume = in.resume_step();
-  out.grant.lives = in.incarnations();
+  out.grant.incarnations = in.incarnations();
   out.grant.reason = in.reason();
   return out;
 }
 
-base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question) {
+base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question) {
   msg::Nack out;
   out.roster_hash(roster_hash);
   out.from_step(question.gap.from);
@@ -271,13 +271,13 @@ base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& questi
   return idl::Encode(out);
 }
 
-std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload) {
+std::optional<lockstep::Nack> DecodeNack(base::Digest roster_hash, const base::Bytes& payload) {
   const auto in = idl::Decode<msg::Nack>(payload);
   if (!in || in.value().roster_hash() != roster_hash) return std::nullopt;
-  return lockstep::Question{in.value().requester(), {in.value().source(), in.value().from_step()}};
+  return lockstep::Nack{in.value().requester(), {in.value().source(), in.value().from_step()}};
 }
 
-base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples) {
+base::Bytes EncodeSampleBatch(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples) {
   std::size_t size = 0;
   for (const lockstep::Sample& sample : samples) size += sizeof(std::uint32_t) + sample.payload->size();
   msg::SampleBatch out;
@@ -294,7 +294,7 @@ base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sampl
   return idl::Encode(out);
 }
 
-base::Result<Opened> DecodeParcel(const base::Bytes& payload) {
+base::Result<Opened> DecodeSampleBatch(const base::Bytes& payload) {
   const auto in = idl::Decode<msg::SampleBatch>(payload);
   if (!in) return in.error();
   const auto all = std::as_bytes(std::span(in.value().samples()));
@@ -302,12 +302,12 @@ base::Result<Opened> DecodeParcel(const base::Bytes& payload) {
   for (std::size_t at = 0; at < all.size();) {
     std::uint32_t length = 0;
     if (all.size() - at < sizeof(length))
-      return base::WrongInput(fmt::format("a parcel of {} bytes ends within a length", all.size()));
+      return base::WrongInput(fmt::format("a batch of {} bytes ends within a length", all.size()));
     std::memcpy(&length, all.data() + at, sizeof(length));
     at += sizeof(length);
     if (length > all.size() - at)
       return base::WrongInput(
-          fmt::format("a parcel of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
+          fmt::format("a batch of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
     opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at),
                                 all.begin() + static_cast<std::ptrdiff_t>(at + length));
     at += length;

@@ -10,7 +10,7 @@
 #include "common/core/base/bytes.hpp"
 #include "common/core/base/result.hpp"
 #include "common/runtime/launch/launch.hpp"
-#include "common/runtime/lockstep/questions.hpp"
+#include "common/runtime/lockstep/pending_nacks.hpp"
 #include "common/runtime/lockstep/report.hpp"
 #include "common/runtime/lockstep/roster.hpp"
 #include "idl/topic_types.hpp"
@@ -54,16 +54,16 @@ struct NumberedGrant {
 base::Bytes EncodeGrant(const NumberedGrant& grant);
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload);
 
-base::Bytes EncodeAsk(base::Digest roster_hash, const lockstep::Question& question);
+base::Bytes EncodeNack(base::Digest roster_hash, const lockstep::Nack& question);
 // Nothing where it is of another roster or cannot be read: the requester will ask again.
-std::optional<lockstep::Question> DecodeAsk(base::Digest roster_hash, const base::Bytes& payload);
+std::optional<lockstep::Nack> DecodeNack(base::Digest roster_hash, const base::Bytes& payload);
 
-base::Bytes EncodeParcel(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples);
+base::Bytes EncodeSampleBatch(lockstep::NodeIndex to, std::span<const lockstep::Sample> samples);
 struct Opened {
   lockstep::NodeIndex to = 0;
   std::vector<base::Bytes> samples;  // payloads
 };
 // Wrong input where it cannot be read.
-base::Result<Opened> DecodeParcel(const base::Bytes& payload);
+base::Result<Opened> DecodeSampleBatch(const base::Bytes& payload);
 
 }  // namespace rodeira::dds

@@ -22,8 +22,8 @@ Command Of(Kind kind) {
   return command;
 }
 
-constexpr lockstep::Step kMostSteps = 1'000'000'000;
-constexpr std::size_t kMostText = 500;
+constexpr lockstep::Step kMaxSteps = 1'000'000'000;
+constexpr std::size_t kMaxText = 500;
 
 std::string_view Trim(std::string_view text) {
   const auto first = text.find_first_not_of(" \t\r\n");
@@ -35,9 +35,9 @@ base::Result<Command> ParseStep(std::string_view rest) {
   Command command = Of(Kind::kStep);
   if (rest.empty()) return command;
   const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), command.steps);
-  if (problem != std::errc{} || end != rest.data() + rest.size() || command.steps < 1 || command.steps > kMostSteps) {
+  if (problem != std::errc{} || end != rest.data() + rest.size() || command.steps < 1 || command.steps > kMaxSteps) {
     return base::WrongInput(
-        fmt::format("'{}' was found; a number of base steps from 1 to {} was expected", rest, kMostSteps), "step");
+        fmt::format("'{}' was found; a number of base steps from 1 to {} was expected", rest, kMaxSteps), "step");
   }
   return command;
 }
@@ -45,9 +45,9 @@ base::Result<Command> ParseStep(std::string_view rest) {
 base::Result<Command> ParseMark(std::string_view rest) {
   Command command = Of(Kind::kMark);
   if (rest.empty()) return base::WrongInput("a text was expected", "mark");
-  if (rest.size() > kMostText)
-    return base::WrongInput(
-        fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMostText), "mark");
+  if (rest.size() > kMaxText)
+    return base::WrongInput(fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMaxText),
+                            "mark");
   command.text = base::Printable(rest);
   return command;
 }

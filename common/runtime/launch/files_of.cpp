@@ -17,14 +17,14 @@ namespace rodeira::launch {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::uintmax_t kMostBytes = 64u << 20;
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
 const std::string kAbsolute = "absolute";
-constexpr std::size_t kMostUp = 8;  // how often a name may go up from the launch file's folder
+constexpr std::size_t kMaxUp = 8;  // how often a name may go up from the launch file's folder
 
 // Where the launch file lies among files that were laid out: deep enough for names that go up.
 fs::path HomeIn(const fs::path& root) {
   fs::path home = root;
-  for (std::size_t i = 0; i < kMostUp; ++i) home /= "d";
+  for (std::size_t i = 0; i < kMaxUp; ++i) home /= "d";
   return home;
 }
 
@@ -95,7 +95,7 @@ class Collector {
       const fs::path named = fs::absolute(path.parent_path() / scalar).lexically_normal();
       std::error_code problem;
       if (Seen(named, absolute) || outputs_.contains(named) || !fs::is_regular_file(named, problem) ||
-          fs::file_size(named, problem) > kMostBytes)
+          fs::file_size(named, problem) > kMaxBytes)
         continue;
       if (auto status = Take(named, absolute); !status) return status;
       if (named.extension() == ".idl") {

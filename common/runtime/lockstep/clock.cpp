@@ -33,8 +33,9 @@ base::Status Clock::Take(const Report& report) {
   const auto refuse = [&](std::string why) {
     return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name));
   };
-  if (report.incarnation < life(report.node)) {
-    return refuse(fmt::format("incarnation {} was found, {} is the living one", report.incarnation, life(report.node)));
+  if (report.incarnation < incarnation(report.node)) {
+    return refuse(
+        fmt::format("incarnation {} was found, {} is the living one", report.incarnation, incarnation(report.node)));
   }
   if (heard_[report.node] && report.incarnation == known.incarnation) {
     if (report.progress < known.progress) return {};  // overtaken on its way, nothing new
@@ -52,7 +53,7 @@ base::Status Clock::Take(const Report& report) {
   }
   known = report;
   heard_[report.node] = true;
-  SetLife(report.node, report.incarnation);
+  SetIncarnation(report.node, report.incarnation);
   recovery_.Heard(report);
   grant_.safe = recovery_.safe();
   grant_.resume = recovery_.resume();
@@ -60,28 +61,28 @@ base::Status Clock::Take(const Report& report) {
   return {};
 }
 
-void Clock::SetLife(NodeIndex node, std::uint32_t incarnation) {
-  if (incarnation == life(node)) return;
-  grant_.lives.resize(reports_.size(), 0);
-  grant_.lives[node] = incarnation;
+void Clock::SetIncarnation(NodeIndex node, std::uint32_t incarnation) {
+  if (incarnation == incarnation(node)) return;
+  grant_.incarnations.resize(reports_.size(), 0);
+  grant_.incarnations[node] = incarnation;
 }
 
 Step Clock::reached(NodeIndex node) const {
   return roster_.node(node).role == Role::kService ? std::max<Step>(grant_.through, 0) : reports_[node].progress;
 }
 
-Recovery::Decision Clock::Lose(NodeIndex node) {
+Recovery::Decision Clock::HandleLoss(NodeIndex node) {
   auto decision = recovery_.Lost(node, reached(node));
-  if (decision.policy == Policy::kRestart) ExpectNextLife(node);
+  if (decision.policy == Policy::kRestart) ExpectRestart(node);
   grant_.resume = recovery_.resume();
   return decision;
 }
 
-void Clock::ExpectNextLife(NodeIndex node) {
-  SetLife(node, life(node) + 1);
+void Clock::ExpectRestart(NodeIndex node) {
+  SetIncarnation(node, incarnation(node) + 1);
   Report unheard;
   unheard.node = node;
-  unheard.incarnation = life(node);
+  unheard.incarnation = incarnation(node);
   reports_[node] = unheard;
   heard_[node] = false;
 }

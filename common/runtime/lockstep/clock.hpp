@@ -48,11 +48,13 @@ class Clock {
 
   // The next activation of a node; a server has none, it is where the run is (never less than before).
   Step reached(NodeIndex node) const;
-  // A node is lost: what its policy says. Where that is kRestart, its next life is expected already.
-  Recovery::Decision Lose(NodeIndex node);
-  // Another life of the node takes its place; nothing new is granted before it is ready.
-  void ExpectNextLife(NodeIndex node);
-  std::uint32_t life(NodeIndex node) const { return node < grant_.lives.size() ? grant_.lives[node] : 0; }
+  // A node is lost: what its policy says. Where that is kRestart, its next incarnation is expected already.
+  Recovery::Decision HandleLoss(NodeIndex node);
+  // Another incarnation of the node takes its place; nothing new is granted before it is ready.
+  void ExpectRestart(NodeIndex node);
+  std::uint32_t incarnation(NodeIndex node) const {
+    return node < grant_.incarnations.size() ? grant_.incarnations[node] : 0;
+  }
 
   // Where the nodes begin.
   Step first_step() const { return first_step_; }
@@ -64,7 +66,7 @@ class Clock {
   base::Digest RunDigest() const;
 
  private:
-  void SetLife(NodeIndex node, std::uint32_t incarnation);
+  void SetIncarnation(NodeIndex node, std::uint32_t incarnation);
 
   const Roster& roster_;
   std::optional<Step> last_step_;

@@ -29,7 +29,7 @@ class ThreadedRun {
         nodes_(nodes),
         settings_(settings),
         clock_(roster, settings.last_step, settings.first_step),
-        conductor_(clock_, Pacer(roster.base_step_ns(), settings.pace, settings.first_step)),
+        controller_(clock_, Pacer(roster.base_step_ns(), settings.pace, settings.first_step)),
         consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
     for (NodeIndex n = 0; n < nodes.size(); ++n) {
@@ -54,7 +54,7 @@ class ThreadedRun {
         const std::lock_guard lock(mutex_);
         fault_ =
             fmt::format("no thread can be started for node '{}': {}", roster_.node(n).name, error.code().message());
-        conductor_.Abort(fault_, ReadWall());
+        controller_.Abort(fault_, ReadWall());
         break;
       }
     }
@@ -62,16 +62,16 @@ class ThreadedRun {
     while (!Over()) {
       const Wall now = ReadWall();
       DoCommands(now);
-      (void)conductor_.Move(now);
-      if (const std::string warning = conductor_.TakeWarning(); !warning.empty())
+      (void)controller_.Move(now);
+      if (const std::string warning = controller_.TakeWarning(); !warning.empty())
         base::Log(base::LogLevel::kWarning, "", warning);
-      if (settings_.stop_requested && settings_.stop_requested()) conductor_.Stop(now);
+      if (settings_.stop_requested && settings_.stop_requested()) controller_.Stop(now);
       news_ = false;
       SendNews(lock);
-      if (clock_.grant().final && clock_.all_sources_finished()) conductor_.CloseLog(now);
+      if (clock_.grant().final && clock_.all_sources_finished()) controller_.CloseLog(now);
       FlushLog(now);
       if (settings_.on_progress) settings_.on_progress(clock_);
-      const auto due = std::chrono::nanoseconds(conductor_.NextDueIn(now));
+      const auto due = std::chrono::nanoseconds(controller_.NextDueIn(now));
       woken_.wait_for(lock, due > 0ns ? std::min<std::chrono::nanoseconds>(due, 20ms) : 20ms, [&] { return news_; });
     }
     SendGrant(lock, clock_.grant());
@@ -79,9 +79,9 @@ class ThreadedRun {
     lock.unlock();
     for (std::thread& thread : threads) thread.join();
     RunOutcome outcome = OutcomeOf(clock_, fault_);
-    outcome.slipped_ns = conductor_.pacer().slipped_ns();
-    outcome.paused_ns = conductor_.pacer().PausedNs(ReadWall().monotonic_ns);
-    outcome.lateness = conductor_.pacer().lateness();
+    outcome.slipped_ns = controller_.pacer().slipped_ns();
+    outcome.paused_ns = controller_.pacer().PausedNs(ReadWall().monotonic_ns);
+    outcome.lateness = controller_.pacer().lateness();
     return outcome;
   }
 
@@ -120,11 +120,11 @@ class ThreadedRun {
     if (IsFault(report.phase) && fault_.empty()) {
       fault_ = fmt::format("node '{}' failed at step {}: {}", roster_.node(report.node).name, report.progress,
                            report.message);
-      conductor_.Abort(fault_, ReadWall());
+      controller_.Abort(fault_, ReadWall());
     }
     if (auto status = clock_.Take(report); !status && fault_.empty()) {
       fault_ = status.error().Text();
-      conductor_.Abort(fault_, ReadWall());
+      controller_.Abort(fault_, ReadWall());
     }
     news_ = true;
     woken_.notify_all();
@@ -133,11 +133,11 @@ class ThreadedRun {
     while (settings_.next_command) {
       const auto asked = settings_.next_command();
       if (!asked) return;
-      asked->answer(conductor_.Do(asked->command, now));
+      asked->answer(controller_.Do(asked->command, now));
     }
   }
   void FlushLog(const Wall& now) {
-    const auto batch = conductor_.log().Take(now.monotonic_ns);  // taken even where it is not read: it would only grow
+    const auto batch = controller_.log().Take(now.monotonic_ns);  // taken even where it is not read: it would only grow
     if (batch && settings_.on_log) settings_.on_log(*batch);
   }
   void SendNews(std::unique_lock<std::mutex>& lock) {
@@ -158,7 +158,7 @@ class ThreadedRun {
   const std::vector<Node*>& nodes_;
   const InProcessSettings& settings_;
   Clock clock_;
-  Conductor conductor_;
+  RunController controller_;
   std::vector<std::vector<NodeIndex>> consumers_;
   std::vector<std::unique_ptr<Mailbox>> mailboxes_;
   std::vector<std::unique_ptr<ThreadBus>> buses_;

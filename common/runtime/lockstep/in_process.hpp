@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "common/runtime/lockstep/clock.hpp"
-#include "common/runtime/lockstep/conductor.hpp"
 #include "common/runtime/lockstep/node.hpp"
 #include "common/runtime/lockstep/recovery.hpp"
 #include "common/runtime/lockstep/report.hpp"
 #include "common/runtime/lockstep/roster.hpp"
+#include "common/runtime/lockstep/run_controller.hpp"
 #include "common/runtime/lockstep/snapshot.hpp"
 
 // The same runner, mailbox and clock as between processes, with nodes in one process: for batches and tests.
@@ -39,8 +39,8 @@ struct InProcessSettings {
     double share = 0.0;            // of the turns at which a node dies …
     double terminated = 0.0;       // … and of these deaths, of those that are told to end
     std::vector<Policy> policies;  // as Recovery
-    // A node of another life; for a recorder also what its file holds: all samples through `has_through`, of which the
-    // archive is told those in `tail`.
+    // A node of another incarnation; for a recorder also what its file holds: all samples through `has_through`, of
+    // which the archive is told those in `tail`.
     struct Remade {
       Node* node = nullptr;
       Step has_through = -1;

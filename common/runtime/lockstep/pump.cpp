@@ -25,7 +25,7 @@ class Pump {
       if (notes_ == seen) return;
     }
   }
-  void AskAgain() {
+  void RequestRetransmission() {
     ask_ = true;
     Poke();
   }
@@ -49,7 +49,7 @@ class Pump {
       over_ = true;
       ended_.notify_all();
     }
-    if (ask_.exchange(false) && !over_) runner_.AskAgain();
+    if (ask_.exchange(false) && !over_) runner_.RequestRetransmission();
   }
 
   Runner& runner_;  // not touched once it is over
@@ -76,7 +76,7 @@ Runner::Outcome RunInline(Runner& runner, Mailbox& mailbox, const Runner::Settin
     const bool stuck = pump->worked() == worked;
     worked = pump->worked();
     patience = stuck ? std::min(2 * patience, settings.most_patience) : settings.patience;
-    if (stuck) pump->AskAgain();
+    if (stuck) pump->RequestRetransmission();
   }
   mailbox.OnReady(nullptr);
   return pump->outcome();

@@ -9,7 +9,7 @@
 namespace rodeira::lockstep {
 namespace {
 
-constexpr int kMostTimes = 4;
+constexpr int kMaxTimes = 4;
 
 }  // namespace
 
@@ -25,7 +25,7 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
     : roster_(roster),
       policies_(std::move(policies)),
       safe_of_(roster.nodes().size(), -1),
-      lives_(roster.nodes().size()) {
+      incarnations_(roster.nodes().size()) {
   policies_.resize(roster.nodes().size(), Policy::kStop);
   const bool wished =
       std::any_of(policies_.begin(), policies_.end(), [](Policy policy) { return policy != Policy::kStop; });
@@ -48,9 +48,9 @@ base::Status Recovery::CheckState(const Report& report) const {
 }
 
 void Recovery::Heard(const Report& report) {
-  Life& life = lives_[report.node];
-  const bool is_there = roster_.node(report.node).role == Role::kService || report.progress >= life.farthest;
-  if (report.phase >= Phase::kReady && report.phase < Phase::kFailed && is_there) life.back = true;
+  Incarnation& incarnation = incarnations_[report.node];
+  const bool is_there = roster_.node(report.node).role == Role::kService || report.progress >= incarnation.farthest;
+  if (report.phase >= Phase::kReady && report.phase < Phase::kFailed && is_there) incarnation.back = true;
   if (!roster_.node(report.node).keeps_snapshots()) return;
   Step& own = safe_of_[report.node];
   own = std::max(own, report.safe);
@@ -65,22 +65,22 @@ Step Recovery::Newest() const { return every_ == 0 ? 0 : std::max<Step>(FloorTo(
 
 Step Recovery::resume() const {
   Step resume = Newest();
-  for (const Life& life : lives_) {
-    if (!life.back) resume = std::min(resume, life.resume);
+  for (const Incarnation& incarnation : incarnations_) {
+    if (!incarnation.back) resume = std::min(resume, incarnation.resume);
   }
   return resume;
 }
 
 Recovery::Decision Recovery::Lost(NodeIndex node, Step progress) {
   if (policies_[node] != Policy::kRestart) return {policies_[node], ""};
-  Life& life = lives_[node];
-  life.times = progress <= life.farthest ? life.times + 1 : 1;
-  if (life.times >= kMostTimes)
-    return {Policy::kStop,
-            fmt::format("it was lost {} times without getting beyond step {}", life.times, life.farthest)};
-  life.resume = resume();  // not beyond where an earlier life was sent to, as long as it is not back
-  life.farthest = std::max(life.farthest, progress);
-  life.back = false;
+  Incarnation& incarnation = incarnations_[node];
+  incarnation.times = progress <= incarnation.farthest ? incarnation.times + 1 : 1;
+  if (incarnation.times >= kMaxTimes)
+    return {Policy::kStop, fmt::format("it was lost {} times without getting beyond step {}", incarnation.times,
+                                       incarnation.farthest)};
+  incarnation.resume = resume();  // not beyond where an earlier incarnation was sent to, as long as it is not back
+  incarnation.farthest = std::max(incarnation.farthest, progress);
+  incarnation.back = false;
   return {Policy::kRestart, ""};
 }
 

@@ -19,9 +19,9 @@ enum class Policy {
   kRestart,  // the part is started again and computes again what it had computed: the same bits
 };
 
-// Where another life than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0: from
-// its start, with all samples from there on), a recorder behind what its file holds (`has_through`), another
-// sink where no node can be behind. A run that has not begun begins for all alike.
+// Where another incarnation than the first begins, by the grant that it hears: a node at its snapshot at `snapshot` (0:
+// from its start, with all samples from there on), a recorder behind what its file holds (`has_through`), another sink
+// where no node can be behind. A run that has not begun begins for all alike.
 struct Beginning {
   Step snapshot = 0;
   Step sink_from = 0;
@@ -59,7 +59,7 @@ class Recovery {
   Decision Lost(NodeIndex node, Step progress);
 
  private:
-  struct Life {
+  struct Incarnation {
     Step farthest = -1;  // where it was lost
     int times = 0;       // lost at or before that step
     bool back = true;    // it has come that far again
@@ -74,7 +74,7 @@ class Recovery {
   Step ahead_ = 0;  // the longest delay
   Step safe_ = -1;
   std::vector<Step> safe_of_;  // by node, of those that keep snapshots
-  std::vector<Life> lives_;
+  std::vector<Incarnation> incarnations_;
 };
 
 }  // namespace rodeira::lockstep

@@ -61,10 +61,10 @@ struct Grant {
   bool over = false;   // all have finished; a node that lingers may go
   base::Digest roster = 0;
   // Recovery (law L3, recovery.hpp).
-  Step safe = kNever;                // samples valid through it need not be kept for a recorder that is started again
-  Step resume = 0;                   // a lost node goes on from its snapshot there
-  std::vector<std::uint32_t> lives;  // by node: the incarnation that takes part; empty: all 0
-  std::string reason;                // why it was aborted; where it is over, the clock's closing words, a line each
+  Step safe = kNever;  // samples valid through it need not be kept for a recorder that is started again
+  Step resume = 0;     // a lost node goes on from its snapshot there
+  std::vector<std::uint32_t> incarnations;  // by node: the incarnation that takes part; empty: all 0
+  std::string reason;  // why it was aborted; where it is over, the clock's closing words, a line each
 };
 
 std::string_view PhaseName(Phase phase);

@@ -64,8 +64,9 @@ std::vector<LogBatch> KeptLog::From(std::uint64_t number) const {
 void LogInbox::Deliver(LogBatch batch) {
   const std::lock_guard lock(mutex_);
   if (batch.number < next_) return;
-  if (const std::uint64_t life = batch.number / RunLog::kBatchesOfALife; life > next_ / RunLog::kBatchesOfALife) {
-    next_ = life * RunLog::kBatchesOfALife;
+  if (const std::uint64_t incarnation = batch.number / RunLog::kBatchesOfAnIncarnation;
+      incarnation > next_ / RunLog::kBatchesOfAnIncarnation) {
+    next_ = incarnation * RunLog::kBatchesOfAnIncarnation;
     early_.erase(early_.begin(), early_.lower_bound(next_));
   }
   early_.try_emplace(batch.number, std::move(batch));

@@ -60,10 +60,12 @@ struct LogBatch {
 // The clock's side: gathers entries into batches.
 class RunLog {
  public:
-  // Another life of a clock counts in numbers of its own, so that its batches are not taken for earlier ones.
-  static constexpr std::uint64_t kBatchesOfALife = std::uint64_t{1} << 24;
-  static constexpr std::uint32_t kRemarksOfALife = 100'000;
-  explicit RunLog(std::uint32_t life = 0) : remarks_(life * kRemarksOfALife) { next_.number = life * kBatchesOfALife; }
+  // Another incarnation of a clock counts in numbers of its own, so that its batches are not taken for earlier ones.
+  static constexpr std::uint64_t kBatchesOfAnIncarnation = std::uint64_t{1} << 24;
+  static constexpr std::uint32_t kRemarksOfAnIncarnation = 100'000;
+  explicit RunLog(std::uint32_t incarnation = 0) : remarks_(incarnation * kRemarksOfAnIncarnation) {
+    next_.number = incarnation * kBatchesOfAnIncarnation;
+  }
 
   static constexpr std::int64_t kBatch_ns = 50'000'000;  // wall times wait for company, remarks do not
   static constexpr std::size_t kBatchEntries = 256;
@@ -97,7 +99,7 @@ class KeptLog {
 };
 
 // The recorder's side: puts batches back into their order, whatever was lost, doubled or overtaken; what an earlier
-// life of the clock had not said is lost with it. Any thread may call.
+// incarnation of the clock had not said is lost with it. Any thread may call.
 class LogInbox {
  public:
   void Deliver(LogBatch batch);

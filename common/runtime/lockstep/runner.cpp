@@ -34,7 +34,7 @@ Runner::Outcome Runner::Run() {
   for (;;) {
     const Outcome outcome = Advance(patience);
     if (outcome != Outcome::kWorking && outcome != Outcome::kBlocked) return outcome;
-    if (outcome == Outcome::kBlocked) AskAgain();
+    if (outcome == Outcome::kBlocked) RequestRetransmission();
     patience = outcome == Outcome::kWorking ? settings_.patience : std::min(2 * patience, settings_.most_patience);
   }
 }
@@ -253,7 +253,7 @@ base::Status Runner::PublishAll(std::vector<Sample> samples) {
   return {};
 }
 
-void Runner::AskAgain() {
+void Runner::RequestRetransmission() {
   std::vector<Gap> gaps;
   switch (stage_) {
     case Stage::kInputs:

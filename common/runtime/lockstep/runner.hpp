@@ -39,7 +39,7 @@ class Runner {
   // all) and says kBlocked where that was not enough.
   Outcome Advance(std::chrono::milliseconds limit);
   // After kBlocked: asks the others to say again what is missing and could be there. Called where the waiting is long.
-  void AskAgain();
+  void RequestRetransmission();
 
   // Where the node stands, for heartbeats: any thread may ask at any time.
   Report report() const;

@@ -10,12 +10,12 @@
 #include "common/runtime/lockstep/in_process_parts.hpp"
 #include "common/runtime/lockstep/kept_samples.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
-#include "common/runtime/lockstep/parcels.hpp"
+#include "common/runtime/lockstep/sample_batches.hpp"
 
 namespace rodeira::lockstep {
 namespace {
 
-constexpr std::size_t kMostParcel_bytes = 300;  // a few samples of a test's: some parcels go before they are due
+constexpr std::size_t kMaxSampleBatch_bytes = 300;  // a few samples of a test's: some batches go before they are due
 
 class ShuffledRun {
  public:
@@ -59,28 +59,28 @@ class ShuffledRun {
 
  private:
   struct Message {
-    enum class Kind { kSample, kParcel, kGrant, kReport, kAsk } kind;
+    enum class Kind { kSample, kSampleBatch, kGrant, kReport, kAsk } kind;
     NodeIndex to = 0;
     Sample sample{};
-    std::vector<Sample> parcel{};
+    std::vector<Sample> batch{};
     Grant grant{};
     Report report{};
     Gap gap{};
   };
   struct ShuffleBus final : Bus {
     ShuffleBus(ShuffledRun& owner, NodeIndex n)
-        : run(owner), node(n), kept(run.roster_, n), parcels(run.roster_, n, kMostParcel_bytes) {
+        : run(owner), node(n), kept(run.roster_, n), batches(run.roster_, n, kMaxSampleBatch_bytes) {
       if (run.settings_.deaths.share > 0.0 && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
     }
     base::Status Publish(const Sample& sample) override {
       if (run.settings_.on_sample) run.settings_.on_sample(sample);
       kept.Add(sample);
       const Grant grant = run.mailboxes_[node]->grant();
-      for (auto& parcel : parcels.Add(sample, grant.final ? grant.through : kNever)) {
+      for (auto& batch : batches.Add(sample, grant.final ? grant.through : kNever)) {
         run.in_flight_.push_back(
-            {.kind = Message::Kind::kParcel, .to = parcel.to, .parcel = std::move(parcel.samples)});
+            {.kind = Message::Kind::kSampleBatch, .to = batch.to, .batch = std::move(batch.samples)});
       }
-      Say(sample, [&](NodeIndex n) { return !GetsParcels(run.roster_, sample.source(), n); });
+      Say(sample, [&](NodeIndex n) { return !GetsSampleBatches(run.roster_, sample.source(), n); });
       return {};
     }
     template <class Whom>
@@ -115,7 +115,7 @@ class ShuffledRun {
     ShuffledRun& run;
     NodeIndex node;
     KeptSamples kept;
-    Parcels parcels;
+    SampleBatches batches;
     std::optional<Archive> archive;
   };
 
@@ -129,15 +129,15 @@ class ShuffledRun {
       in_flight_[at] = in_flight_.back();
       in_flight_.pop_back();
     }
-    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kParcel ||
+    const bool may_be_lost = message.kind == Message::Kind::kSample || message.kind == Message::Kind::kSampleBatch ||
                              message.kind == Message::Kind::kAsk;
     if (may_be_lost && base::RandomUniform({seed_, draws_++}) < settings_.loss) return false;
     switch (message.kind) {
       case Message::Kind::kSample:
         Deliver(message.to, message.sample);
         break;
-      case Message::Kind::kParcel:
-        for (const Sample& sample : message.parcel) Deliver(message.to, sample);
+      case Message::Kind::kSampleBatch:
+        for (const Sample& sample : message.batch) Deliver(message.to, sample);
         break;
       case Message::Kind::kGrant:
         mailboxes_[message.to]->DeliverGrant(message.grant);
@@ -161,7 +161,7 @@ class ShuffledRun {
     if (auto status = mailboxes_[to]->Deliver(sample); !status) fault_ = status.error().Text();
   }
   void Hear(const Report& report) {
-    if (report.incarnation < clock_.life(report.node)) return;
+    if (report.incarnation < clock_.incarnation(report.node)) return;
     if (report.phase == Phase::kLost) return Replace(report.node, report.message);
     if (report.phase == Phase::kFailed || report.phase == Phase::kRefused)
       fault_ = fmt::format("node '{}' failed: {}", roster_.node(report.node).name, report.message);
@@ -183,7 +183,7 @@ class ShuffledRun {
     }
   }
   void Replace(NodeIndex n, const std::string& reason) {
-    const auto decision = clock_.Lose(n);
+    const auto decision = clock_.HandleLoss(n);
     if (decision.policy != Policy::kRestart) {
       fault_ = decision.why.empty() ? fmt::format("node '{}' {}", roster_.node(n).name, reason) : decision.why;
       return;
@@ -198,7 +198,7 @@ class ShuffledRun {
   bool Raise(NodeIndex n) {
     const Grant grant = clock_.grant();
     Runner::Settings settings;
-    settings.incarnation = clock_.life(n);
+    settings.incarnation = clock_.incarnation(n);
     const RosterNode& spec = roster_.node(n);
     if (!spec.keeps_snapshots()) {
       const Beginning beginning = BeginningOf(roster_, n, grant, -1);
@@ -230,7 +230,7 @@ class ShuffledRun {
     if (runners_[n] == nullptr) return Raise(static_cast<NodeIndex>(n));
     const Runner::Outcome outcome = runners_[n]->Advance(std::chrono::milliseconds(0));
     if (outcome == Runner::Outcome::kBlocked) {
-      runners_[n]->AskAgain();
+      runners_[n]->RequestRetransmission();
       return false;
     }
     over_[n] = outcome != Runner::Outcome::kWorking;

@@ -37,14 +37,14 @@ class Watchdog {
   std::optional<Fault> Check(std::int64_t now_ms, const Grant& grant);
   // The node is started again and has as long as at the start. Until all are ready again no node's silence or
   // slowness counts: a node that writes to a killed process may be held up for a second (Fast DDS, shared memory). A
-  // process that dies meanwhile is seen by its parent. A node that was held up may be so still when the new life is
-  // there already: until it has spoken again, its silence may last kHeldUp times as long.
-  void ExpectNextLife(NodeIndex node, std::int64_t now_ms);
+  // process that dies meanwhile is seen by its parent. A node that was held up may be so still when the new incarnation
+  // is there already: until it has spoken again, its silence may last kHeldUp times as long.
+  void ExpectRestart(NodeIndex node, std::int64_t now_ms);
   // Its fault is known and a person looks after it: it is named no more until it goes on.
-  void Excuse(NodeIndex node);
+  void Suspend(NodeIndex node);
 
  private:
-  struct Life {
+  struct Incarnation {
     bool heard = false;
     std::int64_t last_ms = 0;
     Report report;
@@ -56,7 +56,7 @@ class Watchdog {
 
   const Roster& roster_;
   Settings settings_;
-  std::vector<Life> lives_;
+  std::vector<Incarnation> incarnations_;
   std::optional<std::int64_t> first_ms_;
   std::int64_t checked_ms_ = 0;
   bool everybody_ready_ = false;

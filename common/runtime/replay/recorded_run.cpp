@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using lockstep::Step;
-constexpr std::uint64_t kMostFileBytes = 256u << 20;
+constexpr std::uint64_t kMaxFileBytes = 256u << 20;
 constexpr const char* kCompressed = "application/x-rodeira-zstd";
 
 std::string Entry(const record::TextMap& map, const std::string& key) {
@@ -34,7 +34,7 @@ base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
   if (attachment.media_type != kCompressed) return base::Bytes(attachment.data.begin(), attachment.data.end());
   base::ByteReader in(attachment.data);
   const auto size = in.Get<std::uint64_t>();
-  if (!in.ok() || size > kMostFileBytes)
+  if (!in.ok() || size > kMaxFileBytes)
     return base::WrongInput(fmt::format("the embedded file '{}' is damaged", attachment.name));
   return record::ZstdDecompress(in.GetRaw(in.remaining()), size);
 }
@@ -264,7 +264,7 @@ base::Status RecordedRun::CheckBytes() const {
 }
 
 base::Status RecordedRun::CheckMathematics() const {
-  const std::string own = base::Hex(base::MathematicsDigest());
+  const std::string own = base::Hex(base::MathLibraryFingerprint());
   if (mathematics_ == own) return {};
   return base::WrongInput(
       fmt::format(

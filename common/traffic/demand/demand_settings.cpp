@@ -8,7 +8,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kMostAnHour = 1e5;
+constexpr double kMaxAnHour = 1e5;
 constexpr double kLongest_s = 1e9;
 
 const std::vector<std::string> kRates{"vehicles_per_h", "by_hour", "every_s"};
@@ -54,8 +54,8 @@ void ReadRate(const config::Map& map, FlowSettings& flow) {
     flow.arrivals = Arrivals::kUniform;
     return;
   }
-  flow.per_h = map.Has("by_hour") ? map.Numbers("by_hour", {0.0, kMostAnHour})
-                                  : std::vector<double>{map.Number("vehicles_per_h", {0.0, kMostAnHour}, 0.0)};
+  flow.per_h = map.Has("by_hour") ? map.Numbers("by_hour", {0.0, kMaxAnHour})
+                                  : std::vector<double>{map.Number("vehicles_per_h", {0.0, kMaxAnHour}, 0.0)};
   if (flow.per_h.empty()) map.Problem("by_hour", "a number for each hour was expected");
   if (map.Choice("arrivals", {"poisson", "even"}, "poisson") == "even") flow.arrivals = Arrivals::kEven;
 }

@@ -90,17 +90,17 @@ void Entering::Enter() {
 
 // Whether somebody may come to a track's beginning, or to that of one that parts from it.
 bool Entering::IsAmongOthers(std::uint32_t track) const {
-  const auto partings = in_.map.zones.PartingsOf(track);
+  const auto partings = in_.map.zones.DivergeZonesOf(track);
   return !in_.map.graph[track].before.empty() ||
          std::any_of(partings.begin(), partings.end(),
-                     [&](const lanes::Parting& part) { return !in_.map.graph[part.other].before.empty(); });
+                     [&](const lanes::DivergeZone& part) { return !in_.map.graph[part.other].before.empty(); });
 }
 
 // Whether somebody is on his way to a track's beginning, or to that of one that parts from it, or is not clear of it
 // yet on such a one.
 bool Entering::IsExpected(std::uint32_t track, double gap_m) const {
   if (IsAmongOthers(track) && out_.expected[track] != 0) return true;
-  for (const lanes::Parting& part : in_.map.zones.PartingsOf(track)) {
+  for (const lanes::DivergeZone& part : in_.map.zones.DivergeZonesOf(track)) {
     if (out_.expected[part.other] != 0) return true;
     for (const std::uint32_t other : out_.present.Of(part.other)) {
       for (const Piece& piece : out_.agents[other].path) {

@@ -12,13 +12,13 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kSlow_mps = 0.3;
-constexpr double kLeastGap_m = 0.02;
+constexpr double kMinGap_m = 0.02;
 constexpr double kEased_mps2 = 4.0;  // harder braking than this is let go of later
 
 // The deceleration by which it stops within a way, a: v²/(2 a), and a³/(24 j²) more since it ends without a jerk.
 double Needed_mps2(double v, double way_m, double jerk_mps3) {
-  const double first = std::min(kEased_mps2, v * v / (2.0 * std::max(way_m, kLeastGap_m)));
-  return v * v / (2.0 * std::max(way_m - first * first * first / (24.0 * jerk_mps3 * jerk_mps3), kLeastGap_m));
+  const double first = std::min(kEased_mps2, v * v / (2.0 * std::max(way_m, kMinGap_m)));
+  return v * v / (2.0 * std::max(way_m - first * first * first / (24.0 * jerk_mps3 * jerk_mps3), kMinGap_m));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ double Needed_mps2(double v, double way_m, double jerk_mps3) {
 double CarFollowing::StopAt(std::uint32_t id, double odometer_m, double share) const {
   const double v = in_.agents[id].speed_mps, b = share * in_.traits[id].idm.braking_mps2;
   const double gap = odometer_m - in_.agents[id].o_m - 0.5 * in_.traits[id].length_m;
-  if (gap < 2.0 * kLeastGap_m && v < kSlow_mps) return -1.0;
+  if (gap < 2.0 * kMinGap_m && v < kSlow_mps) return -1.0;
   const driver::StopProfile there = driver::StopIn(gap, b, in_.settings.smooth.planned_mps3);
   const double stop = -there.deceleration_mps2 * v / std::max(there.speed_mps, kMinDivisorSpeed_mps);
   return v > there.speed_mps ? std::min(stop, -Needed_mps2(v, gap, in_.settings.smooth.planned_mps3))

@@ -15,7 +15,7 @@ constexpr double kHandbrake_mps2 = 3.0;
 constexpr double kDamping = 0.3;         // share of the critical
 constexpr double kSunk_m = 0.018;        // of a tyre under its load at rest
 constexpr double kRollingRadius = 0.97;  // share of the wheel's
-constexpr double kMostSteer_rad = 0.75;
+constexpr double kMaxSteer_rad = 0.75;
 // Changes of gear without a jerk: these engines need so long to come up to a lower gear's speed; closed sooner the
 // clutch brakes the car for it.
 constexpr double kSwap_s = 0.5, kClose_s = 0.7;
@@ -105,7 +105,7 @@ dynamics::BicycleSettings CarOf(const AgentTraits& traits) {
   dynamics::BicycleSettings car;
   car.body = BodyOf(traits, make);
   car.steering.ratio = make.steering_ratio;
-  car.steering.limit_rad = kMostSteer_rad * make.steering_ratio;
+  car.steering.limit_rad = kMaxSteer_rad * make.steering_ratio;
   car.suspension = {SpringsUnder(0.5 * make.front_load * weight_N, make),
                     SpringsUnder(0.5 * (1.0 - make.front_load) * weight_N, make)};
   for (dynamics::TyreSettings& tyre : car.tyre) {

@@ -103,7 +103,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
 
 void TrafficMap::LetEnter(std::uint32_t track) {
   enters[track] = watched[track] = true;
-  for (const lanes::Parting& part : zones.PartingsOf(track)) watched[part.other] = true;
+  for (const lanes::DivergeZone& part : zones.DivergeZonesOf(track)) watched[part.other] = true;
 }
 
 }  // namespace rodeira::traffic

@@ -11,7 +11,7 @@ namespace {
 constexpr double kTooNear_s = 1.5;                // who comes: with less to spare it falls back, if that is sooner done
 constexpr double kSlower_mps = 4.0;               // than who was to be passed, while it falls back …
 constexpr double kFallsBack_mps2 = 2.5;           // … and its braking
-constexpr double kLeastPassed_mps = 5.0;          // who is slower is not fallen back behind
+constexpr double kMinPassed_mps = 5.0;            // who is slower is not fallen back behind
 constexpr double kMaxFollowerBraking_mps2 = 2.0;  // braking of the follower when the overtaking vehicle goes back …
 constexpr double kMaxOwnBraking_mps2 = 2.5;       // … and its own
 constexpr double kNever_s = 1e9;
@@ -78,7 +78,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
     return (oncoming.from_m - front - way_m) / oncoming.speed_mps - time_s;
   };
   way.to_m = front + on.way_m, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : on.time_s;
-  if (!passed || is_past || (passed->speed_mps < kLeastPassed_mps && passed->gap_m < 0.0)) return;
+  if (!passed || is_past || (passed->speed_mps < kMinPassed_mps && passed->gap_m < 0.0)) return;
   // Falling back: slower than that one until it is behind him, and back.
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
                least = std::max(1.0, passed->speed_mps - slower);
@@ -95,7 +95,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
 // Who falls back brakes as long as he is beside that one, and who is passed does not go faster.
 double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const {
   const Agent& agent = out_.agents[id];
-  if (in_.is_overtaken[id] != 0 && agent.speed_mps > kLeastPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);
+  if (in_.is_overtaken[id] != 0 && agent.speed_mps > kMinPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);
   const Overtaking& way = agent.overtaking;
   if (way.active() && way.back) return std::min(wanted_mps2, 0.0);  // its path is for the speed that it had
   if (!way.active() || !way.gives_up) return wanted_mps2;

@@ -19,8 +19,8 @@ constexpr double kGain_mps = 4.0;      // so much faster than who is passed at l
 constexpr double kToldGain_mps = 1.0;  // … and who is told to
 constexpr double kToldNear_s = 4.0;    // he begins no farther behind who is ahead than this, and his standing gap
 constexpr double kOvertakingClearance_m = 0.45;  // lateral, between the two vehicles
-constexpr double kMostAside = 0.97;              // of the way to the other lane's middle that it may need
-constexpr double kLeastGain_mps2 = 0.15;
+constexpr double kMaxAside = 0.97;               // of the way to the other lane's middle that it may need
+constexpr double kMinGain_mps2 = 0.15;
 constexpr double kRoom_s = 1.0;             // and its standing gap, behind who drives before that one
 constexpr double kBrakes_mps2 = 2.0;        // there
 constexpr double kLegalMargin_m = 10.0;     // beyond the return for which marks and signs are checked
@@ -96,11 +96,11 @@ std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaki
     way.side = piece->aside_m > 0.0 ? 1 : -1;
     const double needs =
         0.5 * traits.width_m + kOvertakingClearance_m + (way.side > 0 ? passed.left_m : -passed.right_m);
-    if (needs > kMostAside * std::fabs(piece->aside_m)) return std::nullopt;
+    if (needs > kMaxAside * std::fabs(piece->aside_m)) return std::nullopt;
     way.clear_m = front + piece->blend_m * QuinticShareAt(needs / std::fabs(piece->aside_m));
     PassCase pass = CaseOf(id, passed, top, piece->aside_m, to);
     pass.to_clear_m = way.clear_m - front;
-    if (pass.gains_mps2 < kLeastGain_mps2 ||
+    if (pass.gains_mps2 < kMinGain_mps2 ||
         passed.gap_m - (v - passed.speed_mps) * pass.to_clear_m / v < traits.idm.standing_gap_m)
       return std::nullopt;
     plan = PlanPass(pass);

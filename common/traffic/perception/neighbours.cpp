@@ -106,7 +106,7 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
         other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
       consider(other, stretch.zero_m);
     }
-    for (const lanes::Parting& part : PartingsOf(stretch.track)) {
+    for (const lanes::DivergeZone& part : DivergeZonesOf(stretch.track)) {
       if (agent.o_m - half > stretch.zero_m + part.out_m) continue;
       for (const Occupant& other : in_.occupants.On(part.other)) {
         if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m)
@@ -131,8 +131,8 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
 }
 
 // Those on which somebody may be.
-std::span<const lanes::Parting> Neighbours::PartingsOf(std::uint32_t track) const {
-  return in_.parts[track] != 0 ? in_.map.zones.PartingsOf(track) : std::span<const lanes::Parting>();
+std::span<const lanes::DivergeZone> Neighbours::DivergeZonesOf(std::uint32_t track) const {
+  return in_.parts[track] != 0 ? in_.map.zones.DivergeZonesOf(track) : std::span<const lanes::DivergeZone>();
 }
 
 }  // namespace rodeira::traffic

@@ -36,7 +36,7 @@ class Neighbours {
   std::optional<std::uint32_t> LaneLeft(std::uint32_t id, const RouteSegment& stretch, double odometer_m) const;
   // The leader, with the gap to it: the next vehicle on the agent's way.
   Leader FindLeader(std::uint32_t id) const;
-  std::span<const lanes::Parting> PartingsOf(std::uint32_t track) const;
+  std::span<const lanes::DivergeZone> DivergeZonesOf(std::uint32_t track) const;
   Follower FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const;
   std::optional<Leader> FindOvertaken(std::uint32_t id) const;
 

@@ -87,13 +87,13 @@ void Observation::ShowToOncoming(std::uint32_t id) {
 // Somebody is on this track: who drives on those that part from it must look. Of the others nobody need read what parts
 // from them.
 void Observation::Part(std::uint32_t track) {
-  for (const lanes::Parting& part : in_.map.zones.PartingsOf(track)) out_.parts[part.other] = 1;
+  for (const lanes::DivergeZone& part : in_.map.zones.DivergeZonesOf(track)) out_.parts[part.other] = 1;
 }
 
 void Observation::See(std::span<const driver::Footprint> others) {
   SeeOthers(others);
   for (const std::uint32_t track : out_.occupants.taken()) {
-    for (const lanes::Parting& part : in_.map.zones.PartingsOf(track)) out_.parts[part.other] = 0;
+    for (const lanes::DivergeZone& part : in_.map.zones.DivergeZonesOf(track)) out_.parts[part.other] = 0;
   }
   out_.occupants.Clear();
   if (out_.any_facing) {

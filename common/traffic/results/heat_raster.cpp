@@ -17,7 +17,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kMostPixels = 1e8;
+constexpr double kMaxPixels = 1e8;
 
 struct Pixel {
   LaneCell sum;
@@ -41,7 +41,7 @@ base::Result<Raster> MakeRaster(const lanes::Graph& graph, double pixel_m, const
   raster.north_m = pixel_m * std::ceil(bounds.north_m / pixel_m);
   const double columns = std::floor((bounds.east_m - raster.west_m) / pixel_m) + 1.0,
                rows = std::floor((raster.north_m - bounds.south_m) / pixel_m) + 1.0;
-  if (!(columns * rows <= kMostPixels) || columns < 1.0 || rows < 1.0) {
+  if (!(columns * rows <= kMaxPixels) || columns < 1.0 || rows < 1.0) {
     return base::WrongInput(
         fmt::format("{:.0f} by {:.0f} pixels of {} m were found; at most 10^8 were expected (larger pixels make fewer)",
                     columns, rows, pixel_m),

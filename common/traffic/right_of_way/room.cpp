@@ -55,7 +55,7 @@ void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell)
       std::sort(sorted.begin(), sorted.end(), by_id);
       for (const Occupant& other : sorted) told(other, stretch.zero_m, kNever_m);
     }
-    for (const lanes::Parting& part : in_.neighbours.PartingsOf(stretch.track)) {
+    for (const lanes::DivergeZone& part : in_.neighbours.DivergeZonesOf(stretch.track)) {
       if (stretch.zero_m + part.out_m < agent.o_m) continue;
       for (const Occupant& other : in_.occupants.On(part.other)) {
         if (other.rear_m < part.other_out_m && other.front_m > part.other_in_m)

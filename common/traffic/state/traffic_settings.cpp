@@ -10,7 +10,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   TrafficSettings t;
   t.seed = seed;
   t.demand = ReadDemand(map);
-  if (!t.demand.flows.empty()) t.vehicles = TrafficSettings::kMostOfFlows;
+  if (!t.demand.flows.empty()) t.vehicles = TrafficSettings::kMaxOfFlows;
   t.vehicles = static_cast<std::uint32_t>(map.Integer("vehicles", 0, 100000, t.vehicles));
   t.threads = static_cast<std::uint32_t>(map.Integer("threads", 1, 64, t.threads));
   t.physics = map.Choice("physics", {"planar", "full"}, "planar") == "full" ? Physics::kFull : Physics::kPlanar;

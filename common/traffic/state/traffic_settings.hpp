@@ -39,7 +39,7 @@ enum class DriverKind {
 
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
 struct TrafficSettings {
-  static constexpr std::uint32_t kMostOfFlows =
+  static constexpr std::uint32_t kMaxOfFlows =
       1000;  // vehicles at a time where there are flows and nothing says how many
 
   std::uint64_t seed = 1;

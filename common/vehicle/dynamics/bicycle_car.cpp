@@ -11,10 +11,10 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr double kLongestSubstep_s = 0.001;
-constexpr double kLeastLean = 0.3;       // cosine between strut and normal, for walls
-constexpr double kMostTilt_rad = 0.45;   // of the body against the ground under it
+constexpr double kMinLean = 0.3;         // cosine between strut and normal, for walls
+constexpr double kMaxTilt_rad = 0.45;    // of the body against the ground under it
 constexpr double kSurelyUpright = 0.95;  // a cosine over that of the most tilt
-constexpr double kLeastHeight = 0.4;     // of the centre of gravity over that ground, share of its height at rest
+constexpr double kMinHeight = 0.4;       // of the centre of gravity over that ground, share of its height at rest
 constexpr double kMinNormalZ = 0.6;      // of the steepest ground that the body follows
 constexpr double kMaxBodyRate_radps = 20.0;
 
@@ -64,7 +64,7 @@ CornerInput BicycleCar::CornerInputOf(const BicycleChassis& chassis, const Bicyc
   input.static_load_N = chassis.static_load_N[wheel];
   input.tyre_Npm = tyre.vertical_Npm;
   input.free_gap_m = tyre.radius_m - (pose.hub_W[wheel] - w.plane_W).dot(w.normal_W);
-  input.lean = std::clamp(pose.up_W.dot(w.normal_W), kLeastLean, 1.0);
+  input.lean = std::clamp(pose.up_W.dot(w.normal_W), kMinLean, 1.0);
   input.other_travel_m = wheels[PartnerOf(wheel)].corner.travel_m();
   input.bottom_m = kMaxTyreDeflection * tyre.radius_m;
   return input;
@@ -206,11 +206,11 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
   const Eigen::Vector3d up = body.q_WG * Eigen::Vector3d::UnitZ();
   const double upright = up.dot(normal);
   const double tilt = upright > kSurelyUpright ? 0.0 : std::acos(std::clamp(upright, -1.0, 1.0));
-  if (tilt > kMostTilt_rad) {
+  if (tilt > kMaxTilt_rad) {
     const Eigen::Vector3d cross = up.cross(normal);
     const Eigen::Vector3d axis =
         cross.norm() > 1e-9 ? Eigen::Vector3d(cross.normalized()) : body.q_WG * Eigen::Vector3d::UnitX();
-    body.q_WG = (Eigen::Quaterniond(Eigen::AngleAxisd(tilt - kMostTilt_rad, axis)) * body.q_WG).normalized();
+    body.q_WG = (Eigen::Quaterniond(Eigen::AngleAxisd(tilt - kMaxTilt_rad, axis)) * body.q_WG).normalized();
     const Eigen::Vector3d turning = body.q_WG.conjugate() * axis;
     body.w_WG_G -= std::min(0.0, body.w_WG_G.dot(turning)) * turning;
   }
@@ -219,7 +219,7 @@ void BicycleCar::KeepUpright(const BicycleChassis& chassis, const BicycleContact
 
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const BicycleContact& contact : contacts) middle += 0.25 * contact.point_W;
-  const double missing = kLeastHeight * chassis.settings.body.cg_height_m - (body.p_WG_W - middle).dot(normal);
+  const double missing = kMinHeight * chassis.settings.body.cg_height_m - (body.p_WG_W - middle).dot(normal);
   if (missing > 0.0) {
     body.p_WG_W += missing * normal;
     body.v_WG_W -= std::min(0.0, body.v_WG_W.dot(normal)) * normal;

@@ -34,8 +34,8 @@ SteeringSettings ReadBicycleSteering(const Map& map) {
   steering.limit_rad = map.Number("wheel_limit_rad", {0.1, 50.0});
   steering.mechanical_trail_m = map.Number("mechanical_trail_m", {0.0, 0.2}, steering.mechanical_trail_m);
   steering.pneumatic_trail_m = map.Number("pneumatic_trail_m", {0.0, 0.2}, steering.pneumatic_trail_m);
-  constexpr double kMostLock_rad = 1.2;
-  if (steering.limit_rad / steering.ratio > kMostLock_rad) {
+  constexpr double kMaxLock_rad = 1.2;
+  if (steering.limit_rad / steering.ratio > kMaxLock_rad) {
     map.Problem("wheel_limit_rad",
                 "'steering.wheel_limit_rad' over 'steering.ratio' turns the front wheels by more than 1.2 rad");
   }

@@ -9,11 +9,11 @@ namespace rodeira::dynamics {
 
 DiscContact MeetPlane(const Eigen::Vector3d& hub_W, const Eigen::Vector3d& axle_W, double radius_m,
                       const Eigen::Vector3d& plane_W, const Eigen::Vector3d& normal_W) {
-  constexpr double kLeastLean = 0.2;
+  constexpr double kMinLean = 0.2;
   const double tilt = std::clamp(axle_W.dot(normal_W), -1.0, 1.0);
   DiscContact contact;
   contact.camber_rad = std::asin(tilt);
-  contact.lean = std::max(kLeastLean, std::sqrt(1.0 - tilt * tilt));
+  contact.lean = std::max(kMinLean, std::sqrt(1.0 - tilt * tilt));
   const Eigen::Vector3d down = (tilt * axle_W - normal_W) / contact.lean;
   const double reach = (hub_W - plane_W).dot(normal_W) / contact.lean;
   contact.point_W = hub_W + reach * down;

@@ -68,8 +68,8 @@ base::Status FmuModel::Set(const FmuVariables::Variable& variable, double value)
   return variable ? instance_->Set(*variable.own, variable.FromOurs(value)) : base::Status();
 }
 
-base::Result<double> FmuModel::Get(const FmuVariables::Variable& variable, double otherwise) {
-  if (!variable) return otherwise;
+base::Result<double> FmuModel::Get(const FmuVariables::Variable& variable, double default_value) {
+  if (!variable) return default_value;
   const auto value = instance_->Get(*variable.own);
   if (!value) return value.error();
   if (!std::isfinite(value.value())) {
@@ -208,10 +208,10 @@ base::Status FmuModel::Publish(const Controls& controls, double dt_s) {
   VehicleState s = state_;
   const FmuVariables& v = variables_;
   base::Status status;
-  const auto get = [&](const FmuVariables::Variable& variable, double otherwise = 0.0) {
-    const auto value = status ? Get(variable, otherwise) : base::Result<double>(otherwise);
+  const auto get = [&](const FmuVariables::Variable& variable, double default_value = 0.0) {
+    const auto value = status ? Get(variable, default_value) : base::Result<double>(default_value);
     if (!value) status = value.error();
-    return value ? value.value() : otherwise;
+    return value ? value.value() : default_value;
   };
   Eigen::Vector3d angle, w_B, velocity;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -59,7 +59,7 @@ class FmuModel final : public VehicleModel {
   base::Status SetControls(const Controls& controls);
   base::Status SetStart(const InitialCondition& initial);
   base::Status Begin(const InitialCondition& initial, ground::Ground& ground);
-  base::Result<double> Get(const FmuVariables::Variable& variable, double otherwise = 0.0);
+  base::Result<double> Get(const FmuVariables::Variable& variable, double default_value = 0.0);
   base::Status TakeFreshInstance();
   base::Status Publish(const Controls& controls, double dt_s);
   base::Status Advance(const Controls& controls, double dt_s);

@@ -32,14 +32,14 @@ FrictionVector ImpulsesFor(const Roles& roles, const FrictionMatrix& a, const Fr
 // Least-index pivoting (K. G. Murty's rule) on the box-constrained complementarity problem: change the role of the
 // first element that breaks its condition. Finite for a positive definite A; with five elements a handful of turns.
 FrictionVector SolveFriction(const FrictionMatrix& a, const FrictionVector& s_free, const FrictionVector& bound) {
-  constexpr int kMostTurns = 500;  // there are 243 patterns
-  Roles roles{};                   // begin with what each would do by itself; a bound of 0 never changes its role
+  constexpr int kMaxTurns = 500;  // there are 243 patterns
+  Roles roles{};                  // begin with what each would do by itself; a bound of 0 never changes its role
   for (int i = 0; i < kFrictionElements; ++i) {
     const double most = a(i, i) * bound[i];
     roles[i] = s_free[i] > most ? Role::kAtMinus : (s_free[i] < -most || most == 0.0 ? Role::kAtPlus : Role::kSticks);
   }
   FrictionVector p = FrictionVector::Zero();
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kMaxTurns; ++turn) {
     p = ImpulsesFor(roles, a, s_free, bound);
     const FrictionVector s = s_free + a * p;
     bool done = true;

@@ -11,7 +11,7 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr int kMostHalvings = 3;
+constexpr int kMaxHalvings = 3;
 
 TyreMotion Halfway(const TyreMotion& a, const TyreMotion& b) {
   return {0.5 * (a.vx_mps + b.vx_mps), 0.5 * (a.vsx_mps + b.vsx_mps), 0.5 * (a.vsy_mps + b.vsy_mps),
@@ -231,7 +231,7 @@ void MultibodyModel::Advance(double dt_s, int depth) {
   report_ = system_->Step(dt_s);
   if (report_.converged) return;
   system_->Undo();
-  if (depth < kMostHalvings) {
+  if (depth < kMaxHalvings) {
     for (int half = 0; half < 2; ++half) Advance(0.5 * dt_s, depth + 1);
     return;
   }

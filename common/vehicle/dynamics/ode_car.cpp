@@ -13,9 +13,9 @@ namespace rodeira::dynamics {
 namespace {
 
 constexpr double kStopErp = 0.8;  // share of a steer angle's error that a step takes away
-constexpr double kMostSpeed_mps = 120.0;
+constexpr double kMaxSpeed_mps = 120.0;
 constexpr double kMaxChassisRate_radps = 20.0;  // of the chassis
-constexpr double kMostSpin_radps = 1000.0;
+constexpr double kMaxSpin_radps = 1000.0;
 constexpr double kSoft =
     1e-6;  // speed at which a contact gives way, m/s a newton: four contacts of a box are more than it needs
 
@@ -127,8 +127,8 @@ void OdeCar::Give(const Bodies& bodies) {
     const dBodyID id = world_->bodies[i];
     Eigen::Vector3d v = bodies[i].v_WG_W;
     Eigen::Vector3d w = bodies[i].w_WG_W();
-    Limit(v, kMostSpeed_mps);
-    Limit(w, i == kChassis ? kMaxChassisRate_radps : kMostSpin_radps);
+    Limit(v, kMaxSpeed_mps);
+    Limit(w, i == kChassis ? kMaxChassisRate_radps : kMaxSpin_radps);
     const Eigen::Vector3d& p = bodies[i].p_WG_W;
     const Eigen::Quaterniond& q = bodies[i].q_WG;
     const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};

@@ -17,8 +17,8 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr std::size_t kMostBytes = 1u << 20;
-constexpr double kMostLoad_N = 1e7;      // ten times what the largest tyre of an aircraft or a mine bears
+constexpr std::size_t kMaxBytes = 1u << 20;
+constexpr double kMaxLoad_N = 1e7;       // ten times what the largest tyre of an aircraft or a mine bears
 constexpr double kLoadsOfNominal = 4.0;  // a file without FZMAX holds for loads up to this many times FNOMIN
 constexpr auto kNeeded = std::to_array<std::string_view>({"FNOMIN", "PCX1", "PDX1", "PKX1", "PCY1", "PDY1", "PKY1"});
 constexpr auto kUnits = std::to_array<std::pair<std::string_view, std::string_view>>(
@@ -198,16 +198,16 @@ class TirReader {
 
   base::Status CheckLoads() {
     const double nominal = tyre_.fnomin * tyre_.lfzo;
-    if (nominal > kMostLoad_N || nominal < 1.0)
-      return Wrong(fmt::format("'FNOMIN' times 'LFZO' is {:g} N; 1 to {:g} N was expected", nominal, kMostLoad_N),
+    if (nominal > kMaxLoad_N || nominal < 1.0)
+      return Wrong(fmt::format("'FNOMIN' times 'LFZO' is {:g} N; 1 to {:g} N was expected", nominal, kMaxLoad_N),
                    std::string("FNOMIN"));
     if (!lines_.contains("FZMAX")) {
       tyre_.fzmax = std::max(tyre_.fzmax, kLoadsOfNominal * nominal);
       Warn(fmt::format("there is no FZMAX: loads above {:g} N are computed at {:g} N", tyre_.fzmax, tyre_.fzmax));
       return {};
     }
-    if (tyre_.fzmax > kMostLoad_N)
-      return Wrong(fmt::format("'FZMAX' is {:g} N; at most {:g} N was expected", tyre_.fzmax, kMostLoad_N),
+    if (tyre_.fzmax > kMaxLoad_N)
+      return Wrong(fmt::format("'FZMAX' is {:g} N; at most {:g} N was expected", tyre_.fzmax, kMaxLoad_N),
                    std::string("FZMAX"));
     if (tyre_.fzmax <= fzmin_)
       return Wrong(fmt::format("'FZMAX' is {:g} N, 'FZMIN' {:g} N; a range of loads was expected", tyre_.fzmax, fzmin_),
@@ -318,7 +318,7 @@ base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_v
 }
 
 base::Result<MagicFormulaSettings> LoadTir(const std::filesystem::path& path) {
-  const auto text = base::ReadText(path, kMostBytes);
+  const auto text = base::ReadText(path, kMaxBytes);
   if (!text) return text.error();
   return ParseTir(text.value(), path.string());
 }

@@ -7,7 +7,7 @@
 namespace rodeira::dynamics {
 namespace {
 
-constexpr double kLeastTransport = 1e-6;  // of r |omega| over |v|: a locked wheel's slip is finite
+constexpr double kMinTransport = 1e-6;  // of r |omega| over |v|: a locked wheel's slip is finite
 
 // A force at a load ratio: the parabola through 0 and the two given ones, not below 0.
 double TmeasyForce(const std::array<double, 2>& at, double ratio) {
@@ -58,7 +58,7 @@ double TmeasyTyre::Ratio(double load_N) const {
 
 TyreForces TmeasyTyre::Forces(const TyreSlip& slip, double load_N, double friction) const {
   if (!(load_N > 0.0) || !(friction > 0.0)) return {};
-  const double transport = std::max(kLeastTransport, std::fabs(1.0 + slip.kappa));
+  const double transport = std::max(kMinTransport, std::fabs(1.0 + slip.kappa));
   const double sx = slip.kappa / transport, sy = -slip.tan_alpha / transport;
   const double s = std::hypot(sx, sy);
   if (!(s > 0.0)) return {};

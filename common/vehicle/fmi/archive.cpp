@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMostBytes = 1u << 30;
+constexpr std::uint64_t kMaxBytes = 1u << 30;
 
 struct Closer {
   void operator()(void* file) const { (void)unzClose(file); }
@@ -53,7 +53,7 @@ base::Result<base::TemporaryFolder> Unpack(const fs::path& path) {
   if (archive == nullptr) return base::WrongInput("this is no FMU: a ZIP archive was expected", path.string());
   auto folder = base::TemporaryFolder::Make("fmu");
   if (!folder) return folder;
-  std::uint64_t left = kMostBytes;
+  std::uint64_t left = kMaxBytes;
   for (int more = unzGoToFirstFile(archive.get()); more != UNZ_END_OF_LIST_OF_FILE;
        more = unzGoToNextFile(archive.get())) {
     std::array<char, 4096> text{};

@@ -73,7 +73,7 @@ void Bushing::Add(const Motion& motion, Sink& sink) const {
   PushTorque(first_, -arm.cross(force) - torque, motion.q, sink.forces());
   if (turns()) PushTorque(second_, torque, motion.q, sink.forces());
   if (!sink.wants_matrix()) return;
-  std::array<Triple, kMostLoadEntities> gradients;
+  std::array<Triple, kMaxLoadEntities> gradients;
   for (int c = 0; c < 3; ++c) {
     const Vector3d e = Evaluate(first_.axes[static_cast<std::size_t>(c)], motion.q);
     AlongForm(gap_, e, gradients.data());

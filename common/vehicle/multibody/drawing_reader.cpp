@@ -15,9 +15,9 @@ using config::List;
 using config::Map;
 using config::Range;
 
-constexpr double kMostLength_m = 1e6;
-constexpr double kMostSpeed_mps = 1e6;
-constexpr std::size_t kMostEntities = 3000;  // the initial position is solved with dense matrices
+constexpr double kMaxLength_m = 1e6;
+constexpr double kMaxSpeed_mps = 1e6;
+constexpr std::size_t kMaxEntities = 3000;  // the initial position is solved with dense matrices
 
 }  // namespace
 
@@ -43,9 +43,9 @@ DrawingReader::DrawingReader(const Map& root) {
   ReadDistances(root);
   ReadConstraints(root);
   ReadForces(root);
-  if (drawing_.entities.size() > kMostEntities) {
+  if (drawing_.entities.size() > kMaxEntities) {
     root.Problem("points", fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
-                                       drawing_.entities.size(), kMostEntities));
+                                       drawing_.entities.size(), kMaxEntities));
   }
 }
 
@@ -80,7 +80,7 @@ void DrawingReader::ReadPoints(const Map& root) {
   const Map points = root.Child("points");
   for (const std::string& name : points.Keys()) {
     const Map map = points.Child(name);
-    const Vector3d at = ThreeNumbers(map, "at_m", kMostLength_m);
+    const Vector3d at = ThreeNumbers(map, "at_m", kMaxLength_m);
     const std::string fixed = map.Choice("fixed", {"false", "true", "x", "y", "z", "xy", "xz", "yz"}, "false");
     if (!IsNew(points, name)) continue;
     const int index = AddEntity(points, name, EntityKind::kPoint, at);
@@ -89,7 +89,7 @@ void DrawingReader::ReadPoints(const Map& root) {
       entity.fixed[c] = fixed == "true" || (fixed != "false" && fixed.find("xyz"[c]) != std::string::npos);
     if (planar_) entity.fixed[2] = true;
     if (!map.Has("velocity_mps")) continue;
-    const Vector3d velocity = ThreeNumbers(map, "velocity_mps", kMostSpeed_mps);
+    const Vector3d velocity = ThreeNumbers(map, "velocity_mps", kMaxSpeed_mps);
     for (int c = 0; c < 3; ++c) drawing_.velocities.push_back({index, c, velocity[c], map.Place("velocity_mps")});
   }
 }
@@ -165,7 +165,7 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
                                       body.kind == BodyKind::kRod ? "two were" : "one was"));
     good = false;
   }
-  body.centre_m = line && !map.Has("centre_m") ? centre : ThreeNumbers(map, "centre_m", kMostLength_m);
+  body.centre_m = line && !map.Has("centre_m") ? centre : ThreeNumbers(map, "centre_m", kMaxLength_m);
   if (body.kind == BodyKind::kPlanar) {
     body.inertia_kgm2(2, 2) = map.Number("inertia_zz_kgm2", {0.0, 1e12});
   } else if (body.kind == BodyKind::kRod && good && body.points.size() == 2) {
@@ -200,7 +200,7 @@ void DrawingReader::ReadMarkers(const Map& root) {
   for (const std::string& name : markers.Keys()) {
     const Map map = markers.Child(name);
     const auto body = Body(map, "body");
-    const Vector3d at = ThreeNumbers(map, "at_m", kMostLength_m);
+    const Vector3d at = ThreeNumbers(map, "at_m", kMaxLength_m);
     if (!body || !IsNew(markers, name)) continue;
     markers_.emplace(name, drawing_.bodies[static_cast<std::size_t>(*body)].frame.PointAt(at));
   }

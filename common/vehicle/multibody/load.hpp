@@ -42,7 +42,7 @@ class Sink {
   double damping_factor_;
 };
 
-inline constexpr std::size_t kMostLoadEntities = 24;  // that a load stiffens against each other
+inline constexpr std::size_t kMaxLoadEntities = 24;  // that a load stiffens against each other
 
 // Something that acts: a function of motion and time. It names the entities with coordinates that it stiffens against
 // each other (a pattern that never changes), and gets their places in the matrix. Add may not allocate.

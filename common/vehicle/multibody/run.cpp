@@ -10,7 +10,7 @@
 namespace rodeira::multibody {
 namespace {
 
-constexpr double kMostValues = 1e8;
+constexpr double kMaxValues = 1e8;
 constexpr long kProgressSteps = 1000;
 
 void AddRow(const Mechanism& mechanism, plot::Table& table) {
@@ -30,7 +30,7 @@ base::Status RunMechanism(Mechanism& mechanism, double until_s, double step_s, p
   table.names.assign(1, "time_s");
   for (const Output& output : mechanism.outputs) table.names.push_back(output.name);
   const double wanted = std::ceil(until_s / step_s - 1e-6);
-  if (wanted * static_cast<double>(table.names.size()) > kMostValues) {
+  if (wanted * static_cast<double>(table.names.size()) > kMaxValues) {
     return base::WrongInput(
         fmt::format("{:.3g} steps of {} outputs are too many for a table; at most 100 million values were expected",
                     wanted, table.names.size()));

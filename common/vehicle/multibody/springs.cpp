@@ -52,7 +52,7 @@ void PointSpring::Add(const Motion& motion, Sink& sink) const {
   const double force = law_.Force(length, rate);
   sink.Push(way_, -force * n);
   if (!sink.wants_matrix()) return;
-  std::array<Triple, kMostLoadEntities> gradients;
+  std::array<Triple, kMaxLoadEntities> gradients;
   const double across = std::max(0.0, force) / length;  // a taut spring resists sideways too: force/length (I - n nᵀ)
   AlongForm(way_, n, gradients.data());
   sink.Stiffen(pairs_, gradients.data(), std::max(0.0, law_.Stiffness(length)) - across, law_.Damping(length, rate));

@@ -188,7 +188,7 @@ base::Status System::FindVelocities() {
 }
 
 bool System::FindAccelerations() {
-  constexpr int kMostTurns = 50;
+  constexpr int kMaxTurns = 50;
   earlier_s_ = 0.0;
   newton_ = {};
   constraints_.Evaluate(q_.data(), time_s_);
@@ -200,7 +200,7 @@ bool System::FindAccelerations() {
   std::fill(qdd_.begin(), qdd_.end(), 0.0);
   std::fill(lambda_.begin(), lambda_.end(), 0.0);
   double before = std::numeric_limits<double>::infinity();
-  for (int turn = 0; turn < kMostTurns; ++turn) {
+  for (int turn = 0; turn < kMaxTurns; ++turn) {
     // M qdd + Φqᵀ λ = Q with λ += w (Φq qdd + bias): the remainder goes through the same matrix.
     constraints_.Multiply(qdd_.data(), mu_.data());
     double most = 0.0;

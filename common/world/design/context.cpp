@@ -49,10 +49,11 @@ const std::vector<Surface> kSurfaces = {Surface::kAsphalt, Surface::kConcrete, S
 
 }  // namespace
 
-const Material& Context::MaterialOf(const config::Map& map, std::string_view key, std::string_view otherwise) const {
+const Material& Context::MaterialOf(const config::Map& map, std::string_view key,
+                                    std::string_view default_value) const {
   std::vector<std::string> names;
   for (const auto& [name, material] : materials) names.push_back(name);
-  const auto found = materials.find(map.Choice(key, names, otherwise));
+  const auto found = materials.find(map.Choice(key, names, default_value));
   return found == materials.end() ? materials.find("asphalt")->second : found->second;
 }
 

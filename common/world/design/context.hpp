@@ -31,7 +31,7 @@ struct Context {
   std::vector<std::string> warnings;
   std::vector<base::Error> missing;  // pictures: wrong, but the world can be driven without them
 
-  const Material& MaterialOf(const config::Map& map, std::string_view key, std::string_view otherwise) const;
+  const Material& MaterialOf(const config::Map& map, std::string_view key, std::string_view default_value) const;
 };
 
 // The materials that are the surfaces themselves, with their friction.

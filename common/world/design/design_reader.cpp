@@ -21,7 +21,7 @@ namespace {
 using config::Map;
 using network::End;
 
-constexpr std::size_t kMostFiles = 1000;
+constexpr std::size_t kMaxFiles = 1000;
 constexpr double kFromStart_m = 10.0;  // of a road, where nothing else is said
 
 // One name for a file, however it is written; of what cannot be a file the text itself.
@@ -63,7 +63,7 @@ class Files {
         list.Problem(i, fmt::format("'{}' is included already", named.string()));
         continue;
       }
-      if (seen_.size() > kMostFiles) return;
+      if (seen_.size() > kMaxFiles) return;
       auto file = config::File::Load(path);
       if (!file) {
         list.Problem(i, file.error().Text());

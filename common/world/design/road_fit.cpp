@@ -20,9 +20,9 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kFitStep_m = 1.0;  // between samples of a road
-constexpr double kMostSteps = 1e6;  // of longer roads only the terrain is looked for, in longer steps
+constexpr double kMaxSteps = 1e6;   // of longer roads only the terrain is looked for, in longer steps
 constexpr int kOwnSteps = 3;        // so near along the road an edge is the stretch's own
-constexpr double kLeastCell_m = 16.0;
+constexpr double kMinCell_m = 16.0;
 constexpr double kFar_m = 1e9;
 constexpr double kTouches_m = 0.01;  // edges so far within one another only touch
 constexpr double kSeam_m = 0.1;      // and so may a closed road's ends
@@ -46,7 +46,7 @@ std::vector<Across> Sample(std::size_t index, const network::Road& road, std::sp
   const network::RoadSpec& spec = road.spec();
   const geometry::CubicTable left = EdgeOf(spec, static_cast<int>(spec.sections[0].left.size())),
                              right = EdgeOf(spec, -static_cast<int>(spec.sections[0].right.size()));
-  const int steps = std::max(1, static_cast<int>(std::min(std::ceil(road.length_m() / kFitStep_m), kMostSteps)));
+  const int steps = std::max(1, static_cast<int>(std::min(std::ceil(road.length_m() / kFitStep_m), kMaxSteps)));
   std::vector<Across> samples;
   for (int i = 0; i <= steps; ++i) {
     const double s = road.length_m() * i / steps;
@@ -109,7 +109,7 @@ class Stretches {
   }
 
   std::vector<Across> samples_;
-  double cell_m_ = kLeastCell_m;
+  double cell_m_ = kMinCell_m;
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
@@ -118,7 +118,7 @@ class Stretches {
 void CheckFits(std::size_t index, const RoadDesign& design, const network::Road& road, std::span<const Piece> pieces,
                const TerrainIsAt& terrain_is_at) {
   const std::vector<Across> samples = Sample(index, road, pieces);
-  const bool too_long = road.length_m() > kMostSteps * kFitStep_m;
+  const bool too_long = road.length_m() > kMaxSteps * kFitStep_m;
   const Stretches stretches(too_long ? std::vector<Across>() : samples);
   const char* key = design.map.Has("points") ? "points" : "axis";
   bool left_terrain = !terrain_is_at, met_itself = too_long;

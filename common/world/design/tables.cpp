@@ -98,7 +98,7 @@ std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, s
 }
 
 CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
-                     std::string_view value_key, config::Range range, std::optional<double> otherwise) {
+                     std::string_view value_key, config::Range range, std::optional<double> default_value) {
   if (map.Has(list_key)) {
     if (map.Has(key))
       map.Problem(key, fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
@@ -106,7 +106,7 @@ CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_v
     if (knots.empty()) map.Problem(list_key, fmt::format("'{}' has no points; at least one was expected", list_key));
     return Eased(knots);
   }
-  return Constant(otherwise ? map.Number(key, range, *otherwise) : map.Number(key, range));
+  return Constant(default_value ? map.Number(key, range, *default_value) : map.Number(key, range));
 }
 
 }  // namespace rodeira::design

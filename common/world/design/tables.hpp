@@ -32,7 +32,7 @@ geometry::CubicTable WithHermite(const geometry::CubicTable& table, const Hermit
 
 // `key` as one number, or as a list of {s_m, value_key}, ascending; `otherwise` where it is absent.
 geometry::CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_view list_key,
-                               std::string_view value_key, config::Range range, std::optional<double> otherwise);
+                               std::string_view value_key, config::Range range, std::optional<double> default_value);
 // A list of {s_m, value_key}, ascending.
 std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, std::string_view value_key,
                             config::Range range);

@@ -8,7 +8,7 @@
 namespace rodeira::lanes {
 namespace {
 
-constexpr std::size_t kMostBack = 64;  // tracks over which a sign is looked for
+constexpr std::size_t kMaxBack = 64;  // tracks over which a sign is looked for
 
 bool IsOnlyOne(const Track& track) { return track.junction < 0 && !track.left && !track.right; }
 
@@ -44,7 +44,7 @@ NoOvertaking::NoOvertaking(const Graph& graph)
   }
   for (std::uint32_t i = 0; i < begins_.size(); ++i) {
     std::uint32_t at = i;
-    for (std::size_t back = 0; back < kMostBack; ++back) {
+    for (std::size_t back = 0; back < kMaxBack; ++back) {
       if (graph[at].junction >= 0 || graph[at].before.size() != 1) break;
       at = graph[at].before.front();
       if (changes_[at].empty()) continue;

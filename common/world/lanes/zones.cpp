@@ -117,7 +117,7 @@ Zones::Zones(const Graph& graph, const LargestCar& car, const Swings& swings) {
     for (const auto& [b, places] : touches) Pair(graph, a, b, places);
   }
   std::vector<std::vector<ZoneSide>> all(graph.tracks().size()), conflicts(all.size());
-  std::vector<std::vector<Parting>> partings(all.size());
+  std::vector<std::vector<DivergeZone>> partings(all.size());
   for (std::uint32_t z = 0; z < zones_.size(); ++z) {
     Zone& zone = zones_[z];
     Decide(graph, zone);

@@ -37,7 +37,7 @@ struct ZoneSide {
 };
 
 // A track's part in a zone of tracks that part, with what is asked of the other one there.
-struct Parting {
+struct DivergeZone {
   double out_m = 0.0;  // along the track
   std::uint32_t other = 0;
   double other_in_m = 0.0, other_out_m = 0.0;  // along that one
@@ -83,7 +83,7 @@ class Zones {
   std::span<const ZoneSide> Of(std::uint32_t track) const { return all_.Of(track); }
   // Of these only where it crosses or merges; only where it parts from others.
   std::span<const ZoneSide> ConflictsOf(std::uint32_t track) const { return conflicts_.Of(track); }
-  std::span<const Parting> PartingsOf(std::uint32_t track) const { return partings_.Of(track); }
+  std::span<const DivergeZone> DivergeZonesOf(std::uint32_t track) const { return partings_.Of(track); }
 
  private:
   struct Touch {
@@ -94,7 +94,7 @@ class Zones {
 
   std::vector<Zone> zones_;
   ByTrack<ZoneSide> all_, conflicts_;
-  ByTrack<Parting> partings_;
+  ByTrack<DivergeZone> partings_;
 };
 
 }  // namespace rodeira::lanes

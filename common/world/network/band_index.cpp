@@ -11,7 +11,7 @@ namespace rodeira::network {
 namespace {
 
 constexpr double kSlack_m = BandIndex::kSlack_m;
-constexpr double kMostCells = 4e6;
+constexpr double kMaxCells = 4e6;
 constexpr std::uint32_t kLeaf = 4;
 
 // What is closed between a panel's end and the next one's beginning.
@@ -166,7 +166,7 @@ void BandIndex::BuildGrid() {
   }
   origin_W_ = low;
   const Eigen::Vector2d size = high - low;
-  cell_m_ = std::max(cell_m_, std::sqrt(size.x() * size.y() / kMostCells));
+  cell_m_ = std::max(cell_m_, std::sqrt(size.x() * size.y() / kMaxCells));
   columns_ = std::floor(size.x() / cell_m_) + 1.0;
   rows_ = std::floor(size.y() / cell_m_) + 1.0;
   const auto each_cell = [&](const Band& band, const auto& use) {

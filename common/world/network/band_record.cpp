@@ -64,9 +64,9 @@ bool Constant(const Cubic& cubic) {
          !(cubic.a == 0.0 && std::signbit(cubic.a));
 }
 
-constexpr std::uint8_t kMostPieces = 64;   // of one panel: the road itself knows the others
-constexpr std::size_t kMostLanes = 64;     // of a steady piece
-constexpr std::size_t kMostOfASide = 255;  // of any
+constexpr std::uint8_t kMaxPieces = 64;   // of one panel: the road itself knows the others
+constexpr std::size_t kMaxLanes = 64;     // of a steady piece
+constexpr std::size_t kMaxOfASide = 255;  // of any
 
 }  // namespace
 
@@ -92,7 +92,7 @@ BandRecords::BandRecords(std::span<const Road> roads, const BandIndex& index) {
     if (road.LeansBetween(low, high)) continue;
     record.piece = MakePiece(road, std::clamp(record.middle_s_m, low, high), known);
     record.first_piece = static_cast<std::uint32_t>(pieces_.size());
-    for (double s = low; s <= high && record.pieces < kMostPieces; s = pieces_.back().to_s_m) {
+    for (double s = low; s <= high && record.pieces < kMaxPieces; s = pieces_.back().to_s_m) {
       if (record.piece.Holds(s)) s = record.piece.to_s_m;
       if (s > high) break;
       const BandPiece piece = MakePiece(road, s, known);
@@ -109,7 +109,7 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
   piece.flat = road.flat();
   const RoadSpec& spec = road.spec();
   const LaneSection& section = spec.sections[piece.section];
-  if (section.left.size() > kMostOfASide || section.right.size() > kMostOfASide) return {};
+  if (section.left.size() > kMaxOfASide || section.right.size() > kMaxOfASide) return {};
   const double infinity = std::numeric_limits<double>::infinity();
   double from = piece.section == 0 ? -infinity : section.s_m;
   double to = piece.section + 1 < spec.sections.size() ? spec.sections[piece.section + 1].s_m : infinity;
@@ -119,7 +119,7 @@ BandPiece BandRecords::MakePiece(const Road& road, double s_m, Known& known) {
   std::vector<const void*> by = {&section};
   std::vector<double> edges = {centre.a};
   std::uint64_t driven = 0;
-  piece.steady = Constant(centre) && section.left.size() + section.right.size() <= kMostLanes;
+  piece.steady = Constant(centre) && section.left.size() + section.right.size() <= kMaxLanes;
   for (const auto* side : {&section.left, &section.right}) {
     CubicPoint inner = Evaluate(centre, s_m);
     for (const Lane& lane : *side) {

@@ -191,7 +191,7 @@ bool SetSurface(const Road& road, const ClusterLeans& leans, Cluster& cluster) {
 
 }  // namespace
 
-bool Network::Together(Cluster& cluster) const {
+bool Network::QueryBatch(Cluster& cluster) const {
   geometry::AxisFeet& feet = cluster.feet;
   if (!AllOnEarth(feet.x_m, feet.count) || !AllOnEarth(feet.y_m, feet.count)) return false;
   double west, east, south, north;

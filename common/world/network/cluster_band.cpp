@@ -11,9 +11,9 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kApart_m = 1e-3;      // far above BandIndex::kSlack_m, by which a smooth joint is closed
-constexpr std::size_t kMostBands = 3;  // of one road: a panel and its neighbours
-constexpr double kMostHalfTurn_rad = 0.26;
+constexpr double kApart_m = 1e-3;     // far above BandIndex::kSlack_m, by which a smooth joint is closed
+constexpr std::size_t kMaxBands = 3;  // of one road: a panel and its neighbours
+constexpr double kMaxHalfTurn_rad = 0.26;
 
 geometry::PlanPoint EndOf(const geometry::PlanAxis& axis, const geometry::AxisPanel& panel, bool last) {
   return axis.At(panel, last ? panel.half_m : -panel.half_m);
@@ -21,7 +21,7 @@ geometry::PlanPoint EndOf(const geometry::PlanAxis& axis, const geometry::AxisPa
 
 // All bands with rectangles that touch a box, ascending; false where there are more than a few.
 bool Touching(const BandIndex& index, const Eigen::Vector2d& low_W, const Eigen::Vector2d& high_W,
-              std::array<std::uint32_t, kMostBands>& bands, std::size_t& count) {
+              std::array<std::uint32_t, kMaxBands>& bands, std::size_t& count) {
   const Eigen::Vector2d size = high_W - low_W, middle = low_W + 0.5 * size;
   // A part of a cell is wider than this: what touches some of the box is listed at a corner.
   constexpr double kWidest_m = 1.5;
@@ -39,7 +39,7 @@ bool Touching(const BandIndex& index, const Eigen::Vector2d& low_W, const Eigen:
         return;
       const auto end = bands.begin() + static_cast<std::ptrdiff_t>(count);
       if (std::find(bands.begin(), end, listed) != end) return;
-      if (count == kMostBands) {
+      if (count == kMaxBands) {
         few = false;
         return;
       }
@@ -60,7 +60,7 @@ bool SaysNothing(const geometry::PlanAxis& axis, const geometry::AxisPanel& neig
   const auto rate = axis.RateOf(neighbour);
   if (!rate) return false;
   const double steepest = std::fabs(neighbour.curvature_1pm) + std::fabs(*rate) * neighbour.half_m;
-  if (!(steepest * neighbour.half_m <= kMostHalfTurn_rad)) return false;
+  if (!(steepest * neighbour.half_m <= kMaxHalfTurn_rad)) return false;
   const geometry::PlanPoint joint = EndOf(axis, neighbour, !follows);
   const double sign = follows ? 1.0 : -1.0, x = joint.p_W.x(), y = joint.p_W.y(), T_x = joint.tangent_W.x(),
                T_y = joint.tangent_W.y();
@@ -78,7 +78,7 @@ bool SaysNothing(const geometry::PlanAxis& axis, const geometry::AxisPanel& neig
 std::optional<ClusterBand> FindBand(const BandIndex& index, std::span<const Road> roads, const Eigen::Vector2d& low_W,
                                     const Eigen::Vector2d& high_W) {
   if (const auto only = index.OnlyOne(low_W, high_W)) return ClusterBand{*only};
-  std::array<std::uint32_t, kMostBands> bands;
+  std::array<std::uint32_t, kMaxBands> bands;
   std::size_t count;
   if (!Touching(index, low_W, high_W, bands, count) || count < 2) return std::nullopt;
   // The bands of a road follow one another as its panels do. The box lies between the beginning of the last panel that

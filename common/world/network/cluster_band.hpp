@@ -7,7 +7,7 @@
 #include "common/world/network/band_index.hpp"
 #include "common/world/network/cluster.hpp"
 
-// Parts of Network::Together.
+// Parts of Network::QueryBatch.
 namespace rodeira::network {
 
 // The band that a cluster's points lie on, and which of its neighbours along the road reach over them too.

@@ -102,13 +102,13 @@ bool Arrive(const Line& line, const Cluster& cluster, Steps& steps, double& reac
   FirstSteps(line, cluster, steps);
   reach_m = Largest(steps.u_m, count);
   for (int i = 1; !All(count, arrived); ++i) {
-    if (i == kMostLeanSteps) return false;
+    if (i == kMaxLeanSteps) return false;
     Steps next;
     FindNextSteps(line, cluster, steps, next);
     Take(next, count, steps);
     reach_m = std::max(reach_m, Largest(steps.u_m, count));
   }
-  return All(count, [&](std::size_t i) { return steps.fall[i] > kLeastLeanFall; }) &&
+  return All(count, [&](std::size_t i) { return steps.fall[i] > kMinLeanFall; }) &&
          All(count, [&](std::size_t i) { return line.way.Holds(steps.u_m[i], cluster.feet.curvature_1pm[i]); });
 }
 

@@ -4,7 +4,7 @@
 #include "common/world/network/cluster.hpp"
 #include "common/world/network/road.hpp"
 
-// Parts of Network::Together.
+// Parts of Network::QueryBatch.
 namespace rodeira::network {
 
 // The sections of a cluster's points where they lean, as Lean says.

@@ -9,7 +9,7 @@
 #include "common/world/network/cluster.hpp"
 #include "common/world/network/lean.hpp"
 
-// Parts of Network::Together.
+// Parts of Network::QueryBatch.
 namespace rodeira::network {
 
 // The smallest and the largest of finite numbers; several at a time, so that none waits for the one before it.

@@ -25,10 +25,10 @@ struct StraightOn {
   bool Holds(double, double) const { return true; }
 };
 // On a line with a curvature k that changes by k' a metre: what follows is below 1e-13 u while it turns by less than
-// kMostTurn_rad, and k' u² is less than kMostTwist.
+// kMaxTurn_rad, and k' u² is less than kMaxTwist.
 struct BentOn {
   double rate_1pm2 = 0.0;
-  static constexpr double kMostTurn_rad = 0.02, kMostTwist = 1e-4;
+  static constexpr double kMaxTurn_rad = 0.02, kMaxTwist = 1e-4;
   Onward operator()(double u_m, double curvature_1pm) const {
     const double q = curvature_1pm * u_m, r = rate_1pm2 * u_m * u_m, turned = q + 0.5 * r;
     const double q2 = q * q, square = turned * turned;
@@ -41,7 +41,7 @@ struct BentOn {
     return {ahead * u_m, left * u_m, cosine, sine};
   }
   bool Holds(double u_m, double curvature_1pm) const {
-    return std::fabs(curvature_1pm * u_m) < kMostTurn_rad && std::fabs(rate_1pm2 * u_m * u_m) < kMostTwist;
+    return std::fabs(curvature_1pm * u_m) < kMaxTurn_rad && std::fabs(rate_1pm2 * u_m * u_m) < kMaxTwist;
   }
 };
 
@@ -49,8 +49,8 @@ struct BentOn {
 inline double LeftOf(const Onward& way, double t_m) { return way.cosine * (t_m - way.left_m) + way.sine * way.ahead_m; }
 
 constexpr double kLastLeanStep_m = 1e-7;  // Newton doubles the digits: what is left after such a step is rounding
-constexpr int kMostLeanSteps = 5;
-constexpr double kLeastLeanFall = 0.1;
+constexpr int kMaxLeanSteps = 5;
+constexpr double kMinLeanFall = 0.1;
 
 // Newton's step from u, and -G' there.
 struct LeanStep {

@@ -127,7 +127,7 @@ class Network {
   // The same of points close to one another, where one road's surface alone lies at all of them, and no other road is
   // near: to the bit what Surfaces says of each. False, and then nothing is known, where that is not so, or not told so
   // quickly.
-  bool Together(Cluster& cluster) const;
+  bool QueryBatch(Cluster& cluster) const;
 
   // Visits the panels of all roads with lanes that may lie within reach_m of (x, y): visit(road, panel of its axis).
   template <class Visit>

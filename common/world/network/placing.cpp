@@ -9,7 +9,7 @@
 namespace rodeira::network {
 namespace {
 
-constexpr double kMostOfARepeat = 1e5;
+constexpr double kMaxOfARepeat = 1e5;
 
 double Between(double start, double end, double share) { return start + share * (end - start); }
 
@@ -113,7 +113,7 @@ void PlaceRow(const Road& road, const Object& object, const Repeat& repeat, std:
               std::vector<Placed>& things) {
   const Sizes sizes(repeat, object);
   const std::optional<Chord> chord = repeat.straight ? std::optional<Chord>(Chord(road, repeat)) : std::nullopt;
-  const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARepeat);
+  const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMaxOfARepeat);
   for (double i = 0.0; i <= last; i += 1.0) {
     const double s = repeat.s_m + i * repeat.distance_m;
     if (s > road.length_m() + 1e-6) break;

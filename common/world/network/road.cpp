@@ -189,12 +189,12 @@ std::optional<Road::LeanFoot> Road::FootOnLean(const geometry::AxisPanel& panel,
   LeanStep step = FirstLeanStep(foot.t_m, k, *rate, LeanAt(from_s));
   double u = step.step_m;
   for (int i = 1; std::fabs(step.step_m) > kLastLeanStep_m; ++i) {
-    if (i == kMostLeanSteps) return std::nullopt;
+    if (i == kMaxLeanSteps) return std::nullopt;
     step = NextLeanStep(onward(u), foot.t_m, k + *rate * u, LeanAt(from_s + u));
     u += step.step_m;
   }
   const double s = from_s + u;
-  if (!(step.fall > kLeastLeanFall && s >= low_s_m && s <= high_s_m)) return std::nullopt;  // NaN too
+  if (!(step.fall > kMinLeanFall && s >= low_s_m && s <= high_s_m)) return std::nullopt;  // NaN too
   if (!straight && !BentOn{*rate}.Holds(u, k)) return std::nullopt;
   const Onward way = onward(u);
   const Eigen::Vector2d& T = foot.at.tangent_W;

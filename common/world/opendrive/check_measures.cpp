@@ -232,8 +232,8 @@ class Measures {
     const double s = FiniteOrZero(crg, "sStart");
     At(crg, "tOffset", "road.surface.crg", s, kWidest_m);
     At(crg, "zOffset", "road.surface.crg", s, kHighest_m);
-    if (const double scale = crg.xml().attribute("zScale").as_double(1.0); !(std::fabs(scale) <= kMostScale))
-      Wrong(crg, "road.surface.crg", s, "the measured surface's heights count {}", scale, "times", kMostScale);
+    if (const double scale = crg.xml().attribute("zScale").as_double(1.0); !(std::fabs(scale) <= kMaxScale))
+      Wrong(crg, "road.surface.crg", s, "the measured surface's heights count {}", scale, "times", kMaxScale);
   }
 
   Source& source_;

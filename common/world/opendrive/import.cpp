@@ -73,7 +73,7 @@ std::string_view HowToImport(std::string_view root) {
   return "";
 }
 
-constexpr std::size_t kMostRepairs = 100000;  // in one reading
+constexpr std::size_t kMaxRepairs = 100000;  // in one reading
 
 }  // namespace
 
@@ -84,7 +84,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   auto parsed = Source::Parse(text, path, edited);
   if (!parsed) return parsed.error();
   Source& source = *parsed.value();
-  if (tolerance.repair) source.most_findings = kMostRepairs;
+  if (tolerance.repair) source.most_findings = kMaxRepairs;
   const Node root = source.root();
   if (root.name() != "OpenDRIVE") {
     return base::WrongInput(

@@ -23,7 +23,7 @@ using network::Road;
 constexpr double kSampled_m = 0.1;       // along a path
 constexpr double kBeyond_m = 1e-3;       // between the elements of a line
 constexpr double kSameCrossing_m = 4.0;  // a crossing so near is this one, told twice
-constexpr double kMostOfARow = 10000.0;
+constexpr double kMaxOfARow = 10000.0;
 
 // A place in the plane, and where something there points.
 struct Pose {
@@ -89,7 +89,7 @@ class Things {
         Warn(said, "goes on along the junction's line: it is left out");
         continue;
       }
-      const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMostOfARow);
+      const double last = std::min(std::floor(repeat.length_m / repeat.distance_m + 1e-9), kMaxOfARow);
       for (double i = 0.0; i <= last; i += 1.0) {
         const double share = repeat.length_m > 0.0 ? i * repeat.distance_m / repeat.length_m : 0.0;
         const auto at = [share](double start, double end, double own) {

@@ -13,8 +13,8 @@ inline constexpr double kHighestLane_m = 100.0;   // a lane over its road
 inline constexpr double kSteepest_rad = 1.5;      // bank
 inline constexpr double kWidestMark_m = 100.0;
 inline constexpr double kLargestThing_m = 10000.0;  // an object or a signal, and how far it stands from its road's line
-inline constexpr double kMostTurns = 20.0;          // of an element of a road's line
-inline constexpr double kMostScale = 1000.0;        // of a measured surface's heights
+inline constexpr double kMaxTurns = 20.0;           // of an element of a road's line
+inline constexpr double kMaxScale = 1000.0;         // of a measured surface's heights
 // Shorter ones are a slip: a pattern of dashes that is repeated more often is painted as a line, a row of things goes
 // on as one body.
 inline constexpr double kShortestPattern_m = 0.1, kShortestDistance_m = 0.01;

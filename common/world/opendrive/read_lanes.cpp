@@ -16,7 +16,7 @@ namespace {
 using network::Lane;
 using network::LaneSection;
 
-constexpr int kMostMissing = 100;
+constexpr int kMaxMissing = 100;
 
 double OffsetOf(const Node& node) { return node.xml().attribute("sOffset").as_double(0.0); }
 
@@ -207,7 +207,7 @@ Repair IdRepair(const Node& group, const Lane& lane, int expected) {
     return {RepairKind::kDuplicateDropped, "the first of them counts", {same.back().Remove()}};
   }
   std::string missing;
-  for (int id = expected; std::abs(id) < std::abs(lane.id) && std::abs(id - expected) < kMostMissing;
+  for (int id = expected; std::abs(id) < std::abs(lane.id) && std::abs(id - expected) < kMaxMissing;
        id += id > 0 ? 1 : -1)
     missing += fmt::format(
         "<lane id=\"{}\" type=\"none\" level=\"false\"><width sOffset=\"0\" a=\"0\" b=\"0\" c=\"0\" d=\"0\"/></lane>",

@@ -110,9 +110,9 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     }
     const double turned_rad =
         0.5 * std::fabs(element.curvature_start_1pm + element.curvature_end_1pm) * element.length_m;
-    if (element.kind == PlanElement::Kind::kClothoid && turned_rad > 2.0 * geometry::kPi * kMostTurns) {
+    if (element.kind == PlanElement::Kind::kClothoid && turned_rad > 2.0 * geometry::kPi * kMaxTurns) {
       geometry.Wrong("road.geometry.shape", fmt::format("this element turns {:.4g} times; at most {:.4g} were expected",
-                                                        turned_rad / (2.0 * geometry::kPi), kMostTurns));
+                                                        turned_rad / (2.0 * geometry::kPi), kMaxTurns));
     } else if (!geometry::PlanAxis::Make({element})) {
       geometry.Wrong("road.geometry.shape", "this element stands still somewhere, or turns or is longer than any road");
     }

@@ -12,7 +12,7 @@
 namespace rodeira::opendrive {
 namespace {
 
-constexpr int kMostPasses = 12;
+constexpr int kMaxPasses = 12;
 constexpr int kLastResort = 9;  // from this reading on roads that are still wrong are left out
 
 bool IsUnrepaired(const Finding& finding) { return finding.repair.done.empty() && finding.repair.edits.empty(); }
@@ -62,7 +62,7 @@ base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& pa
   std::vector<Finding> repaired;
   std::set<std::string> told;
   std::optional<Reach> before;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
     auto import = ReadOnce(text, path, tolerance, &edited);
     if (!import) return import.error();
     Import& read = import.value();
@@ -74,7 +74,7 @@ base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& pa
     for (const Finding& error : read.errors)
       edits.insert(edits.end(), error.repair.edits.begin(), error.repair.edits.end());
     edits = Compatible(std::move(edits));
-    if (!edits.empty() && pass + 1 < kMostPasses) {
+    if (!edits.empty() && pass + 1 < kMaxPasses) {
       KeepMade(std::move(read.errors), edits, repaired, told);
       text = Apply(text, edits);
       edited.maps.emplace_back(edits);

@@ -22,7 +22,7 @@ using network::Road;
 constexpr double kDrivenKink_rad = 0.7, kDrivenKinkTurning_rad = 0.35;
 constexpr double kTurnsRound_rad = 1.9;
 constexpr double kDrivenAhead_m = 1.0;  // of nothing between two lanes
-constexpr std::size_t kMostTurned = 3;  // repairs; a road with both ends at one place would be turned for ever
+constexpr std::size_t kMaxTurned = 3;   // repairs; a road with both ends at one place would be turned for ever
 constexpr double kShared = 0.7;         // of the narrower lane's width, which both share
 
 const char* Word(End end) { return end == End::kEnd ? "successor" : "predecessor"; }
@@ -272,7 +272,7 @@ std::optional<Repair> LaneRepairs::Relink(const LaneEnd& from, const LaneEnd& to
 Repair LaneRepairs::GapRepair(const LaneEnd& from, const LaneEnd& to) const {
   const Passing passing = PassingOf(from, to);
   if (passing.drivable) return {RepairKind::kGapDriven, fmt::format("it is driven, {:.2g} m aside", passing.aside_m)};
-  if (source_.repairs() < kMostTurned) {
+  if (source_.repairs() < kMaxTurned) {
     if (auto moved = Relink(from, to)) return *moved;
     if (auto moved = Relink(to, from)) return *moved;
   }

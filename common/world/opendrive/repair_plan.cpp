@@ -15,7 +15,7 @@ namespace {
 using geometry::PlanElement;
 
 constexpr double kSameLength = 0.01;  // of a cubic's curve and its element, by the other reading of its range
-constexpr double kLeastLength_m = 0.01;
+constexpr double kMinLength_m = 0.01;
 
 double EndOf(const PlanElement& element) { return element.s_m + element.length_m; }
 
@@ -30,7 +30,7 @@ Repair EndAfter(Source& source, const RoadReading& road, std::size_t last) {
     repair.edits.push_back(Node(&source, road.lines.element_nodes[i]).Remove());
   for (std::size_t i = 1; i < road.spec.sections.size(); ++i) {
     const pugi::xml_node section = road.lines.section_nodes[i];
-    if (road.spec.sections[i].s_m >= end_m - kLeastLength_m && section)
+    if (road.spec.sections[i].s_m >= end_m - kMinLength_m && section)
       repair.edits.push_back(Node(&source, section).Remove());
   }
   if (const Node link = node.Child("link").Child("successor")) repair.edits.push_back(link.Remove());

@@ -223,8 +223,8 @@ double Node::Number(const char* attribute) const {
   return value.value_or(0.0);
 }
 
-double Node::Number(const char* attribute, double otherwise) const {
-  return Read(attribute, kLargest).value_or(otherwise);
+double Node::Number(const char* attribute, double default_value) const {
+  return Read(attribute, kLargest).value_or(default_value);
 }
 
 int Node::Integer(const char* attribute) const {
@@ -243,12 +243,12 @@ std::string Node::Text(const char* attribute) const {
   return text;
 }
 
-std::string Node::Text(const char* attribute, std::string_view otherwise) const {
-  return Has(attribute) ? node_.attribute(attribute).value() : std::string(otherwise);
+std::string Node::Text(const char* attribute, std::string_view default_value) const {
+  return Has(attribute) ? node_.attribute(attribute).value() : std::string(default_value);
 }
 
-bool Node::Flag(const char* attribute, bool otherwise) const {
-  if (!Has(attribute)) return otherwise;
+bool Node::Flag(const char* attribute, bool default_value) const {
+  if (!Has(attribute)) return default_value;
   const std::string_view text = Trimmed(node_.attribute(attribute).value());
   for (const std::string_view yes : {"true", "1", "yes"}) {
     if (text == yes) return true;
@@ -258,7 +258,7 @@ bool Node::Flag(const char* attribute, bool otherwise) const {
   }
   Wrong("xml.attribute",
         fmt::format("attribute '{}' of <{}> is '{}'; true or false was expected", attribute, name(), text));
-  return otherwise;
+  return default_value;
 }
 
 geometry::Cubic Node::Cubic(const char* from, double origin) const {

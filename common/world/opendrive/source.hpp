@@ -33,11 +33,11 @@ class Node {
   bool Has(const char* attribute) const { return static_cast<bool>(node_.attribute(attribute)); }
   // Finite numbers; what is missing without `otherwise`, or is no number, is a finding, and 0 comes.
   double Number(const char* attribute) const;
-  double Number(const char* attribute, double otherwise) const;
+  double Number(const char* attribute, double default_value) const;
   int Integer(const char* attribute) const;
   std::string Text(const char* attribute) const;  // a finding where missing or empty
-  std::string Text(const char* attribute, std::string_view otherwise) const;
-  bool Flag(const char* attribute, bool otherwise) const;  // true, false, 1, 0, yes, no
+  std::string Text(const char* attribute, std::string_view default_value) const;
+  bool Flag(const char* attribute, bool default_value) const;  // true, false, 1, 0, yes, no
   // a, b, c, d and where they begin: origin + the named attribute.
   geometry::Cubic Cubic(const char* from, double origin) const;
 

@@ -37,7 +37,7 @@ class BuiltGround {
   // The same of points close to one another, where they lie on one road alone; its surface then answers whatever the
   // hints: to the bit what At says of each. False, and then nothing is written, where that is not so or not told so
   // quickly. Spans of equal length, of Cluster::kMost at most.
-  bool Together(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const;
+  bool QueryBatch(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const;
 
  private:
   // A surface over or under a point.

@@ -29,10 +29,11 @@ bool BuiltGround::OneRoadAlone(const network::Cluster& cluster) const {
   });
 }
 
-bool BuiltGround::Together(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) const {
+bool BuiltGround::QueryBatch(std::span<const ground::GroundQuery> queries,
+                             std::span<ground::GroundPoint> points) const {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
-  if (!network_->Together(cluster) || !OneRoadAlone(cluster)) return false;
+  if (!network_->QueryBatch(cluster) || !OneRoadAlone(cluster)) return false;
   ClusterNormals normals;
   SetNormals(
       cluster, [](double part, double up) { return part * (-1.0 / up); }, normals);

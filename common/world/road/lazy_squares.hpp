@@ -19,13 +19,13 @@ namespace rodeira::road {
 template <class Made>
 class LazySquares {
  public:
-  static constexpr double kMostPerSide = 64.0;  // of a grid over roads that reach farther than any should
+  static constexpr double kMaxPerSide = 64.0;  // of a grid over roads that reach farther than any should
 
   LazySquares() = default;
-  // Squares of about side_m, or larger ones where the grid's are more than kMostPerSide times as long.
+  // Squares of about side_m, or larger ones where the grid's are more than kMaxPerSide times as long.
   LazySquares(const SquareGrid& grid, double side_m)
       : grid_(grid),
-        per_side_(static_cast<std::size_t>(std::clamp(std::round(grid.side_m() / side_m), 1.0, kMostPerSide))),
+        per_side_(static_cast<std::size_t>(std::clamp(std::round(grid.side_m() / side_m), 1.0, kMaxPerSide))),
         blocks_(std::make_unique<std::atomic<Block*>[]>(grid.size())) {}
   LazySquares(LazySquares&&) = default;
   LazySquares& operator=(LazySquares&&) = default;

@@ -12,7 +12,8 @@ bool NetworkGroundTogether(const network::Network& network, const LaneGrounds& g
                            std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) {
   network::Cluster cluster;
   SetPlaces(queries, cluster);
-  if (!network.Together(cluster) || (detail != nullptr && detail->On(cluster.road, cluster.low_s_m, cluster.high_s_m)))
+  if (!network.QueryBatch(cluster) ||
+      (detail != nullptr && detail->On(cluster.road, cluster.low_s_m, cluster.high_s_m)))
     return false;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (cluster.z_m[i] > queries[i].z_hint_m + ground::kMaxAboveHint_m) return false;  // what is below is asked for

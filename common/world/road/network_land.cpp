@@ -14,9 +14,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kOfRadius = 0.9;       // what moves with p reaches so far to the middle of a bend
-constexpr double kLeastReach_m = 0.5;   // where lanes fold
+constexpr double kMinReach_m = 0.5;     // where lanes fold
 constexpr double kPostsOfRadius = 0.1;  // posts in a bend stand so much of its radius apart
-constexpr double kLeastApart_m = 0.5;
+constexpr double kMinApart_m = 0.5;
 constexpr int kCurvatures = 4;  // samples of a panel's
 constexpr double kDistanceRounding_m = 1e-6;
 constexpr double kStraight_1pm = 1e-7;
@@ -28,7 +28,7 @@ float Below(double value) { return std::nextafter(static_cast<float>(value), -st
 // How far from an edge within a bend what moves with p may reach.
 double ReachOf(double curvature_1pm, double edge_m) {
   if (!(curvature_1pm > 0.0)) return kHolds_m;
-  return std::clamp(kOfRadius * (1.0 / curvature_1pm - edge_m), kLeastReach_m, kHolds_m);
+  return std::clamp(kOfRadius * (1.0 / curvature_1pm - edge_m), kMinReach_m, kHolds_m);
 }
 
 // Of an edge on a circle of radius r that climbs evenly by g, seen from a point at the radius q r: how far along it
@@ -128,7 +128,7 @@ void NetworkLand::AddPosts(const network::Road& road, const geometry::AxisPanel&
   const double reach = std::min(piece.left_reach_m, piece.right_reach_m);
   if (reach < kHolds_m) {
     const int apart =
-        static_cast<int>(std::ceil((to - from) / std::max(kLeastApart_m, kPostsOfRadius / kOfRadius * reach)));
+        static_cast<int>(std::ceil((to - from) / std::max(kMinApart_m, kPostsOfRadius / kOfRadius * reach)));
     for (int k = 1; k < apart; ++k) stations.push_back(from + (to - from) * k / apart);
   }
   piece.first_post = static_cast<std::uint32_t>(posts_W_.size());

@@ -9,7 +9,7 @@ namespace rodeira::road {
 namespace {
 
 constexpr double kStationStep_m = 1.0;
-constexpr double kMostSteps = 1e6;
+constexpr double kMaxSteps = 1e6;
 constexpr double kInset_m = 0.1;
 
 }  // namespace
@@ -32,7 +32,7 @@ std::vector<double> PlacesAcross(const network::Road& road, std::uint32_t sectio
 }
 
 std::vector<double> StationsLookedAt(const network::Road& road) {
-  const int steps = std::max(1, static_cast<int>(std::min(kMostSteps, std::ceil(road.length_m() / kStationStep_m))));
+  const int steps = std::max(1, static_cast<int>(std::min(kMaxSteps, std::ceil(road.length_m() / kStationStep_m))));
   std::vector<double> stations;
   for (int i = 0; i <= steps; ++i) stations.push_back(road.length_m() * i / steps);
   return stations;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSteeper = 0.8;  // of the reach
 constexpr int kSamples = 16;      // of a panel's edges
-constexpr double kLeastPace = 0.05;
+constexpr double kMinPace = 0.05;
 
 // How far the edges lie from the axis.
 double WidestOf(const network::Road& road) {
@@ -150,7 +150,7 @@ EdgePlace PlaceOnEdge(const network::Road& road, const geometry::AxisPanel& pane
     const double pace =
         place.sample.ds_W.head<2>().norm() -
         place.axis.curvature_1pm * geometry::Cross(place.axis.tangent_W, p_W - place.sample.p_W.head<2>());
-    if (pace > kLeastPace) place.pace = pace;
+    if (pace > kMinPace) place.pace = pace;
   }
   return place;
 }

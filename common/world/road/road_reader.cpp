@@ -145,17 +145,17 @@ void ReadMarks(const Map& map, double length_m, std::vector<Mark>& marks) {
 
 }  // namespace
 
-ground::Surface ReadSurface(const Map& map, std::string_view key, ground::Surface otherwise) {
+ground::Surface ReadSurface(const Map& map, std::string_view key, ground::Surface default_value) {
   using ground::Surface;
   const std::vector<Surface> surfaces = {Surface::kAsphalt, Surface::kConcrete, Surface::kGravel, Surface::kGrass,
                                          Surface::kSoil};
   std::vector<std::string> names;
   for (const Surface surface : surfaces) names.emplace_back(SurfaceName(surface));
-  const std::string name = map.Choice(key, names, SurfaceName(otherwise));
+  const std::string name = map.Choice(key, names, SurfaceName(default_value));
   for (const Surface surface : surfaces) {
     if (SurfaceName(surface) == name) return surface;
   }
-  return otherwise;
+  return default_value;
 }
 
 RoadSpec ReadRoad(const Map& map) {

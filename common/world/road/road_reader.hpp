@@ -12,6 +12,6 @@ namespace rodeira::road {
 RoadSpec ReadRoad(const config::Map& map);
 
 // One of the surfaces that a person may name (asphalt, concrete, gravel, grass, soil).
-ground::Surface ReadSurface(const config::Map& map, std::string_view key, ground::Surface otherwise);
+ground::Surface ReadSurface(const config::Map& map, std::string_view key, ground::Surface default_value);
 
 }  // namespace rodeira::road

@@ -13,7 +13,7 @@ namespace rodeira::road {
 // the number of its square.
 class SquareGrid {
  public:
-  static constexpr double kLeastSide_m = 32.0;
+  static constexpr double kMinSide_m = 32.0;
   static constexpr double kSlack_m = 1e-3;  // far above all rounding
 
   SquareGrid() = default;  // without a square
@@ -59,7 +59,7 @@ class SquareGrid {
   }
 
  private:
-  double side_m_ = kLeastSide_m;
+  double side_m_ = kMinSide_m;
   Eigen::Vector2d low_W_ = Eigen::Vector2d::Zero();
   std::size_t columns_ = 0, rows_ = 0;
 };

@@ -21,7 +21,7 @@ SquareLists::SquareLists(std::span<const Strip> strips) {
     farthest_m = std::max(farthest_m, strip.reach_m);
   }
   // Where strips are wide squares are too, so that the lists stay short beside what is in them.
-  grid_ = SquareGrid(low_W, high_W, std::max(SquareGrid::kLeastSide_m, 0.5 * farthest_m));
+  grid_ = SquareGrid(low_W, high_W, std::max(SquareGrid::kMinSide_m, 0.5 * farthest_m));
   const double half_diagonal_m = std::sqrt(0.5) * grid_.side_m() + SquareGrid::kSlack_m;
   const auto each_square = [&](const Strip& strip, const auto& use) {
     grid_.Each(low_of(strip), high_of(strip), [&](std::size_t square, const Eigen::Vector2d& middle_W) {

@@ -17,7 +17,7 @@
 namespace rodeira::road {
 namespace {
 
-constexpr double kMostFriction = 2.0;
+constexpr double kMaxFriction = 2.0;
 constexpr double kSeenReach_m = 1.0;  // over so much to either side measured heights are smoothed, twice
 
 // v, turned by the angle of `turn`, which has unit length.
@@ -269,7 +269,7 @@ std::optional<double> SurfaceDetail::FrictionAt(std::uint32_t road, double s_m, 
   for (const Stretch& stretch : roads_[road]) {
     if (!stretch.friction || s_m < stretch.begin_m || s_m > stretch.end_m) continue;
     const Measured measured = Measure(stretch, s_m, t_m, sample);
-    if (measured.inside) friction = std::clamp(measured.height.z_m, 0.0, kMostFriction);
+    if (measured.inside) friction = std::clamp(measured.height.z_m, 0.0, kMaxFriction);
   }
   return friction;
 }

@@ -20,12 +20,12 @@ namespace {
 constexpr std::size_t kFew = 12;  // are asked sooner one by one
 
 // Answers for points close to one another as World::At does for each; false, and writes nothing, where it cannot.
-using Together = std::function<bool(std::span<const ground::GroundQuery>, std::span<ground::GroundPoint>)>;
+using QueryBatch = std::function<bool(std::span<const ground::GroundQuery>, std::span<ground::GroundPoint>)>;
 
 // SUELO on a world: nothing but World::At, a point at a time, or the same faster where many lie together on a road.
 class WorldGround final : public ground::Ground {
  public:
-  WorldGround(std::shared_ptr<const World> world, Together together)
+  WorldGround(std::shared_ptr<const World> world, QueryBatch together)
       : world_(std::move(world)), together_(std::move(together)), ahead_(world_->grid()) {}
 
   void Query(std::span<const ground::GroundQuery> queries, std::span<ground::GroundPoint> points) override {
@@ -61,7 +61,7 @@ class WorldGround final : public ground::Ground {
   }
 
   std::shared_ptr<const World> world_;
-  Together together_;  // none: each point by itself
+  QueryBatch together_;  // none: each point by itself
   terrain::HeightsAhead ahead_;
 };
 
@@ -106,9 +106,9 @@ Extents World::extents() const {
 }
 
 std::unique_ptr<ground::Ground> World::MakeGround() const {
-  Together together;
+  QueryBatch together;
   if (built_ != nullptr) {
-    together = [this](auto queries, auto points) { return built_->Together(queries, points); };
+    together = [this](auto queries, auto points) { return built_->QueryBatch(queries, points); };
   } else if (open_drive()) {
     together = [this](auto queries, auto points) {
       return NetworkGroundTogether(*network_, grounds_, friction_, paint_.get(), detail_.get(), queries, points);

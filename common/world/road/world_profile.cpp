@@ -17,7 +17,7 @@ namespace {
 constexpr double kWidth = 1000.0, kHeight = 120.0, kGap = 34.0, kLeft = 70.0, kTop = 50.0;  // SVG units
 constexpr int kPoints = 1500;
 constexpr int kDiagrams = 4;
-constexpr std::size_t kMostRoads = 40;
+constexpr std::size_t kMaxRoads = 40;
 
 // Values along a road; NaN where there is none.
 struct Curve {
@@ -138,7 +138,7 @@ std::string PlotProfiles(const World& world) {
   std::vector<RoadChain> chains = ChainsOf(*world.network());
   std::stable_sort(chains.begin(), chains.end(),
                    [](const RoadChain& a, const RoadChain& b) { return a.length_m > b.length_m; });
-  chains.resize(std::min(chains.size(), kMostRoads));
+  chains.resize(std::min(chains.size(), kMaxRoads));
   const double a_road = 40.0 + kDiagrams * (kHeight + kGap);
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0:.0f}' height='{1:.0f}' viewBox='0 0 {0:.0f} {1:.0f}' "

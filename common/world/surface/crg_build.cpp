@@ -53,8 +53,8 @@ class Builder {
   base::Error Wrong(std::string_view message) const { return base::WrongInput(message, name_); }
 
   // A column, or the same number everywhere; times the scale.
-  std::vector<double> RowValues(int column, double otherwise, double scale) const {
-    std::vector<double> values(table_.rows, otherwise * scale);
+  std::vector<double> RowValues(int column, double default_value, double scale) const {
+    std::vector<double> values(table_.rows, default_value * scale);
     if (column < 0) return values;
     for (std::size_t row = 0; row < table_.rows; ++row)
       values[row] = scale * table_.At(row, static_cast<std::size_t>(column));

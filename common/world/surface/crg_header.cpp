@@ -14,8 +14,8 @@
 namespace rodeira::surface {
 namespace {
 
-constexpr std::size_t kMostChannels = 100'000;
-constexpr std::size_t kMostWarnings = 50;
+constexpr std::size_t kMaxChannels = 100'000;
+constexpr std::size_t kMaxWarnings = 50;
 constexpr std::size_t kLongestLine = 4096;  // the format's own limit is 72
 
 std::string Lower(std::string_view text) {
@@ -93,7 +93,7 @@ class HeaderReader {
   std::size_t ColumnOf(std::string_view part) const { return static_cast<std::size_t>(part.data() - now_.data()) + 1; }
 
   void Warn(std::string_view what) {
-    if (header_.warnings.size() < kMostWarnings) {
+    if (header_.warnings.size() < kMaxWarnings) {
       header_.warnings.push_back(fmt::format("line {}: {}", line_, base::Printable(what)));
     }
   }
@@ -227,8 +227,8 @@ class HeaderReader {
       return Wrong(
           fmt::format("column '{}' is in '{}'; '{}' was expected", name.substr(0, 60), unit.substr(0, 20), expected));
     }
-    if (header_.channels.size() >= kMostChannels)
-      return Wrong(fmt::format("the file has more than {} columns", kMostChannels));
+    if (header_.channels.size() >= kMaxChannels)
+      return Wrong(fmt::format("the file has more than {} columns", kMaxChannels));
     header_.channels.push_back(channel);
     return {};
   }

@@ -20,9 +20,9 @@ void Move(CrgShape& shape, const Eigen::Vector2d& centre, double turn_rad, const
   for (double& z : shape.line_z_m) z += rise_m;
 }
 
-double PointOn(double low, double high, double otherwise, const std::optional<double>& given,
+double PointOn(double low, double high, double default_value, const std::optional<double>& given,
                const std::optional<double>& fraction, const std::optional<double>& offset) {
-  const double at = given ? *given : (fraction ? low + *fraction * (high - low) : otherwise);
+  const double at = given ? *given : (fraction ? low + *fraction * (high - low) : default_value);
   return at + offset.value_or(0.0);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPolar_deg = 84.0;   // UTM ends there
 constexpr double kWidest_deg = 12.0;  // so far from a zone's middle its scale is off by half a per cent
-constexpr double kMostTimes = 16.0;   // as many heights as the raster has, where its cells are long and thin
+constexpr double kMaxTimes = 16.0;    // as many heights as the raster has, where its cells are long and thin
 constexpr double kDegree_m = 111'000.0;
 
 // EPSG's number of the map for a place.
@@ -87,7 +87,7 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   const double across_m = scale ? std::hypot(g[1], g[2]) * metres_x
                                 : std::hypot(g[1], g[2]) * kDegree_m * std::cos(latitude * geometry::kPi / 180.0),
                along_m = std::hypot(g[4], g[5]) * metres_y, cell_m = std::min(across_m, along_m);
-  if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMostTimes)) {
+  if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMaxTimes)) {
     return base::WrongInput(
         fmt::format("the cells, {}, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in "
                     "metres (gdalwarp brings them into one of cells as they should be)",

@@ -28,9 +28,9 @@ base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
     return base::WrongInput(fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(),
                                         QuietGdal::Words()));
   const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
-  if (width < 1 || height < 1 || dataset->GetRasterCount() < 1 || width > kMostPicture_px || height > kMostPicture_px) {
+  if (width < 1 || height < 1 || dataset->GetRasterCount() < 1 || width > kMaxPicture_px || height > kMaxPicture_px) {
     return base::WrongInput(fmt::format("the picture '{}' has {} x {} pixels; at most {} a side were expected",
-                                        path.string(), width, height, kMostPicture_px));
+                                        path.string(), width, height, kMaxPicture_px));
   }
   return dataset;
 }

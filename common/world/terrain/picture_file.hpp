@@ -40,7 +40,7 @@ struct PictureFile {
 };
 
 // No picture is wider or higher.
-inline constexpr int kMostPicture_px = 16'384;
+inline constexpr int kMaxPicture_px = 16'384;
 
 // Both read JPEG, PNG, BMP and TIFF by GDAL; transparency is not looked at. Wrong input where there is no such file
 // (the nearest name beside it is told), or it is no such picture, or a larger one.

@@ -12,8 +12,8 @@
 namespace rodeira::traffic_map {
 namespace {
 
-constexpr double kMostHeight_m = 1e4;
-constexpr double kMostDistance_m = 1e5;
+constexpr double kMaxHeight_m = 1e4;
+constexpr double kMaxDistance_m = 1e5;
 
 bool Below(const CurveHeights& heights, std::int32_t curve) { return heights.curve < curve; }
 
@@ -30,7 +30,7 @@ void ReadCurves(const config::Map& all, Heights& heights) {
   for (const std::string& key : all.Keys()) {
     CurveHeights one;
     if (const auto number = NumberOf(all, key, "curve")) one.curve = *number;
-    const std::vector<double> z = all.Numbers(key, {-kMostHeight_m, kMostHeight_m});
+    const std::vector<double> z = all.Numbers(key, {-kMaxHeight_m, kMaxHeight_m});
     if (z.size() == one.z_m.size()) {
       std::copy(z.begin(), z.end(), one.z_m.begin());
     } else {
@@ -52,7 +52,7 @@ LaneSign ReadSign(const config::Map& item) {
   sign.lane = static_cast<std::int32_t>(item.Integer("lane", INT32_MIN, INT32_MAX));
   const auto kind = std::find(kinds.begin(), kinds.end(), item.Choice("kind", kinds));
   if (kind != kinds.end()) sign.kind = static_cast<SignKind>(kind - kinds.begin());
-  sign.before_end_m = item.Number("before_end_m", {0.0, kMostDistance_m}, 0.0);
+  sign.before_end_m = item.Number("before_end_m", {0.0, kMaxDistance_m}, 0.0);
   if (sign.kind == SignKind::kSpeedLimit) sign.limit_kmh = item.Number("limit_kmh", {5.0, 200.0});
   return sign;
 }

@@ -103,10 +103,10 @@ struct MapFile {
 };
 
 // Bounds of what is read; beyond them a file is refused with a sentence.
-constexpr std::size_t kMostBytes = 256u << 20;
-constexpr std::size_t kMostLines = 100'000;  // before the picture
-constexpr std::size_t kLongestLine = 1000;   // bytes
-constexpr float kFarthest_m = 1e6f;          // any coordinate
+constexpr std::size_t kMaxBytes = 256u << 20;
+constexpr std::size_t kMaxLines = 100'000;  // before the picture
+constexpr std::size_t kLongestLine = 1000;  // bytes
+constexpr float kFarthest_m = 1e6f;         // any coordinate
 
 // Wrong input, with `name`:line, where a line cannot be read; with the byte where the file ends too early.
 base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name);

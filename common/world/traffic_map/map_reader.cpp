@@ -47,8 +47,8 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name) 
   MapFile map;
   std::size_t at = 0;
   for (std::size_t number = 1;; ++number) {
-    if (number > kMostLines)
-      return base::WrongInput(fmt::format("more than {} lines stand before the picture", kMostLines), name);
+    if (number > kMaxLines)
+      return base::WrongInput(fmt::format("more than {} lines stand before the picture", kMaxLines), name);
     const std::size_t length = bytes.substr(at, kLongestLine + 1).find('\n');
     if (length == std::string_view::npos) {
       if (bytes.size() - at > kLongestLine)
@@ -69,7 +69,7 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name) 
 }
 
 base::Result<MapFile> LoadMap(const std::filesystem::path& path) {
-  const auto bytes = base::ReadText(path, kMostBytes);
+  const auto bytes = base::ReadText(path, kMaxBytes);
   if (!bytes) return bytes.error();
   return ParseMap(bytes.value(), path.string());
 }

@@ -15,13 +15,13 @@ std::uint32_t Number(std::string_view bytes, std::size_t at, std::size_t size) {
 }
 
 // Deflate makes no more than 1032 bytes of one: 258 of two bits.
-constexpr std::uint64_t kMostOfByte = 1032;
+constexpr std::uint64_t kMaxOfByte = 1032;
 
 bool PngFits(std::string_view bytes, std::uint64_t width, std::uint64_t height) {
   if (bytes.size() < 26) return false;
   const std::uint64_t bits = Number(bytes, 24, 1), kind = Number(bytes, 25, 1);
   const std::uint64_t channels = kind == 2 ? 3 : kind == 4 ? 2 : kind == 6 ? 4 : 1;
-  return bytes.size() * kMostOfByte >= height * (1 + (width * bits * channels + 7) / 8);
+  return bytes.size() * kMaxOfByte >= height * (1 + (width * bits * channels + 7) / 8);
 }
 
 // Huffman's code has at least one bit for each block of 8 by 8 pixels; arithmetic coding, from C9 on, may have less.

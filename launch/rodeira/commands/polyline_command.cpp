@@ -16,9 +16,9 @@ namespace {
 
 using geometry::Polyline;
 
-Eigen::Vector3d Vector(const std::vector<double>& numbers, const Eigen::Vector3d& otherwise) {
-  if (numbers.empty()) return otherwise;
-  return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : otherwise.z()};
+Eigen::Vector3d Vector(const std::vector<double>& numbers, const Eigen::Vector3d& default_value) {
+  if (numbers.empty()) return default_value;
+  return {numbers[0], numbers[1], numbers.size() > 2 ? numbers[2] : default_value.z()};
 }
 
 base::Result<Polyline> OffsetOf(const Polyline& line, const PolylineOptions& options) {

@@ -62,7 +62,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
     const auto companion = traffic_map::LoadHeightsOf(options.map);
     if (!companion) return companion.error();
     settings.demand.flows = traffic::DemandOf(companion.value(), options.map + ".yaml").flows;
-    if (!settings.demand.flows.empty()) settings.vehicles = traffic::TrafficSettings::kMostOfFlows;
+    if (!settings.demand.flows.empty()) settings.vehicles = traffic::TrafficSettings::kMaxOfFlows;
   }
   if (options.vehicles) settings.vehicles = *options.vehicles;
   return settings;

@@ -94,7 +94,7 @@ std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transpor
   loop_back.cancelled = Interrupted;
   std::vector<CheckFunction> checks{
       [] { return CheckPrograms(ExpectedPrograms(), base::ProgramFolder()); },
-      [] { return CheckMathematics(base::MathematicsFixed(), base::MathematicsDigest()); },
+      [] { return CheckMathematics(base::MathematicsFixed(), base::MathLibraryFingerprint()); },
   };
   for (CheckFunction& check : ChecksOfPictures()) checks.push_back(std::move(check));
   const std::vector<CheckFunction> others{

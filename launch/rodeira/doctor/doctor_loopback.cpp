@@ -71,10 +71,10 @@ struct End {
     auto opened = dds::Participant::Open(settings);
     if (!opened) return opened.error();
     participant = std::move(opened).value();
-    auto made_writer = participant->MakeWriter(out, dds::Delivery::kSaidAgain);
+    auto made_writer = participant->MakeWriter(out, dds::Delivery::kBestEffortRepeated);
     if (!made_writer) return made_writer.error();
     writer = std::move(made_writer).value();
-    auto made_reader = participant->MakeReader(in, dds::Delivery::kSaidAgain,
+    auto made_reader = participant->MakeReader(in, dds::Delivery::kBestEffortRepeated,
                                                [this](base::Bytes&& bytes) { queue.Push(std::move(bytes)); });
     if (!made_reader) return made_reader.error();
     reader = std::move(made_reader).value();

@@ -26,7 +26,7 @@ Finding CheckPackages(const std::vector<std::string>& packages, const std::strin
 // Each of `programs` lies in `folder` or its installation (base::FindProgram), is executable, and answers --help.
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder);
 
-// Law L7. `fixed`: the choice of code was made before the start; `digest`: base::MathematicsDigest() under it.
+// Law L7. `fixed`: the choice of code was made before the start; `digest`: base::MathLibraryFingerprint() under it.
 Finding CheckMathematics(bool fixed, base::Digest digest);
 // Its value under the fixed choice with Debian 12's mathematics library (glibc 2.36) on x86-64, whatever the processor.
 inline constexpr base::Digest kDebian12Mathematics = 0x1741155752813592;

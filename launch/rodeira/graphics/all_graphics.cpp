@@ -4,7 +4,7 @@
 #include "launch/rodeira/graphics/graphics.hpp"
 #include "launch/rodeira/replay/watch_command.hpp"
 #include "launch/rodeira/start_window/start_window.hpp"
-#include "nodes/editor/desk.hpp"
+#include "nodes/editor/editor_app.hpp"
 #include "nodes/view/frame/surface.hpp"
 #include "nodes/view/view_node.hpp"
 

@@ -17,10 +17,10 @@ constexpr double kSaidAgain_s = 1.0;  // details of the traffic are said ten tim
 
 RecordedMoments::RecordedMoments(const replay::RecordedRun& run, std::vector<lockstep::SourceIndex> sources,
                                  Step view_period)
-    : run_(run), tape_(run, std::move(sources)), view_period_(view_period) {}
+    : run_(run), sample_reader_(run, std::move(sources)), view_period_(view_period) {}
 
-base::Result<scene::Moment> RecordedMoments::Exactly(Step step) {
-  auto samples = tape_.At(step);
+base::Result<scene::SceneSnapshot> RecordedMoments::Exactly(Step step) {
+  auto samples = sample_reader_.At(step);
   if (!samples) return samples.error();
   nodes::NewestSamples newest;
   for (auto& sample : samples.value()) {
@@ -40,14 +40,14 @@ base::Status RecordedMoments::FindWhatSays(std::optional<lockstep::Sample>& samp
   while (sample && !nodes::SaysSomething(source.topic, *sample->payload)) {
     const Step before = sample->valid() - source.period;
     if (before < oldest) return {};
-    auto found = tape_.Newest(sample->source(), before);
+    auto found = sample_reader_.Newest(sample->source(), before);
     if (!found) return found.error();
     sample = std::move(found).value();
   }
   return {};
 }
 
-base::Result<scene::Moment> RecordedMoments::At(std::int64_t time_ns) {
+base::Result<scene::SceneSnapshot> RecordedMoments::At(std::int64_t time_ns) {
   const Step now = std::clamp<Step>(time_ns / run_.roster().base_step_ns(), 0, run_.last_step());
   const Step from = lockstep::FloorTo(now, view_period_);
   if (from != between_from_) {

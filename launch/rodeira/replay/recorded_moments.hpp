@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/runtime/replay/tape.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/runtime/replay/sample_reader.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::cli {
 
@@ -17,16 +17,16 @@ class RecordedMoments {
                   lockstep::Step view_period);
 
   // As the window shows it: between the moments of the two activations around that time (the last one: the run's end).
-  base::Result<scene::Moment> At(std::int64_t time_ns);
+  base::Result<scene::SceneSnapshot> At(std::int64_t time_ns);
   // As a frame of that step shows it: the samples as they are.
-  base::Result<scene::Moment> Exactly(lockstep::Step step);
-  const replay::Tape& tape() const { return tape_; }
+  base::Result<scene::SceneSnapshot> Exactly(lockstep::Step step);
+  const replay::SampleReader& sample_reader() const { return sample_reader_; }
 
  private:
   // Instead of a sample that says nothing, the newest one of its source before it that does.
   base::Status FindWhatSays(std::optional<lockstep::Sample>& sample);
   const replay::RecordedRun& run_;
-  replay::Tape tape_;
+  replay::SampleReader sample_reader_;
   lockstep::Step view_period_;
   lockstep::Step between_from_ = -1;  // the first of the two activations
   scene::PoseHistory between_;

@@ -12,7 +12,7 @@
 #include "launch/rodeira/replay/recorded_moments.hpp"
 #include "launch/rodeira/replay/recorded_view.hpp"
 #include "nodes/view/playback/replay_window.hpp"
-#include "nodes/view/window/stage.hpp"
+#include "nodes/view/window/render_thread.hpp"
 
 namespace rodeira::cli {
 namespace {

@@ -15,7 +15,7 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr std::size_t kMostConnections = 32;
+constexpr std::size_t kMaxConnections = 32;
 constexpr std::size_t kLongestLine = 1024;  // the clock takes at most 4096 at a time
 
 }  // namespace
@@ -57,7 +57,7 @@ ControlServer::~ControlServer() {
 }
 
 void ControlServer::Accept() {
-  while (connections_.size() < kMostConnections) {
+  while (connections_.size() < kMaxConnections) {
     const int file = ::accept4(file_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (file < 0) return;
     connections_.push_back(std::make_shared<Connection>(file));

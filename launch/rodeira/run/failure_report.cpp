@@ -25,7 +25,7 @@ std::string FailureText(const std::string& fault, const launch::Launch& launch, 
       "machine     {} {} {}, {} cores\n"
       "launch file {}\n",
       fault, fmt::gmtime(std::time(nullptr)), base::Version(), nodes::ProgramCommit(),
-      base::Hex(base::MathematicsDigest()), machine.sysname, machine.release, machine.machine,
+      base::Hex(base::MathLibraryFingerprint()), machine.sysname, machine.release, machine.machine,
       std::thread::hardware_concurrency(), launch.path().string());
   for (const auto& [key, value] : launch.overrides()) text += fmt::format("changed     {}={}\n", key, value);
   for (const FailedPart& part : parts) text += fmt::format("part        {}: {}\n", part.name, part.fate);

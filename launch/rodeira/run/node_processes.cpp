@@ -118,23 +118,23 @@ base::Status NodeProcesses::StartNodes() {
   return {};
 }
 
-base::Result<bool> NodeProcesses::RestartNode(const std::string& name, std::uint32_t life) {
+base::Result<bool> NodeProcesses::RestartNode(const std::string& name, std::uint32_t incarnation) {
   const auto child =
       std::find_if(children_.begin() + 1, children_.end(), [&](const Child& one) { return one.name() == name; });
   if (child == children_.end()) return false;
   if (auto status = MakeSureItIsDead(*child); !status) return status.error();
   std::vector<std::string> command = Command(std::string(launch_.node(launch_.roster().Find(name)).kind->program));
-  command.insert(command.end(), {"--node", name, "--incarnation", std::to_string(life)});
+  command.insert(command.end(), {"--node", name, "--incarnation", std::to_string(incarnation)});
   auto started = Child::Start(name, command, false, MakeLog(name));
   if (!started) return started.error();
   *child = std::move(started).value();
-  lives_[name] = life;
+  incarnations_[name] = incarnation;
   return true;
 }
 
-std::uint32_t NodeProcesses::life(const std::string& name) const {
-  const auto found = lives_.find(name);
-  return found == lives_.end() ? 0 : found->second;
+std::uint32_t NodeProcesses::incarnation(const std::string& name) const {
+  const auto found = incarnations_.find(name);
+  return found == incarnations_.end() ? 0 : found->second;
 }
 
 void NodeProcesses::Poll() {

@@ -36,17 +36,17 @@ class NodeProcesses {
     double pace = 0.0;           // 0: as fast as it can
     bool paused = false;
   };
-  // Another life of it, which learns from the nodes where the run stands; the old process is dead then.
+  // Another incarnation of it, which learns from the nodes where the run stands; the old process is dead then.
   base::Status RestartClock(const ClocksPlace& place);
-  // Another life of a node; the old process is dead then. False where the node is another PC's.
-  base::Result<bool> RestartNode(const std::string& name, std::uint32_t life);
+  // Another incarnation of a node; the old process is dead then. False where the node is another PC's.
+  base::Result<bool> RestartNode(const std::string& name, std::uint32_t incarnation);
 
   // All end: by themselves where the run ended in good order, or by force before two seconds have passed since
   // Ctrl-C.
   void EndAll(bool orderly, std::optional<std::chrono::steady_clock::time_point> interrupted_at);
 
   // The incarnation of a node that this PC runs.
-  std::uint32_t life(const std::string& name) const;
+  std::uint32_t incarnation(const std::string& name) const;
 
   void Poll();
   Child& clock() { return children_.front(); }
@@ -66,7 +66,7 @@ class NodeProcesses {
   std::uint32_t domain_;
   std::uint32_t clocks_life_ = 0;
   bool has_nodes_ = false;
-  std::map<std::string, std::uint32_t> lives_;            // of nodes that were started again
+  std::map<std::string, std::uint32_t> incarnations_;     // of nodes that were started again
   std::map<std::string, std::unique_ptr<PartLog>> logs_;  // by the child's name; outlive the children
   std::vector<Child> children_;
 };

@@ -89,7 +89,7 @@ class ProcessRun {
     return {};
   }
   base::Status RestartNode(const RunReport::Restart& wish) {
-    const auto done = processes_.RestartNode(wish.node, wish.life);
+    const auto done = processes_.RestartNode(wish.node, wish.incarnation);
     if (!done) return done.error();
     if (!done.value()) return {};
     told_.erase(wish.node);
@@ -193,7 +193,8 @@ class ProcessRun {
     const launch::LaunchNode& node = launch_.node(launch_.roster().Find(broken.name()));
     if (node.recovery == lockstep::Policy::kStop)
       Fault(fmt::format("node '{}' {} at about step {}", broken.name(), broken.Fate(), report_.step));
-    processes_.clock().Send(fmt::format("lost {} {} {}", broken.name(), processes_.life(broken.name()), broken.Fate()));
+    processes_.clock().Send(
+        fmt::format("lost {} {} {}", broken.name(), processes_.incarnation(broken.name()), broken.Fate()));
   }
   // A clock that is lost again and again without the run getting on has a reason for it. One that had not said its
   // number yet (0) is known to none: another one draws its own.

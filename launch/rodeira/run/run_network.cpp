@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kSegmentStepKib = 256;
 // Below that the samples of one step may fill a segment.
-constexpr std::uint32_t kLeastSegmentKib = 1024;
+constexpr std::uint32_t kMinSegmentKib = 1024;
 
 double Megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) * 1e-6; }
 
@@ -66,7 +66,7 @@ base::Status FitSharedMemory(const launch::Launch& launch, int processes, const 
 
 std::uint32_t SegmentThatFits(std::uint64_t free_bytes, int processes) {
   std::uint32_t segment_kib = launch::TransportSettings::kSegmentKib;
-  for (; segment_kib >= kLeastSegmentKib; segment_kib -= kSegmentStepKib) {
+  for (; segment_kib >= kMinSegmentKib; segment_kib -= kSegmentStepKib) {
     if (static_cast<std::uint64_t>(processes) * dds::SharedMemoryNeed(segment_kib) <= free_bytes) return segment_kib;
   }
   return 0;

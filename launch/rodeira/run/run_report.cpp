@@ -57,7 +57,7 @@ void RunReport::Take(std::string_view line) {
   } else if (line.starts_with("restart ")) {
     const auto words = Words(line.substr(8), 2);
     Restart restart{words[0], 0, words[2]};
-    std::from_chars(words[1].data(), words[1].data() + words[1].size(), restart.life);
+    std::from_chars(words[1].data(), words[1].data() + words[1].size(), restart.incarnation);
     recovered.push_back(restart.reason + "; started again");
     wanted.push_back(std::move(restart));
   } else if (line.starts_with("paused ")) {

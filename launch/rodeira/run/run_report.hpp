@@ -43,7 +43,7 @@ struct RunReport {
   // What became of lost nodes: the newest that the clock asked for, and all that happened, for people.
   struct Restart {
     std::string node;
-    std::uint32_t life = 0;
+    std::uint32_t incarnation = 0;
     std::string reason;
   };
   std::vector<Restart> wanted;  // taken by the part that starts processes

@@ -22,7 +22,7 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr std::size_t kMostLines = 200;
+constexpr std::size_t kMaxLines = 200;
 constexpr int kWait_ms = 100;
 constexpr int kWheelWait_ms = 10;  // bars follow the hand
 
@@ -70,7 +70,7 @@ void StartedRun::Poll() {
     lines_.push_back(base::Printable(rest_.substr(0, end)));
     rest_.erase(0, end + 1);
   }
-  if (lines_.size() > kMostLines) lines_.erase(lines_.begin(), lines_.end() - static_cast<std::ptrdiff_t>(kMostLines));
+  if (lines_.size() > kMaxLines) lines_.erase(lines_.begin(), lines_.end() - static_cast<std::ptrdiff_t>(kMaxLines));
   child_.Poll();
 }
 

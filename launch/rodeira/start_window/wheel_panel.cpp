@@ -12,8 +12,8 @@
 namespace rodeira::cli {
 namespace {
 
-constexpr float kMostStep_s = 0.1F;                         // a window that was held up has seen nothing meanwhile
-constexpr int kLeastRange_deg = 20, kMostRange_deg = 3600;  // as wheel files: twice what a side may have
+constexpr float kMaxStep_s = 0.1F;                       // a window that was held up has seen nothing meanwhile
+constexpr int kMinRange_deg = 20, kMaxRange_deg = 3600;  // as wheel files: twice what a side may have
 
 // From the axis' one end to its other, as the device counts.
 float ShareOf(double raw) { return static_cast<float>(std::clamp((raw + 32768.0) / 65535.0, 0.0, 1.0)); }
@@ -37,7 +37,7 @@ void WheelPanel::Close(std::string said) {
 }
 
 void WheelPanel::Finish() {
-  auto file = wizard_->Write(std::nullopt, std::clamp(range_deg_, kLeastRange_deg, kMostRange_deg) / 2.0);
+  auto file = wizard_->Write(std::nullopt, std::clamp(range_deg_, kMinRange_deg, kMaxRange_deg) / 2.0);
   if (!file) return Close(file.error().Text());
   Close("written: " + file.value().string());
   written_ = std::move(file).value();
@@ -45,7 +45,7 @@ void WheelPanel::Finish() {
 
 void WheelPanel::Draw() {
   if (wizard_ == nullptr) return;
-  if (const auto went = wizard_->Step(std::clamp(ImGui::GetIO().DeltaTime, 1e-4F, kMostStep_s)); !went)
+  if (const auto went = wizard_->Step(std::clamp(ImGui::GetIO().DeltaTime, 1e-4F, kMaxStep_s)); !went)
     return Close(went.error().Text());
   if (wizard_->done()) return Finish();
   ImGui::Text("setting up a steering wheel: movement %d of at most %d", wizard_->number(), WheelWizard::kMovements);

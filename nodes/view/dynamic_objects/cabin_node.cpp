@@ -29,7 +29,7 @@ osg::Matrixd MatrixOf(const scene::Facing& place) {
 }
 
 // A square about the frame's origin with a picture on it.
-osg::ref_ptr<osg::Geometry> Square(Look& look, double half_m, const scene::Raster& picture) {
+osg::ref_ptr<osg::Geometry> Square(MaterialLibrary& look, double half_m, const scene::Raster& picture) {
   scene::Mesh mesh;
   mesh.material = scene::Material::kSign;
   for (const auto& [x, y] : {std::pair(-1.0, -1.0), std::pair(1.0, -1.0), std::pair(1.0, 1.0), std::pair(-1.0, 1.0)}) {
@@ -58,7 +58,7 @@ scene::Mesh Needle(double radius_m) {
 
 }  // namespace
 
-CabinNode::CabinNode(Look& look) : look_(look), group_(new osg::MatrixTransform) {
+CabinNode::CabinNode(MaterialLibrary& look) : look_(look), group_(new osg::MatrixTransform) {
   group_->setNodeMask(0U);
   // Nothing but the cabin is nearer to the eye: it has the nearest hundredth of the depths for itself, and the car's
   // body, which is closed where people sit, stays behind it.

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/view/scene/vehicles/cabin_body.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
-#include "nodes/view/materials/look.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
+#include "nodes/view/materials/material_library.hpp"
 
 namespace rodeira::nodes {
 
@@ -18,7 +18,7 @@ namespace rodeira::nodes {
 // gear, the steering wheel that turns.
 class CabinNode {
  public:
-  explicit CabinNode(Look& look);
+  explicit CabinNode(MaterialLibrary& look);
   osg::Node* node() { return group_; }
 
   // Of this car; null: no camera is inside of one.
@@ -28,7 +28,7 @@ class CabinNode {
   static constexpr std::int32_t kLowestGear = -1, kHighestGear = 9;
   void Build(const scene::CabinShape& shape);
 
-  Look& look_;
+  MaterialLibrary& look_;
   osg::ref_ptr<osg::MatrixTransform> group_;
   std::array<osg::ref_ptr<osg::MatrixTransform>, 3> needles_;
   std::vector<osg::ref_ptr<osg::Node>> gears_;

@@ -22,13 +22,14 @@ constexpr double kPulse_Hz = 1.25;
 constexpr double kPressed = 0.02;  // of a brake pedal
 
 // A material's state with a uniform of one's own. One farther down would win, so it is a copy.
-osg::ref_ptr<osg::StateSet> StateWith(Look& look, scene::Material material, const osg::ref_ptr<osg::Uniform>& uniform) {
+osg::ref_ptr<osg::StateSet> StateWith(MaterialLibrary& look, scene::Material material,
+                                      const osg::ref_ptr<osg::Uniform>& uniform) {
   osg::ref_ptr<osg::StateSet> state = new osg::StateSet(*look.StateOf(material), osg::CopyOp::SHALLOW_COPY);
   state->addUniform(uniform);
   return state;
 }
 
-osg::ref_ptr<osg::Geometry> WithUniform(Look& look, const scene::Mesh& mesh,
+osg::ref_ptr<osg::Geometry> WithUniform(MaterialLibrary& look, const scene::Mesh& mesh,
                                         const osg::ref_ptr<osg::Uniform>& uniform) {
   osg::ref_ptr<osg::Geometry> geometry = look.GeometryOf(mesh);
   geometry->setStateSet(StateWith(look, mesh.material, uniform));
@@ -99,7 +100,7 @@ osg::ref_ptr<osg::StateSet> PulseState(const osg::ref_ptr<osg::Uniform>& pulse) 
 
 }  // namespace
 
-CarNode::CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
+CarNode::CarNode(MaterialLibrary& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint)
     : kind_(kind),
       shape_(shape),
       body_(new osg::MatrixTransform),
@@ -144,7 +145,7 @@ void CarNode::SeenFromInside(bool inside) {
   }
 }
 
-void CarNode::Wear(Look& look, osg::Node& model) {
+void CarNode::UseModel(MaterialLibrary& look, osg::Node& model) {
   static constexpr std::array kWheels = {"wheel_front_left", "wheel_front_right", "wheel_rear_left",
                                          "wheel_rear_right"};
   static constexpr std::array<const char*, scene::kLamps> kLampNames = {
@@ -186,7 +187,7 @@ void CarNode::Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer
   wheels_[wheel]->setMatrix(ToOsg(hub_B + out, Eigen::Quaterniond(q)));
 }
 
-void CarNode::Shine(const std::array<float, scene::kLamps>& glows) {
+void CarNode::SetLamps(const std::array<float, scene::kLamps>& glows) {
   for (unsigned i = 0; i < glows.size(); ++i) glows_->setElement(i, glows[i]);
 }
 
@@ -195,7 +196,7 @@ void CarNode::Pulse(double share) {
   if (worn_pulse_) worn_pulse_->setNodeMask(share > 0.0 ? kThrowsNone : 0U);
 }
 
-PersonNode::PersonNode(Look& look, double height_m, scene::Colour clothes)
+PersonNode::PersonNode(MaterialLibrary& look, double height_m, scene::Colour clothes)
     : leg_m_(scene::LegLength_m(height_m)),
       meshes_(scene::BuildPerson(height_m, clothes)),
       body_(new osg::MatrixTransform),
@@ -248,8 +249,8 @@ void Fleet::WearModel(const std::string& file) {
   cars_.clear();  // they are made anew
 }
 
-void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
-                 bool dark) {
+void Fleet::Show(const scene::SceneSnapshot& moment, std::optional<std::size_t> inside,
+                 std::optional<std::size_t> chosen, bool dark) {
   const double now = 0.5 - 0.5 * std::cos(2.0 * base::kPi * kPulse_Hz * static_cast<double>(moment.time_ns) * 1e-9);
   const auto pulse = [&](std::size_t number) { return chosen == number ? now : 0.0; };
   const auto number_of = [&](const scene::AgentPose& agent) {
@@ -263,7 +264,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
     (agent.kind == scene::AgentKind::kPedestrian ? people : agents).push_back(&agent);
   const auto make_car = [&](const scene::CarPose& car) {
     CarNode node(look_, scene::AgentKind::kCar, scene::CarShape::Of(car), car.colour);
-    if (const auto model = car_model_.empty() ? nullptr : CopyOfModel(car_model_)) node.Wear(look_, *model);
+    if (const auto model = car_model_.empty() ? nullptr : CopyOfModel(car_model_)) node.UseModel(look_, *model);
     return node;
   };
   Match(cars, cars_, make_car, [&](CarNode& node, const scene::CarPose& car) {
@@ -273,7 +274,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
       node.Turn(i, car.wheels[i].hub_B, car.wheels[i].steer_rad, car.wheels[i].spin_rad);
     scene::CarLights lights = car.lights;
     lights.brake = lights.brake || car.brake > kPressed;  // of recordings that have no lights yet
-    node.Shine(scene::GlowsOf(lights, dark, moment.time_ns));
+    node.SetLamps(scene::GlowsOf(lights, dark, moment.time_ns));
     node.Pulse(pulse(static_cast<std::size_t>(&car - moment.cars.data())));
   });
   const auto make_agent = [&](const scene::AgentPose& agent) {
@@ -285,7 +286,7 @@ void Fleet::Show(const scene::Moment& moment, std::optional<std::size_t> inside,
     for (std::size_t i = 0; i < 4; ++i)
       node.Turn(i, shape.hubs_B[i], i < 2 ? agent.steer_rad : 0.0, agent.wheel_spin_rad);
     node.SeenFromInside(inside == number_of(agent));
-    node.Shine(scene::GlowsOf(agent.lights, dark, moment.time_ns));
+    node.SetLamps(scene::GlowsOf(agent.lights, dark, moment.time_ns));
     node.Pulse(pulse_of(agent));
   });
   const auto make_person = [&](const scene::AgentPose& agent) {

@@ -11,21 +11,21 @@
 #include <string>
 
 #include "common/view/scene/vehicles/car_mesh.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
 #include "common/view/scene/vehicles/person_mesh.hpp"
-#include "nodes/view/materials/look.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
+#include "nodes/view/materials/material_library.hpp"
 
 namespace rodeira::nodes {
 
 // One car in OpenSceneGraph's scene.
 class CarNode {
  public:
-  CarNode(Look& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint);
+  CarNode(MaterialLibrary& look, scene::AgentKind kind, const scene::CarShape& shape, scene::Colour paint);
   osg::Node* node() { return body_; }
 
   void Place(const Eigen::Vector3d& p_WB_W, const Eigen::Quaterniond& q_WB);
   void Turn(std::size_t wheel, const Eigen::Vector3d& hub_B, double steer_rad, double spin_rad);
-  void Shine(const std::array<float, scene::kLamps>& glows);
+  void SetLamps(const std::array<float, scene::kLamps>& glows);
   // How much of a chosen car's pulse is seen, 0 to 1.
   void Pulse(double share);
   // Shows this model instead of the procedural car, in its frame B (x forward, z up, metres, the ground at z = 0). Its
@@ -33,13 +33,13 @@ class CarNode {
   // hub, turn, steer and move as wheels do; those that are called lamp_brake, lamp_indicator_left,
   // lamp_indicator_right, lamp_reversing and lamp_head, as many as there are, look and shine as the procedural car's
   // lamps.
-  void Wear(Look& look, osg::Node& model);
+  void UseModel(MaterialLibrary& look, osg::Node& model);
   // Leaves away what stands in the eyes of a person in it: of a car what is above its waist, of a van, a lorry
   // and a bus all but the shadow.
   void SeenFromInside(bool inside);
 
  private:
-  osg::ref_ptr<osg::Geometry> Painted(Look& look, const scene::Mesh& mesh);
+  osg::ref_ptr<osg::Geometry> Painted(MaterialLibrary& look, const scene::Mesh& mesh);
 
   scene::AgentKind kind_;
   scene::CarShape shape_;
@@ -54,7 +54,7 @@ class CarNode {
 // A pedestrian.
 class PersonNode {
  public:
-  PersonNode(Look& look, double height_m, scene::Colour clothes);
+  PersonNode(MaterialLibrary& look, double height_m, scene::Colour clothes);
   osg::Node* node() { return body_; }
 
   // Where it is; its limbs as far as it has walked.
@@ -73,20 +73,20 @@ class PersonNode {
 // gone.
 class Fleet {
  public:
-  explicit Fleet(Look& look) : look_(look), group_(new osg::Group) {}
+  explicit Fleet(MaterialLibrary& look) : look_(look), group_(new osg::Group) {}
   osg::Node* node() { return group_; }
   // A model for driven cars, which ReadModel can read.
   void WearModel(const std::string& file);
   // `inside`: the number, in the moment, of the body with the camera, or none; `chosen`: the one that pulses; both
   // counted behind the cars for the traffic. `dark`: headlights are on.
-  void Show(const scene::Moment& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
+  void Show(const scene::SceneSnapshot& moment, std::optional<std::size_t> inside, std::optional<std::size_t> chosen,
             bool dark);
 
  private:
   template <class Pose, class Node, class Make, class Update>
   void Match(const std::vector<const Pose*>& poses, std::map<std::uint64_t, Node>& nodes, Make make, Update update);
 
-  Look& look_;
+  MaterialLibrary& look_;
   std::string car_model_;  // empty: the procedural one
   osg::ref_ptr<osg::Group> group_;
   std::map<std::uint64_t, CarNode> cars_;

@@ -34,7 +34,7 @@ std::optional<std::size_t> Find(const std::vector<Pose>& poses, std::uint64_t id
 
 }  // namespace
 
-void Chosen::Choose(const scene::Moment& moment, std::optional<std::size_t> number) {
+void Chosen::Choose(const scene::SceneSnapshot& moment, std::optional<std::size_t> number) {
   who_.reset();
   if (!number) return;
   const std::size_t cars = moment.cars.size();
@@ -54,14 +54,14 @@ void Chosen::Choose(const scene::Moment& moment, std::optional<std::size_t> numb
   }
 }
 
-std::optional<std::size_t> Chosen::In(const scene::Moment& moment) const {
+std::optional<std::size_t> Chosen::In(const scene::SceneSnapshot& moment) const {
   if (!who_) return std::nullopt;
   if (who_->is_car) return Find(moment.cars, who_->id);
   const auto found = Find(moment.agents, who_->id);
   return found ? std::optional(moment.cars.size() + *found) : std::nullopt;
 }
 
-std::string Chosen::Panel(const scene::Moment& moment) {
+std::string Chosen::Panel(const scene::SceneSnapshot& moment) {
   const auto at = In(moment);
   if (!at) return "";
   if (!who_->is_car) return AgentPanel(moment, moment.agents[*at - moment.cars.size()]);
@@ -76,7 +76,7 @@ std::string Chosen::Panel(const scene::Moment& moment) {
       Mean(car.fuel_used_l - since_l_, driven_m));
 }
 
-std::string Chosen::AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent) {
+std::string Chosen::AgentPanel(const scene::SceneSnapshot& moment, const scene::AgentPose& agent) {
   if (moment.time_ns < seen_ns_ || (agent.detail && agent.detail->fuel_used_l < since_l_))
     Choose(moment, In(moment));  // a person went back in a recording
   seen_m_ += (agent.p_WB_W - seen_W_).norm();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::nodes {
 
@@ -13,15 +13,15 @@ namespace rodeira::nodes {
 class Chosen {
  public:
   // One of the moment's cars or, numbered behind them, of its traffic; nothing: none any more.
-  void Choose(const scene::Moment& moment, std::optional<std::size_t> number);
+  void Choose(const scene::SceneSnapshot& moment, std::optional<std::size_t> number);
   // Where it is among the moment's now; none where it has left.
-  std::optional<std::size_t> In(const scene::Moment& moment) const;
+  std::optional<std::size_t> In(const scene::SceneSnapshot& moment) const;
   // Lines about it: speed, pedals, gear, engine, consumption of a driver's car (at the moment, and since it was
   // chosen); of the traffic the same where it says so, and what its driver plans. Empty where it is not there.
-  std::string Panel(const scene::Moment& moment);
+  std::string Panel(const scene::SceneSnapshot& moment);
 
  private:
-  std::string AgentPanel(const scene::Moment& moment, const scene::AgentPose& agent);
+  std::string AgentPanel(const scene::SceneSnapshot& moment, const scene::AgentPose& agent);
   struct Who {
     bool is_car = false;
     std::uint64_t id = 0;

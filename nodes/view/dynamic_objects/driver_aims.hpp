@@ -10,7 +10,7 @@
 
 #include "common/driving/driver/autopilot.hpp"
 #include "common/runtime/launch/launch.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
 

@@ -21,7 +21,7 @@ std::array<bool, 3> LitAt(LightColour colour) {
 
 }  // namespace
 
-LightsNode::LightsNode(Look& look, const road::World& world) : group_(new osg::Group) {
+LightsNode::LightsNode(MaterialLibrary& look, const road::World& world) : group_(new osg::Group) {
   for (const scene::LightHead& head : scene::LightHeads(world)) {
     Head made{head.controller, {}};
     for (std::size_t which = 0; which < made.lit.size(); ++which) {

@@ -7,16 +7,16 @@
 #include <array>
 #include <vector>
 
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/world/road/world.hpp"
-#include "nodes/view/materials/look.hpp"
+#include "nodes/view/materials/material_library.hpp"
 
 namespace rodeira::nodes {
 
 // The lit lights of a world's signals; the dark ones belong to what stands there.
 class LightsNode {
  public:
-  LightsNode(Look& look, const road::World& world);
+  LightsNode(MaterialLibrary& look, const road::World& world);
   osg::Node* node() { return group_; }
 
   void Show(const std::vector<scene::LightShown>& lights);

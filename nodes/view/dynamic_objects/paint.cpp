@@ -42,7 +42,7 @@ base::Result<scene::Colour> PaintOf(std::string_view text) {
                                       base::DidYouMean(std::string(text), names)));
 }
 
-void PaintCars(scene::Moment& moment, const CarPaints& paints) {
+void PaintCars(scene::SceneSnapshot& moment, const CarPaints& paints) {
   for (scene::CarPose& car : moment.cars) {
     const auto chosen = paints.find(car.id);
     if (chosen != paints.end()) car.colour = chosen->second;

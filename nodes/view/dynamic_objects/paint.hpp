@@ -8,7 +8,7 @@
 
 #include "common/core/base/result.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::nodes {
 
@@ -18,6 +18,6 @@ base::Result<scene::Colour> PaintOf(std::string_view text);
 
 // The paints that a person chose, by the cars' ids. The others keep theirs.
 using CarPaints = std::map<std::uint64_t, scene::Colour>;
-void PaintCars(scene::Moment& moment, const CarPaints& paints);
+void PaintCars(scene::SceneSnapshot& moment, const CarPaints& paints);
 
 }  // namespace rodeira::nodes

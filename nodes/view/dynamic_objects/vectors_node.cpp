@@ -46,7 +46,7 @@ scene::Mesh Ball(scene::Colour colour) {
 
 }  // namespace
 
-osg::ref_ptr<osg::MatrixTransform> VectorsNode::Add(Look& look, const scene::Mesh& mesh) {
+osg::ref_ptr<osg::MatrixTransform> VectorsNode::Add(MaterialLibrary& look, const scene::Mesh& mesh) {
   osg::ref_ptr<osg::MatrixTransform> placed = new osg::MatrixTransform;
   placed->addChild(look.GeometryOf(mesh));
   placed->setNodeMask(kThrowsNone);
@@ -54,13 +54,13 @@ osg::ref_ptr<osg::MatrixTransform> VectorsNode::Add(Look& look, const scene::Mes
   return placed;
 }
 
-VectorsNode::Arrow VectorsNode::MakeArrow(Look& look, scene::Colour colour) {
+VectorsNode::Arrow VectorsNode::MakeArrow(MaterialLibrary& look, scene::Colour colour) {
   const double half = 0.5 * kThick_m;
   return {Add(look, scene::Box({0.0, -half, -half}, {1.0, half, half}, scene::Material::kLamp, colour)),
           Add(look, Tip(colour))};
 }
 
-VectorsNode::VectorsNode(Look& look, const road::World& world)
+VectorsNode::VectorsNode(MaterialLibrary& look, const road::World& world)
     : world_(world),
       group_(new osg::Group),
       points_(MakeArrow(look, kPoints)),

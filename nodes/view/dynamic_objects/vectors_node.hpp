@@ -8,7 +8,7 @@
 #include "common/view/scene/camera/camera.hpp"
 #include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
-#include "nodes/view/materials/look.hpp"
+#include "nodes/view/materials/material_library.hpp"
 
 namespace rodeira::nodes {
 
@@ -18,7 +18,7 @@ namespace rodeira::nodes {
 class VectorsNode {
  public:
   // The world must outlive it.
-  VectorsNode(Look& look, const road::World& world);
+  VectorsNode(MaterialLibrary& look, const road::World& world);
   osg::Node* node() { return group_; }
   // Nothing where none is chosen, or where nothing is said of it.
   void Show(const Picture& picture);
@@ -28,8 +28,8 @@ class VectorsNode {
     osg::ref_ptr<osg::MatrixTransform> shaft, tip;
   };
   void Place(const scene::Body& body, const DriverAim& aim);
-  osg::ref_ptr<osg::MatrixTransform> Add(Look& look, const scene::Mesh& mesh);
-  Arrow MakeArrow(Look& look, scene::Colour colour);
+  osg::ref_ptr<osg::MatrixTransform> Add(MaterialLibrary& look, const scene::Mesh& mesh);
+  Arrow MakeArrow(MaterialLibrary& look, scene::Colour colour);
   Eigen::Vector3d OnGround(const Eigen::Vector2d& at_W, double near_z_m) const;
   static void Lay(const Arrow& arrow, const Eigen::Vector3d& from_W, const Eigen::Vector3d& to_W);
 

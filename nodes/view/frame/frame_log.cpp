@@ -12,7 +12,8 @@ base::Result<std::unique_ptr<FrameLog>> FrameLog::Open(const std::filesystem::pa
   return std::unique_ptr<FrameLog>(new FrameLog(std::move(out)));
 }
 
-void FrameLog::Add(double wall_s, const scene::Moment& moment, std::size_t followed, const scene::Camera& camera) {
+void FrameLog::Add(double wall_s, const scene::SceneSnapshot& moment, std::size_t followed,
+                   const scene::Camera& camera) {
   const auto body = scene::BodyAt(moment, followed);
   if (!body) return;
   const Eigen::Vector3d &p = body->p_WB_W, &eye = camera.eye_W;

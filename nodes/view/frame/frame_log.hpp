@@ -7,7 +7,7 @@
 
 #include "common/core/base/result.hpp"
 #include "common/view/scene/camera/camera.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::nodes {
 
@@ -18,7 +18,7 @@ class FrameLog {
  public:
   // Wrong input where the file cannot be written.
   static base::Result<std::unique_ptr<FrameLog>> Open(const std::filesystem::path& file);
-  void Add(double wall_s, const scene::Moment& moment, std::size_t followed, const scene::Camera& camera);
+  void Add(double wall_s, const scene::SceneSnapshot& moment, std::size_t followed, const scene::Camera& camera);
 
  private:
   explicit FrameLog(std::ofstream file) : file_(std::move(file)) {}

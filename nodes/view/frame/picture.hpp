@@ -12,7 +12,7 @@
 #include "common/view/scene/camera/headset_eye.hpp"
 #include "common/view/scene/camera/mirror.hpp"
 #include "common/view/scene/heat_map/heat_raster.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::nodes {
 
@@ -44,7 +44,7 @@ struct DriverAim {
 
 // What one picture shows.
 struct Picture {
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   scene::CameraKind camera = scene::CameraKind::kChase;
   scene::Aim aim;                            // of the cameras that a hand moves
   std::optional<scene::ScreenPlane> screen;  // through which the driver's camera looks

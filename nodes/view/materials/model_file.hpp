@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/core/base/result.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 
 namespace rodeira::nodes {
 

@@ -16,7 +16,7 @@ osg::ref_ptr<osg::Geometry> PlainGeometry(const scene::Mesh& mesh);
 // drawn at none of them.
 osg::ref_ptr<osg::Geometry> RepeatedGeometry(const scene::Repeated& repeated);
 // From now on it is drawn at its places, in one call, by what the current context has to offer (CanRepeat) and a state
-// that says so (Look::StateOfRepeated).
+// that says so (MaterialLibrary::StateOfRepeated).
 void Spread(osg::Geometry& repeated);
 // Whether the current OpenGL context draws a model many times in one call: ARB_draw_instanced, ARB_instanced_arrays.
 bool CanRepeat();

@@ -51,7 +51,7 @@ void Instruments::ShowAbout(const std::string& about, float low) {
 }
 
 void Instruments::Show(const Picture& picture, const PanelSize& size, float low) {
-  const scene::Moment& moment = picture.moment;
+  const scene::SceneSnapshot& moment = picture.moment;
   const std::size_t cars = moment.cars.size();
   const bool is_car = picture.followed < cars;
   const bool show = picture.show_instruments && picture.followed < cars + moment.agents.size();

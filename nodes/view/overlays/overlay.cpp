@@ -14,7 +14,7 @@ namespace rodeira::nodes {
 namespace {
 
 constexpr int kTextLayer = 10;
-constexpr float kPanels = 720.0F, kNarrowest = 4.0F / 3.0F, kLeastScale = 0.5F;
+constexpr float kPanels = 720.0F, kNarrowest = 4.0F / 3.0F, kMinScale = 0.5F;
 
 // One for all texts that there are. It goes with the last of them, as its letters belong to an OpenGL context.
 osg::ref_ptr<osgText::Font> Typeface() {
@@ -62,7 +62,7 @@ void FitOverlay(osg::Camera& overlay, int width_px, int height_px) {
 
 PanelSize PanelsOf(int width_px, int height_px) {
   const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
-  const float scale = std::max(kLeastScale, std::min(height, width / kNarrowest) / kPanels);
+  const float scale = std::max(kMinScale, std::min(height, width / kNarrowest) / kPanels);
   return {scale, width / scale, height / scale};
 }
 

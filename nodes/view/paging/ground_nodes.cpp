@@ -8,7 +8,7 @@
 
 namespace rodeira::nodes {
 
-PlacedNode TerrainNode(Look& look, const scene::TerrainTile& tile) {
+PlacedNode TerrainNode(MaterialLibrary& look, const scene::TerrainTile& tile) {
   osg::ref_ptr<osg::LOD> lod = new osg::LOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
   lod->setCenter(ToOsg(tile.centre_W));
@@ -23,7 +23,7 @@ PlacedNode TerrainNode(Look& look, const scene::TerrainTile& tile) {
   return {tile.centre_W.head<2>(), lod};
 }
 
-osg::ref_ptr<osg::Group> LevelNode(Look& look, const scene::GroundLevel& level) {
+osg::ref_ptr<osg::Group> LevelNode(MaterialLibrary& look, const scene::GroundLevel& level) {
   osg::ref_ptr<osg::Group> group = new osg::Group;
   std::vector<const scene::Mesh*> meshes, things;
   for (const scene::Mesh& mesh : level.ground) meshes.push_back(&mesh);
@@ -41,7 +41,7 @@ osg::ref_ptr<osg::Group> LevelNode(Look& look, const scene::GroundLevel& level) 
   return group;
 }
 
-PlacedNode GroundNode(Look& look, const scene::GroundTile& tile) {
+PlacedNode GroundNode(MaterialLibrary& look, const scene::GroundTile& tile) {
   osg::ref_ptr<osg::LOD> lod = new osg::LOD;
   lod->setCenterMode(osg::LOD::USER_DEFINED_CENTER);
   lod->setCenter(ToOsg(tile.ball.centre_W));

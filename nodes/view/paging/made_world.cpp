@@ -20,7 +20,8 @@ namespace {
 // Answers the pager, which asks for files by their names, with tiles. Its threads call it at once.
 class MakeWhatIsAsked : public osgDB::ReadFileCallback {
  public:
-  MakeWhatIsAsked(std::unique_ptr<const DatabaseTiles> tiles, const std::vector<TileFiles>& files, Look& look)
+  MakeWhatIsAsked(std::unique_ptr<const DatabaseTiles> tiles, const std::vector<TileFiles>& files,
+                  MaterialLibrary& look)
       : tiles_(std::move(tiles)), look_(look) {
     for (std::size_t tile = 0; tile < files.size(); ++tile) {
       for (std::size_t level = 0; level < files[tile].levels.size(); ++level)
@@ -39,12 +40,12 @@ class MakeWhatIsAsked : public osgDB::ReadFileCallback {
  private:
   std::unique_ptr<const DatabaseTiles> tiles_;
   std::map<std::string, std::pair<std::size_t, std::size_t>> places_;
-  Look& look_;
+  MaterialLibrary& look_;
 };
 
 }  // namespace
 
-PagedWorld MakeAsSeen(const road::World& world, Look& look, scene::ModelIsThere is_there) {
+PagedWorld BuildVisualWorld(const road::World& world, MaterialLibrary& look, scene::ModelIsThere is_there) {
   RODEIRA_ASSERT(world.network() != nullptr);
   look.MakeStates();
   std::unique_ptr<const DatabaseTiles> tiles = TilesOf(world, 0, std::move(is_there));

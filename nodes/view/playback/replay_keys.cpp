@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "common/vehicle/input_devices/key_names.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 
 namespace rodeira::nodes {
 namespace {

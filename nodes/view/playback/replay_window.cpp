@@ -62,7 +62,7 @@ base::Result<std::unique_ptr<ReplayWindow>> ReplayWindow::Open(const ViewSetting
   watched.built = std::move(read.value().built);
   watched.mouse_button = kLeftButton;  // no window drives any more
   std::shared_ptr<const road::World> world = std::move(read.value().world);
-  auto screen = Screen::Open(std::move(surface).value(), watched, *world, ReplayHelp());
+  auto screen = ViewWindow::Open(std::move(surface).value(), watched, *world, ReplayHelp());
   if (!screen) return screen.error();
   return std::unique_ptr<ReplayWindow>(new ReplayWindow(std::move(world), std::move(screen).value()));
 }

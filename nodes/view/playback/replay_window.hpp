@@ -9,7 +9,7 @@
 
 #include "common/view/scene/playback/player.hpp"
 #include "nodes/view/window/reading.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 
 union SDL_Event;
 
@@ -30,7 +30,7 @@ struct ReplayMark {
 // Made and used on one thread.
 class ReplayWindow {
  public:
-  using MomentAt = std::function<base::Result<scene::Moment>(std::int64_t time_ns)>;
+  using MomentAt = std::function<base::Result<scene::SceneSnapshot>(std::int64_t time_ns)>;
   using TakeMarks = std::function<std::optional<base::Result<std::vector<ReplayMark>>>()>;
 
   // It is there before its world is read; what is wrong there is the answer. Wrong input where a display or OpenGL is
@@ -46,7 +46,7 @@ class ReplayWindow {
                      const std::function<bool()>& stop);
 
  private:
-  ReplayWindow(std::shared_ptr<const road::World> world, std::unique_ptr<Screen> screen)
+  ReplayWindow(std::shared_ptr<const road::World> world, std::unique_ptr<ViewWindow> screen)
       : world_(std::move(world)), screen_(std::move(screen)) {}
   bool ReadEvents(scene::Player& player, const std::vector<std::int64_t>& marks_ns);
   void Take(const SDL_Event& event, scene::Player& player, const std::vector<std::int64_t>& marks_ns);
@@ -54,8 +54,8 @@ class ReplayWindow {
   void Drag(int x_px, scene::Player& player);
 
   std::shared_ptr<const road::World> world_;
-  std::unique_ptr<Screen> screen_;  // on it
-  scene::Moment shown_;
+  std::unique_ptr<ViewWindow> screen_;  // on it
+  scene::SceneSnapshot shown_;
   scene::PicturePace pace_;
   bool open_ = true;
   bool drags_ = false;  // the mouse holds the bar

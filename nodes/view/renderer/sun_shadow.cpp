@@ -4,7 +4,7 @@
 #include <osg/CullFace>
 #include <osg/PolygonOffset>
 
-#include "nodes/view/materials/look.hpp"
+#include "nodes/view/materials/material_library.hpp"
 #include "nodes/view/materials/to_osg.hpp"
 #include "nodes/view/shaders/shaders.hpp"
 
@@ -16,8 +16,8 @@ constexpr float kNearOffset = 1.5F,
                 kWideOffset = 2.0F;  // in the maps' depths, by how steeply the sun falls on what throws
 constexpr double kWideBefore_m =
     0.5;  // towards the sun, of what asks the wide map: the ground there is not seen so exactly
-constexpr float kLeastLight = 0.03F;   // of the sun, below which its shadows are not seen
-constexpr float kLeastHeight = 0.04F;  // of the sun's direction: 2 degrees
+constexpr float kMinLight = 0.03F;   // of the sun, below which its shadows are not seen
+constexpr float kMinHeight = 0.04F;  // of the sun's direction: 2 degrees
 
 osg::ref_ptr<osg::Texture2D> MakeMap(int side_px) {
   osg::ref_ptr<osg::Texture2D> map = new osg::Texture2D;
@@ -83,7 +83,7 @@ SunShadow::SunShadow(osg::Group& root, osg::Group& scene, const QualityTraits& t
 
 void SunShadow::Show(osg::StateSet& state, const scene::Air& air, const Eigen::Vector3d& about_W) {
   if (!near_) return;
-  const bool shines = air.sun_light.maxCoeff() > kLeastLight && air.sun_W.z() > kLeastHeight;
+  const bool shines = air.sun_light.maxCoeff() > kMinLight && air.sun_W.z() > kMinHeight;
   for (osg::Camera* camera : {near_.get(), wide_.get()}) camera->setNodeMask(shines ? ~0U : 0U);
   if (!shines) return state.removeDefine("SUN_SHADOW");
   state.setDefine("SUN_SHADOW");

@@ -29,7 +29,8 @@ double HeadingOf(const scene::CarPose& car) {
 }
 
 // The vehicle that a person's request is about.
-base::Result<const scene::CarPose*> CarOf(const scene::Moment& moment, std::size_t followed, const CarNames& names) {
+base::Result<const scene::CarPose*> CarOf(const scene::SceneSnapshot& moment, std::size_t followed,
+                                          const CarNames& names) {
   if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
   const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
   if (!names.contains(car.id)) return base::WrongInput("a recording cannot be changed: the car stays where it was");
@@ -38,8 +39,8 @@ base::Result<const scene::CarPose*> CarOf(const scene::Moment& moment, std::size
 
 }  // namespace
 
-base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed,
-                                         const scene::Ray& ray, const CarNames& names) {
+base::Result<scenario::Request> AskPlace(const road::World& world, const scene::SceneSnapshot& moment,
+                                         std::size_t followed, const scene::Ray& ray, const CarNames& names) {
   const auto found = CarOf(moment, followed, names);
   if (!found) return found.error();
   const scene::CarPose& car = *found.value();
@@ -59,8 +60,8 @@ StartPlace PlaceOfStart(const road::World& world, const CarStart& own) {
   return {own_place ? *own.x_m : of_world.x_m, own_place ? *own.y_m : of_world.y_m, heading_deg};
 }
 
-base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed,
-                                         const CarNames& names, const CarStarts& starts) {
+base::Result<scenario::Request> AskStart(const road::World& world, const scene::SceneSnapshot& moment,
+                                         std::size_t followed, const CarNames& names, const CarStarts& starts) {
   const auto found = CarOf(moment, followed, names);
   if (!found) return found.error();
   const auto said = starts.find(found.value()->id);

@@ -9,7 +9,7 @@
 #include "common/core/base/result.hpp"
 #include "common/driving/scenario/request.hpp"
 #include "common/view/scene/camera/pick.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/world/road/world.hpp"
 
 namespace rodeira::nodes {
@@ -31,10 +31,10 @@ StartPlace PlaceOfStart(const road::World& world, const CarStart& own);
 // What a person asks for by pointing at the ground: the followed car (of the traffic: the first driven one) there,
 // along the lane if there is one, otherwise as it stands. Wrong input where there is no car, no ground there, or not
 // under all of the car.
-base::Result<scenario::Request> AskPlace(const road::World& world, const scene::Moment& moment, std::size_t followed,
-                                         const scene::Ray& ray, const CarNames& names);
+base::Result<scenario::Request> AskPlace(const road::World& world, const scene::SceneSnapshot& moment,
+                                         std::size_t followed, const scene::Ray& ray, const CarNames& names);
 // The same car where it began: at its own start, or the world's. Wrong input where there is no car.
-base::Result<scenario::Request> AskStart(const road::World& world, const scene::Moment& moment, std::size_t followed,
-                                         const CarNames& names, const CarStarts& starts);
+base::Result<scenario::Request> AskStart(const road::World& world, const scene::SceneSnapshot& moment,
+                                         std::size_t followed, const CarNames& names, const CarStarts& starts);
 
 }  // namespace rodeira::nodes

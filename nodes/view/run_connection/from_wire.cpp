@@ -171,9 +171,9 @@ bool SaysSomething(std::string_view topic, const base::Bytes& payload) {
   return !message || !message.value().agents().empty();  // what cannot be read is said where it is used
 }
 
-base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step,
-                                       const NewestSamples& newest) {
-  scene::Moment moment;
+base::Result<scene::SceneSnapshot> MakeMoment(const lockstep::Roster& roster, lockstep::Step step,
+                                              const NewestSamples& newest) {
+  scene::SceneSnapshot moment;
   moment.time_ns = step * roster.base_step_ns();
   std::vector<std::pair<lockstep::NodeIndex, msg::TrafficDetails>> details;
   for (const auto& [source, payload] : newest) {

@@ -8,7 +8,7 @@
 #include "common/core/base/bytes.hpp"
 #include "common/core/base/result.hpp"
 #include "common/runtime/lockstep/roster.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "idl/messages.hpp"
 
 namespace rodeira::nodes {
@@ -29,7 +29,7 @@ bool SaysSomething(std::string_view topic, const base::Bytes& payload);
 // The newest sample of each source that a view looks at: cars, traffic and its details, lights, weather.
 using NewestSamples = std::map<lockstep::SourceIndex, std::shared_ptr<const base::Bytes>>;
 // Everything as they tell it, at a step. Wrong input where one of them cannot be read.
-base::Result<scene::Moment> MakeMoment(const lockstep::Roster& roster, lockstep::Step step,
-                                       const NewestSamples& newest);
+base::Result<scene::SceneSnapshot> MakeMoment(const lockstep::Roster& roster, lockstep::Step step,
+                                              const NewestSamples& newest);
 
 }  // namespace rodeira::nodes

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "common/view/scene/lighting/air.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::nodes {
 

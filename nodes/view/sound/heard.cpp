@@ -27,7 +27,7 @@ sound::Voice VoiceOf(const scene::CarPose& car) {
 
 }  // namespace
 
-sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double volume) {
+sound::Heard HeardBy(const scene::SceneSnapshot& moment, std::size_t followed, double volume) {
   sound::Heard heard;
   const auto body = scene::BodyAt(moment, followed);
   if (!body) return heard;

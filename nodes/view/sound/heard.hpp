@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/view/sound/synth.hpp"
 
 namespace rodeira::nodes {
@@ -12,6 +12,6 @@ namespace rodeira::nodes {
 // traffic; none: silence): a driver's car from inside; of the traffic the four nearest within 80 m, fainter with the
 // distance, from the side where they are. The engines of the traffic are guessed from its speed; no node publishes
 // them.
-sound::Heard HeardBy(const scene::Moment& moment, std::size_t followed, double volume);
+sound::Heard HeardBy(const scene::SceneSnapshot& moment, std::size_t followed, double volume);
 
 }  // namespace rodeira::nodes

@@ -21,7 +21,7 @@ namespace {
 // Gives geometries of the database the look of those that are built in memory.
 class Dress : public osg::NodeVisitor {
  public:
-  Dress(Look& look, std::filesystem::path folder)
+  Dress(MaterialLibrary& look, std::filesystem::path folder)
       : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), look_(look), folder_(std::move(folder)) {
     setNodeMaskOverride(~0U);  // what is hidden from other programs too
   }
@@ -76,14 +76,14 @@ class Dress : public osg::NodeVisitor {
         look_.StateOfPicture((folder_ / name.substr(at)).string(), name.find(kRepeats) != std::string::npos));
   }
 
-  Look& look_;
+  MaterialLibrary& look_;
   std::filesystem::path folder_;
   std::vector<osg::ref_ptr<osg::Group>> unwanted_;
 };
 
 class DressWhatIsRead : public osgDB::ReadFileCallback {
  public:
-  DressWhatIsRead(Look& look, std::filesystem::path folder) : look_(look), folder_(std::move(folder)) {}
+  DressWhatIsRead(MaterialLibrary& look, std::filesystem::path folder) : look_(look), folder_(std::move(folder)) {}
 
   osgDB::ReaderWriter::ReadResult readNode(const std::string& file, const osgDB::Options* options) override {
     osgDB::ReaderWriter::ReadResult result = osgDB::ReadFileCallback::readNode(file, options);
@@ -102,7 +102,7 @@ class DressWhatIsRead : public osgDB::ReadFileCallback {
   }
 
  private:
-  Look& look_;
+  MaterialLibrary& look_;
   std::filesystem::path folder_;
 };
 
@@ -128,7 +128,7 @@ class FindTiles : public osg::NodeVisitor {
 
 }  // namespace
 
-base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Look& look) {
+base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, MaterialLibrary& look) {
   look.MakeStates();
   const std::string file = (folder / "world.osgb").string();
   const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);

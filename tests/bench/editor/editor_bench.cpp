@@ -14,7 +14,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/random.hpp"
 #include "common/core/base/temporary_folder.hpp"
-#include "nodes/editor/desk.hpp"
+#include "nodes/editor/editor_app.hpp"
 
 namespace {
 
@@ -73,7 +73,7 @@ editor::Document Map(std::string picture) {
   return document;
 }
 
-void Measure(nodes::Desk& desk, const char* what, int frames, const std::function<void(int)>& act) {
+void Measure(nodes::EditorApp& desk, const char* what, int frames, const std::function<void(int)>& act) {
   std::vector<double> all;
   const double processor = Processor();
   for (int i = 0; i < frames; ++i) {
@@ -102,7 +102,7 @@ void Try(const char* kind, const std::filesystem::path& folder) {
   if (!window) return fmt::print("{}\n", window.error().Text());
   const double processor = Processor();
   const auto begin = Clock::now();
-  nodes::Desk desk(*window.value(), file, {});
+  nodes::EditorApp desk(*window.value(), file, {});
   desk.Frame(0);
   fmt::print("{:28} {:.0f} ms\n", "opened, the map is seen", Milliseconds(begin));
   bool seen = false;

@@ -80,7 +80,7 @@ std::vector<double> Turn(const bench::WatchedDisplay& display, const Size& size,
 }  // namespace
 
 int main(int argc, char** argv) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   sdl_devices::UseSdlDevices();
   cli::UseAllGraphics();
   const int turns = argc > 1 ? std::atoi(argv[1]) : 100;

@@ -107,7 +107,7 @@ void Report(const std::vector<bench::Shown>& shown, const std::map<std::int64_t,
 }  // namespace
 
 int main(int argc, char** argv) {
-  base::FixMathematics(argv);
+  base::PinMathLibrary(argv);
   cli::UseAllGraphics();
   const double seconds = argc > 1 ? std::atof(argv[1]) : 20.0;
   const std::string period_ms = argc > 2 ? argv[2] : "20", width = argc > 4 ? argv[3] : "320",

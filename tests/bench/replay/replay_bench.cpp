@@ -15,7 +15,7 @@
 #include "idl/messages.hpp"
 #include "launch/rodeira/replay/recorded_moments.hpp"
 #include "launch/rodeira/replay/recorded_view.hpp"
-#include "nodes/view/renderer/painter.hpp"
+#include "nodes/view/renderer/renderer.hpp"
 #include "tests/common/runtime/replay/made_recording.hpp"
 
 namespace rodeira::cli {
@@ -159,15 +159,15 @@ void SeekAndDraw(benchmark::State& state) {
   const auto world = replay::Must(nodes::WorldOf(recorded.launch()));
   auto settings = replay::Must(LookAt(recorded, {})).settings;
   auto surface = replay::Must(nodes::Surface::Open(nodes::SurfaceKind::kOffscreen, 1280, 720, "bench"));
-  const auto painter = replay::Must(nodes::PainterOf(*surface, *world, {}));
-  painter->DrawWhole(nodes::PictureOf(settings, replay::Must(moments.At(0))));
+  const auto renderer = replay::Must(nodes::RendererOf(*surface, *world, {}));
+  renderer->DrawWhole(nodes::PictureOf(settings, replay::Must(moments.At(0))));
   std::uint64_t n = 0;
   double worst_s = 0.0;
   for (auto _ : state) {
     const auto time_ns = static_cast<std::int64_t>(base::RandomUniform({7, n++}) * 3.6e12);
     const auto begin = std::chrono::steady_clock::now();
-    painter->Draw(nodes::PictureOf(settings, replay::Must(moments.At(time_ns))));
-    benchmark::DoNotOptimize(painter->Read());
+    renderer->Draw(nodes::PictureOf(settings, replay::Must(moments.At(time_ns))));
+    benchmark::DoNotOptimize(renderer->Read());
     worst_s = std::max(worst_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   state.counters["worst_ms"] = worst_s * 1e3;

@@ -16,7 +16,7 @@
 #include "common/world/road/road_chains.hpp"
 #include "common/world/road/world.hpp"
 #include "nodes/view/frame/png.hpp"
-#include "nodes/view/renderer/painter.hpp"
+#include "nodes/view/renderer/renderer.hpp"
 #include "nodes/view/visual_database/database.hpp"
 #include "nodes/view/visual_database/find_built.hpp"
 #include "tests/tree.hpp"
@@ -100,7 +100,7 @@ void Frame(benchmark::State& state) {
   auto surface = SurfaceOf(quality);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
   const scene::WorldScene standing = scene::BuildWorldScene(N222());
-  Painter painter(*surface.value(), N222(), standing);
+  Renderer renderer(*surface.value(), N222(), standing);
   const auto camera = state.range(1) == 0 ? scene::CameraKind::kChase : scene::CameraKind::kDriver;
   const bool mirrors = state.range(1) == 2;
   double s_m = 30.0;
@@ -110,13 +110,13 @@ void Frame(benchmark::State& state) {
     AddTraffic(picture);
     picture.mirrors.fill(mirrors);
     picture.moment.time_ns = time_ns += 200'000'000;  // at 45 m/s: pictures that follow one another
-    painter.Draw(picture);
-    benchmark::DoNotOptimize(painter.Read());
+    renderer.Draw(picture);
+    benchmark::DoNotOptimize(renderer.Read());
     s_m = std::fmod(s_m + 9.0, Road().length_m() - 60.0);
   };
   for (int i = 0; i < 12; ++i) draw_next();  // the renderer compiles what it needs
   for (auto _ : state) draw_next();
-  const PictureCost cost = painter.CostOfLast();
+  const PictureCost cost = renderer.CostOfLast();
   state.counters["calls"] = static_cast<double>(cost.calls);
   state.counters["triangles"] = static_cast<double>(cost.triangles);
   state.SetLabel(surface.value()->renderer() + ", " + std::string(QualityNames()[static_cast<std::size_t>(quality)]) +
@@ -138,8 +138,8 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
   if (!world) return state.SkipWithError(world.error().Text().c_str());
   auto surface = SurfaceOf(quality);
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
-  auto painter = PainterOf(*surface.value(), *world.value(), {});
-  if (!painter) return state.SkipWithError(painter.error().Text().c_str());
+  auto renderer = RendererOf(*surface.value(), *world.value(), {});
+  if (!renderer) return state.SkipWithError(renderer.error().Text().c_str());
   const road::StartPose& start = world.value()->start();
   int pictures = 0;
   PictureCost most;
@@ -149,9 +149,9 @@ void EveryWorld(benchmark::State& state, const std::filesystem::path& file) {
     car.p_WB_W = {start.x_m, start.y_m, world.value()->At(start.x_m, start.y_m).z_m};
     car.q_WB = scene::Attitude(start.heading_rad + 0.6283185307 * pictures++, 0.0, 0.0);
     picture.moment.cars.push_back(car);
-    painter.value()->Draw(picture);
-    benchmark::DoNotOptimize(painter.value()->Read());
-    const PictureCost cost = painter.value()->CostOfLast();
+    renderer.value()->Draw(picture);
+    benchmark::DoNotOptimize(renderer.value()->Read());
+    const PictureCost cost = renderer.value()->CostOfLast();
     most = {std::max(most.calls, cost.calls), std::max(most.triangles, cost.triangles)};
   };
   for (int i = 0; i < 10; ++i) draw_next();  // the renderer compiles what it needs
@@ -216,7 +216,7 @@ void Repeated(benchmark::State& state, const char* name) {
   if (!surface) return state.SkipWithError(surface.error().Text().c_str());
   malloc_trim(0);
   const double before_MB = Resident_MB();
-  Painter painter(*surface.value(), *world, standing, state.range(0) == 1);
+  Renderer renderer(*surface.value(), *world, standing, state.range(0) == 1);
   malloc_trim(0);
   state.counters["painter_MB"] = Resident_MB() - before_MB;
   const road::StartPose& start = world->start();
@@ -228,9 +228,9 @@ void Repeated(benchmark::State& state, const char* name) {
     car.p_WB_W = {start.x_m, start.y_m, world->At(start.x_m, start.y_m).z_m};
     car.q_WB = scene::Attitude(start.heading_rad + 0.6283185307 * pictures++, 0.0, 0.0);
     picture.moment.cars.push_back(car);
-    painter.Draw(picture);
-    benchmark::DoNotOptimize(painter.Read());
-    const PictureCost cost = painter.CostOfLast();
+    renderer.Draw(picture);
+    benchmark::DoNotOptimize(renderer.Read());
+    const PictureCost cost = renderer.CostOfLast();
     most = {std::max(most.calls, cost.calls), std::max(most.triangles, cost.triangles)};
   };
   for (int i = 0; i < 10; ++i) draw_next();
@@ -275,10 +275,10 @@ void FirstPictureOfHaste(benchmark::State& state) {
     if (!surface) return state.SkipWithError(surface.error().Text().c_str());
     const FoundBuilt found = state.range(0) == 1 ? FindBuilt(folder / "haste.yaml", *world) : FoundBuilt{};
     if (!found.remark.empty()) return state.SkipWithError(found.remark.c_str());
-    auto painter = PainterOf(*surface.value(), *world, found.folder);
-    if (!painter) return state.SkipWithError(painter.error().Text().c_str());
-    painter.value()->DrawWhole(picture);
-    benchmark::DoNotOptimize(painter.value()->Read());
+    auto renderer = RendererOf(*surface.value(), *world, found.folder);
+    if (!renderer) return state.SkipWithError(renderer.error().Text().c_str());
+    renderer.value()->DrawWhole(picture);
+    benchmark::DoNotOptimize(renderer.value()->Read());
   }
   std::filesystem::remove_all(folder);
 }
@@ -302,8 +302,8 @@ void DriveHaste(benchmark::State& state) {
     malloc_trim(0);
     auto surface = Surface::Open(SurfaceKind::kOffscreen, 640, 360, "bench", false, 0, Quality::kLow);
     if (!surface) return state.SkipWithError(surface.error().Text().c_str());
-    auto painter = PainterOf(*surface.value(), *world, state.range(0) == 1 ? folder : std::filesystem::path());
-    if (!painter) return state.SkipWithError(painter.error().Text().c_str());
+    auto renderer = RendererOf(*surface.value(), *world, state.range(0) == 1 ? folder : std::filesystem::path());
+    if (!renderer) return state.SkipWithError(renderer.error().Text().c_str());
     double first_MB = 0.0, half_MB = 0.0, most_MB = 0.0;
     std::size_t most = 0, pictures = 0;
     for (double s_m = 25.0; s_m < longest->length_m; s_m += 50.0, ++pictures) {
@@ -313,12 +313,12 @@ void DriveHaste(benchmark::State& state) {
       car.p_WB_W = road->Surface(on_it_m, -1.75).p_W;
       car.q_WB = scene::Attitude(road->axis().Evaluate(on_it_m).heading_rad, 0.0, 0.0);
       picture.moment.cars.push_back(car);
-      painter.value()->DrawWhole(picture);
+      renderer.value()->DrawWhole(picture);
       const double now_MB = Resident_MB();
       if (pictures == 0) first_MB = now_MB;
       if (s_m < 0.5 * longest->length_m) half_MB = std::max(half_MB, now_MB);
       most_MB = std::max(most_MB, now_MB);
-      most = std::max(most, painter.value()->HeldLevels());
+      most = std::max(most, renderer.value()->HeldLevels());
     }
     state.counters["km"] = 1e-3 * longest->length_m;
     state.counters["held_most"] = static_cast<double>(most);

@@ -37,7 +37,7 @@ TEST(Preview, ItIsTheModelWhateverTheFramesAre) {
     EXPECT_EQ(preview.value().model().poses()[i].p_WB_W, model.value().poses()[i].p_WB_W);
 }
 
-TEST(Preview, HeatLiesWhereSomebodyDrove) {
+TEST(Preview, HeatLiesWhereVehiclesDrove) {
   History history(Parsed(traffic_map::GoodMap()));
   auto preview = Preview::Start(history.document(), {2, 1});
   ASSERT_TRUE(preview.ok()) << preview.error().Text();

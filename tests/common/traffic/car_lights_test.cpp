@@ -58,7 +58,7 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
 
 // Whoever turns by more than 30° at a branch has indicated to that side, and to no other, for two seconds before he
 // reaches it and until half way round; whoever goes straight on has not.
-TEST(CarLights, WhoTurnsIndicatesToThatSide) {
+TEST(CarLights, ACarThatTurnsIndicatesToThatSide) {
   for (const char* map : {"crossing", "town", "lights"}) {
     int left = 0, right = 0, straight = 0;
     WatchTracks(map, 150.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Moment>& moments) {
@@ -89,7 +89,7 @@ TEST(CarLights, WhoTurnsIndicatesToThatSide) {
 }
 
 // Round a roundabout nobody indicates but who leaves it at the next exit, to the outside, from before he does.
-TEST(CarLights, InARoundaboutWhoLeavesItIndicates) {
+TEST(CarLights, ACarThatLeavesARoundaboutIndicates) {
   int leaves = 0, stays = 0, enters = 0;
   WatchTracks("roundabout", 200.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Moment>& moments) {
     const auto& graph = model.graph();
@@ -114,7 +114,7 @@ TEST(CarLights, InARoundaboutWhoLeavesItIndicates) {
 
 // On two lanes around a circle: whoever goes over from one to the other indicates to that side from the first hand's
 // breadth on, and nobody else does.
-TEST(CarLights, WhoChangesLanesIndicatesToThatSide) {
+TEST(CarLights, ACarThatChangesLanesIndicatesToThatSide) {
   constexpr double kRadius_m = 500.0, kAbout_m = 0.15;
   opendrive::RoadText road = CircleRoad(2.0 * std::numbers::pi * kRadius_m);
   road.left = "";

@@ -217,7 +217,7 @@ class Streets {
 // needs: they are kept for the bus. But those who stand behind them wait, one for another, for the car at the street's
 // end, which wants to go round and is kept out for the bus. That chain is closed, and he goes, and as the next ones
 // leave there is room for the bus as well. If who is kept out for somebody did not wait for him nobody would ever move.
-TEST(Circle, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
+TEST(Circle, AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt) {
   Streets at(
       Text({Road("round",
                  {{9.0, 0.0, 0.0, 10.0 * kPi, 0.1}, {9.0, 20.0, kPi, 18.0, 0.0}, {-9.0, 20.0, kPi, 10.0 * kPi, 0.1}},
@@ -254,7 +254,7 @@ TEST(Circle, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
 // of them does but the car at that street's end, for whom there is room: he is let in, and all go on. Was the bus let
 // in, since who stands in its way waits for somebody else of them, it would stand in the way of the next ones, and
 // nobody would ever move.
-TEST(Circle, WhoHasNoRoomGoesOnlyWhereThoseBeforeHimGo) {
+TEST(Circle, AVehicleWithoutRoomGoesOnlyWhereItsLeadersGo) {
   constexpr double kBetween_m = 37.0, kEast_m = 15.0 + kBetween_m;
   opendrive::RoadText between = Road("between", {{15.0, 0.0, 0.0, kBetween_m, 0.0}}, From("1") + To("2"));
   between.left = Lane(1, 1, 1);
@@ -346,7 +346,7 @@ void PassesAcross(Streets& at, std::uint64_t next_grant, std::uint32_t stays) {
 
 // Two of whom the first one follows a bus that merges in before him: the room that the bus takes up is not there for
 // the second one, although the bus is not on their way yet when he asks.
-TEST(Circle, WhoMergesInBeforeWhoIsAheadTakesHisRoom) {
+TEST(Circle, AVehicleThatMergesBeforeTheLeaderTakesItsRoom) {
   constexpr double kStreet_m = 80.0, kRoom_m = 24.0;
   Streets at(
       Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1")),
@@ -369,7 +369,7 @@ TEST(Circle, WhoMergesInBeforeWhoIsAheadTakesHisRoom) {
 }
 
 // Who has been let in behind somebody who stands in his way, with nowhere to go, is not counted on to go.
-TEST(Circle, WhoIsKeptInHisZonesIsNotCountedOn) {
+TEST(Circle, AVehicleThatIsHeldInItsZonesIsNotCountedOn) {
   constexpr double kStreet_m = 5.0, kEast_m = 15.0 + kStreet_m, kUp_m = kEast_m + 4.0;
   Streets at(Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1") + To("2")),
                       Road("beyond", {{kEast_m + 30.0, 0.0, 0.0, 200.0, 0.0}}, From("2")),

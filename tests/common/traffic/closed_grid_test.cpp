@@ -20,9 +20,9 @@
 namespace rodeira::traffic {
 namespace {
 
-std::uint64_t Count(const char* variable, std::uint64_t otherwise) {
+std::uint64_t Count(const char* variable, std::uint64_t default_value) {
   const char* wish = std::getenv(variable);
-  return wish == nullptr ? otherwise : std::strtoull(wish, nullptr, 10);
+  return wish == nullptr ? default_value : std::strtoull(wish, nullptr, 10);
 }
 
 struct Town {
@@ -87,7 +87,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
 // up in a circle; nothing is asked of it here (docs/explanation/traffic.md). RODEIRA_CLOSED_GRID: crossings each way
 // (3; tests/run
 // --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
-TEST(ClosedGrid, AsFullAsItMayBeNobodyIsStuck) {
+TEST(ClosedGrid, AsFullAsItMayBeNoVehicleIsStuck) {
   const Town town = Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1),
                           BriefOrLong(600.0, kLong_s));
   RecordProperty("vehicles", static_cast<int>(town.vehicles));

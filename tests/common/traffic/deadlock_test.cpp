@@ -154,7 +154,7 @@ class Deadlock : public testing::Test {
 
 // Nobody is let in behind who stands at a line with his rear in the way, be it by a centimetre that he would still have
 // to his line.
-TEST_F(Deadlock, NobodyIsLetInBehindWhoStandsInHisWayByACentimetre) {
+TEST_F(Deadlock, NoVehicleIsAdmittedBehindOneThatBlocksItByACentimetre) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_;
   const std::uint32_t behind = (right + 1) % kCars, blocks = (right + 2) % kCars;
@@ -175,7 +175,7 @@ TEST_F(Deadlock, NobodyIsLetInBehindWhoStandsInHisWayByACentimetre) {
 
 // As it came about: the exit is full; the one behind comes; the third one has waited longest and goes first when there
 // is room. All get through.
-TEST_F(Deadlock, ThreeWhoWaitForRoomAllGoOn) {
+TEST_F(Deadlock, ThreeThatWaitForRoomAllGoOn) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_;
   const std::uint32_t behind = (right + 1) % kCars, blocks = (right + 2) % kCars, across = (right + 3) % kCars;
@@ -195,7 +195,7 @@ TEST_F(Deadlock, ThreeWhoWaitForRoomAllGoOn) {
 
 // Who is behind has been let in although he cannot go, and the third one after him, who waits for him: the chain is
 // closed, and he gives back what he has not come into.
-TEST_F(Deadlock, WhoHasBeenLetInAndCannotGoGivesItBackWhereTheChainCloses) {
+TEST_F(Deadlock, AReservationThatCannotBeUsedIsRevokedWhereTheCycleCloses) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_, behind = (right + 1) % kCars, across = (right + 2) % kCars;
   const double street = graph()[straight_.from].length_m(), rear = RightLine() - kAtLine_m - Length(right);

@@ -320,7 +320,7 @@ TEST(Demand, WhatIsWrongIsSaid) {
 // A car a second wants to come onto a lane. By MOTORS' rule each is let in in the first step in which the first five
 // metres, or its own length and 0.4 m, are free of everybody's rear, told from the poses; otherwise later, when it need
 // not brake.
-TEST(Demand, BySourcesRuleWhoWaitsEntersWhereFiveMetresAreFree) {
+TEST(Demand, BySourcesRuleAWaitingVehicleEntersWhereFiveMetresAreFree) {
   opendrive::RoadText road;
   road.length = 800.0;
   road.geometry = "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"800\"><line/></geometry>";

@@ -216,7 +216,7 @@ TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
 }
 
 // The picture of docs/explanation/traffic.md: all four go straight on and would be there in the same moment.
-TEST_F(FourCars, WhoComeInTheSameMomentPassOneAfterTheOther) {
+TEST_F(FourCars, CarsOfTheSameMomentPassOneAfterTheOther) {
   const Outcome fine = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.01),
                 coarse = Run({{1, 1, 1, 1}, {}}, {true, true, true, true}, 0.1);
   std::vector<PlotCurve> curves;

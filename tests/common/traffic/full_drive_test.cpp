@@ -83,7 +83,7 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
 }
 
 // Whoever crosses a light's line does so at green or amber.
-TEST(FullDrive, NobodyPassesAtRed) {
+TEST(FullDrive, NoVehiclePassesAtRed) {
   TrafficModel model = TrafficModel::Make(Full(30), lanes::MapNetwork("lights"), {}).value();
   std::vector<std::optional<double>> gaps(model.vehicles());
   int passed = 0;
@@ -217,9 +217,9 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
 // Somebody who has waited long for room at a merge keeps it, and who is kept out for that counts as waiting for him, so
 // that a chain of them that closes is opened: here the room was missing since those who stood there waited, one for
 // another, for the one who was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1 s
-// since). That begins after 256 s, in the long form; Circle.WhoIsKeptOutForWhoWaitsForRoomWaitsForHim asks for the same
-// of four cars.
-TEST(FullDrive, WhoIsKeptOutForWhoWaitsForRoomWaitsForHim) {
+// since). That begins after 256 s, in the long form; Circle.AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt asks for
+// the same of four cars.
+TEST(FullDrive, AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
   StudySettings settings;

@@ -165,7 +165,7 @@ TrafficModel Alone(const TrafficSettings& settings, const std::shared_ptr<const 
 
 constexpr std::array<double, 7> kCaps_mps = {6.0, 10.0, 14.0, 19.0, 25.0, 31.0, 36.0};
 
-TEST(Intrusion, NobodyIsHitWhoCouldBeAvoided) {
+TEST(Intrusion, NothingThatCouldBeAvoidedIsHit) {
   const auto network = Straight();
   std::vector<TrafficModel> driving;  // by speed
   for (const double cap : kCaps_mps) driving.push_back(Alone(Identical(1, 1.4), network, cap, kStep_s));
@@ -224,7 +224,7 @@ std::string Touching(const TrafficModel& model) {
 // Twenty cars follow one another around a ring, and somebody is there all at once before one of them, in its lane, at
 // rest or braking to it: who comes does not drive into him where half a second and braking at 0.8 g suffice, and none
 // of those behind drives into the one before.
-TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
+TEST(Intrusion, FollowersDoNotRunIntoOneAnother) {
   constexpr double kLength_m = 700.0;
   const auto network = Ring(kLength_m, 25.0);
   TrafficModel start = TrafficModel::Make(Identical(20, 1.4), network, {}).value();
@@ -285,7 +285,7 @@ TEST(Intrusion, ThoseWhoFollowDoNotRunIntoOneAnother) {
 // Somebody stands all at once anywhere on a crossing, whichever way he points, for eight seconds, and is gone again: as
 // long as everybody is so far from him that half a second and braking at 0.8 g suffice on the straight way to him,
 // nobody drives into him, nor anybody into anybody.
-TEST(Intrusion, OnACrossingNobodyIsDrivenInto) {
+TEST(Intrusion, OnACrossingNoCarIsDrivenInto) {
   TrafficSettings settings;
   settings.vehicles = 22;
   TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();

@@ -206,7 +206,7 @@ TEST(LaneChange, AFreeRoadIsDrivenOnItsOuterLane) {
 }
 
 // A lorry's pace before them: everybody else passes it, on the side for it, and nobody touches anybody.
-TEST(LaneChange, ASlowOneIsPassedByEverybody) {
+TEST(LaneChange, ASlowOneIsPassedByAll) {
   TrafficSettings settings = Drivers(12);
   settings.speed_factor_low = 0.9;
   TrafficModel model = TrafficModel::Make(settings, TwoLaneRing(), {}).value();
@@ -328,7 +328,7 @@ std::shared_ptr<const network::Network> TwoRoads() {
 // comes onto another road as well: one who crawls there, and appears when he is clear of that lane, is nothing to him.
 // Until now the front's piece of path there began without an offset, and he seemed to be at the beginning of his change
 // again.
-TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
+TEST(LaneChange, AfterALaneChangeTheOldLaneIsClearOnTheNextRoadToo) {
   constexpr double kSpeed_mps = 15.0, kAhead_m = 30.0;
   int came_onto_it = 0;
   for (double before_m = 66.0; before_m < 80.0; before_m += 0.5) {
@@ -362,7 +362,7 @@ TEST(LaneChange, WhoHasGoneOverIsClearOfTheOldLaneOnTheNextRoadToo) {
 // Who leaves a lane on which somebody stands brakes for that one until he is clear of him, though somebody nearer
 // drives away before him on the new lane: nobody comes into an emergency. Until now the nearer one of both alone was
 // seen, and who stood when he had become the nearer one.
-TEST(LaneChange, WhoStandsOnTheOldLaneIsSeenBeyondWhoDrivesAwayOnTheNewOne) {
+TEST(LaneChange, AStandingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheNewOne) {
   constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0;
   int hidden = 0;
   for (double stands_m = 70.0; stands_m < 120.0; stands_m += 2.0) {

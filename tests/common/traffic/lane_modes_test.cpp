@@ -94,7 +94,7 @@ TEST(LaneModes, VehiclesBeginOnEveryStartLaneAndNowhereElse) {
   for (const std::string from : {"1", "9", "10", "11"}) EXPECT_FALSE(fewer.ended.contains(from)) << from;
 }
 
-TEST(LaneModes, NobodyIsAtFirstWhereNobodyCanCome) {
+TEST(LaneModes, NoVehicleBeginsOnALaneWithoutAnEntry) {
   const auto network = NetworkWith("crossing", {{1, LaneMode::kNone}});
   const TrafficModel model = TrafficModel::Make(Vehicles(60), network, {}).value();
   EXPECT_GT(model.on_road(), 20u);
@@ -181,7 +181,7 @@ TEST(LaneModes, GoWithAConvertedMap) {
 // A flow into the middle of a crossing, and others that come to it: from the arm from which its lane leads on, and from
 // those that cross its way within its first metres. Who begins there waits until nobody comes and its zones are its
 // own.
-TEST(LaneModes, WhoBeginsWithinACrossingIsInNobodysWay) {
+TEST(LaneModes, AVehicleThatBeginsWithinACrossingBlocksNoOther) {
   const auto flow = [](const std::string& lane, int per_h) {
     return "{lane: \"" + lane + ":-1\", vehicles_per_h: " + std::to_string(per_h) + "}";
   };

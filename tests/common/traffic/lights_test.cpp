@@ -59,7 +59,7 @@ std::optional<Line> LineAhead(const TrafficModel& model, const AgentPose& pose) 
 // At the instant at which a light turns amber every car that comes to it is looked at: the motion apart says whether it
 // could stop (Gazis, Herman, Maradudin 1960), but for a decimetre. Whoever crosses a line is one that could not, or
 // does it at green.
-TEST(Lights, AtAmberStopsWhoCanAndNobodyPassesAtRed) {
+TEST(Lights, AtAmberACarStopsIfItCanAndNonePassesAtRed) {
   TrafficSettings settings;
   settings.vehicles = 60;
   settings.seed = 5;
@@ -232,7 +232,7 @@ TEST(Lights, RestoredAtAnyColourItGoesOnWithTheSameBits) {
 
 // A driver's car that comes from the right towards its red light, and can stop, keeps nobody waiting who has green:
 // those drive to the bit as without it.
-TEST(Lights, NobodyYieldsToACarThatComesToARedLight) {
+TEST(Lights, NoCarYieldsToOneThatComesToARedLight) {
   constexpr double kBefore_light_m = 25.0, kGhost_mps = 8.0;
   const auto network = lanes::MapNetwork("lights");
   const lanes::Graph graph(*network);

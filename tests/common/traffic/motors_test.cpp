@@ -154,7 +154,7 @@ TEST(Motors, DrivesAloneToItsLimit) {
 
 // On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody
 // (NetworkTraffic).
-TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
+TEST(Motors, DrivesTheMapsAndItsCollisionsAreCounted) {
   std::int64_t collisions = 0;
   for (const char* name : {"crossing", "roundabout", "town"}) {
     StudySettings settings;
@@ -178,7 +178,7 @@ TEST(Motors, DrivesTheMapsAndHisCollisionsAreCounted) {
 // Speed goes on from step to step even where he has lost his car and slides sideways or turns about: by no more than
 // what four tyres take of friction, and as fast as the direction turns along which it is told, heading and steering; it
 // stays at 0 where the car goes backwards.
-TEST(Motors, HisSpeedHasNoStepsWhereHeSlides) {
+TEST(Motors, TheSpeedHasNoStepsInASlide) {
   constexpr double kStep_s = 0.01, kTyres_mps2 = 1.3 * 9.81;
   double fastest_aside_mps = 0.0, hardest_mps2 = 0.0;
   for (const std::uint64_t seed : {1, 4}) {

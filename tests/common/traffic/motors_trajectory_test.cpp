@@ -153,7 +153,7 @@ std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m,
 
 // Both come to the crossing together: the one to the east has the other one on his right. He stops, and that one drives
 // on; in left-hand traffic it is the other way about. Where one drives above the other nobody stops.
-TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
+TEST(MotorsYielding, AVehicleStopsForOneOnItsRight) {
   for (const bool left_hand : {false, true}) {
     for (const double above_m : {0.0, 6.0}) {
       TrafficModel model =
@@ -186,7 +186,7 @@ TEST(MotorsYielding, WhoSeesSomebodyOnHisRightStops) {
 // A third one comes from the left of the one who yields, later (in left-hand traffic all is mirrored): he has that one
 // on his right, and stops for him; without him for nobody, since the two on the crossing road see past one another.
 // They pass in this order: who has nobody on his right, who yields to him, the third.
-TEST(MotorsYielding, AThirdWhoComesLaterLetsBothGo) {
+TEST(MotorsYielding, AThirdThatComesLaterLetsBothGo) {
   for (const bool left_hand : {false, true}) {
     for (const bool is_there : {true, false}) {  // the one who yields first
       TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar, VehicleKind::kCar}),

@@ -91,7 +91,7 @@ TEST(NarrowStreets, AreTakenTogether) {
 
 // Who stands at his line before a street has room ahead as long as nobody stands where he would behind it, however far
 // that is away; whoever comes against him makes no difference.
-TEST(NarrowStreets, HaveRoomBehindThemWhereNobodyStands) {
+TEST(NarrowStreets, HaveRoomBehindThemWhereNoVehicleStands) {
   constexpr double kStreet_m = 150.0, kFor_s = 40.0;
   for (const bool taken : {true, false}) {  // too narrow beside a bus, though none comes
     TrafficModel model =

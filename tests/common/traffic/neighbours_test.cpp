@@ -233,7 +233,7 @@ Compared Compare(const std::string& name, TrafficModel& model) {
   return compared;
 }
 
-TEST(Neighbours, AreThoseThatASearchThroughEverybodyFinds) {
+TEST(Neighbours, AreThoseThatAFullSearchFinds) {
   for (const char* name : {"crossing", "roundabout", "town", "ramp"}) {
     TrafficSettings settings;
     settings.vehicles = std::string(name) == "town" ? 60 : 30;
@@ -250,7 +250,7 @@ TEST(Neighbours, AreThoseThatASearchThroughEverybodyFinds) {
   }
 }
 
-TEST(Neighbours, OnTheMotorwayAreThoseThatASearchThroughEverybodyFinds) {
+TEST(Neighbours, OnTheMotorwayAreThoseThatAFullSearchFinds) {
   const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/motorway.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   TrafficSettings settings;
@@ -265,7 +265,7 @@ TEST(Neighbours, OnTheMotorwayAreThoseThatASearchThroughEverybodyFinds) {
 
 // Two turn off to different sides: one drives away, the other one stands a little farther on. Who goes straight on
 // between them stops for him who stands, all the time, and not in an emergency.
-TEST(Neighbours, OfTwoWhoTurnOffNotTheNearerCountsButWhoLetsHimDriveOnLeast) {
+TEST(Neighbours, OfTwoThatTurnOffTheOneThatSlowsMostCounts) {
   constexpr std::uint32_t kMe = 0, kDrives = 1, kStands = 2;
   constexpr std::uint64_t kDrawLink = 103;  // of the draws at branches
   constexpr double kStreet_m = 50.0;

@@ -125,7 +125,7 @@ TEST(NetworkTraffic, DrivesWithLorriesAndBuses) {
 }
 
 // Lanes that several ways lead to: who follows is looked for on all of them, whoever else is found first on another.
-TEST(NetworkTraffic, NobodyChangesLanesBeforeWhoComesFromARoadBehind) {
+TEST(NetworkTraffic, NoCarChangesLanesBeforeOneFromARoadBehind) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
   const auto network = opendrive::LoadNetwork(file).value();
@@ -340,7 +340,7 @@ TEST(NetworkTraffic, StopsFullyAtStopSigns) {
 }
 
 // A car that is no agent stands in the middle of the crossing: nobody drives into it, whatever way it points.
-TEST(NetworkTraffic, NobodyDrivesIntoACarThatStandsOnTheCrossing) {
+TEST(NetworkTraffic, NoCarDrivesIntoOneThatStandsOnTheCrossing) {
   const auto network = lanes::MapNetwork("crossing");
   TrafficSettings settings;
   settings.vehicles = 16;

@@ -11,7 +11,7 @@
 namespace rodeira::traffic {
 namespace {
 
-TEST(Occupancy, SaysWhoHasBeenAddedInOrder) {
+TEST(Occupancy, SaysWhatWasAddedInOrder) {
   constexpr std::uint32_t kTracks = 7;
   std::mt19937 random(3);
   Occupancy occupancy(kTracks);

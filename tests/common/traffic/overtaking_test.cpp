@@ -72,7 +72,7 @@ void PassesInTime(bool left_hand) {
   }
 }
 
-TEST(Overtaking, SlowOnesArePassedBeforeWhoComesIsNear) { PassesInTime(false); }
+TEST(Overtaking, SlowOnesArePassedBeforeOncomingTrafficIsNear) { PassesInTime(false); }
 TEST(Overtaking, MirroredInLeftHandTraffic) { PassesInTime(true); }
 
 // More of them, who come closer to one another: nobody touches anybody, and who goes over is back in time.

@@ -86,12 +86,12 @@ void NobodyIsTouched(const std::string& name, const NetworkPointer& network, std
                   watcher.crossed, watcher.longest_wait_s, r.hardest_mps2, r.driven_km, r.standing_s, r.vehicle_s));
 }
 
-TEST(Pedestrians, NobodyIsTouchedOnTheMaps) {
+TEST(Pedestrians, NoPedestrianIsTouchedOnTheMaps) {
   for (const std::string& name : lanes::MapNames())
     NobodyIsTouched(name, WithCrossings(*lanes::MapNetwork(name)), name == "town" ? 60 : 25, 300.0);
 }
 
-TEST(Pedestrians, NobodyIsTouchedInTheRealFiles) {
+TEST(Pedestrians, NoPedestrianIsTouchedInTheRealFiles) {
   if (lanes::RealFiles().empty()) GTEST_SKIP() << "the real files are not beside the project";
   for (const char* file : {"carla_Town04.xodr", "esmini_fabriksgatan.xodr", "esmini_multi_intersections.xodr"}) {
     NobodyIsTouched(file, WithCrossings(*opendrive::LoadNetwork(lanes::RealFolder() / file).value()),
@@ -285,7 +285,7 @@ TEST(Pedestrians, CarsYieldWhereTheyCan) { YieldsWhereItCan(false); }
 TEST(Pedestrians, CarsYieldInLeftHandTraffic) { YieldsWhereItCan(true); }
 
 // More people than would ever leave a gap: each car is let go after some time, and each person after a while.
-TEST(Pedestrians, NobodyWaitsForEver) {
+TEST(Pedestrians, NoPedestrianWaitsForEver) {
   StudySettings settings;
   settings.traffic = WithPeople(8, 3000.0);
   settings.duration_s = 900.0;
@@ -341,7 +341,7 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
 }
 
 // Who is hit stays, and so do those who come: nobody drives over him.
-TEST(Pedestrians, WhoIsHitStays) {
+TEST(Pedestrians, APedestrianThatIsHitStays) {
   TrafficModel model = TrafficModel::Make(WithPeople(6, 0.0), Street(), {}).value();
   ASSERT_TRUE(model.SpawnPedestrian("1", 200.0, true).ok());
   while (model.people()->counts()[0].let_go == 0) model.Step(0.05, {});

@@ -158,7 +158,7 @@ class Meeting : public testing::TestWithParam<bool> {
   Came yielded_;  // how the one who yielded came
 };
 
-TEST_P(Meeting, WhoComesFromTheRightGoesFirst) {
+TEST_P(Meeting, RightBeforeLeft) {
   Draw(lanes::Drawn(lanes::MapText("lights", false)));
   for (int arm = 0; arm < 4; ++arm) {
     const std::uint32_t mine = Arm(arm), right = Arm((arm + 1) % 4);
@@ -166,7 +166,7 @@ TEST_P(Meeting, WhoComesFromTheRightGoesFirst) {
   }
 }
 
-TEST_P(Meeting, WhoTurnsAcrossOncomingTrafficYields) {
+TEST_P(Meeting, ATurnAcrossOncomingTrafficYields) {
   Draw(lanes::Drawn(lanes::MapText("lights", false)));
   for (int arm = 0; arm < 4; ++arm) {
     const std::uint32_t mine = Arm(arm), opposite = Arm((arm + 2) % 4);
@@ -174,7 +174,7 @@ TEST_P(Meeting, WhoTurnsAcrossOncomingTrafficYields) {
   }
 }
 
-TEST_P(Meeting, WhoHasAGiveWaySignYieldsToHisLeftToo) {
+TEST_P(Meeting, AGiveWaySignYieldsToTheLeftToo) {
   for (int arm = 0; arm < 4; ++arm) {
     lanes::Drawn drawn(lanes::MapText("lights", false));
     Draw(std::move(drawn.Sign(std::to_string(2 * ((arm + 1) % 4) + 1), "205")));
@@ -183,7 +183,7 @@ TEST_P(Meeting, WhoHasAGiveWaySignYieldsToHisLeftToo) {
   }
 }
 
-TEST_P(Meeting, WhoHasAStopSignComesToRestAndYields) {
+TEST_P(Meeting, ACarAtAStopSignComesToRestAndYields) {
   for (int arm = 0; arm < 4; ++arm) {
     lanes::Drawn drawn(lanes::MapText("lights", false));
     Draw(std::move(drawn.Sign(std::to_string(2 * ((arm + 1) % 4) + 1), "206")));
@@ -200,7 +200,7 @@ TEST_P(Meeting, WhoHasAStopSignComesToRestAndYields) {
   }
 }
 
-TEST_P(Meeting, WhoDrivesOnARingGoesBeforeWhoEnters) {
+TEST_P(Meeting, ARingHasPriorityOverEntries) {
   constexpr double kRing_m = 16.0;
   Draw(lanes::Drawn(lanes::MapText("roundabout", true, traffic_map::Junctions::kDirect)));
   const auto on_ring = [&](std::uint32_t track) {

@@ -129,7 +129,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
 }
 
 // Not before somebody who could not stop for it within 4 m/s², by the IDM: v = 20 m/s, so near that it takes more.
-TEST(Scripted, NobodyHasToBrakeHardForIt) {
+TEST(Scripted, NoVehicleHasToBrakeHardForIt) {
   for (const double distance_m : {30.0, 60.0, 100.0, 150.0}) {
     TrafficModel model =
         TrafficModel::Make(OnlyScripted({kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
@@ -200,7 +200,7 @@ TEST(Scripted, WhereItCanNeverAppearIsRefused) {
 }
 
 // Where lanes of a junction are roads of their own it is said that they are.
-TEST(Scripted, NobodyAppearsWithinAJunction) {
+TEST(Scripted, NoVehicleAppearsWithinAJunction) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/lights.yaml");
   ASSERT_TRUE(world.ok());
   TrafficSettings settings = OnlyScripted({kCar});
@@ -224,7 +224,7 @@ TEST(Scripted, NobodyAppearsWithinAJunction) {
 }
 
 // A scripted vehicle that has not appeared is nothing to the others: to the bit.
-TEST(Scripted, WhoDoesNotAppearChangesNothing) {
+TEST(Scripted, AVehicleThatDoesNotAppearChangesNothing) {
   TrafficSettings settings;
   settings.vehicles = 25;
   TrafficSettings with = settings;
@@ -240,7 +240,7 @@ TEST(Scripted, WhoDoesNotAppearChangesNothing) {
 
 // Behind zones into which somebody has been let nobody appears before he has come to where he wants to stand, though
 // there were room for both.
-TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
+TEST(Scripted, NoVehicleTakesAReservedPlace) {
   TrafficSettings settings = OnlyScripted({kCar});
   settings.vehicles = 10;
   TrafficModel model = TrafficModel::Make(settings, lanes::MapNetwork("crossing"), {}).value();
@@ -270,7 +270,7 @@ TEST(Scripted, NobodyTakesThePlaceOfWhoHasBeenLetIn) {
 }
 
 // Vehicles appear in a town that is full of others: nobody touches anybody.
-TEST(Scripted, AmongOthersNobodyIsTouched) {
+TEST(Scripted, AmongOthersNoVehicleIsTouched) {
   TrafficSettings settings;
   settings.vehicles = 40;
   settings.scripted = std::vector<VehicleKind>(12, kCar);

@@ -36,7 +36,7 @@ TrafficModel Following(bool left_hand, double comes_m) {
 
 // Who is told overtakes, though nobody slow enough holds it up; not before who comes is far enough, and back in time;
 // who is not told does not.
-TEST(Scripted, WhoIsToldOvertakesAsSoonAsItIsSafe) {
+TEST(Scripted, ACommandedVehicleOvertakesAsSoonAsItIsSafe) {
   for (const bool left_hand : {false, true}) {
     for (const double comes_m : {1800.0, 300.0}) {
       TrafficModel calm = Following(left_hand, comes_m), model = calm;
@@ -62,7 +62,7 @@ TEST(Scripted, WhoIsToldOvertakesAsSoonAsItIsSafe) {
 }
 
 // Before somebody who overtakes nobody appears on the lane of oncoming traffic, as long as he does.
-TEST(Scripted, NobodyAppearsBeforeWhoOvertakes) {
+TEST(Scripted, NoVehicleAppearsBeforeAnOvertaker) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoWayRing(Mark("broken")), {}).value();
   Put(model, 0, "1:-1", 400.0, 12.0);
   Put(model, 1, "1:-1", 375.0, 12.0);
@@ -107,7 +107,7 @@ double LaneOf(const TrafficModel& model, std::uint32_t id) {  // 1 and 2 in the 
 }
 
 // Alone: in the next step, over as far as the lanes' middles are apart, and there it stays.
-TEST(Scripted, WhoIsToldChangesLanesAtOnceWhereNobodyIs) {
+TEST(Scripted, ACommandedVehicleChangesLanesAtOnceWhereTheLaneIsFree) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar}), TwoLanes("broken"), {}).value();
   Put(model, 0, "1:-2", 300.0, 15.0);
   Step(model);
@@ -137,7 +137,7 @@ TEST(Scripted, MarksAreKeptWhateverIsTold) {
 
 // Somebody comes faster on the lane beside: it begins in the first step in which that one need not brake harder than 2
 // m/s² by the IDM, worked out from the poses, and has gone by where it does not before.
-TEST(Scripted, WhoIsToldChangesLanesWhenItIsSafe) {
+TEST(Scripted, ACommandedVehicleChangesLanesWhenItIsSafe) {
   for (const double behind_m : {12.0, 35.0, 90.0}) {
     TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoLanes("broken"), {}).value();
     Put(model, 0, "1:-2", 400.0, 12.0);
@@ -175,7 +175,7 @@ TEST(Scripted, WhoIsToldChangesLanesWhenItIsSafe) {
 }
 
 // On a road of several lanes who is told to overtake goes over to the lane for it, and by.
-TEST(Scripted, OnSeveralLanesWhoIsToldPassesOnTheOther) {
+TEST(Scripted, OnSeveralLanesTheCommandedVehiclePassesOnTheOther) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoLanes("broken"), {}).value();
   Put(model, 0, "1:-2", 400.0, 12.0);
   Put(model, 1, "1:-2", 360.0, 12.0);

@@ -22,7 +22,7 @@ namespace rodeira::traffic {
 namespace {
 
 struct Row {
-  std::string otherwise, low, high;  // the last two empty for a word or a flag
+  std::string default_value, low, high;  // the last two empty for a word or a flag
 };
 
 // The table's rows by key, "following.time_gap_s".
@@ -130,11 +130,11 @@ TEST_F(TrafficSettingsFile, WhatASettingIsOtherwiseIsWhatTheDocumentSays) {
   const auto told = Told();
   for (const auto& [key, of] : kNumbers) {
     ASSERT_TRUE(told.contains(key)) << key;
-    EXPECT_NEAR(of(usual), std::stod(told.at(key).otherwise), 1e-12) << key;
+    EXPECT_NEAR(of(usual), std::stod(told.at(key).default_value), 1e-12) << key;
   }
   for (const auto& [key, of] : kWords) {
     ASSERT_TRUE(told.contains(key)) << key;
-    EXPECT_EQ("`" + of(usual) + "`", told.at(key).otherwise) << key;
+    EXPECT_EQ("`" + of(usual) + "`", told.at(key).default_value) << key;
   }
 }
 

@@ -155,7 +155,7 @@ TEST(Swing, HoldsWhatCarsOfTheMapsDo) {
 
 // Who leaves a tight bend gains speed as drivers do while his hands turn back: 15 m behind it a bus is on its line, and
 // zones are hardly wider for it.
-TEST(Swing, WhoLeavesABendGainsSpeedAsDriversDo) {
+TEST(Swing, ACarThatLeavesABendGainsSpeedAsDriversDo) {
   TrafficSettings settings = Full();
   settings.mix.shares = {0.5, 0.0, 0.0, 0.5};
   const double half_m = 0.5 * LargestOf(settings).width_m;

@@ -54,7 +54,7 @@ TEST(TrafficCommands, BrakesAtTheRateGivenToRestAndStays) {
   EXPECT_GT(PoseOf(model, 0).speed_mps, 12.0);
 }
 
-TEST(TrafficCommands, WhoFollowsStopsBehind) {
+TEST(TrafficCommands, AFollowerStopsBehind) {
   TrafficModel model = Made(12, 900.0);
   Pass(model, 5.0);
   model.Brake(4, 9.0);

@@ -113,7 +113,7 @@ TEST(UnrelatedRoad, TakesItsShareOfTheTripsAlone) {
 
 // A vehicle that meets nobody drives each of its trips that still begin on the old roads as before, to the bit, from
 // its first step to its last.
-TEST(UnrelatedRoad, ChangesNoTripOfWhoIsAlone) {
+TEST(UnrelatedRoad, ChangesNoTripOfALoneVehicle) {
   using Step = std::tuple<double, double, double, double, double, double>;
   const auto trips_of = [](const std::shared_ptr<const network::Network>& network) {
     TrafficModel model = TrafficModel::Make(Settings("vehicles: 1\n", 2), network, {}).value();

@@ -7,7 +7,7 @@
 namespace rodeira::traffic {
 namespace {
 
-TEST(ReservationTable, RoomIsWantedByWhoHasWaitedLongest) {
+TEST(ReservationTable, RoomIsReservedForTheLongestWaiting) {
   ReservationTable book(3);
   EXPECT_EQ(book.RoomWanted(1, 0).waited_s, 0.0);
   book.WantRoom(1, 0, {50.0, 7});

@@ -7,7 +7,7 @@
 
 // The runs here must compute like the programs do (law L7); what draws is registered as in rodeira-graphics.
 int main(int argc, char** argv) {
-  rodeira::base::FixMathematics(argv);
+  rodeira::base::PinMathLibrary(argv);
   rodeira::sdl_devices::UseSdlDevices();
   rodeira::cli::UseAllGraphics();
   ::testing::InitGoogleTest(&argc, argv);

@@ -5,7 +5,7 @@
 
 // The runs here must compute like the programs do (law L7).
 int main(int argc, char** argv) {
-  rodeira::base::FixMathematics(argv);
+  rodeira::base::PinMathLibrary(argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

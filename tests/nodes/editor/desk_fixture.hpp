@@ -9,7 +9,7 @@
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
-#include "nodes/editor/desk.hpp"
+#include "nodes/editor/editor_app.hpp"
 #include "tests/common/view/window/pushed_input.hpp"
 #include "tests/common/world/traffic_map/sample_map.hpp"
 
@@ -36,7 +36,7 @@ class ADesk : public testing::Test {
 
   void Sit(const std::filesystem::path& file = {}) {
     desk_.reset();
-    desk_ = std::make_unique<Desk>(*window_, file, folder_->path() / "kept");
+    desk_ = std::make_unique<EditorApp>(*window_, file, folder_->path() / "kept");
     Show();
   }
   // Until nothing waits any more.
@@ -129,7 +129,7 @@ class ADesk : public testing::Test {
 
   std::optional<base::TemporaryFolder> folder_;
   std::unique_ptr<window::Window> window_;
-  std::unique_ptr<Desk> desk_;
+  std::unique_ptr<EditorApp> desk_;
   bool open_ = true;
 };
 

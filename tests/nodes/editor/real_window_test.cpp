@@ -69,7 +69,7 @@ class Running {
 std::map<std::string, Eigen::Vector2d> PlacesOfTheLaneForm() {
   auto window = window::Window::Open({window::Kind::kOffscreen, 1280, 800, "test"});
   if (!window) return {};
-  Desk desk(*window.value(), {}, {});
+  EditorApp desk(*window.value(), {}, {});
   desk.Frame(0);
   desk.work().Open(Form::kLane);
   for (int i = 0; i < 4; ++i) desk.Frame(0);

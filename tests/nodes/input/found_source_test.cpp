@@ -104,7 +104,7 @@ TEST_F(FoundSource, AWholeFileThatAsksForWhatTheDeviceHasNotIsPassedOverToo) {
   EXPECT_THAT(told.said, HasSubstr("drives by a guess"));
 }
 
-TEST_F(FoundSource, AWheelThatNobodyHasSetUpDrivesAtOnce) {
+TEST_F(FoundSource, AWheelWithoutASetUpDrivesAtOnce) {
   VirtualWheel wheel;
   wheel.Axis(2, 32767);
   const auto hands = [&](lockstep::Step step) {

@@ -87,7 +87,7 @@ TEST_F(InputSetup, WritesAFileThatARunFindsByTheWheelItself) {
       << "its end is the car's lock";
 }
 
-TEST_F(InputSetup, WhoGivesUpOrHasNoWheelIsToldAndNothingIsWritten) {
+TEST_F(InputSetup, CancelledOrWithoutAWheelItSaysSoAndWritesNothing) {
   const auto say = [](const std::string&) {};
   const bool none = joysticks_->Connected().empty();
   EXPECT_EQ(cli::SetUpInput({}, say, [] { return true; }), none ? 2 : 1);

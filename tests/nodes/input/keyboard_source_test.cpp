@@ -67,7 +67,7 @@ TEST(KeyboardSource, LampsAndHornAreInTheControlsAndOnTheCar) {
   EXPECT_EQ(drive.last.horn(), 0u);
 }
 
-TEST(KeyboardSource, NobodyTouchesAKeyAndTwoRunsAreEqual) {
+TEST(KeyboardSource, WithoutAKeyTwoRunsAreEqual) {
   const base::Digest digest = Drive({}, 1500).outcome.digest;
   EXPECT_EQ(Drive({}, 1500).outcome.digest, digest);
   // Which window speaks, and how often, is in no state: only what is held.

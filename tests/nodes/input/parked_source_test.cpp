@@ -24,7 +24,7 @@ double Speed(const LiveDrive& drive) {
   return std::hypot(v.x(), v.y());
 }
 
-TEST(Parked, ACarStandsUntilSomebodyDrives) {
+TEST(Parked, ACarStandsUntilItIsDriven) {
   const LiveDrive waits = DriveOnAHill({}, 6000);
   EXPECT_LT(Speed(waits), 1e-3);
   EXPECT_EQ(waits.controls.at(0).handbrake(), 0.0) << "nothing is seen yet";
@@ -37,7 +37,7 @@ TEST(Parked, ACarStandsUntilSomebodyDrives) {
   EXPECT_GT(Speed(drives), 3.0);
 }
 
-TEST(Parked, WhoPullsTheHandbrakeHimselfLetsItGo) {
+TEST(Parked, APulledHandbrakeIsReleasedByThePuller) {
   const LiveDrive rolls = DriveOnAHill({{1000, {"b"}}, {2000, {}}}, 8000);
   EXPECT_EQ(rolls.controls.at(1500).handbrake(), 1.0);
   EXPECT_EQ(rolls.controls.at(3000).handbrake(), 0.0);

@@ -18,7 +18,7 @@ namespace {
 
 // A scenario calls two: they come, wait, cross and are gone, move as fast as they say, and their legs go as far as they
 // do.
-TEST(OnFoot, WhoIsCalledCrosses) {
+TEST(OnFoot, ACalledPedestrianCrosses) {
   constexpr std::uint32_t kPedestrian = 4, kFirst = 2'000'000;
   const std::string text =
       "rodeira: launch/1\nworld: ../configs/worlds/example/world.yaml\nseed: 5\nnodes:\n  road: {kind: road}\n"

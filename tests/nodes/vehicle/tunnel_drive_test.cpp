@@ -69,7 +69,7 @@ Drive Through(const road::World& world, dynamics::VehicleModel& car, const dynam
 
 // At 72 km/h straight on where the road bends to the left, on the throttle: it hits the right wall and scrapes along
 // it, on the floor, through the tube.
-TEST_P(InATunnel, WhoGoesStraightOnInABendHitsItsWallAndStaysInside) {
+TEST_P(InATunnel, ACarStraightOnInABendHitsItsWallAndStaysInside) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
   auto car = dynamics::MakeModel(GetParam());
@@ -82,7 +82,7 @@ TEST_P(InATunnel, WhoGoesStraightOnInABendHitsItsWallAndStaysInside) {
 
 // Head-on at 216 km/h: the nose is pressed in so far that the front wheels pass the road's edge. They stand on the
 // floor there, not on the hill.
-TEST_P(InATunnel, WhoIsPressedIntoItsWallStandsOnItsFloor) {
+TEST_P(InATunnel, ACarPressedIntoItsWallStandsOnItsFloor) {
   const auto world = Bend();
   ASSERT_NE(world, nullptr);
   auto car = dynamics::MakeModel(GetParam());

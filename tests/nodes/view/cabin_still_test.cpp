@@ -68,7 +68,7 @@ TEST_F(CabinStill, TheSteeringWheelTurnsOneToOne) {
 
 // What is about the driver is the same wherever the car stands: no road is seen through the doors below their panes,
 // beside the dashboard, through posts or the roof.
-TEST_F(CabinStill, DoorsPostsAndRoofAreAroundHim) {
+TEST_F(CabinStill, DoorsPostsAndRoofAreAroundTheDriver) {
   const Image here = Drawn();
   Car().p_WB_W += Eigen::Vector3d(39.0, 23.0, 0.0);  // on other squares of the plane
   const Image there = Drawn();

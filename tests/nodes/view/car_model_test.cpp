@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "nodes/view/frame/surface.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
@@ -89,18 +89,18 @@ class CarModelDrawn : public CarModel {
     auto surface = Surface::Open(SurfaceKind::kOffscreen, 960, 540, "test");
     ASSERT_TRUE(surface.ok()) << surface.error().Text();
     surface_ = std::move(surface).value();
-    auto painter = PainterOf(*surface_, *world_, {});
-    ASSERT_TRUE(painter.ok()) << painter.error().Text();
-    painter_ = std::move(painter).value();
+    auto renderer = RendererOf(*surface_, *world_, {});
+    ASSERT_TRUE(renderer.ok()) << renderer.error().Text();
+    renderer_ = std::move(renderer).value();
   }
-  void Wear() { ASSERT_TRUE(painter_->WearCarModel(WriteModel(folder_)).ok()); }
+  void UseModel() { ASSERT_TRUE(renderer_->UseCarModel(WriteModel(folder_)).ok()); }
   Image Drawn() {
-    painter_->Draw(picture_);
-    return painter_->Read();
+    renderer_->Draw(picture_);
+    return renderer_->Read();
   }
 
   std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;  // before its surface in dying
+  std::unique_ptr<Renderer> renderer_;  // before its surface in dying
 };
 
 bool IsMagenta(const Probe& p) { return p.red > 150.0 && p.blue > 150.0 && p.green < 60.0; }
@@ -111,7 +111,7 @@ TEST_F(CarModelDrawn, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
   const Eigen::Vector3d tail_W = At(-2.0, 0.0, 0.6), upright_W = At(-1.23, 0.71, 1.15);
   const Image before = Drawn();
   EXPECT_FALSE(IsMagenta(ProbeAt(before, camera, tail_W))) << ProbeAt(before, camera, tail_W);
-  Wear();
+  UseModel();
   const Image worn = Drawn();
   EXPECT_TRUE(IsMagenta(ProbeAt(worn, camera, tail_W))) << ProbeAt(worn, camera, tail_W);
   EXPECT_TRUE(IsCyan(ProbeAt(worn, camera, upright_W))) << ProbeAt(worn, camera, upright_W);
@@ -121,7 +121,7 @@ TEST_F(CarModelDrawn, StandsInPlaceOfTheProceduralCarAndItsWheelsTurn) {
 
 // Each lamp shines where the car says so, and no other one does; by day, unlit, it is dull.
 TEST_F(CarModelDrawn, ItsLampsShineAsTheCarSays) {
-  Wear();
+  UseModel();
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
   using Brightness = std::map<std::string, double>;
   const auto shown = [&](const scene::CarLights& lights) {
@@ -156,7 +156,7 @@ TEST_F(CarModelDrawn, ItsLampsShineAsTheCarSays) {
 // A chosen car pulses in whatever body: towards the pulse's light yellow, 65 of 100 at its most, and back; another
 // one's does not.
 TEST_F(CarModelDrawn, PulsesWhereTheCarIsChosen) {
-  Wear();
+  UseModel();
   const scene::Camera camera = scene::ChaseCamera(car(), *world_);
   const auto shown = [&](std::int64_t time_ns, std::optional<std::size_t> chosen) {
     picture_.moment.time_ns = time_ns;
@@ -184,10 +184,10 @@ TEST_F(CarModel, WhichCannotBeReadIsASentenceAndTheProceduralCarStays) {
     settings.height_px = 180;
     settings.instruments = false;
     settings.car_model = model;
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world_, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world_, false, "help");
     EXPECT_TRUE(screen.ok());
-    screen.value()->painter().Draw(picture_);
-    return screen.value()->painter().Read().rgb;
+    screen.value()->renderer().Draw(picture_);
+    return screen.value()->renderer().Read().rgb;
   };
   const auto without = seen_with({});
   for (const fs::path& model : {folder_ / "missing.osgb", broken}) {

@@ -14,7 +14,7 @@
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
 #include "common/view/scene/camera/camera.hpp"
 #include "nodes/view/dynamic_objects/driver_aims.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
@@ -31,16 +31,16 @@ class Choosing : public testing::Test {
     settings_.width_px = width_px;
     settings_.height_px = height_px;
     screen_.reset();  // at most one at a time
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
-  Image Shown(const scene::Moment& moment) { return nodes::Shown(*screen_, moment); }
+  Image Shown(const scene::SceneSnapshot& moment) { return nodes::Shown(*screen_, moment); }
   bool Click(const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) { return nodes::Click(*screen_, at, button); }
 
   ViewSettings settings_;
   std::shared_ptr<const road::World> world_;
-  std::unique_ptr<Screen> screen_;
+  std::unique_ptr<ViewWindow> screen_;
 };
 
 // A click on a car of the traffic, seen from behind: it pulses with simulated time, its panel stands there; a click
@@ -48,7 +48,7 @@ class Choosing : public testing::Test {
 TEST_F(Choosing, AClickChoosesAVehicle) {
   settings_.instruments = false;
   ASSERT_NO_FATAL_FAILURE(Open(960, 540));
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.time_ns = 400'000'000;  // half of the pulse's 0.8 s: at its most
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   scene::AgentPose agent;
@@ -76,8 +76,8 @@ TEST_F(Choosing, AClickChoosesAVehicle) {
 }
 
 // A car and two of the traffic before it, on a plane.
-scene::Moment CarAndTwoOthers() {
-  scene::Moment moment;
+scene::SceneSnapshot CarAndTwoOthers() {
+  scene::SceneSnapshot moment;
   moment.time_ns = 800'000'000;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   for (const int number : {1, 2}) {
@@ -95,7 +95,7 @@ scene::Moment CarAndTwoOthers() {
 // window's own car none is chosen.
 TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
   ASSERT_NO_FATAL_FAILURE(Open(640, 360));
-  scene::Moment moment = CarAndTwoOthers();
+  scene::SceneSnapshot moment = CarAndTwoOthers();
   moment.time_ns = 400'000'000;  // the pulse's middle
   const auto expected = [&](std::size_t followed, std::optional<std::size_t> chosen) {
     Picture picture = PictureOf(settings_, moment);
@@ -105,8 +105,8 @@ TEST_F(Choosing, TabChoosesOneVehicleAfterTheOtherAndComesHome) {
     panel.Choose(moment, chosen);
     picture.panel = panel.Panel(moment);
     EXPECT_EQ(picture.panel.empty(), !chosen);
-    screen_->painter().Draw(picture);
-    return screen_->painter().Read();
+    screen_->renderer().Draw(picture);
+    return screen_->renderer().Read();
   };
   const auto press = [&](int shift) {
     EXPECT_TRUE(screen_->TakeKey(SDLK_TAB, true, shift));
@@ -128,7 +128,7 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
   for (const int own : {kLeftButton, kRightButton, kMiddleButton, kNoButton}) {
     settings_.mouse_button = own;
     ASSERT_NO_FATAL_FAILURE(Open(640, 360));
-    const scene::Moment moment = CarAndTwoOthers();
+    const scene::SceneSnapshot moment = CarAndTwoOthers();
     const auto shown = [&] { return Shown(moment).rgb; };
     const auto before = shown();
     const Eigen::Vector2d at = *scene::ChaseCamera(moment.cars[0], *world_)
@@ -146,8 +146,8 @@ TEST_F(Choosing, ChoosingAndTurningHaveAButtonThatDoesNotDrive) {
     for (int i = 0; i < 3; ++i) (void)screen_->TakeKey(SDLK_k, true);  // chase, driver, bonnet, orbit
     Picture picture = PictureOf(settings_, moment);
     picture.camera = scene::CameraKind::kOrbit;
-    screen_->painter().Draw(picture);
-    const auto not_turned = screen_->painter().Read().rgb;
+    screen_->renderer().Draw(picture);
+    const auto not_turned = screen_->renderer().Read().rgb;
     EXPECT_EQ(shown() == not_turned, own == kNoButton) << own;
   }
 }
@@ -184,7 +184,7 @@ TEST(WindowHelp, SaysWhichButtonOfTheMouseIsTheWindows) {
 TEST_F(Choosing, TheVectorsOfAChosenDriverStandInTheScene) {
   settings_.instruments = false;
   ASSERT_NO_FATAL_FAILURE(Open(960, 540));
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.time_ns = 800'000'000;  // between two pulses
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   const auto from_car = [&](double ahead, double left, double up) -> Eigen::Vector3d {
@@ -254,7 +254,7 @@ TEST_F(Choosing, TheAutopilotsVectorsOfADrivenCarStandInTheSceneToo) {
   const auto at = [&](double s_m, double high_m) -> Eigen::Vector3d {
     return road.Surface(s_m, -1.45).p_W + Eigen::Vector3d(0.0, 0.0, high_m);
   };
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.time_ns = 800'000'000;  // between two pulses
   moment.cars.push_back(CarAt(at(20.0, 0.0), road.axis().Evaluate(20.0).heading_rad));
   moment.cars[0].speed_mps = 15.0;
@@ -301,7 +301,7 @@ TEST(DriverAims, AreOfTheInputThatDrivesTheCar) {
 }
 
 TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.emplace_back();
   scene::CarPose& car = moment.cars[0];
   car.id = 3;
@@ -330,7 +330,7 @@ TEST(Chosen, SaysWhatTheCarDoesAndSinceWhen) {
 }
 
 TEST(Chosen, SaysOfTheTrafficWhatItPublishes) {
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.agents.emplace_back();
   scene::AgentPose& agent = moment.agents[0];
   agent.id = std::uint64_t{7} << 24;

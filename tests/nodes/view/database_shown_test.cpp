@@ -98,14 +98,14 @@ TEST_F(Database, TheViewShowsWhatItWouldShowFromMemory) {
   const auto draw = [&](const fs::path& built, bool repeats = true) {
     std::vector<Image> images;
     const auto surface = Surface::Open(SurfaceKind::kOffscreen, BriefOrLong(320, 640), BriefOrLong(180, 360), "test");
-    const auto painter = PainterOf(*surface.value(), *world, built, repeats);
-    EXPECT_TRUE(painter.ok()) << painter.error().Text();
+    const auto renderer = RendererOf(*surface.value(), *world, built, repeats);
+    EXPECT_TRUE(renderer.ok()) << renderer.error().Text();
     for (const double s : {25.0, 70.0, 140.0}) {  // near the rail, before the signs; other tiles are near and far
       Picture picture;
       picture.show_instruments = false;
       picture.moment.cars.push_back(CarAt(road.Surface(s, -1.75).p_W, road.axis().Evaluate(s).heading_rad));
-      painter.value()->DrawWhole(picture);
-      images.push_back(painter.value()->Read());
+      renderer.value()->DrawWhole(picture);
+      images.push_back(renderer.value()->Read());
     }
     return images;
   };
@@ -132,8 +132,8 @@ TEST_P(Left, WhatTheEyeHasLeftIsGivenBack) {
   ASSERT_NE(world, nullptr);
   const std::size_t tiles = Write(*world, "world").tiles;
   const auto surface = Surface::Open(SurfaceKind::kOffscreen, 320, 180, "test");
-  const auto painter = PainterOf(*surface.value(), *world, GetParam() ? folder_ / "world" : fs::path());
-  ASSERT_TRUE(painter.ok());
+  const auto renderer = RendererOf(*surface.value(), *world, GetParam() ? folder_ / "world" : fs::path());
+  ASSERT_TRUE(renderer.ok());
   const network::Road& road = world->network()->roads()[0];
   Picture picture;
   picture.show_instruments = false;
@@ -142,12 +142,12 @@ TEST_P(Left, WhatTheEyeHasLeftIsGivenBack) {
   const Eigen::Vector3d near = picture.moment.cars[0].p_WB_W;
   const auto held_at = [&](double away_m) {
     picture.moment.cars[0].p_WB_W = near + Eigen::Vector3d(-away_m, 0.0, 0.0);
-    painter.value()->DrawWhole(picture);
-    painter.value()->Draw(picture);
-    return painter.value()->HeldLevels();
+    renderer.value()->DrawWhole(picture);
+    renderer.value()->Draw(picture);
+    return renderer.value()->HeldLevels();
   };
   const std::size_t first = held_at(0.0);
-  const Image before = painter.value()->Read();
+  const Image before = renderer.value()->Read();
   EXPECT_GT(first, tiles / 2);
   const std::size_t away = held_at(3'000.0), far = held_at(30'000.0);
   EXPECT_LT(away, first);
@@ -159,7 +159,7 @@ TEST_P(Left, WhatTheEyeHasLeftIsGivenBack) {
     EXPECT_LE(held_at(3'000.0), away) << i;
   }
   EXPECT_LE(held_at(0.0), first);
-  EXPECT_EQ(painter.value()->Read().rgb, before.rgb);
+  EXPECT_EQ(renderer.value()->Read().rgb, before.rgb);
 }
 
 TEST_F(Database, OnlyThatOfTheWorldAsItIsIsFound) {

@@ -8,7 +8,7 @@
 
 namespace rodeira::nodes {
 
-// One surface and painter for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that
+// One surface and renderer for all of a test, the driver's camera, nothing over the picture. `SetUp` of a test that
 // derives begins with this one's.
 class DriverStill : public ::testing::Test {
  protected:
@@ -23,9 +23,9 @@ class DriverStill : public ::testing::Test {
     auto surface = Surface::Open(SurfaceKind::kOffscreen, width_px_, height_px_, "test", false, 0, quality_);
     ASSERT_TRUE(surface.ok()) << surface.error().Text();
     surface_ = std::move(surface).value();
-    auto painter = PainterOf(*surface_, *world_, {});  // made where the eye comes near: less than the whole world
-    ASSERT_TRUE(painter.ok()) << painter.error().Text();
-    painter_ = std::move(painter).value();
+    auto renderer = RendererOf(*surface_, *world_, {});  // made where the eye comes near: less than the whole world
+    ASSERT_TRUE(renderer.ok()) << renderer.error().Text();
+    renderer_ = std::move(renderer).value();
     picture_.show_instruments = false;
     picture_.mirrors.fill(false);
     picture_.camera = scene::CameraKind::kDriver;
@@ -33,15 +33,15 @@ class DriverStill : public ::testing::Test {
   }
   scene::CarPose& Car() { return picture_.moment.cars[0]; }
   Image Drawn() {
-    painter_->DrawWhole(picture_);
-    return painter_->Read();
+    renderer_->DrawWhole(picture_);
+    return renderer_->Read();
   }
 
   const int width_px_, height_px_;
   const Quality quality_;
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
+  std::unique_ptr<Renderer> renderer_;
   Picture picture_;
 
  private:

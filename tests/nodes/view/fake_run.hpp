@@ -7,7 +7,7 @@
 
 #include "common/runtime/launch/node_context.hpp"
 #include "common/runtime/lockstep/node.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "idl/codec.hpp"
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"

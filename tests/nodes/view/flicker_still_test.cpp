@@ -15,9 +15,9 @@ class FlickerStill : public DriverStill {
   FlickerStill() : DriverStill("n222.yaml", 1280, 720) {}
   void SetUp() override {
     DriverStill::SetUp();
-    if (painter_ == nullptr) return;
+    if (renderer_ == nullptr) return;
     // Everything is built before the first picture: ground that is made while the eye moves costs more pictures.
-    painter_ = std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_));
+    renderer_ = std::make_unique<Renderer>(*surface_, *world_, scene::BuildWorldScene(*world_));
   }
   // Whether the ground stands in the way.
   bool IsHidden(const Eigen::Vector3d& eye_W, const Eigen::Vector3d& p_W) const {

@@ -13,7 +13,7 @@ namespace {
 // A car drives north at 20 m/s. What its driver steers for was said at 0.1 s, when the car was at y = 2: 3 m before it
 // and 1 m to its left. That is where it is drawn until it is said again, while the point up to which the driver looks
 // stays where it was.
-TEST(FromWire, WhatIsHeldOfADriverGoesOnWithHisCar) {
+TEST(FromWire, WhatIsHeldOfADriverGoesOnWithTheCar) {
   const auto launch = launch::Launch::Parse(LaunchText("{window: never}"), "fake.yaml");
   ASSERT_TRUE(launch.ok()) << launch.error().Text();
   const lockstep::Roster& roster = launch.value().roster();

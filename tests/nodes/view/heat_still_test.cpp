@@ -63,7 +63,7 @@ class HeatStill : public DriverStill {
   // Pixel by pixel at the squares' middles: 0.3 of what was seen and 0.7 of the scale's colour.
   template <class Share>
   void ExpectBlended(const Image& before, const Image& heat, Share share, double kept) const {
-    const scene::Camera camera = painter_->CameraOf(picture_);
+    const scene::Camera camera = renderer_->CameraOf(picture_);
     int asked = 0;
     for (std::size_t row = 4; row < 10; ++row) {  // below the legend
       for (std::size_t column = 4; column < 12; ++column) {
@@ -102,7 +102,7 @@ TEST_F(HeatStill, BetweenTwoSquaresIsTheMiddleOfTheirColours) {
   const Image before = Drawn();
   Lay(share);
   const Image heat = Drawn();
-  const scene::Camera camera = painter_->CameraOf(picture_);
+  const scene::Camera camera = renderer_->CameraOf(picture_);
   const Eigen::Vector3d edge = Middle(picture_.heat->raster, 8, 6) - Eigen::Vector3d(0.5 * kSquare_m, 0.0, 0.0);
   const Probe was = ProbeAt(before, camera, edge), is = ProbeAt(heat, camera, edge);
   const scene::Colour between = scene::HeatColour(0.4);

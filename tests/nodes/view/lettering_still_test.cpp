@@ -82,7 +82,7 @@ class Lettering : public ::testing::Test {
   Picture picture_;
 };
 
-TEST_F(Lettering, ReadsFromLeftToRightForThoseWhoCome) {
+TEST_F(Lettering, ReadsFromLeftToRightForOncomingTraffic) {
   const Image image = Seen(kSign_s_m + 12.0, 3.14159265358979, false);
   const scene::Camera camera = scene::DriverCamera(picture_.moment.cars[0]);
   const auto place = [&](const Eigen::Vector3d& p_W) { return *camera.Project(p_W, kWidth, kHeight); };

@@ -47,7 +47,7 @@ class LightsStill : public DriverStill {
     EXPECT_FALSE(box.isEmpty());
     Eigen::Vector3d face = box.center();
     face.x() = front ? box.max().x() : box.min().x();
-    return ProbeAt(image, painter_->CameraOf(picture_), Agent().p_WB_W + Agent().q_WB * face, 1);
+    return ProbeAt(image, renderer_->CameraOf(picture_), Agent().p_WB_W + Agent().q_WB * face, 1);
   }
   Image With(const scene::CarLights& lights, std::int64_t time_ns = 0) {
     Agent().lights = lights;
@@ -106,7 +106,7 @@ TEST_F(LightsStill, OfABus) {
 }
 
 // Towards evening no car needs headlights yet; with them on the road ahead is brighter.
-TEST_F(LightsStill, TheDriverSwitchesHisHeadlightsOn) {
+TEST_F(LightsStill, TheDriverSwitchesTheHeadlightsOn) {
   picture_.moment.weather.hour = 17.5;
   Car() = CarAt({12.0, 7.0, 0.0}, 0.6);
   const auto green_ahead = [&](const scene::CarLights& lights) {
@@ -133,7 +133,7 @@ TEST_F(LightsStill, LegsMoveWithTheWayThatIsWalked) {
   };
   const Image standing = walked(0.0), stride = walked(0.5 * std::numbers::pi), other = walked(-0.5 * std::numbers::pi);
   EXPECT_EQ(walked(0.0).rgb, standing.rgb);
-  const scene::Camera camera = painter_->CameraOf(picture_);
+  const scene::Camera camera = renderer_->CameraOf(picture_);
   const auto at = [&](const Image& image, double ahead_m, double up_m) {
     return ProbeAt(image, camera, Agent().p_WB_W + Agent().q_WB * Eigen::Vector3d(ahead_m, 0.0, up_m), 1);
   };

@@ -51,19 +51,19 @@ TEST_F(MadeWorld, IsSeenAsTheWholeScene) {
     std::vector<Image> whole;
     {
       const auto surface = Open(quality);
-      Painter painter(*surface, *world_, scene);
-      for (const Picture& picture : Tour()) painter.DrawWhole(picture), whole.push_back(painter.Read());
-      EXPECT_EQ(painter.HeldLevels(), 0u);
+      Renderer renderer(*surface, *world_, scene);
+      for (const Picture& picture : Tour()) renderer.DrawWhole(picture), whole.push_back(renderer.Read());
+      EXPECT_EQ(renderer.HeldLevels(), 0u);
     }
     const auto surface = Open(quality);
-    const auto painter = PainterOf(*surface, *world_, {});
-    ASSERT_TRUE(painter.ok());
+    const auto renderer = RendererOf(*surface, *world_, {});
+    ASSERT_TRUE(renderer.ok());
     const std::vector<Picture> tour = Tour();
     for (std::size_t i = 0; i < tour.size(); ++i) {
-      painter.value()->DrawWhole(tour[i]);
-      EXPECT_EQ(painter.value()->Read().rgb, whole[i].rgb) << "picture " << i;
+      renderer.value()->DrawWhole(tour[i]);
+      EXPECT_EQ(renderer.value()->Read().rgb, whole[i].rgb) << "picture " << i;
     }
-    EXPECT_GT(painter.value()->HeldLevels(), 0u);
+    EXPECT_GT(renderer.value()->HeldLevels(), 0u);
     EXPECT_NE(whole[0].rgb, whole[3].rgb);
   }
 }
@@ -73,11 +73,12 @@ TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
   const Picture last = On(70.0, scene::CameraKind::kChase);
   const auto film = [&](const std::vector<Picture>& before) {
     const auto surface = Open(Quality::kMedium);
-    const auto painter = PainterOf(*surface, *world_, {});
-    EXPECT_TRUE(painter.ok());
-    for (const Picture& picture : before) painter.value()->Draw(picture);  // as a window: what is asked for comes later
-    painter.value()->DrawWhole(last);
-    return painter.value()->Read();
+    const auto renderer = RendererOf(*surface, *world_, {});
+    EXPECT_TRUE(renderer.ok());
+    for (const Picture& picture : before)
+      renderer.value()->Draw(picture);  // as a window: what is asked for comes later
+    renderer.value()->DrawWhole(last);
+    return renderer.value()->Read();
   };
   const Image alone = film({});
   EXPECT_EQ(film({On(140.0, scene::CameraKind::kTop), On(25.0, scene::CameraKind::kDriver)}).rgb, alone.rgb);
@@ -87,7 +88,7 @@ TEST_F(MadeWorld, WhenATileCameIsNotSeen) {
 }
 
 // A viewer that looks at nothing but the sky still finds ground when it turns round.
-TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
+TEST_F(MadeWorld, WhatIsOutOfSightComesTooCoarsely) {
   world_ = scene::OpenDriveWorld(
       "<road id=\"1\" length=\"1500\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0.1\" "
       "length=\"1500\"><line/></geometry></planView><lanes><laneSection s=\"0\"><center><lane "
@@ -96,19 +97,19 @@ TEST_F(MadeWorld, WhatNobodyLooksAtComesTooCoarsely) {
       "</laneSection></lanes></road>\n");
   ASSERT_NE(world_, nullptr);
   const auto surface = Open(Quality::kLow);
-  const auto painter = PainterOf(*surface, *world_, {});
-  ASSERT_TRUE(painter.ok());
+  const auto renderer = RendererOf(*surface, *world_, {});
+  ASSERT_TRUE(renderer.ok());
   Picture picture = On(70.0, scene::CameraKind::kDriver);
   picture.mirrors.fill(false);
   picture.moment.cars[0].q_WB = scene::Attitude(0.0, -1.5707, 0.0);
-  painter.value()->DrawWhole(picture);
-  const std::size_t looked_at = painter.value()->HeldLevels();
+  renderer.value()->DrawWhole(picture);
+  const std::size_t looked_at = renderer.value()->HeldLevels();
   const std::size_t tiles = scene::GroundPlan(*world_).tiles().size();
   EXPECT_LT(looked_at, tiles);
   const auto end = std::chrono::steady_clock::now() + 60s;
-  while (painter.value()->HeldLevels() < tiles && std::chrono::steady_clock::now() < end)
-    painter.value()->Draw(picture);
-  EXPECT_GE(painter.value()->HeldLevels(), tiles);
+  while (renderer.value()->HeldLevels() < tiles && std::chrono::steady_clock::now() < end)
+    renderer.value()->Draw(picture);
+  EXPECT_GE(renderer.value()->HeldLevels(), tiles);
 }
 
 // Far beyond what is drawn nothing is made, and nothing is made again and again: a straight road of 36 km, looked
@@ -122,8 +123,8 @@ TEST(MadeFarWorld, HoldsWhatIsSeenAndNoMore) {
       "long.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
   const auto surface = Surface::Open(SurfaceKind::kOffscreen, 160, 90, "test", false, 0, Quality::kLow);
-  const auto painter = PainterOf(*surface.value(), *world.value(), {});
-  ASSERT_TRUE(painter.ok());
+  const auto renderer = RendererOf(*surface.value(), *world.value(), {});
+  ASSERT_TRUE(renderer.ok());
   Picture picture;
   picture.moment.cars.push_back(CarAt({100.0, -1.75, 0.0}, 0.0));
   const std::size_t tiles = scene::GroundPlan(*world.value()).tiles().size();
@@ -132,11 +133,11 @@ TEST(MadeFarWorld, HoldsWhatIsSeenAndNoMore) {
   const auto end = std::chrono::steady_clock::now() + 30s;
   while (quiet < 20 && std::chrono::steady_clock::now() < end) {
     ++quiet;
-    painter.value()->DrawWhole(picture, [&](double) { quiet = 0; });
-    painter.value()->Draw(picture);
+    renderer.value()->DrawWhole(picture, [&](double) { quiet = 0; });
+    renderer.value()->Draw(picture);
   }
   EXPECT_EQ(quiet, 20);
-  const std::size_t held = painter.value()->HeldLevels();
+  const std::size_t held = renderer.value()->HeldLevels();
   EXPECT_GT(held, tiles / 3);
   EXPECT_LT(held, tiles * 3 / 5) << "of 36 km some 15 are seen";
 }

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "nodes/view/frame/png.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
@@ -34,7 +34,7 @@ class MenuTest : public ::testing::Test {
     settings_.volume = 0.4;
     settings_.cars = {{0, "ego"}};
     moment_.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
@@ -42,7 +42,7 @@ class MenuTest : public ::testing::Test {
     moment_.time_ns += 20'000'000;  // a window in which time stands says so
     if (recorded_) {
       screen_->Show(moment_, 1.0, Timeline());
-      return screen_->painter().Read();
+      return screen_->renderer().Read();
     }
     return Shown(*screen_, moment_);
   }
@@ -115,9 +115,9 @@ class MenuTest : public ::testing::Test {
 
   ViewSettings settings_;
   std::shared_ptr<const road::World> world_;
-  scene::Moment moment_;
+  scene::SceneSnapshot moment_;
   bool recorded_ = false;
-  std::unique_ptr<Screen> screen_;
+  std::unique_ptr<ViewWindow> screen_;
   std::unique_ptr<Menu> other_;                // for PlaceOf
   std::map<ImGuiID, Eigen::Vector2d> places_;  // entries that the mouse has met on it
   int next_y_px_ = 4;
@@ -153,8 +153,8 @@ TEST_F(MenuTest, ACameraIsChosenByItsName) {
     const Image seen = Frame();
     Picture picture = PictureOf(settings_, moment_);
     picture.camera = static_cast<scene::CameraKind>(i);
-    screen_->painter().Draw(picture);
-    EXPECT_EQ(seen.rgb, screen_->painter().Read().rgb) << scene::CameraNames()[i];
+    screen_->renderer().Draw(picture);
+    EXPECT_EQ(seen.rgb, screen_->renderer().Read().rgb) << scene::CameraNames()[i];
     Open();
   }
 }

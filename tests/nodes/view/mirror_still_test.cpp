@@ -143,8 +143,8 @@ class MirrorsInTurn : public MirrorStill {
   }
   // As a window draws it.
   Image InTurn() {
-    painter_->Draw(picture_);
-    return painter_->Read();
+    renderer_->Draw(picture_);
+    return renderer_->Read();
   }
   Image Whole() { return Drawn(); }
 };
@@ -179,7 +179,7 @@ TEST_F(MirrorsInTurn, AHeadsetsEyesInBetweenChangeNothing) {
   for (int i = 0; i < 3; ++i) {
     Picture in_headset = picture_;
     in_headset.mirrors.fill(false);
-    painter_->DrawInto(in_headset, eye.target());
+    renderer_->DrawInto(in_headset, eye.target());
     const Image now = Next();
     int new_ones = 0;
     for (const scene::Mirror mirror : scene::kAllMirrors) new_ones += Differ(now, before, mirror, 20);

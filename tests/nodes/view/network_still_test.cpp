@@ -46,7 +46,7 @@ TEST(NetworkStill, LanesMarksKerbAndLand) {
   EXPECT_TRUE(ProbeAt(image.value(), 480, 40).IsSky());
 }
 
-TEST(NetworkStill, ASignIsReadByThoseWhomItIsForAndGreyFromBehind) {
+TEST(NetworkStill, ASignIsReadFromItsFrontAndGreyFromBehind) {
   RODEIRA_NEEDS_PICTURES();
   const std::string width = "<width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>";
   const auto world = scene::OpenDriveWorld(
@@ -103,14 +103,14 @@ TEST(NetworkStill, LightsShineAsTheMomentSays) {
   const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
   const auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
   ASSERT_TRUE(surface.ok()) << surface.error().Text();
-  const auto painter = PainterOf(*surface.value(), *world, {});
-  ASSERT_TRUE(painter.ok()) << painter.error().Text();
+  const auto renderer = RendererOf(*surface.value(), *world, {});
+  ASSERT_TRUE(renderer.ok()) << renderer.error().Text();
   // How bright the three are, from below.
   const auto seen = [&](std::optional<LightColour> colour) {
     picture.moment.lights.clear();
     if (colour) picture.moment.lights.push_back({0, *colour});
-    painter.value()->DrawWhole(picture);
-    const Image image = painter.value()->Read();
+    renderer.value()->DrawWhole(picture);
+    const Image image = renderer.value()->Read();
     std::array<Probe, 3> probes;
     for (std::size_t which = 0; which < 3; ++which) {
       const Eigen::Vector3d at =

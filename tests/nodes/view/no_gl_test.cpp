@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "nodes/view/window/stage.hpp"
+#include "nodes/view/window/render_thread.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"
@@ -25,12 +25,13 @@ class NoGl : public ::testing::Test {
   // Opens what draws a run, says what it answers and ends with that status; 0 and "nothing is drawn" where it goes on
   // without.
   [[noreturn]] void Open() {
-    auto stage = Stage::Open(settings_, road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value());
+    auto render_thread =
+        RenderThread::Open(settings_, road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value());
     std::fprintf(stderr, "%s\n",
-                 !stage.ok()                ? stage.error().Text().c_str()
-                 : stage.value() == nullptr ? "nothing is drawn"
-                                            : "it draws");
-    std::_Exit(stage.ok() ? 0 : stage.error().exit_status());
+                 !render_thread.ok()                ? render_thread.error().Text().c_str()
+                 : render_thread.value() == nullptr ? "nothing is drawn"
+                                                    : "it draws");
+    std::_Exit(render_thread.ok() ? 0 : render_thread.error().exit_status());
   }
   static void WithoutRenderer() {
     ::unsetenv("DISPLAY");

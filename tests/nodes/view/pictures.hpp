@@ -10,7 +10,7 @@
 #include "common/world/road/road.hpp"
 #include "common/world/road/world.hpp"
 #include "nodes/view/frame/picture.hpp"
-#include "nodes/view/renderer/painter.hpp"
+#include "nodes/view/renderer/renderer.hpp"
 #include "tests/nodes/view/read_png.hpp"
 
 namespace rodeira::nodes {

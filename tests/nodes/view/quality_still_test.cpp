@@ -37,13 +37,13 @@ Picture FromAbove(double hour, bool with) {
   return picture;
 }
 
-// The plane from above at one quality: one surface and painter for all of a test's pictures.
+// The plane from above at one quality: one surface and renderer for all of a test's pictures.
 class SeenFromAbove {
  public:
   explicit SeenFromAbove(Quality quality)
       : world_(World("plane.yaml")),
         surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test", false, 0, quality).value()),
-        painter_(std::make_unique<Painter>(*surface_, *world_, scene::BuildWorldScene(*world_))) {}
+        renderer_(std::make_unique<Renderer>(*surface_, *world_, scene::BuildWorldScene(*world_))) {}
 
   // How bright the ground is where the shadow of a point over the second car's middle falls, against the same place
   // without that car. From the hour alone: the sun stands asin(cos 42 cos H) high, and a shadow is as long as the
@@ -56,8 +56,8 @@ class SeenFromAbove {
                           away = -Eigen::Vector3d(sun.x(), sun.y(), 0.0).normalized();
     const Eigen::Vector3d place = with.moment.cars[1].p_WB_W + height_m / std::tan(scene::SunHeight_rad(hour)) * away;
     const auto shown = [&](const Picture& picture) {
-      painter_->Draw(picture);
-      return Brightness(ProbeAt(painter_->Read(), camera, place, 3));
+      renderer_->Draw(picture);
+      return Brightness(ProbeAt(renderer_->Read(), camera, place, 3));
     };
     return shown(with) / shown(without);
   }
@@ -65,7 +65,7 @@ class SeenFromAbove {
  private:
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 TEST(SunShadow, FallsAwayFromTheSunAsLongAsItIsLow) {

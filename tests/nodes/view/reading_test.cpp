@@ -10,7 +10,7 @@
 #include "common/core/base/temporary_folder.hpp"
 #include "nodes/view/playback/replay_window.hpp"
 #include "nodes/view/window/loading.hpp"
-#include "nodes/view/window/stage.hpp"
+#include "nodes/view/window/render_thread.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
 #include "tests/tree.hpp"
@@ -73,12 +73,12 @@ class Reading : public testing::Test {
 };
 
 TEST_F(Reading, ARunsWindowIsThereBeforeItsWorldIs) {
-  const auto stage = Stage::Open(settings_, [this] { return LookAtTheBar(); });
-  ASSERT_TRUE(stage.ok()) << stage.error().Text();
+  const auto render_thread = RenderThread::Open(settings_, [this] { return LookAtTheBar(); });
+  ASSERT_TRUE(render_thread.ok()) << render_thread.error().Text();
   EXPECT_FALSE(seen_.empty());
   EXPECT_TRUE(moved_);
-  ASSERT_NE(stage.value(), nullptr);
-  EXPECT_TRUE(stage.value()->has_window());
+  ASSERT_NE(render_thread.value(), nullptr);
+  EXPECT_TRUE(render_thread.value()->has_window());
 }
 
 TEST_F(Reading, ARecordingsWindowIsThereBeforeItsWorldIs) {
@@ -93,10 +93,10 @@ TEST_F(Reading, WhatIsWrongWithTheWorldIsTheAnswer) {
     (void)LookAtTheBar();
     return base::WrongInput("there is no such world");
   };
-  const auto stage = Stage::Open(settings_, reader);
-  ASSERT_FALSE(stage.ok());
-  EXPECT_EQ(stage.error().Text(), "there is no such world");
-  EXPECT_EQ(stage.error().exit_status(), 2);
+  const auto render_thread = RenderThread::Open(settings_, reader);
+  ASSERT_FALSE(render_thread.ok());
+  EXPECT_EQ(render_thread.error().Text(), "there is no such world");
+  EXPECT_EQ(render_thread.error().exit_status(), 2);
 }
 
 // Where a window must be and cannot, no world is waited for.
@@ -106,11 +106,11 @@ TEST(ReadingNothing, WithoutADisplay) {
   ViewSettings settings;
   settings.window = WindowWish::kAlways;
   bool asked = false;
-  const auto stage = Stage::Open(settings, [&]() -> base::Result<ReadWorld> {
+  const auto render_thread = RenderThread::Open(settings, [&]() -> base::Result<ReadWorld> {
     asked = true;
     return base::WrongInput("read");
   });
-  EXPECT_FALSE(stage.ok());
+  EXPECT_FALSE(render_thread.ok());
   EXPECT_FALSE(asked);
 }
 

@@ -29,10 +29,10 @@ class RepeatedStill : public ::testing::Test {
   static Seen See(const road::World& world, const Picture& picture, bool repeats, Quality quality) {
     auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test", false, 0, quality);
     EXPECT_TRUE(surface.ok());
-    auto painter = PainterOf(*surface.value(), world, {}, repeats);
-    EXPECT_TRUE(painter.ok());
-    painter.value()->DrawWhole(picture);
-    return {painter.value()->Read(), painter.value()->CostOfLast()};
+    auto renderer = RendererOf(*surface.value(), world, {}, repeats);
+    EXPECT_TRUE(renderer.ok());
+    renderer.value()->DrawWhole(picture);
+    return {renderer.value()->Read(), renderer.value()->CostOfLast()};
   }
   // How many pixels of a thousand differ by more than the last bit of a colour's arithmetic.
   static double Differ(const Image& a, const Image& b) {

@@ -189,10 +189,10 @@ TEST(ReplayWindow, AnswersWhileItStands) {
   std::int64_t shown_ns = -1;
   const auto moment_at = [&](std::int64_t time_ns) {
     shown_ns = time_ns;
-    scene::Moment moment;
+    scene::SceneSnapshot moment;
     moment.time_ns = time_ns;
     moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.0));
-    return base::Result<scene::Moment>(moment);
+    return base::Result<scene::SceneSnapshot>(moment);
   };
   const auto stop = [&] {
     EXPECT_TRUE(next == 0 || next > told.size() || shown_ns == told[next - 1].expected_ns)
@@ -228,9 +228,9 @@ TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
   int shown = 0, asked = 0;
   const auto moment_at = [&](std::int64_t time_ns) {
     ++shown;
-    scene::Moment moment;
+    scene::SceneSnapshot moment;
     moment.time_ns = time_ns;
-    return base::Result<scene::Moment>(moment);
+    return base::Result<scene::SceneSnapshot>(moment);
   };
   const auto take_marks = [&]() -> std::optional<base::Result<std::vector<ReplayMark>>> {
     if (asked != 1) return std::nullopt;
@@ -256,10 +256,10 @@ TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   scene::Player player(10 * kS, 20 * kMs);
   player.Seek(5 * kS);
   std::vector<std::int64_t> shown;
-  const auto moment_at = [&](std::int64_t time_ns) -> base::Result<scene::Moment> {
+  const auto moment_at = [&](std::int64_t time_ns) -> base::Result<scene::SceneSnapshot> {
     if (time_ns >= 5 * kS && time_ns < 6 * kS) return base::WrongInput("5 s to 6 s are damaged");
     shown.push_back(time_ns);
-    scene::Moment moment;
+    scene::SceneSnapshot moment;
     moment.time_ns = time_ns;
     return moment;
   };

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 
 namespace rodeira::nodes {
@@ -20,19 +20,19 @@ inline SDL_Event ButtonAt(const Eigen::Vector2d& at, bool down, int button = SDL
 }
 
 // Down and up there; whether both were for the window.
-inline bool Click(Screen& screen, const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) {
+inline bool Click(ViewWindow& screen, const Eigen::Vector2d& at, int button = SDL_BUTTON_LEFT) {
   const bool down = screen.TakeMouse(ButtonAt(at, true, button));
   return screen.TakeMouse(ButtonAt(at, false, button)) && down;
 }
 
 // A nanosecond before it, then the moment: however slow the machine, the window sees time go on, and does not say that
 // it stands.
-inline Image Shown(Screen& screen, const scene::Moment& moment) {
-  scene::Moment before = moment;
+inline Image Shown(ViewWindow& screen, const scene::SceneSnapshot& moment) {
+  scene::SceneSnapshot before = moment;
   before.time_ns -= 1;
   screen.Show(before, 1.0);
   screen.Show(moment, 1.0);
-  return screen.painter().Read();
+  return screen.renderer().Read();
 }
 
 }  // namespace rodeira::nodes

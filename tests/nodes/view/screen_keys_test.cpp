@@ -7,7 +7,7 @@
 #include <set>
 
 #include "nodes/view/overlays/heat_node.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
 #include "tests/tree.hpp"
@@ -29,7 +29,7 @@ class ScreenKeys : public ::testing::Test {
   void Open(bool resizable) {
     screen_.reset();
     auto screen =
-        Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, resizable, "first line of help\nand another");
+        ViewWindow::Open(SurfaceKind::kOffscreen, settings_, *world_, resizable, "first line of help\nand another");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
@@ -46,8 +46,8 @@ class ScreenKeys : public ::testing::Test {
 
   ViewSettings settings_;
   std::shared_ptr<const road::World> world_;
-  scene::Moment moment_;
-  std::unique_ptr<Screen> screen_;
+  scene::SceneSnapshot moment_;
+  std::unique_ptr<ViewWindow> screen_;
 };
 
 TEST_F(ScreenKeys, HelpAndStatisticsComeAndGo) {
@@ -69,8 +69,8 @@ TEST_F(ScreenKeys, TheCameraGoesRound) {
   for (std::size_t i = 0; i < scene::CameraNames().size(); ++i) {
     Picture picture = PictureOf(settings_, moment_);
     picture.camera = static_cast<scene::CameraKind>(i);
-    screen_->painter().Draw(picture);
-    const auto expected = screen_->painter().Read().rgb;
+    screen_->renderer().Draw(picture);
+    const auto expected = screen_->renderer().Read().rgb;
     EXPECT_EQ(Shown().rgb, expected) << scene::CameraNames()[i];
     seen.insert(expected);
     EXPECT_TRUE(Press(SDLK_k));

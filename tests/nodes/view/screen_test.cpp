@@ -11,7 +11,7 @@
 
 #include "common/core/base/temporary_folder.hpp"
 #include "nodes/view/run_connection/asker.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/n222.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/screen_hands.hpp"
@@ -19,7 +19,7 @@
 namespace rodeira::nodes {
 namespace {
 
-TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
+TEST(ViewWindow, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   RODEIRA_NEEDS_PICTURES();
   auto folder = base::TemporaryFolder::Make("pictures");
   ASSERT_TRUE(folder.ok());
@@ -28,13 +28,13 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.time_ns = 12'340'000'000;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   screen.value()->Show(moment, 1.0);
-  const Image seen = screen.value()->painter().Read();
+  const Image seen = screen.value()->renderer().Read();
   const auto pictures = folder.value().path() / "rodeira/pictures";
   EXPECT_FALSE(std::filesystem::exists(pictures));
   for (int i = 0; i < 2; ++i) {
@@ -44,12 +44,12 @@ TEST(Screen, APictureIsWrittenAsItIsSeenAndNoneIsLost) {
   ::unsetenv("XDG_DATA_HOME");
   EXPECT_EQ(ReadPng(pictures / (world->name() + "-12.34s.png")).rgb, seen.rgb);
   EXPECT_TRUE(std::filesystem::exists(pictures / (world->name() + "-12.34s-2.png")));
-  EXPECT_NE(screen.value()->painter().Read().rgb, seen.rgb) << "the window says where it is";
+  EXPECT_NE(screen.value()->renderer().Read().rgb, seen.rgb) << "the window says where it is";
 }
 
 // Behind its key, or with ctrl held, a click asks for the place on the ground that is seen there, whatever drives; the
 // next one does not.
-TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
+TEST(ViewWindow, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   ViewSettings settings;
@@ -58,7 +58,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   settings.camera = scene::CameraKind::kTop;
   settings.cars = {{0, "ego"}};
   settings.mouse_button = kRightButton;  // the left one drives
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   std::vector<scenario::Request> asked;
   screen.value()->set_ask([&](const scenario::Request& request) {
@@ -67,7 +67,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
   });
   const Version1Road& road = N222Road();
   const Eigen::Vector3d here = road.Position(300.0, road.LaneCentre(-1));
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.push_back(CarAt(here, 1.0));
   screen.value()->Show(moment, 1.0);
   const scene::Camera camera = scene::TopCamera(moment.cars[0], {});
@@ -97,7 +97,7 @@ TEST(Screen, AClickAsksForThePlaceOnTheGroundThatIsSeenThere) {
 }
 
 // A key asks for the followed car where it began: at the world's start, or where the launch file says.
-TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
+TEST(ViewWindow, AKeyAsksForTheCarBackAtItsStart) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
   ViewSettings settings;
@@ -105,7 +105,7 @@ TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
   settings.height_px = 180;
   settings.cars = {{0, "ego"}, {7, "guest"}, {8, "turned"}};
   settings.starts = {{0, {}}, {7, {12.5, -3.0, 90.0}}, {8, {std::nullopt, std::nullopt, 180.0}}};
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F2, true)) << "nobody takes it, which is said";
   std::vector<scenario::Request> asked;
@@ -115,7 +115,7 @@ TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
   });
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F2, true));
   EXPECT_TRUE(asked.empty()) << "nobody drives yet";
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   for (const std::uint64_t id : {0, 7, 8}) {
     moment.cars.push_back(CarAt({40.0 + 10.0 * static_cast<double>(id), 5.0, 60.0}, 1.0));
     moment.cars.back().id = id;
@@ -140,7 +140,7 @@ TEST(Screen, AKeyAsksForTheCarBackAtItsStart) {
 }
 
 // The window shows a car in its paint: the same place of its body, blue and yellow.
-TEST(Screen, ACarIsSeenInItsPaint) {
+TEST(ViewWindow, ACarIsSeenInItsPaint) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   const auto roof = [&](const char* paint) {
@@ -149,13 +149,13 @@ TEST(Screen, ACarIsSeenInItsPaint) {
     settings.height_px = 180;
     settings.camera = scene::CameraKind::kTop;
     settings.paints = {{3, PaintOf(paint).value()}};
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
     EXPECT_TRUE(screen.ok()) << screen.error().Text();
     SDL_Event nearer{};
     nearer.type = SDL_MOUSEWHEEL;
     nearer.wheel.y = 12;
     EXPECT_TRUE(screen.value()->TakeMouse(nearer));
-    scene::Moment moment;
+    scene::SceneSnapshot moment;
     moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.0));
     moment.cars[0].id = 3;
     return ProbeAt(Shown(*screen.value(), moment), 160, 90);
@@ -167,7 +167,7 @@ TEST(Screen, ACarIsSeenInItsPaint) {
 
 TEST(AskPlace, WhereTheWorldEndsItSaysThatTheCarStays) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/n222.yaml").value();
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.6));
   const scene::Ray down{
       {world->extents().east_m - 0.5, 0.5 * (world->extents().south_m + world->extents().north_m), 5'000.0},
@@ -217,17 +217,17 @@ TEST(Asker, ARequestIsRepeatedUntilItHasHappened) {
 
 // Agents drive along a line; its ground becomes green where they are at the limit, and the ground beside it stays as it
 // was.
-TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
+TEST(ViewWindow, TheHeatMapColoursTheGroundThatWasDrivenOn) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 640;
   settings.height_px = 360;
   settings.instruments = false;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
   const auto shown = [&](int i) {
-    scene::Moment moment;
+    scene::SceneSnapshot moment;
     moment.time_ns = i * 50'000'000;
     moment.cars.push_back(CarAt({0.0, 0.0, 0.0}, 0.0));
     for (const auto& [id, y, speed] : {std::tuple(1, 22.0, 26.0), std::tuple(2, -22.0, 3.0)}) {
@@ -237,7 +237,7 @@ TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
       moment.agents.push_back(agent);
     }
     screen.value()->Show(moment, 1.0);
-    return screen.value()->painter().Read();
+    return screen.value()->renderer().Read();
   };
   (void)shown(0);
   EXPECT_TRUE(screen.value()->TakeKey(SDLK_F9, true));
@@ -257,16 +257,16 @@ TEST(Screen, TheHeatMapColoursTheGroundThatWasDrivenOn) {
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(screen.value()->TakeKey(SDLK_F8, true));
 }
 
-TEST(Screen, FromAboveAndBackToTheSameCamera) {
+TEST(ViewWindow, FromAboveAndBackToTheSameCamera) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
   settings.camera = scene::CameraKind::kOrbit;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   const auto shown = [&] { return Shown(*screen.value(), moment); };
   SDL_Event turned{};
@@ -288,7 +288,7 @@ TEST(Screen, FromAboveAndBackToTheSameCamera) {
 }
 
 // The log has a line for each picture: what was shown, with the eye of the same moment.
-TEST(Screen, TheFrameLogSaysWhatWasShown) {
+TEST(ViewWindow, TheFrameLogSaysWhatWasShown) {
   RODEIRA_NEEDS_PICTURES();
   auto folder = base::TemporaryFolder::Make("frame_log");
   ASSERT_TRUE(folder.ok());
@@ -298,10 +298,10 @@ TEST(Screen, TheFrameLogSaysWhatWasShown) {
   settings.height_px = 90;
   settings.frame_log = folder.value().path() / "frames.csv";
   {
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     for (int k = 0; k < 3; ++k) {
-      scene::Moment moment;
+      scene::SceneSnapshot moment;
       moment.time_ns = 20'000'000 * k;
       moment.cars.push_back(CarAt({0.6 * k, 7.0, 0.0}, 0.0));
       screen.value()->Show(moment, 1.0);
@@ -327,19 +327,19 @@ TEST(Screen, TheFrameLogSaysWhatWasShown) {
   }
   EXPECT_FALSE(std::getline(log, line)) << "as many lines as pictures";
   settings.frame_log = folder.value().path() / "none" / "frames.csv";
-  EXPECT_FALSE(Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help").ok());
+  EXPECT_FALSE(ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help").ok());
 }
 
-TEST(Screen, MirrorsGoAndComeBackByTheirKey) {
+TEST(ViewWindow, MirrorsGoAndComeBackByTheirKey) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/plane.yaml").value();
   ViewSettings settings;
   settings.width_px = 320;
   settings.height_px = 180;
   settings.camera = scene::CameraKind::kDriver;
-  auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
+  auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world, false, "help");
   ASSERT_TRUE(screen.ok()) << screen.error().Text();
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.push_back(CarAt({12.0, 7.0, 0.0}, 0.6));
   const auto shown = [&] { return Shown(*screen.value(), moment); };
   const Image with = shown();

@@ -11,8 +11,8 @@
 namespace rodeira::nodes {
 namespace {
 
-scene::Moment Among() {
-  scene::Moment moment;
+scene::SceneSnapshot Among() {
+  scene::SceneSnapshot moment;
   scene::CarPose car;
   car.id = 3;
   car.q_WB = scene::Attitude(0.7, 0.0, 0.0);
@@ -48,7 +48,7 @@ TEST(Heard, ItsOwnCarAndTheFourNearest) {
 }
 
 TEST(Heard, ADriversHornIsHeardInsideAndByOthers) {
-  scene::Moment moment = Among();
+  scene::SceneSnapshot moment = Among();
   moment.cars[0].horn = true;
   EXPECT_EQ(HeardBy(moment, 0, 1.0).own.horn, 1.0);
   const sound::Heard outside = HeardBy(moment, 1, 1.0);
@@ -56,7 +56,7 @@ TEST(Heard, ADriversHornIsHeardInsideAndByOthers) {
   EXPECT_EQ(outside.others.rbegin()->second.horn, 1.0);
 }
 
-TEST(Heard, NobodyHearsNothingAndATrafficCarHearsTheOthers) {
+TEST(Heard, WithoutAListenerIsSilenceAndATrafficCarHearsTheOthers) {
   EXPECT_EQ(HeardBy(Among(), 99, 1.0).own.engine_rpm, 0.0);
   EXPECT_EQ(HeardBy({}, 0, 1.0).others.size(), 0u);
   const sound::Heard heard =

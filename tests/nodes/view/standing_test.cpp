@@ -13,7 +13,7 @@
 #include "common/core/base/temporary_folder.hpp"
 #include "launch/rodeira/run/control_server.hpp"
 #include "nodes/view/window/loading.hpp"
-#include "nodes/view/window/screen.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/tree.hpp"
 
@@ -43,13 +43,13 @@ class StandingRun : public testing::Test {
     settings.width_px = 320;
     settings.height_px = 180;
     settings.instruments = false;
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings, *world_, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings, *world_, false, "help");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     screen_ = std::move(screen).value();
   }
   Image Shown() {
     screen_->Show(moment_, 1.0);
-    return screen_->painter().Read();
+    return screen_->renderer().Read();
   }
   // The next line that the window asks, while it goes on showing the same.
   cli::AskedLine Asked() {
@@ -65,8 +65,8 @@ class StandingRun : public testing::Test {
   std::optional<base::TemporaryFolder> folder_;
   std::shared_ptr<const road::World> world_;
   std::unique_ptr<cli::ControlServer> server_;
-  std::unique_ptr<Screen> screen_;
-  scene::Moment moment_;
+  std::unique_ptr<ViewWindow> screen_;
+  scene::SceneSnapshot moment_;
 };
 
 TEST_F(StandingRun, SpacePausesAndTheWindowSaysWhatTheClockSays) {

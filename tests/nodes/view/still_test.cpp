@@ -26,20 +26,20 @@ Image Still(const road::World& world, const Picture& picture) {
   return image.value();
 }
 
-// Several pictures of a world, with one surface and one painter, as the node has them.
+// Several pictures of a world, with one surface and one renderer, as the node has them.
 class Stills {
  public:
   explicit Stills(const road::World& world)
       : surface_(Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test").value()),
-        painter_(PainterOf(*surface_, world, {}).value()) {}
+        renderer_(RendererOf(*surface_, world, {}).value()) {}
   Image Of(const Picture& picture) {
-    painter_->DrawWhole(picture);
-    return painter_->Read();
+    renderer_->DrawWhole(picture);
+    return renderer_->Read();
   }
 
  private:
   std::unique_ptr<Surface> surface_;
-  std::unique_ptr<Painter> painter_;
+  std::unique_ptr<Renderer> renderer_;
 };
 
 struct Tally {
@@ -100,18 +100,18 @@ TEST(Still, OnN222) {
   RODEIRA_NEEDS_PICTURES();
   const auto world = Load("n222.yaml");
   const Version1Road& road = N222Road();
-  // One surface and painter for all, as the node has them.
+  // One surface and renderer for all, as the node has them.
   auto surface = Surface::Open(SurfaceKind::kOffscreen, kWidth, kHeight, "test");
   ASSERT_TRUE(surface.ok());
   const scene::WorldScene standing = scene::BuildWorldScene(*world);
-  Painter painter(*surface.value(), *world, standing);
+  Renderer renderer(*surface.value(), *world, standing);
   Tally edges, middles, asphalt, green, sky;
   for (double s = 60.0; s < road.length_m() - 80.0; s += BriefOrLong(500.0, 115.0)) {
     Picture picture;
     picture.show_instruments = false;
     picture.moment.cars.push_back(CarOn(road, s, -1.45));
-    painter.Draw(picture);
-    const Image image = painter.Read();
+    renderer.Draw(picture);
+    const Image image = renderer.Read();
     const scene::Camera camera = scene::ChaseCamera(picture.moment.cars[0], *world);
     const scene::CarPose& car = picture.moment.cars[0];
     const auto probe = [&](double t) { return ProbeAt(image, camera, road.Position(s + 7.0, t), 0); };
@@ -134,11 +134,11 @@ TEST(Still, OnN222) {
         << s;
     // The middle line is hidden by the car, but not from its driver.
     picture.camera = scene::CameraKind::kDriver;
-    painter.Draw(picture);
+    renderer.Draw(picture);
     const Eigen::Vector3d middle = road.Position(s + 11.0, 0.0);
     const bool painted = world->At(middle.x(), middle.y()).surface == ground::Surface::kRoadMark;
     ++middles.asked;
-    middles.right += painted == ProbeAt(painter.Read(), scene::DriverCamera(car), middle, 0).IsWhite();
+    middles.right += painted == ProbeAt(renderer.Read(), scene::DriverCamera(car), middle, 0).IsWhite();
   }
   for (const Tally* tally : {&asphalt, &edges, &green, &middles, &sky}) EXPECT_GE(tally->asked, 10);
   EXPECT_EQ(asphalt.right, asphalt.asked);

@@ -107,7 +107,7 @@ TEST(ViewSettings, ACarHasThePaintThatItWasGiven) {
   const auto settings = ReadViewSettings(context);
   ASSERT_TRUE(settings.ok()) << settings.error().Text();
   ASSERT_EQ(settings.value().paints.size(), 1u);
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.resize(2);
   moment.cars[0].id = settings.value().paints.begin()->first;
   moment.cars[1].id = 99;

@@ -36,7 +36,7 @@ class WheelsStill : public DriverStill {
                                  (corner & 4) != 0 ? reach_m : -reach_m);
       const Eigen::Vector3d p_W =
           Car().p_WB_W + Car().q_WB * (Car().wheels[wheel].hub_B + Eigen::Vector3d(0.0, shape.tread_out_m, 0.0) + away);
-      box.extend(*painter_->CameraOf(picture_).Project(p_W, kWidth, kHeight));
+      box.extend(*renderer_->CameraOf(picture_).Project(p_W, kWidth, kHeight));
     }
     return box;
   }
@@ -56,7 +56,7 @@ class WheelsStill : public DriverStill {
     return changed;
   }
   Probe At(const Image& image, const Eigen::Vector3d& p_B) {
-    return ProbeAt(image, painter_->CameraOf(picture_), Car().p_WB_W + Car().q_WB * p_B, 1);
+    return ProbeAt(image, renderer_->CameraOf(picture_), Car().p_WB_W + Car().q_WB * p_B, 1);
   }
   // The outer side of a left wheel, at a place relative to its hub.
   Eigen::Vector3d Flank(std::size_t wheel, double ahead_m, double up_m) {

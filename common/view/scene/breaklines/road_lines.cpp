@@ -14,7 +14,7 @@ constexpr double kMaxStationStep_m = 24.0;  // between two stations
 constexpr double kMinStationStep_m = 0.05;  // at a kink a finer subdivision gains nothing
 constexpr double kAtQuarters =
     0.91;  // of how far a cubic lies from its chord at most, this much at least is seen at one of the chord's quarters
-constexpr int kMostParts = 16;  // of a lane, across
+constexpr int kMaxParts = 16;  // of a lane, across
 
 // How far q lies from the chord from a to b, in plan and in height.
 std::pair<double, double> FromChord(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& q) {
@@ -122,7 +122,7 @@ class SectionLines {
     const network::LateralProfile& lateral = road_.spec().lateral;
     if (lateral.flat() && road_.spec().ground == nullptr) return;
     for (std::size_t lane = 0; lane < parts_.size(); ++lane) {
-      for (bool enough = false; !enough && parts_[lane] < kMostParts;) {
+      for (bool enough = false; !enough && parts_[lane] < kMaxParts;) {
         enough = true;
         for (const double s : stations) enough = enough && IsStraight(lane, road_.Held(number_, s));
         if (!enough) parts_[lane] *= 2;

@@ -26,7 +26,7 @@ Vector2d NoseInPlan(const Body& car) {
 }
 
 constexpr double kChase_m = 7.2, kChaseHigh_m = 2.45;
-constexpr double kLeastChase_m = 1.0;
+constexpr double kMinChase_m = 1.0;
 // The driver's eye over B's origin, and below the roof of a low car; below that of a lorry or a bus.
 constexpr double kEyeHigh_m = 1.20, kEyeLow_m = 0.6, kHeadroom_m = 0.21, kCabRoof_m = 1.2;
 constexpr double kCabFront_m = 1.3;  // of a lorry's or bus's driver from its front
@@ -60,7 +60,7 @@ double ChaseDistance(const Body& car, double eye_z_m, std::span<const Body> othe
     const double weight = (1.0 - SmoothStep(aside, kInTheWay_m, kClear_m)) *
                           SmoothStep(wheels_m + other.height_m, -kBelow_m, kAbove_m) *
                           (1.0 - SmoothStep(wheels_m, 0.0, 1.0));
-    const double wanted = std::clamp(-front - kBefore_m, kLeastChase_m, kChase_m);
+    const double wanted = std::clamp(-front - kBefore_m, kMinChase_m, kChase_m);
     distance = std::min(distance, kChase_m - weight * (kChase_m - wanted));
   }
   return distance;
@@ -126,7 +126,7 @@ Body::Body(const AgentPose& agent)
       width_m(agent.width_m),
       height_m(agent.height_m) {}
 
-std::optional<Body> BodyAt(const Moment& moment, std::size_t number) {
+std::optional<Body> BodyAt(const SceneSnapshot& moment, std::size_t number) {
   if (number < moment.cars.size()) return Body(moment.cars[number]);
   number -= moment.cars.size();
   return number < moment.agents.size() ? std::optional(Body(moment.agents[number])) : std::nullopt;
@@ -151,8 +151,8 @@ Camera ChaseCamera(const Body& car, const road::World& world, std::span<const Bo
   const double away_m = ChaseDistance(car, car.p_WB_W.z() - kChase_m * ahead.z() + kChaseHigh_m, others);
   const Vector3d eye = AboveGround(car.p_WB_W - away_m * ahead + Vector3d(0.0, 0.0, kChaseHigh_m), world);
   const double share =
-      (away_m - kLeastChase_m) /
-      (kChase_m - kLeastChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
+      (away_m - kMinChase_m) /
+      (kChase_m - kMinChase_m);  // the nearer the eye, the steeper it looks: the car stays in the picture
   const Vector3d target = car.p_WB_W + 9.0 * share * ahead + Vector3d(0.0, 0.0, 0.75);
   return LookFrom(eye, target - eye, Vector3d::UnitZ(), 48.0 * base::kRadiansPerDegree);
 }
@@ -226,7 +226,7 @@ Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::
   return ChaseCamera(car, world, others);
 }
 
-std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim,
+std::optional<Camera> MakeCamera(CameraKind kind, const SceneSnapshot& moment, std::size_t number, const Aim& aim,
                                  const road::World& world) {
   const auto body = BodyAt(moment, number);
   if (!body) return std::nullopt;

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
@@ -54,7 +54,7 @@ struct Body {
   double length_m, front_m, width_m, height_m;  // front_m: of the front bumper from B's origin
 };
 // One of the moment's cars or, numbered behind them, of its traffic; none behind those.
-std::optional<Body> BodyAt(const Moment& moment, std::size_t number);
+std::optional<Body> BodyAt(const SceneSnapshot& moment, std::size_t number);
 
 // What a hand on the mouse sets: where a free eye is about the car, and how much a map shows.
 struct Aim {
@@ -98,7 +98,7 @@ Camera TracksideCamera(const Body& car, const road::World& world);
 Camera MakeCamera(CameraKind kind, const Body& car, const Aim& aim, const road::World& world,
                   std::span<const Body> others = {});
 // The camera with one of the moment's bodies, among all others of it; nothing where there is none of that number.
-std::optional<Camera> MakeCamera(CameraKind kind, const Moment& moment, std::size_t number, const Aim& aim,
+std::optional<Camera> MakeCamera(CameraKind kind, const SceneSnapshot& moment, std::size_t number, const Aim& aim,
                                  const road::World& world);
 
 }  // namespace rodeira::scene

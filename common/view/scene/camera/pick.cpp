@@ -46,7 +46,7 @@ Ray RayAt(const Camera& camera, const Eigen::Vector2d& place_px, int width_px, i
   return {camera.eye_W, along.normalized()};
 }
 
-std::optional<std::size_t> BodyOn(const Moment& moment, const Ray& ray, std::optional<std::size_t> without) {
+std::optional<std::size_t> BodyOn(const SceneSnapshot& moment, const Ray& ray, std::optional<std::size_t> without) {
   std::optional<std::size_t> first;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t number = 0; const auto body = BodyAt(moment, number); ++number) {

@@ -20,7 +20,7 @@ Ray RayAt(const Camera& camera, const Eigen::Vector2d& place_px, int width_px, i
 
 // The first car on the ray, by its box from bumper to bumper: one of the moment's cars or, numbered behind them, of its
 // traffic. `without`: the one in which the eye is.
-std::optional<std::size_t> BodyOn(const Moment& moment, const Ray& ray,
+std::optional<std::size_t> BodyOn(const SceneSnapshot& moment, const Ray& ray,
                                   std::optional<std::size_t> without = std::nullopt);
 
 }  // namespace rodeira::scene

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr double kPostSpacing_m = 120.0;  // posts along a road
 constexpr double kLattice_m = 80.0;       // posts where there is none
 constexpr double kAside_m = 1.5;          // of the road's edge
-constexpr double kMostAside_m = 30.0;
+constexpr double kMaxAside_m = 30.0;
 constexpr double kFarOff_m = 60.0;        // from there on no road is near
 constexpr double kEye_m = 1.9;            // over the ground: a person on a box
 constexpr double kTracksideView_m = 7.0;  // of the world at the car, from the picture's lower to its upper edge
@@ -28,7 +28,7 @@ double EdgeAt(const network::Road& road, double s_m, bool left) {
   if (!lanes.empty()) {
     if (const auto span = section.Span(lanes.back().id, road.CentreAt(s_m), s_m)) edge_m = span->outer_t_m;
   }
-  return std::clamp(edge_m, -kMostAside_m, kMostAside_m);
+  return std::clamp(edge_m, -kMaxAside_m, kMaxAside_m);
 }
 
 Vector2d Post(const Body& car, const road::World& world) {

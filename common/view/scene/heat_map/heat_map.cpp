@@ -79,7 +79,7 @@ void HeatMap::AddWay(const Vector3d& from_W, const Vector3d& to_W, double time_s
   }
 }
 
-void HeatMap::Add(const Moment& moment) {
+void HeatMap::Add(const SceneSnapshot& moment) {
   const double passed_s = before_ ? std::fabs(static_cast<double>(moment.time_ns - before_->time_ns)) * 1e-9 : 0.0;
   if (passed_s > kLongest_s) Clear();
   if (before_ && passed_s > 0.0) {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "common/view/scene/mesh/mesh.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 #include "common/world/road/world.hpp"
 
 namespace rodeira::scene {
@@ -49,7 +49,7 @@ class HeatMap {
   // The world must outlive it.
   explicit HeatMap(const road::World& world) : world_(world) {}
 
-  void Add(const Moment& moment);
+  void Add(const SceneSnapshot& moment);
   void Clear();
   double watched_s() const { return watched_s_; }
 
@@ -70,7 +70,7 @@ class HeatMap {
 
   const road::World& world_;
   std::map<Key, HeatCell> cells_;
-  std::optional<Moment> before_;
+  std::optional<SceneSnapshot> before_;
   double watched_s_ = 0.0;
 };
 

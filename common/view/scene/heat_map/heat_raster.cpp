@@ -8,7 +8,7 @@
 namespace rodeira::scene {
 namespace {
 
-constexpr double kLeastRange_m = 10.0;
+constexpr double kMinRange_m = 10.0;
 
 // One place of the ground that was driven on.
 struct Surface {
@@ -65,7 +65,7 @@ HeatRaster MakeHeatRaster(const HeatMap& map, HeatKind kind, const Eigen::Vector
   raster.west_m = static_cast<double>(west) * HeatMap::kSquare_m;
   raster.south_m = static_cast<double>(south) * HeatMap::kSquare_m;
   raster.lowest_m = lowest_m;
-  raster.range_m = std::max(kLeastRange_m, highest_m - lowest_m);
+  raster.range_m = std::max(kMinRange_m, highest_m - lowest_m);
   raster.columns = static_cast<std::size_t>(east - west + 1);
   raster.rows = static_cast<std::size_t>(north - south + 1);
   raster.texels.assign(4 * raster.columns * raster.rows, 0);

@@ -7,7 +7,7 @@
 #include "common/view/scene/road_furniture/light_heads.hpp"
 #include "common/view/scene/road_furniture/models.hpp"
 #include "common/view/scene/road_furniture/sign_face.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_furniture/trees.hpp"
 #include "common/view/scene/road_furniture/tubes.hpp"
 
@@ -224,7 +224,7 @@ void AddRail(const RailPiece& piece, int level, Drawing& drawing) {
 
 }  // namespace
 
-std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
+std::vector<PlacedModel> ModelsOf(const StaticObjects::Tile& tile, int level) {
   std::vector<PlacedModel> models;
   for (const Thing& thing : tile.things) {
     if (thing.kind == ThingKind::kModel && level < 3)
@@ -233,7 +233,7 @@ std::vector<PlacedModel> ModelsOf(const Things::Tile& tile, int level) {
   return models;
 }
 
-DrawnThings DrawThings(const Things::Tile& tile, const TileKey& key, int level) {
+DrawnThings DrawThings(const StaticObjects::Tile& tile, const TileKey& key, int level) {
   const Vector2d middle = key.south_west_W() + Vector2d::Constant(0.5 * kTile_m);
   const double z = !tile.things.empty()  ? tile.things.front().stand.foot_W.z()
                    : !tile.rails.empty() ? tile.rails.front().foot_W[0].z()

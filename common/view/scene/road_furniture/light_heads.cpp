@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/view/scene/road_furniture/models.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -39,7 +39,7 @@ std::vector<LightHead> LightHeads(const road::World& world) {
   if (world.network() == nullptr) return heads;
   const auto controllers = ControllersOfSignals(*world.network());
   if (controllers.empty()) return heads;
-  const Things things(world);
+  const StaticObjects things(world);
   for (const auto& [key, tile] : things.tiles()) {
     for (const Thing& thing : tile.things) {
       const auto found = controllers.find(thing.signal);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -28,7 +28,7 @@ Vector2d LeftAt(const std::vector<Vector2d>& line, std::size_t corner) {
 
 }  // namespace
 
-void Things::AddStanding(const road::World& world, const network::Standing& standing) {
+void StaticObjects::AddStanding(const road::World& world, const network::Standing& standing) {
   for (const network::Standing::Thing& each : standing.things) {
     const network::Placed placed = network::PlaceStanding(standing, each, OnGround(world, each.at_W));
     AddObject(nullptr, placed, ThingAt(placed, placed.foot_W));

@@ -5,11 +5,11 @@
 
 #include "common/core/base/append_format.hpp"
 #include "common/core/base/files.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 
 namespace rodeira::scene {
 
-base::Digest Things::DigestOf(const TileKey& key) const {
+base::Digest StaticObjects::DigestOf(const TileKey& key) const {
   const auto found = tiles_.find(key);
   if (found == tiles_.end()) return 0;
   std::string text = "things 1\n";

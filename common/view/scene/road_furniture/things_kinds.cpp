@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "common/view/scene/road_furniture/sign_face.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_markings/object_shapes.hpp"
 #include "common/view/scene/road_markings/road_paint.hpp"
 #include "common/world/network/network.hpp"
@@ -77,7 +77,7 @@ ThingKind ThingKindOf(const network::Object& object) {
 
 }  // namespace
 
-void Things::AddSignal(const network::Road& road, const network::Placed& placed, Thing thing) {
+void StaticObjects::AddSignal(const network::Road& road, const network::Placed& placed, Thing thing) {
   thing.both_sides = placed.both_sides;
   thing.on_post =
       placed.signal->board.empty() && (placed.z_offset_m < kOverhead_m || !OverLane(road, placed.s_m, placed.t_m));
@@ -101,7 +101,7 @@ void Things::AddSignal(const network::Road& road, const network::Placed& placed,
   Keep(std::move(thing));
 }
 
-void Things::AddOutlines(const network::Road* road, const network::Placed& placed, const Thing& thing) {
+void StaticObjects::AddOutlines(const network::Road* road, const network::Placed& placed, const Thing& thing) {
   const network::Object& object = *placed.object;
   for (std::size_t i = 0; i < object.outlines.size(); ++i) {
     const network::Outline& outline = object.outlines[i];
@@ -141,7 +141,7 @@ void Things::AddOutlines(const network::Road* road, const network::Placed& place
   }
 }
 
-void Things::AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing) {
+void StaticObjects::AddSkeleton(const network::Road* road, const network::Placed& placed, const Thing& thing) {
   for (const network::SkeletonLine& line : placed.object->skeleton) {
     const auto at = [&](const network::SkeletonPoint& point) -> Vector3d {
       if (point.local || road == nullptr)
@@ -162,7 +162,7 @@ void Things::AddSkeleton(const network::Road* road, const network::Placed& place
   }
 }
 
-void Things::AddObject(const network::Road* road, const network::Placed& placed, Thing thing) {
+void StaticObjects::AddObject(const network::Road* road, const network::Placed& placed, Thing thing) {
   const network::Object& object = *placed.object;
   thing.kind = ThingKindOf(object);
   thing.colour = ObjectColour(object.type);

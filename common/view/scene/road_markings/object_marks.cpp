@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kMostStrokes = 1e4;
+constexpr double kMaxStrokes = 1e4;
 constexpr double kMaxPaintWidth_m = 10.0;  // a wider one is no line of paint
 
 const network::Corner& CornerOf(const network::Object& object, const std::string& id) {
@@ -67,7 +67,7 @@ void PaintMarks(const network::Road& road, const network::Placed& placed, TilePa
     for (std::size_t i = 1; i < line.size(); ++i) length += (line[i] - line[i - 1]).norm();
     if (!(length <= kMaxPaintLength_m)) continue;
     const double end = length - mark.stop_offset_m;
-    const bool broken = mark.gap_m > 0.0 && mark.stroke_m > 0.0 && length / (mark.stroke_m + mark.gap_m) < kMostStrokes;
+    const bool broken = mark.gap_m > 0.0 && mark.stroke_m > 0.0 && length / (mark.stroke_m + mark.gap_m) < kMaxStrokes;
     const double stroke = broken ? mark.stroke_m : length, period = broken ? mark.stroke_m + mark.gap_m : length + 1.0;
     for (double k = 0.0; mark.start_offset_m + k * period < end; k += 1.0) {
       const double from = mark.start_offset_m + k * period;

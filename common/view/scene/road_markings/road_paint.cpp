@@ -6,7 +6,7 @@
 
 #include "common/core/base/constants.hpp"
 #include "common/view/scene/mesh/solids.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_markings/object_marks.hpp"
 #include "common/view/scene/road_markings/object_shapes.hpp"
 #include "common/view/scene/road_markings/spot.hpp"

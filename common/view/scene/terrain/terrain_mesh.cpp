@@ -16,9 +16,9 @@ struct Span {  // of cells: [from, to)
 };
 
 // Makes one level of one tile.
-class TileWeaver {
+class TileTessellator {
  public:
-  TileWeaver(const Lattice& lattice, Span columns, Span rows, int stride, Mesh& mesh)
+  TileTessellator(const Lattice& lattice, Span columns, Span rows, int stride, Mesh& mesh)
       : lattice_(lattice),
         columns_(columns),
         rows_(rows),
@@ -129,7 +129,7 @@ std::vector<TerrainTile> BuildTerrain(const Lattice& lattice) {
         Mesh& mesh = tile.levels[level];
         mesh.material = lattice.material();
         mesh.origin_W = origin;
-        TileWeaver(lattice, columns, rows, kStrides[level], mesh).Weave();
+        TileTessellator(lattice, columns, rows, kStrides[level], mesh).Weave();
         // Where voids lie all over the tile, larger blocks may spare nothing.
         if (level > 0 && mesh.triangle_count() >= tile.levels[level - 1].triangle_count())
           mesh = tile.levels[level - 1];

@@ -75,7 +75,7 @@ void RefineEdges(const road::World& world, const TileKey& tile, std::vector<Grid
       places.insert(places.end(), more.begin(), more.end());
       return any;
     };
-    for (std::size_t level = 0; level < (deck || world.grid() == nullptr ? kMostLevels : 1) && refine(level); ++level) {
+    for (std::size_t level = 0; level < (deck || world.grid() == nullptr ? kMaxLevels : 1) && refine(level); ++level) {
     }
     for (const std::int32_t k : places) points.insert(point_at(k));
   };

@@ -180,7 +180,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
   const Eigen::Vector2d p_W = ToWorld(plan_.key, p);
   thread_local std::vector<CornerHeight> sides;
   sides.clear();
-  for (const Eigen::Vector2d& half_W : EdgeOf(point).halves_W) Ask(p_W, IsCorner(p) ? p_W : half_W, kMostLevels, sides);
+  for (const Eigen::Vector2d& half_W : EdgeOf(point).halves_W) Ask(p_W, IsCorner(p) ? p_W : half_W, kMaxLevels, sides);
   thread_local std::vector<CornerHeight*> all;
   all.clear();
   for (CornerHeight& height : sides) all.push_back(&height);
@@ -193,7 +193,7 @@ void TileHeights::AskOnEdge(std::uint32_t point) {
     corner.count = static_cast<std::uint32_t>(plan_.faces[corner.face].levels.size());
     corner.first = static_cast<std::uint32_t>(heights_.size());
     if (corner.on_edge >= 0) {
-      const auto own = sides.begin() + corner.on_edge * static_cast<std::ptrdiff_t>(kMostLevels);
+      const auto own = sides.begin() + corner.on_edge * static_cast<std::ptrdiff_t>(kMaxLevels);
       heights_.insert(heights_.end(), own, own + static_cast<std::ptrdiff_t>(corner.count));
       return;
     }

@@ -43,7 +43,7 @@ class Planner {
     Classify();
     SpreadOverLand();
     if (bare) return std::move(plan_);  // these are SUELO's own triangles
-    MeetTheGround(world_, land_, static_cast<int>(level_), {kept_, follows_slopes_, decks}, plan_);
+    ConformToGround(world_, land_, static_cast<int>(level_), {kept_, follows_slopes_, decks}, plan_);
     return std::move(plan_);
   }
 
@@ -62,7 +62,7 @@ class Planner {
     plan_.faces.resize(count);
     for (std::size_t face = 0; face < count; ++face) {
       const Eigen::Vector2d p_W = ToWorld(plan_.key, MiddleOf(plan_.triangles, triangles[chosen[face]]));
-      LevelsAt(world_, p_W, kMostLevels, plan_.faces[face].levels);
+      LevelsAt(world_, p_W, kMaxLevels, plan_.faces[face].levels);
       for (const road::SurfacePoint& level : plan_.faces[face].levels)
         plan_.faces[face].skins.push_back(SkinAt(world_, p_W, level));
       plan_.faces[face].land = plan_.faces[face].skins.empty() || plan_.faces[face].skins.front().land;
@@ -106,7 +106,7 @@ class Planner {
       }
     }
     for (const GridPoint& p : fresh) plan_.triangles.Insert(p);
-    CarryFaces(plan_);
+    PropagateFaces(plan_);
     if (kept_ || (follows_slopes_ && OwnLines())) KeepTerrainsSides();
   }
 

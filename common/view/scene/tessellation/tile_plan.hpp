@@ -19,7 +19,7 @@
 namespace rodeira::scene {
 
 inline constexpr int kGroundLevels = 4;
-inline constexpr std::size_t kMostLevels = 4;  // of roads over one another
+inline constexpr std::size_t kMaxLevels = 4;  // of roads over one another
 // How closely the ground is followed, level by level: on roads with their verges, cuts and fills, and on the land
 // beyond.
 inline constexpr std::array<Tolerance, kGroundLevels> kRoadTolerances = {

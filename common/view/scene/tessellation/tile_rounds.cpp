@@ -24,7 +24,7 @@ constexpr int kRounds = 100;
 constexpr int kSlopeRounds = 100;
 // A tile with so many points is not met any closer: an end where the ground of a file that is possible, and nowhere on
 // earth, is steep over the whole tile. 217 000 were found where a real file banks its lanes by 45 degrees.
-constexpr std::size_t kMostPoints = 1'000'000;
+constexpr std::size_t kMaxPoints = 1'000'000;
 constexpr double kMiddle = 0.7;  // of what the sides may be off: within a triangle both come together
 // Cuts and fills, level by level: less than they may be off, for it is asked at few places.
 constexpr std::array<BendRange, kGroundLevels> kSlopes = {
@@ -36,7 +36,7 @@ constexpr std::array<BendRange, kGroundLevels> kVerges = {
 constexpr double kBelowStep_m = 0.2;  // below decks, where strips are narrower
 constexpr double kEdgeInset_m = 1e-3;
 constexpr double kBesideLine_m = 0.01;  // beside a deck's edge; its drawn line is a chord
-constexpr std::size_t kMostOnLine = 500;
+constexpr std::size_t kMaxOnLine = 500;
 // In the middle of thinner triangles nothing is put: on roads, and on land.
 constexpr std::array<double, kGroundLevels> kThinnestRoad_m = {0.02, 0.5, 1.5, 4.0},
                                             kThinnestLand_m = {1.0, 2.0, 4.0, 8.0};
@@ -76,7 +76,7 @@ class Rounds {
   }
 
  private:
-  bool HasRoom() const { return plan_.triangles.points().size() < kMostPoints; }
+  bool HasRoom() const { return plan_.triangles.points().size() < kMaxPoints; }
 
   GridPoint Middle(const Triangulation::Triangle& triangle) const { return MiddleOf(plan_.triangles, triangle); }
 
@@ -94,7 +94,7 @@ class Rounds {
     std::erase_if(fresh,
                   [](const Fresh& one) { return IsOnTileEdge(one.p); });  // the neighbour's too, and settled before
     for (const Fresh& one : fresh) plan_.triangles.Insert(one.p, one.near);
-    if (!fresh.empty()) CarryFaces(plan_);
+    if (!fresh.empty()) PropagateFaces(plan_);
     return !fresh.empty();
   }
 
@@ -396,12 +396,12 @@ GridPoint MiddleOf(const Triangulation& triangles, const Triangulation::Triangle
   return {mean(a.x, b.x, c.x), mean(a.y, b.y, c.y)};
 }
 
-void CarryFaces(TilePlan& plan) {
+void PropagateFaces(TilePlan& plan) {
   for (std::size_t i = plan.face_of.size(); i < plan.triangles.triangles().size(); ++i)
     plan.face_of.push_back(plan.face_of[plan.triangles.CutFrom(static_cast<std::uint32_t>(i))]);
 }
 
-void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan) {
+void ConformToGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan) {
   Rounds(world, land, level, followed, plan).Run(followed);
 }
 
@@ -413,11 +413,11 @@ std::vector<GridPoint> LineOverGround(const road::World& world, const TileKey& k
   const Eigen::Vector2d along = ToWorld(key, segment.b) - ToWorld(key, segment.a);
   for (const double side : {kBesideLine_m, -kBesideLine_m}) {
     const Eigen::Vector2d aside = side * Eigen::Vector2d(-along.y(), along.x()).normalized();
-    LevelsAt(world, ToWorld(key, segment.a) + 0.5 * along + aside, kMostLevels, levels);
+    LevelsAt(world, ToWorld(key, segment.a) + 0.5 * along + aside, kMaxLevels, levels);
     const std::size_t count = levels.size();
     for (std::size_t at = 1; at < count; ++at) {
       const GroundAt ground = [&](const Eigen::Vector2d& p_W) { return LevelAt(world, p_W + aside, at, levels); };
-      for (std::size_t i = 0; i + 1 < line.size() && line.size() < kMostOnLine;) {
+      for (std::size_t i = 0; i + 1 < line.size() && line.size() < kMaxOnLine;) {
         const Eigen::Vector2d a_W = ToWorld(key, line[i]), b_W = ToWorld(key, line[i + 1]);
         const auto part = BendBetween(ground, a_W, ground(a_W).z_m, b_W, ground(b_W).z_m, below);
         const GridPoint bend = part ? PartOf(line[i], line[i + 1], *part) : line[i];

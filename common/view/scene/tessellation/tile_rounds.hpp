@@ -18,7 +18,7 @@ struct Followed {
 
 // Puts points into a plan, with known faces, where its triangles are farther from SUELO's ground than the level
 // allows.
-void MeetTheGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
+void ConformToGround(const road::World& world, const Land& land, int level, const Followed& followed, TilePlan& plan);
 
 // A line on a deck or at its edge, with points where what lies below bends.
 std::vector<tessellation::GridPoint> LineOverGround(const road::World& world, const TileKey& key,
@@ -29,7 +29,7 @@ tessellation::GridPoint MiddleOf(const tessellation::Triangulation& triangles,
                                  const tessellation::Triangulation::Triangle& triangle);
 
 // New triangles belong to the face that they were cut from.
-void CarryFaces(TilePlan& plan);
+void PropagateFaces(TilePlan& plan);
 
 inline double Squared(const tessellation::GridPoint& a, const tessellation::GridPoint& b) {
   const double dx = a.x - b.x, dy = a.y - b.y;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/view/scene/mesh/mesh.hpp"
-#include "common/view/scene/vehicles/moment.hpp"
+#include "common/view/scene/vehicles/scene_snapshot.hpp"
 
 namespace rodeira::scene {
 

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 constexpr Colour kSkin = Colour::Of(0xc99b7a);
 constexpr Colour kHair = Colour::Of(0x3a2c20);
 constexpr Colour kTrousers = Colour::Of(0x2c3444);
-constexpr double kMostSwing_rad = 0.55;
+constexpr double kMaxSwing_rad = 0.55;
 
 // An upright body of eight-sided rings, each a height with half its depth and half its width; from below.
 Mesh Turned(const std::vector<std::array<double, 3>>& rings_m, Colour colour) {
@@ -68,7 +68,7 @@ PersonMeshes BuildPerson(double height_m, Colour clothes) {
 double LegSwing_rad(double wheel_spin_rad, double wheel_radius_m, double leg_m) {
   // Feet that do not slide part by a step, half a turn of the wheel, when the swing is greatest.
   const double step_m = base::kPi * wheel_radius_m;
-  const double most = std::min(kMostSwing_rad, std::asin(std::clamp(0.5 * step_m / leg_m, 0.0, 1.0)));
+  const double most = std::min(kMaxSwing_rad, std::asin(std::clamp(0.5 * step_m / leg_m, 0.0, 1.0)));
   return most * std::sin(wheel_spin_rad);
 }
 

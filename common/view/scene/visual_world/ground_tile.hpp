@@ -9,7 +9,7 @@
 
 #include "common/core/base/hash.hpp"
 #include "common/view/scene/mesh/mesh.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_markings/mark_strips.hpp"
 #include "common/view/scene/tessellation/tile_plan.hpp"
 #include "common/view/scene/tiles/tile_lines.hpp"
@@ -77,7 +77,7 @@ class GroundPlan {
 
   std::shared_ptr<const road::World> seen_;
   const road::World& world_;  // as it is seen
-  Things things_;
+  StaticObjects things_;
   std::vector<TileKey> tiles_;  // ascending
   std::map<TileKey, std::vector<tessellation::GridSegment>> segments_;
   Land land_;

@@ -7,7 +7,7 @@
 
 #include "common/core/base/append_format.hpp"
 #include "common/view/scene/ground_materials/lay_picture.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_markings/road_paint.hpp"
 #include "common/view/scene/visual_world/ground_digest.hpp"
 #include "common/world/network/marking.hpp"
@@ -46,7 +46,7 @@ base::Digest SeenDigest(const road::World& world) {
     digest = base::Combine(digest, base::Hash(marks));
     digest = base::Combine(digest, PaintDigest(paint[index++]));
   }
-  const Things things(world);
+  const StaticObjects things(world);
   for (const auto& [key, tile] : things.tiles())
     digest = base::Combine(digest,
                            base::Combine(base::Hash(fmt::format("{} {}", key.column, key.row)), things.DigestOf(key)));

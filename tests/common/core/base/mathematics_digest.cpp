@@ -6,6 +6,6 @@
 #include <cstdlib>
 
 int main(int, char** argv) {
-  if (std::getenv("RODEIRA_TEST_KEEP_MATHEMATICS") == nullptr) rodeira::base::FixMathematics(argv);
-  std::printf("%s\n", rodeira::base::Hex(rodeira::base::MathematicsDigest()).c_str());
+  if (std::getenv("RODEIRA_TEST_KEEP_MATHEMATICS") == nullptr) rodeira::base::PinMathLibrary(argv);
+  std::printf("%s\n", rodeira::base::Hex(rodeira::base::MathLibraryFingerprint()).c_str());
 }

@@ -67,7 +67,7 @@ TEST(SpeedPlan, ABendThatLeansInwardIsDrivenAsOnTheLevel) {
 
 // Ground that leans outward by more than is comfortable: the bend adds a quarter of the comfortable, never more than
 // 0.6 of what tips the car over, else a crawl.
-TEST(SpeedPlan, NobodyTipsOverWhereTheGroundLeansOutward) {
+TEST(SpeedPlan, NoCarTipsOverWhereTheGroundLeansOutward) {
   SpeedPlanSettings settings;
   for (const double tips : {5.8, 6.9, 10.5}) {
     settings.tips_mps2 = tips;
@@ -90,7 +90,7 @@ TEST(SpeedPlan, NobodyTipsOverWhereTheGroundLeansOutward) {
 }
 
 // A car that is comfortable on the level with more than its tyres' track stands for does not get it.
-TEST(SpeedPlan, WhoDrivesBrisklyKeepsOffTippingToo) {
+TEST(SpeedPlan, ABriskDriverKeepsOffTippingToo) {
   SpeedPlanSettings settings;
   settings.lateral_mps2 = 6.0, settings.tips_mps2 = 6.0;
   EXPECT_NEAR(Sideways_mps2(Speed(0.02, 0.0, settings), 0.02, 0.0), 0.6 * settings.tips_mps2, 1e-9);

@@ -56,7 +56,7 @@ void DieWith(SharedMutex& mutex) {
 
 TEST(RobustMutexes, AreTheOnesOfTheWholeProgram) { EXPECT_TRUE(SharedMutexesAreRobust()); }
 
-TEST(RobustMutexes, WhoLocksAfterAKilledOwnerGoesOn) {
+TEST(RobustMutexes, AThreadThatLocksAfterAKilledOwnerGoesOn) {
   SharedMutex mutex;
   for (int death = 0; death < 3; ++death) {
     DieWith(mutex);
@@ -71,7 +71,7 @@ TEST(RobustMutexes, WhoLocksAfterAKilledOwnerGoesOn) {
   EXPECT_EQ(mutex.Unlock(), 0);
 }
 
-TEST(RobustMutexes, WhoWaitsAlreadyGoesOnWhenTheOwnerDies) {
+TEST(RobustMutexes, AWaitingThreadGoesOnWhenTheOwnerDies) {
   SharedMutex mutex;
   int held[2];
   ASSERT_EQ(::pipe(held), 0);

@@ -48,7 +48,7 @@ TEST(Wire, AReportComesBackAsItWas) {
   EXPECT_TRUE(CheckHello(OwnHello(Empty(), 0), back.value().hello).ok());
 }
 
-TEST(Wire, ANodeWhoseTopicDiffersIsRefusedWithTheMember) {
+TEST(Wire, ANodeWithAnotherTopicIsRefusedWithTheMember) {
   const Hello other = Pretended("rodeira/pulse|unsigned long long value|double value");
   const auto sent = DecodeReport(EncodeReport(ReportOf(other)));
   ASSERT_TRUE(sent.ok()) << sent.error().Text();
@@ -60,7 +60,7 @@ TEST(Wire, ANodeWhoseTopicDiffersIsRefusedWithTheMember) {
             "value', expected 'unsigned long long value'; all programs of a run need the same version of Rodeira");
 }
 
-TEST(Wire, ANodeWhoseOtherTopicsDifferIsNotRefused) {
+TEST(Wire, ANodeWithOtherUnusedTopicsIsNotRefused) {
   EXPECT_TRUE(CheckHello(OwnHello(Empty(), 0), Pretended("rodeira/controls|double throttle|float throttle")).ok());
 }
 

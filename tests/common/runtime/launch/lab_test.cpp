@@ -41,7 +41,7 @@ Discovery On(const std::string& host, const std::string& lab_text) {
   return launch.value().discovery();
 }
 
-TEST(Lab, SaysWhereEverybodyIs) {
+TEST(Lab, SaysWhereEachNodeIs) {
   const Lab lab = Lab::Parse(kLab, "rig.yaml").value();
   EXPECT_EQ(lab.run(), "rig");
   EXPECT_EQ(lab.domain(), 42u);

@@ -22,7 +22,7 @@ std::string Refusal(const std::string& text, const Overrides& overrides = {}) {
   return launch.ok() ? "" : launch.error().Text();
 }
 
-TEST(Launch, WiresEverybodyByTopic) {
+TEST(Launch, WiresAllNodesByTopic) {
   const Launch launch = Launch::Parse(kDrive, "dir/drive.yaml").value();
   const auto& roster = launch.roster();
   EXPECT_EQ(launch.world(), "worlds/plane.yaml");

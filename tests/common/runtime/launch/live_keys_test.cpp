@@ -57,7 +57,7 @@ TEST(LiveKeys, SeveralWindowsDriveTogether) {
   EXPECT_EQ(now.held, (std::vector<std::uint32_t>{7, 26})) << "the other still holds it";
 }
 
-TEST(LiveKeys, WhatWasPressedBeforeAWindowWasHeardIsNobodys) {
+TEST(LiveKeys, WhatWasPressedBeforeAWindowWasHeardDoesNotCount) {
   LiveKeysMemory memory;
   memory.Hear({7, 100, {{8, false, 5}}}, 0.0);
   EXPECT_EQ(memory.Take(0.0).PressesOf(8), 0u);

@@ -27,7 +27,7 @@ class ClockTest : public ::testing::Test {
   Clock clock_{roster_, 100};
 };
 
-TEST_F(ClockTest, GrantsNothingBeforeEverybodyIsReady) {
+TEST_F(ClockTest, GrantsNothingBeforeAllNodesAreReady) {
   Take(Make(0, Phase::kReady, 0));
   Take(Make(1, Phase::kStarting, 0));
   EXPECT_EQ(clock_.Update(kFree).through, -1);
@@ -55,7 +55,7 @@ TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
   Clock clock(roster, 1000, 0, std::vector<Policy>(3, Policy::kRestart));
   const auto all_at = [&](Step step) {
     for (const NodeIndex n : {0u, 1u, 2u}) {
-      Report report = Make(n, step == 0 ? Phase::kReady : Phase::kRunning, n == 2 ? 0 : step, clock.life(n));
+      Report report = Make(n, step == 0 ? Phase::kReady : Phase::kRunning, n == 2 ? 0 : step, clock.incarnation(n));
       report.safe = n == 1 ? step : -1;
       ASSERT_TRUE(clock.Take(report).ok());
     }
@@ -68,13 +68,13 @@ TEST_F(ClockTest, AServerMayBeLostAgainAndAgainWhereTheRunGetsOn) {
     all_at(step);
     EXPECT_EQ(clock.reached(0), step);
     EXPECT_EQ(clock.reached(2), step + 20);
-    EXPECT_EQ(clock.Lose(2).policy, Policy::kRestart) << step;
+    EXPECT_EQ(clock.HandleLoss(2).policy, Policy::kRestart) << step;
     EXPECT_GT(clock.grant().resume, before) << "one that is back holds nothing up";
     before = clock.grant().resume;
   }
   all_at(220);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(clock.Lose(2).policy, Policy::kRestart);
-  const auto fourth = clock.Lose(2);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(clock.HandleLoss(2).policy, Policy::kRestart);
+  const auto fourth = clock.HandleLoss(2);
   EXPECT_EQ(fourth.policy, Policy::kStop);
   EXPECT_EQ(fourth.why, "it was lost 4 times without getting beyond step 240");
 }
@@ -102,7 +102,7 @@ TEST_F(ClockTest, TheLastStepIsFinal) {
   EXPECT_TRUE(clock.all_finished());
 }
 
-TEST_F(ClockTest, WhoFailedIsNeitherReadyNorFinished) {
+TEST_F(ClockTest, AFailedNodeIsNeitherReadyNorFinished) {
   Take(Make(0, Phase::kReady, 0));
   Take(Make(1, Phase::kFailed, 0));
   Take(Make(2, Phase::kReady, 0));

@@ -57,7 +57,7 @@ TEST_F(KeptSamplesTest, KeepsWhatARecorderCouldLose) {
   for (Step v = 0; v <= 1000; v += 2) kept_.Add(Make(0, v));
   kept_.Granted(Through(1000, -1));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 0);
-  // Through 21 everything is safe: a recorder's other life begins at 25 and sees the events in (20, 25].
+  // Through 21 everything is safe: a recorder's other incarnation begins at 25 and sees the events in (20, 25].
   kept_.Granted(Through(1000, 21));
   EXPECT_EQ(Steps(kept_.From({0, 0})).front(), 22);
   EXPECT_EQ(Steps(kept_.From({0, 0})).back(), 22 + 2 * 63);

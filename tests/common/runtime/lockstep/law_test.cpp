@@ -76,7 +76,7 @@ TEST(Law, HoldsWhereMessagesAreLost) {
   }));
 }
 
-TEST(Law, WhereNothingArrivesTheRunEndsWithWhoWaits) {
+TEST(Law, WhereNothingArrivesTheRunEndsWithTheNamesOfWaitingNodes) {
   const Roster roster = law::RandomRoster(1);
   auto made = law::MakeNodes(roster);
   InProcessSettings settings;
@@ -219,7 +219,7 @@ TEST(Law, WhatASinkTookInWhileTheRunWasBrokenOffItTakesOnce) {
     EXPECT_EQ(remembers.seen()[i].second, static_cast<lockstep::Step>(i));
 }
 
-TEST(Law, StopEndsTheRunAtAGrantedStepForEverybody) {
+TEST(Law, StopEndsTheRunAtAGrantedStepForAllNodes) {
   const Roster roster = law::RandomRoster(8);
   auto made = law::MakeNodes(roster);
   InProcessSettings settings;

@@ -47,7 +47,7 @@ class RecorderDouble final : public Node {
     for (const auto& port : inbox.ports()) samples.insert(samples.end(), port.samples.begin(), port.samples.end());
     std::ranges::sort(samples, {}, KeyOf);
     for (const Sample& sample : samples) {
-      if (!disk_.file.empty() && KeyOf(sample) <= KeyOf(disk_.file.back())) continue;  // of an earlier life
+      if (!disk_.file.empty() && KeyOf(sample) <= KeyOf(disk_.file.back())) continue;  // of an earlier incarnation
       disk_.unwritten.push_back(sample);
       if (base::RandomBits({disk_.seed, ++draws_}) % 300 == 0) Write();
     }
@@ -176,7 +176,7 @@ TEST(Recovery, ANodeThatIsToldToEndEndsARunWithoutRestarts) {
   EXPECT_GT(deaths, 20);
 }
 
-TEST(Recovery, WhoDiesAgainAndAgainAtOnePlaceEndsTheRun) {
+TEST(Recovery, RepeatedCrashAtOnePlaceEndsTheRun) {
   const Roster roster = RecordedRoster(3);
   Recovery recovery(roster, std::vector<Policy>(roster.nodes().size(), Policy::kRestart));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(recovery.Lost(0, 40).policy, Policy::kRestart);
@@ -237,16 +237,16 @@ TEST_F(RecoveryOfOne, GoesOnFromASnapshotThatLiesInTheFile) {
   recovery.Heard(Running(0, 66));
   EXPECT_EQ(recovery.resume(), 80);
   recovery.Heard(Running(1, 0, -1));
-  EXPECT_EQ(recovery.safe(), 88) << "what a recorder's other life has not yet said is not forgotten";
+  EXPECT_EQ(recovery.safe(), 88) << "what a recorder's other incarnation has not yet said is not forgotten";
 }
 
-TEST_F(RecoveryOfOne, NobodyKeepsAnythingWhereNobodyCanComeBack) {
+TEST_F(RecoveryOfOne, NothingIsKeptWhereNoNodeCanComeBack) {
   EXPECT_EQ(Recovery(Make(false), {Policy::kPause, Policy::kPause}).safe(), kNever);
   EXPECT_EQ(Recovery(Make(true), {Policy::kStop, Policy::kStop}).safe(), kNever);
   EXPECT_EQ(Recovery(Make(true), {Policy::kPause, Policy::kStop}).safe(), -1) << "a person may start it again";
 }
 
-TEST_F(RecoveryOfOne, WhoCannotSaveItsStateIsNotStartedAgain) {
+TEST_F(RecoveryOfOne, ANodeThatCannotSaveItsStateIsNotRestarted) {
   const Roster roster = Make(true);
   Report car = Running(0, 0);
   EXPECT_TRUE(Recovery(roster, {Policy::kRestart, Policy::kRestart}).CheckState(car).ok());
@@ -281,7 +281,7 @@ TEST_F(RecoveryOfOne, AClockThatIsStartedAgainGrantsNothingNewBeforeItHasHeardAl
   car.granted = 60;
   car.incarnation = 2;
   ASSERT_TRUE(clock.Take(car).ok());
-  EXPECT_EQ(clock.life(0), 2u);
+  EXPECT_EQ(clock.incarnation(0), 2u);
   EXPECT_EQ(clock.Update(1000).through, 60) << "what was granted stays granted";
   Report recorder = Running(1, 45);
   recorder.granted = 55;

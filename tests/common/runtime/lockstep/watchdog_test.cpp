@@ -27,7 +27,7 @@ class WatchdogTest : public ::testing::Test {
   Watchdog dog_{roster_, {600, 2000, 5000}};
 };
 
-TEST_F(WatchdogTest, NamesWhoIsSilent) {
+TEST_F(WatchdogTest, NamesASilentNode) {
   for (std::int64_t now = 0; now <= 1000; now += 50) {
     if (now <= 300) Hear(0, now);
     Hear(1, now);
@@ -56,7 +56,7 @@ TEST_F(WatchdogTest, ANodeThatEndsBeforeTheRunDoesIsNamed) {
   EXPECT_FALSE(dog_.Check(0, grant_));
 }
 
-TEST_F(WatchdogTest, NamesWhoHangsByItsOwnDeadlineButNotWhoWaits) {
+TEST_F(WatchdogTest, NamesANodeThatHangsByItsOwnDeadlineButNotOneThatWaits) {
   Hear(0, 0, Phase::kRunning, Waiting::kInputs, 60000);
   Hear(1, 0, Phase::kRunning, Waiting::kNothing, 1999);
   EXPECT_FALSE(dog_.Check(0, grant_)) << "waiting for others and working within the deadline are no faults";
@@ -66,7 +66,7 @@ TEST_F(WatchdogTest, NamesWhoHangsByItsOwnDeadlineButNotWhoWaits) {
   EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
 }
 
-TEST_F(WatchdogTest, WhoWritesWhatItMadeHasAsLongAsAtTheStart) {
+TEST_F(WatchdogTest, ANodeThatWritesItsResultsHasAsLongAsAtTheStart) {
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
   EXPECT_FALSE(dog_.Check(0, grant_));
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5001);
@@ -79,7 +79,7 @@ TEST_F(WatchdogTest, ANodesOwnWordComesFirst) {
   EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'view' failed at step 7: no such file");
 }
 
-TEST_F(WatchdogTest, WhoFailedStaysSoAndWhoRefusedItsInputIsStatusTwo) {
+TEST_F(WatchdogTest, AFailedNodeStaysSoAndARefusedInputIsStatusTwo) {
   Hear(0, 0, Phase::kRunning);
   Hear(1, 0, Phase::kFailed);
   Hear(1, 0, Phase::kRunning);
@@ -100,7 +100,7 @@ TEST_F(WatchdogTest, ForgivesTheClocksOwnAbsence) {
   EXPECT_TRUE(fault) << "but not for ever";
 }
 
-TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
+TEST_F(WatchdogTest, SaysWhichNodesAreMissingAtTheStart) {
   std::optional<Watchdog::Fault> fault;
   for (std::int64_t now = 0; now <= 5200 && !fault; now += 100) {
     Hear(0, now, Phase::kReady, Waiting::kGrant);
@@ -111,7 +111,7 @@ TEST_F(WatchdogTest, SaysWhoIsMissingAtTheStart) {
   EXPECT_EQ(fault->node, 1u);
 }
 
-TEST_F(WatchdogTest, WhoLoadsMayBeSilentFiveTimesAsLong) {
+TEST_F(WatchdogTest, ALoadingNodeMayBeSilentFiveTimesAsLong) {
   std::optional<Watchdog::Fault> fault;
   std::int64_t now = 0;
   for (Hear(0, 0, Phase::kStarting, Waiting::kNothing); now <= 5000 && !fault; now += 50) {
@@ -132,7 +132,7 @@ TEST_F(WatchdogTest, ForgivesWhatTheClockHadNoProcessorFor) {
   for (std::int64_t now = 0; now <= 3000; now += 120) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
 }
 
-TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
+TEST_F(WatchdogTest, AFinishedNodeMayBeSilent) {
   grant_.final = true;
   Hear(0, 0, Phase::kFinished);
   for (std::int64_t now = 0; now <= 2000; now += 100) {
@@ -141,11 +141,11 @@ TEST_F(WatchdogTest, WhoHasFinishedMayBeSilent) {
   }
 }
 
-TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
+TEST_F(WatchdogTest, NoSilenceCountsWhileANodeIsRestarted) {
   Hear(0, 0);
   Hear(1, 0);
   EXPECT_FALSE(dog_.Check(0, grant_));
-  dog_.ExpectNextLife(0, 0);
+  dog_.ExpectRestart(0, 0);
   for (std::int64_t now = 50; now <= 3000; now += 50) EXPECT_FALSE(dog_.Check(now, grant_)) << now;
   Report back;
   back.node = 0;
@@ -161,13 +161,13 @@ TEST_F(WatchdogTest, NobodysSilenceCountsWhileSomebodyIsStartedAgain) {
   EXPECT_EQ(fault->node, 0u);
 }
 
-// A recorder was stopped and killed, and its next life is ready in half a second; the car hangs for two in what it had
-// wanted to say to the old one.
-TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
+// A recorder was stopped and killed, and its next incarnation is ready in half a second; the car hangs for two in what
+// it had wanted to say to the old one.
+TEST_F(WatchdogTest, ANodeHeldUpByADeadProcessIsNotNamedForIt) {
   Hear(0, 0);
   Hear(1, 0);
   EXPECT_FALSE(dog_.Check(0, grant_));
-  dog_.ExpectNextLife(1, 0);
+  dog_.ExpectRestart(1, 0);
   Report back;
   back.node = 1;
   back.incarnation = 1;
@@ -187,11 +187,11 @@ TEST_F(WatchdogTest, WhoWasHeldUpByADeadProcessIsNotNamedForIt) {
   EXPECT_EQ(dog_.Check(2700, grant_)->node, 0u);
 }
 
-TEST_F(WatchdogTest, WhoNeverSpeaksAgainIsNamedAtLast) {
+TEST_F(WatchdogTest, ANodeThatNeverSpeaksAgainIsNamedAtLast) {
   Hear(0, 0);
   Hear(1, 0);
   EXPECT_FALSE(dog_.Check(0, grant_));
-  dog_.ExpectNextLife(1, 0);
+  dog_.ExpectRestart(1, 0);
   Report back;
   back.node = 1;
   back.incarnation = 1;
@@ -211,7 +211,7 @@ TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
   Hear(0, 0);
   Hear(1, 0);
   EXPECT_FALSE(dog_.Check(0, grant_));
-  dog_.ExpectNextLife(1, 1000);
+  dog_.ExpectRestart(1, 1000);
   for (std::int64_t now = 50; now <= 6000; now += 50) {
     Hear(0, now);
     EXPECT_FALSE(dog_.Check(now, grant_)) << now;
@@ -221,11 +221,11 @@ TEST_F(WatchdogTest, ALifeThatDoesNotBecomeReadyIsNamed) {
   EXPECT_EQ(fault->reason, "after 5 s these are still missing: 'view'");
 }
 
-TEST_F(WatchdogTest, WhoIsExcusedIsNotNamedUntilItGoesOn) {
+TEST_F(WatchdogTest, ASuspendedNodeIsNotNamedUntilItGoesOn) {
   Hear(0, 0);
   Hear(1, 0);
   EXPECT_FALSE(dog_.Check(0, grant_));
-  dog_.Excuse(0);
+  dog_.Suspend(0);
   for (std::int64_t now = 50; now <= 20000; now += 50) {
     Hear(1, now);
     EXPECT_FALSE(dog_.Check(now, grant_)) << now;

@@ -57,7 +57,7 @@ inline void Make(const MadeRecording& wish, const std::filesystem::path& file) {
   Must(writer.AddMetadata("rodeira", {{"launch_file", "launch.yaml"},
                                       {"roster_hash", base::Hex(roster.hash())},
                                       {"protocol_hash", base::Hex(idl::ProtocolHash())},
-                                      {"mathematics_hash", base::Hex(base::MathematicsDigest())}}));
+                                      {"mathematics_hash", base::Hex(base::MathLibraryFingerprint())}}));
   Must(writer.AddAttachment("launch.yaml", "application/yaml", std::as_bytes(std::span(wish.launch_text)), 0, 0));
   std::vector<record::ChannelId> channels;
   for (lockstep::SourceIndex s = 0; s < roster.sources().size(); ++s) {

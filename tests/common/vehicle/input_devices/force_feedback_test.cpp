@@ -136,7 +136,7 @@ class FakeMotor final : public ForceDevice {
   const bool& there_;
 };
 
-TEST(ForceDriver, WhereNobodyTellsItTheWheelIsFreeWithinATenthOfASecond) {
+TEST(ForceDriver, WithoutCommandsTheWheelIsFreeWithinATenthOfASecond) {
   double now_s = 0.0;
   std::vector<FakeMotor::Told> told;
   bool there = true;

@@ -65,7 +65,7 @@ AgentPose LorryBehind(const CarPose& car, double gap_m, double left_m) {
 // leap.
 TEST(Camera, ALorryCloseBehindIsNotWhereTheEyeIs) {
   const auto world = PlaneWithRoad();
-  Moment moment;
+  SceneSnapshot moment;
   moment.cars.emplace_back();
   CarPose& car = moment.cars[0];
   car.p_WB_W = {60.0, 0.0, world->At(60.0, 0.0).z_m};
@@ -227,7 +227,7 @@ TEST(Camera, BesideTheRoadPostsTakeTurns) {
 }
 
 TEST(Camera, FollowsTheTrafficToo) {
-  Moment moment;
+  SceneSnapshot moment;
   moment.cars.push_back(CarAt(0.0, 0.0, 0.0, 0.0));
   AgentPose van;
   van.p_WB_W = {30.0, 4.0, 1.0};

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::int64_t kStep_ns = 20'000'000;
 
-Moment At(std::int64_t time_ns, const std::vector<Eigen::Vector3d>& places) {
-  Moment moment;
+SceneSnapshot At(std::int64_t time_ns, const std::vector<Eigen::Vector3d>& places) {
+  SceneSnapshot moment;
   moment.time_ns = time_ns;
   for (std::size_t i = 0; i < places.size(); ++i) {
     AgentPose agent;
@@ -71,7 +71,7 @@ TEST(HeatMap, WhatTheTrafficSaysThatItBurns) {
   const auto world = PlaneWithRoad();
   HeatMap map(*world);
   for (int i = 0; i <= 300; ++i) {
-    Moment moment = At(i * kStep_ns, {{-60.0 + 0.4 * i, -70.0, 0.0}, {-60.0 + 0.4 * i, 60.0, 0.0}});
+    SceneSnapshot moment = At(i * kStep_ns, {{-60.0 + 0.4 * i, -70.0, 0.0}, {-60.0 + 0.4 * i, 60.0, 0.0}});
     moment.agents[0].detail.emplace().fuel_lph = 7.2;
     map.Add(moment);
   }
@@ -154,7 +154,7 @@ TEST(HeatMap, BackwardCountsALeapBeginsAnewAndPlacingIsNoWay) {
   EXPECT_NEAR(map.watched_s(), 4.0, 1e-9) << "standing still";
   map.Add(at(200));
   EXPECT_TRUE(map.cells().empty());
-  Moment placed = at(201);
+  SceneSnapshot placed = at(201);
   placed.agents[0].p_WB_W.y() = 40.0;
   map.Add(placed);
   EXPECT_TRUE(map.cells().empty());
@@ -164,7 +164,7 @@ TEST(HeatMap, ADriversCarSaysWhatItBurns) {
   const auto world = PlaneWithRoad();
   HeatMap map(*world);
   for (int i = 0; i <= 500; ++i) {
-    Moment moment;
+    SceneSnapshot moment;
     moment.time_ns = i * kStep_ns;
     moment.cars.emplace_back();
     moment.cars[0].p_WB_W = {0.4 * i, -70.0, 0.0};

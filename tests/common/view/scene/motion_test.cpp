@@ -29,8 +29,8 @@ struct Display {
 Vector3d CarAt(double time_s) { return {kSpeed_mps * time_s, 0.0, 0.0}; }
 
 // A car and one of the traffic before it, as fast.
-Moment At(double time_s) {
-  Moment moment;
+SceneSnapshot At(double time_s) {
+  SceneSnapshot moment;
   moment.time_ns = std::llround(time_s * 1e9);
   CarPose car;
   car.p_WB_W = CarAt(time_s);
@@ -87,7 +87,7 @@ TEST_P(Motion, IsEvenAndNotLate) {
   const Display display = GetParam();
   const double step_m = kSpeed_mps / display.rate_Hz;
   double before_m = 0.0, worst = 0.0, latest_s = 0.0;
-  Watch(display, [&](double wall_s, const Moment& moment) {
+  Watch(display, [&](double wall_s, const SceneSnapshot& moment) {
     const double x_m = moment.cars[0].p_WB_W.x();
     if (wall_s > kSettled_s) {
       worst = std::max(worst, std::fabs(x_m - before_m - step_m) / step_m);
@@ -105,7 +105,7 @@ TEST_P(Motion, CameraCarAndTrafficMoveTogether) {
   for (const CameraKind kind : {CameraKind::kChase, CameraKind::kDriver, CameraKind::kBonnet, CameraKind::kOrbit}) {
     double worst_m = 0.0;
     std::optional<Vector3d> eye, agent;
-    Watch(GetParam(), [&](double, const Moment& moment) {
+    Watch(GetParam(), [&](double, const SceneSnapshot& moment) {
       const Body body = *BodyAt(moment, 0);
       const Vector3d to_eye = MakeCamera(kind, body, {}, *world).eye_W - body.p_WB_W,
                      to_agent = moment.agents[0].p_WB_W - body.p_WB_W;
@@ -145,7 +145,7 @@ TEST(PicturePace, ADisplayThatDoesNotKeepItsWordCostsATenthMore) {
   EXPECT_GE(pictures, kEnd_s * 60.0);
 }
 
-TEST(PicturePace, WhoDrawsTooSlowlyWaitsForNobody) {
+TEST(PicturePace, ASlowRendererWaitsForNothing) {
   EXPECT_NEAR(static_cast<double>(BeginsOf({60.0, false}, 0.0, 0.03).size()), kEnd_s / 0.03, 1.5);
   EXPECT_NEAR(static_cast<double>(BeginsOf({60.0, false}, 0.0, 0.02).size()), kEnd_s / 0.02, 1.5);
   PicturePace pace;

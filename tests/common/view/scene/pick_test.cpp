@@ -33,7 +33,7 @@ TEST(Pick, TheRayOfAPlaceLeadsThroughWhatIsSeenThere) {
 }
 
 TEST(Pick, TheFirstCarOnTheRayIsMeant) {
-  Moment moment;
+  SceneSnapshot moment;
   moment.cars.emplace_back();  // looks east
   for (const double ahead_m : {40.0, 20.0}) {
     AgentPose agent;
@@ -47,7 +47,7 @@ TEST(Pick, TheFirstCarOnTheRayIsMeant) {
   };
   EXPECT_EQ(BodyOn(moment, RayAt(camera, *camera.Project({20.0, 0.3, 0.7}, kWidth, kHeight), kWidth, kHeight), 0), 2u)
       << "without the car in which the eye is";
-  Moment traffic = moment;
+  SceneSnapshot traffic = moment;
   traffic.cars.clear();
   const auto among = [&](const Eigen::Vector3d& p_W) {
     return BodyOn(traffic, RayAt(camera, *camera.Project(p_W, kWidth, kHeight), kWidth, kHeight));

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <set>
 
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/road_furniture/trees.hpp"
 #include "tests/common/view/scene/ground_worlds.hpp"
 
@@ -72,7 +72,7 @@ TEST(Repeated, OnlyWhatStandsOftenIsRepeated) {
     <object id="p" type="guide-post" s="0" t="-6" zOffset="0" height="1"><repeat s="0" length="180" distance="20" tStart="-6" tEnd="-6"/></object>
     <object id="l" type="streetLamp" s="0" t="6" zOffset="0" height="8"><repeat s="0" length="150" distance="50" tStart="6" tEnd="6"/></object></objects></road>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1U);
   const auto& [key, tile] = *things.tiles().begin();
   const auto places_of = [&](int level) {

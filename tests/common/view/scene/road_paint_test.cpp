@@ -143,7 +143,7 @@ TEST(RoadPaint, ACrosswalkIsAZebra) {
     EXPECT_NEAR(painted.area_m2, 7.0 * 0.5 * 4.0, 1e-2);
     ExpectBox(painted, 58.0, 20.0 - 3.25, 62.0, 20.0 + 3.25);
   }
-  EXPECT_TRUE(Things(*world).tiles().empty());
+  EXPECT_TRUE(StaticObjects(*world).tiles().empty());
 }
 
 TEST(RoadPaint, AnOutlineTurnedAcrossTheRoadHasStripesAlongItNevertheless) {
@@ -184,7 +184,7 @@ TEST(RoadPaint, AParkingPlaceHasItsLines) {
   // West: half the left line's width beyond it. East: half the other's. From the left line's ends, but south half the
   // width of what lies along the rear.
   ExpectBox(painted, 60.0 - 1.25 - 0.1, 20.0 - 2.5 - 0.05, 60.0 + 1.25 + 0.05, 20.0 + 2.5);
-  EXPECT_TRUE(Things(*world).tiles().empty());
+  EXPECT_TRUE(StaticObjects(*world).tiles().empty());
 }
 
 // A driver who parks sees where: lines of 0.12 m within the edges, of the rectangle or of a slanted outline; a height
@@ -196,7 +196,7 @@ TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
   const Painted painted = PaintOf(*world);
   EXPECT_NEAR(painted.area_m2, 5.0 * 2.5 - 4.76 * 2.26, 2e-3);
   ExpectBox(painted, 57.5, 18.75, 62.5, 21.25);
-  EXPECT_TRUE(Things(*world).tiles().empty());
+  EXPECT_TRUE(StaticObjects(*world).tiles().empty());
   // A rhomboid of base 2.5 and height 5, slanted by 45 degrees: its inner one has the same shape, 0.12 m within each
   // side.
   const auto slanted = WorldWith(
@@ -204,7 +204,7 @@ TEST(RoadPaint, AParkingPlaceWithoutMarksHasLinesAlongItsEdges) {
       <cornerLocal u="5" v="2.5" z="0" height="4"/><cornerLocal u="2.5" v="2.5" z="0" height="4"/></outline></outlines></object></objects>)");
   const double base = 2.5 - 2.0 * 0.12 * std::sqrt(2.0), height = 5.0 - 0.24;
   EXPECT_NEAR(PaintOf(*slanted).area_m2, 2.5 * 5.0 - base * height, 2e-3);
-  EXPECT_TRUE(Things(*slanted).tiles().empty());
+  EXPECT_TRUE(StaticObjects(*slanted).tiles().empty());
 }
 
 // A flat island of 6 x 3 m with a kerb of 0.2 m: grass within the kerb, and both together the whole of it, whichever

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/geometry/angle.hpp"
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 #include "common/view/scene/visual_world/ground_tile.hpp"
 #include "common/view/scene/visual_world/seen_digest.hpp"
 
@@ -29,7 +29,7 @@ TEST(StandingThings, StandOnTheGroundTheWayTheyAreTurned) {
       "  - {type: house, x_m: 120, y_m: 80, heading_deg: 30, length_m: 14, width_m: 8, height_m: 6}\n  - {type: tree, "
       "along: [[0, 0], [300, 0]], every_m: 100, height_m: 9, radius_m: 2}\n"
       "  - {type: lamp, x_m: -20, y_m: -20, z_m: 0.5}\n");
-  const Things things(*world);
+  const StaticObjects things(*world);
   int trees = 0, houses = 0, lamps = 0;
   for (const auto& [key, tile] : things.tiles()) {
     for (const Thing& thing : tile.things) {
@@ -60,7 +60,7 @@ TEST(StandingThings, StandOnTheGroundTheWayTheyAreTurned) {
 // the ground.
 TEST(StandingThings, AWallFollowsTheGroundWithoutAGap) {
   const auto world = With("  - {type: wall, along: [[10, 10], [40, 10], [40, 30]], height_m: 1.5, width_m: 0.4}\n");
-  const Things things(*world);
+  const StaticObjects things(*world);
   std::vector<RailPiece> pieces;
   for (const auto& [key, tile] : things.tiles()) pieces.insert(pieces.end(), tile.rails.begin(), tile.rails.end());
   ASSERT_EQ(pieces.size(), 8u + 5u);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What stands at roads, as it is drawn: against closed forms, SUELO, and the roads' own frames.
-#include "common/view/scene/road_furniture/things.hpp"
+#include "common/view/scene/road_furniture/static_objects.hpp"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ std::shared_ptr<const road::World> WorldWith(const std::string& more, const std:
                   length_m, length_m, geometry, width, width, more));
 }
 
-std::vector<Mesh> DrawAll(const Things& things, int level) {
+std::vector<Mesh> DrawAll(const StaticObjects& things, int level) {
   std::vector<Mesh> all;
   for (const auto& [key, tile] : things.tiles()) {
     DrawnThings drawn = DrawThings(tile, key, level);
@@ -42,7 +42,7 @@ std::vector<Mesh> DrawAll(const Things& things, int level) {
   return all;
 }
 
-std::size_t Triangles(const Things& things, int level) {
+std::size_t Triangles(const StaticObjects& things, int level) {
   std::size_t count = 0;
   for (const Mesh& mesh : DrawAll(things, level)) count += mesh.triangle_count();
   return count;
@@ -60,11 +60,11 @@ double Volume(const Mesh& mesh) {
 }
 
 // A filling station has a roof on posts that a lorry passes under, fits its box, and stands where it was put.
-TEST(Things, AFillingStationStandsInItsBox) {
+TEST(StaticObjects, AFillingStationStandsInItsBox) {
   const auto world = WorldWith(
       R"(<objects><object id="f" type="building" subtype="filling_station" s="50" t="20" zOffset="0" length="24" width="14" height="6"/></objects>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   Vector3d low = Vector3d::Constant(1e9), high = -low;
   bool roof = false;
   for (const Mesh& mesh : DrawAll(things, 0)) {
@@ -79,11 +79,11 @@ TEST(Things, AFillingStationStandsInItsBox) {
   EXPECT_TRUE(roof);
 }
 
-TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
+TEST(StaticObjects, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
   const auto world = WorldWith(
       R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="no" type="274" subtype="-1" country="DE" value="70" unit="km/h" width="0.6" height="0.6"/></signals>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   int faces = 0;
   for (const Mesh& mesh : DrawAll(things, 0)) {
     if (mesh.material != Material::kSign) continue;
@@ -109,13 +109,13 @@ TEST(Things, APlateStandsAtItsPlaceAndReadsFromLeftToRightForItsTraffic) {
 
 // A board of two signs and a display for traffic to the east: it stands on its posts, what is on it lies a
 // centimetre before it, to the left or right as its readers see it, on no post of its own.
-TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
+TEST(StaticObjects, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
   const auto world = WorldWith(
       R"(<signals><signal id="a" s="50" t="-5" zOffset="2" orientation="+" dynamic="yes" type="multiBoard" subtype="-1" width="2" height="1.5">
     <staticBoard><sign id="l" country="DE" type="274" subtype="-1" value="70" unit="km/h" v="0.5" z="0.2" width="0.6" height="0.6"/><sign id="r" country="DE" type="206" subtype="-1" v="-0.5" z="0.3" width="0.6" height="0.6"/></staticBoard>
     <vmsBoard displayType="text" v="0" z="1" displayWidth="1.8" displayHeight="0.4"/></signal></signals>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   std::map<std::string, Thing> by_face;
   for (const auto& [key, tile] : things.tiles()) {
     for (const Thing& thing : tile.things) by_face.emplace(thing.face, thing);
@@ -135,7 +135,7 @@ TEST(Things, SignsLieOnTheirBoardAndADisplayIsNoTrafficLight) {
   EXPECT_NEAR(by_face.at("display").width_m, 1.8, 1e-9);
 }
 
-TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
+TEST(StaticObjects, ASignSeenInTheWorldHangsAtItsHeight) {
   const auto world = OpenDriveWorld(
       "<road id=\"1\" length=\"100\" junction=\"-1\"><planView><geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" "
       "length=\"100\"><line/></geometry></planView>"
@@ -146,7 +146,7 @@ TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
       "subtype=\"-1\" country=\"DE\"><positionInertial x=\"40\" y=\"-1\" z=\"12.5\" "
       "hdg=\"0\"/></signal></signals></road>\n");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
   const Thing& sign = things.tiles().begin()->second.things.at(0);
   EXPECT_NEAR(sign.stand.foot_W.z(), 7.0, 1e-9);
@@ -155,7 +155,7 @@ TEST(Things, ASignSeenInTheWorldHangsAtItsHeight) {
   EXPECT_NEAR(sign.stand.x_W.x(), -1.0, 1e-12);  // it faces traffic to the east
 }
 
-TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
+TEST(StaticObjects, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
   const auto world = WorldWith(R"(<signals>
     <signal id="both" s="50" t="5" zOffset="2" orientation="none" dynamic="no" type="267" subtype="-1" country="DE"/>
     <signal id="hangs" s="80" t="-2" zOffset="5" orientation="+" dynamic="no" type="999" subtype="-1" country="DE"/>
@@ -164,7 +164,7 @@ TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
     <signal id="tall" s="123" t="-5" zOffset="0" orientation="+" dynamic="yes" type="1000001" subtype="-1" country="OpenDRIVE" height="3.22" width="0.45"/>
     <signal id="line" s="125" t="0" zOffset="0" orientation="+" dynamic="no" type="294" subtype="-1" country="OpenDRIVE"/></signals>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   std::vector<Thing> all;
   for (const auto& [key, tile] : things.tiles()) all.insert(all.end(), tile.things.begin(), tile.things.end());
   ASSERT_EQ(all.size(), 4u);
@@ -182,14 +182,14 @@ TEST(Things, BothSidesOneWayOfLightsAndWhatHangsHasNoPost) {
   EXPECT_TRUE(east && west);
 }
 
-TEST(Things, ARailFollowsItsBendWithoutAGap) {
+TEST(StaticObjects, ARailFollowsItsBendWithoutAGap) {
   // Half a circle of 50 m to the left about (10, 70), its rail 5 m to the right: 55 m from the middle.
   const double length = 150.0;
   const auto world = WorldWith(
       R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="150" distance="0" tStart="-5" tEnd="-5"/></object></objects>)",
       "<arc curvature=\"0.02\"/>", length);
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   EXPECT_GT(things.tiles().size(), 0u);
   std::vector<RailPiece> pieces;
   for (const auto& [key, tile] : things.tiles()) pieces.insert(pieces.end(), tile.rails.begin(), tile.rails.end());
@@ -220,7 +220,7 @@ TEST(Things, ARailFollowsItsBendWithoutAGap) {
   }
 }
 
-TEST(Things, BodiesHaveTheirDeclaredVolumes) {
+TEST(StaticObjects, BodiesHaveTheirDeclaredVolumes) {
   EXPECT_NEAR(Volume(PlainModel({4.0, 3.0, 2.5}, 0.0, {}, 0)), 30.0, 1e-5);
   EXPECT_NEAR(Volume(PlainModel({0.0, 0.0, 2.0}, 1.5, {}, 0)),
               2.0 * 5.0 * std::sin(2.0 * 3.14159265358979 / 10.0) * 2.25, 1e-5);  // ten sides
@@ -237,21 +237,21 @@ TEST(Things, BodiesHaveTheirDeclaredVolumes) {
   EXPECT_NEAR(Volume(HouseModel({12.0, 9.0, 7.0}, 5, 1)), 108.0 * eaves + 108.0 * 0.5 * (7.0 + eaves), 1e-3);
 }
 
-TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
+TEST(StaticObjects, ObjectsByTheirKindsAndDeclaredSizes) {
   const auto world = WorldWith(R"(<objects>
     <object id="tree" type="tree" s="10" t="8" zOffset="0" radius="2" height="7"/>
     <object id="box" type="obstacle" s="30" t="8" zOffset="0.5" length="4" width="2" height="3" hdg="0.5"/>
     <object id="paint" type="parkingSpace" s="40" t="8" zOffset="0" length="5" width="2.5" height="0"/>
     <object id="block" type="building" s="60" t="20" zOffset="0" height="9"><outline><cornerLocal u="-5" v="-4" z="0" height="9"/><cornerLocal u="5" v="-4" z="0" height="9"/><cornerLocal u="5" v="4" z="0" height="9"/><cornerLocal u="-5" v="4" z="0" height="9"/></outline></object></objects>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
   const auto& tile = things.tiles().begin()->second;
   ASSERT_EQ(tile.things.size(), 3u);
   EXPECT_EQ(tile.things[0].kind, ThingKind::kTree);
   EXPECT_EQ(tile.things[2].kind, ThingKind::kOutline);
   // The turned box: its corners' extremes along the world's axes.
-  Things::Tile box;
+  StaticObjects::Tile box;
   box.things.push_back(tile.things[1]);
   double low_z = 1e9, high_z = -1e9, east = -1e9;
   for (const Mesh& mesh : DrawThings(box, {0, 0}, 0).meshes) {
@@ -266,18 +266,18 @@ TEST(Things, ObjectsByTheirKindsAndDeclaredSizes) {
 }
 
 // An island 0.15 m high with a kerb: the frame stands a centimetre over the filling, and both fill the outline.
-TEST(Things, AnIslandHasItsKerbAndItsFilling) {
+TEST(StaticObjects, AnIslandHasItsKerbAndItsFilling) {
   const auto world = WorldWith(
       R"(<objects><object id="i" type="trafficIsland" s="50" t="0" height="0.15"><outlines><outline id="0" fillType="grass"><cornerLocal u="-3" v="-1" z="0" height="0.15"/><cornerLocal u="3" v="-1" z="0" height="0.15"/>
       <cornerLocal u="3" v="1" z="0" height="0.15"/><cornerLocal u="-3" v="1" z="0" height="0.15"/></outline></outlines><borders><border outlineId="0" type="curb" width="0.25" useCompleteOutline="true"/></borders></object></objects>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
-  const Things::Tile& tile = things.tiles().begin()->second;
+  const StaticObjects::Tile& tile = things.tiles().begin()->second;
   ASSERT_EQ(tile.things.size(), 5u);  // four sides and what is within
   double kerb_m2 = 0.0, filled_m3 = 0.0;
   for (const Thing& thing : tile.things) {
-    Things::Tile one;
+    StaticObjects::Tile one;
     one.things.push_back(thing);
     const bool filling = thing.heights_m[0] == 0.15;
     for (Mesh& mesh : DrawThings(one, {0, 0}, 0).meshes) {
@@ -294,18 +294,18 @@ TEST(Things, AnIslandHasItsKerbAndItsFilling) {
 }
 
 // ASAM's example of a mast with an arm over the road: tapered round bars, and nothing of its box.
-TEST(Things, AMastIsItsSkeleton) {
+TEST(StaticObjects, AMastIsItsSkeleton) {
   const auto world =
       WorldWith(R"(<objects><object id="m" type="pole" s="50" t="-5" height="4" length="0.3" width="5"><skeleton>
       <polyline id="1"><vertexRoad s="50" t="-5" dz="0" radius="0.15"/><vertexRoad s="50" t="-5" dz="4" radius="0.1"/></polyline>
       <polyline id="2"><vertexLocal u="0" v="0" z="3.5" width="0.1" length="0.2"/><vertexLocal u="0" v="4" z="3.5" width="0.1" length="0.2"/></polyline></skeleton></object></objects>)");
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   ASSERT_EQ(things.tiles().size(), 1u);
-  const Things::Tile& tile = things.tiles().begin()->second;
+  const StaticObjects::Tile& tile = things.tiles().begin()->second;
   ASSERT_EQ(tile.things.size(), 2u);
   const auto extent = [&](std::size_t which, Vector3d& low, Vector3d& high) {
-    Things::Tile one;
+    StaticObjects::Tile one;
     one.things.push_back(tile.things[which]);
     low = Vector3d::Constant(1e9), high = -low;
     double volume = 0.0;
@@ -330,12 +330,12 @@ TEST(Things, AMastIsItsSkeleton) {
 }
 
 // A wall beside half a circle, said to leave the road's line: straight from its beginning to its end.
-TEST(Things, ARailThatLeavesTheRoadsLineIsStraight) {
+TEST(StaticObjects, ARailThatLeavesTheRoadsLineIsStraight) {
   const auto world = WorldWith(
       R"(<objects><object id="r" type="barrier" subtype="guardRail" s="0" t="-5" height="0.75" width="0.3"><repeat s="0" length="100" distance="0" tStart="-5" tEnd="-5" detachFromReferenceLine="true"/></object></objects>)",
       "<arc curvature=\"0.02\"/>", 150.0);
   ASSERT_NE(world, nullptr);
-  const Things things(*world);
+  const StaticObjects things(*world);
   const Eigen::Vector2d begin(10.0, 15.0), end(10.0 + 55.0 * std::sin(2.0), 70.0 - 55.0 * std::cos(2.0)),
       way = (end - begin).normalized();
   double chords = 0.0;
@@ -349,10 +349,10 @@ TEST(Things, ARailThatLeavesTheRoadsLineIsStraight) {
   EXPECT_NEAR(chords, (end - begin).norm(), 1e-9);
 }
 
-TEST(Things, StandOnTheGroundThatIsDrawn) {
+TEST(StaticObjects, StandOnTheGroundThatIsDrawn) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/example/world.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  const Things things(*world.value());
+  const StaticObjects things(*world.value());
   std::size_t count = 0;
   for (const auto& [key, tile] : things.tiles()) {
     for (const Thing& thing : tile.things) {
@@ -365,10 +365,10 @@ TEST(Things, StandOnTheGroundThatIsDrawn) {
   EXPECT_GT(count, 15u);
 }
 
-TEST(Things, GetFewerTrianglesWithEachLevel) {
+TEST(StaticObjects, GetFewerTrianglesWithEachLevel) {
   const auto world = road::World::Load(SourceDir() + "/configs/worlds/example/world.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
-  const Things things(*world.value());
+  const StaticObjects things(*world.value());
   std::size_t before = Triangles(things, 0);
   for (int level = 1; level < 4; ++level) {
     const std::size_t now = Triangles(things, level);

@@ -34,7 +34,7 @@ std::shared_ptr<const road::World> UnderAPlane(const char* tunnels = "    tunnel
 }
 
 std::vector<Mesh> DrawnAt(const road::World& world, int level) {
-  const Things things(world);
+  const StaticObjects things(world);
   std::vector<Mesh> all;
   for (const auto& [key, tile] : things.tiles()) {
     for (Mesh& mesh : DrawThings(tile, key, level).meshes) all.push_back(std::move(mesh));
@@ -120,14 +120,14 @@ TEST(Tubes, WhereNoTunnelIsThereIsNone) {
     const auto world = UnderAPlane(none);
     ASSERT_NE(world, nullptr);
     EXPECT_TRUE(network::PlaceTubes(*world->network()).empty());
-    EXPECT_TRUE(Things(*world).tiles().empty());
+    EXPECT_TRUE(StaticObjects(*world).tiles().empty());
   }
 }
 
 // What a tile is made from says whether its tunnel was changed.
 TEST(Tubes, ATilesDigestTellsOfThem) {
   const auto whole = UnderAPlane(), shorter = UnderAPlane("    tunnels: [{from_s_m: 60, to_s_m: 199}]\n");
-  const Things things(*whole), others(*shorter);
+  const StaticObjects things(*whole), others(*shorter);
   std::size_t differ = 0;
   for (const auto& [key, tile] : things.tiles()) {
     EXPECT_NE(things.DigestOf(key), 0u);

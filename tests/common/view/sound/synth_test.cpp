@@ -107,7 +107,7 @@ TEST(Synth, OnlySlidingTyresSqueal) {
   EXPECT_GT(squeal(sliding), 5.0 * squeal(rolling));
 }
 
-TEST(Synth, WhoIsOnTheLeftIsHeardThereAndWhoIsFarIsFaint) {
+TEST(Synth, ACarOnTheLeftIsHeardThereAndAFarOneIsFaint) {
   Heard near, far;
   near.others[7] = {2000.0, 0.5, 10.0, 0.0, 0.5, -1.0};
   far.others[7] = {2000.0, 0.5, 10.0, 0.0, 0.05, -1.0};

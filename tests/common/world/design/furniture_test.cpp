@@ -27,7 +27,7 @@ const network::RoadSpec& SpecOf(const Design& design) { return design.network->r
 // Seen from above, x to the east: the traffic of a sign looks against its face.
 double Turned(double heading_rad) { return std::remainder(heading_rad, 2.0 * geometry::kPi); }
 
-TEST(Signs, LookAtThoseWhomTheyAreFor) {
+TEST(Signs, FaceTheirTraffic) {
   const Design design =
       SoundDesign(RoadWith("    signs:\n      - {type: stop, s_m: 20}\n      - {type: stop, s_m: 30, for: against}\n   "
                            "   - {type: stop, s_m: 40, for: both}\n"

@@ -49,7 +49,7 @@ TEST(Markings, ACrossingIsAnObjectToo) {
   EXPECT_NEAR(objects[0].width_m, 6.5, 1e-12);
 }
 
-TEST(Markings, AStopLineIsBeforeThoseWhomItIsFor) {
+TEST(Markings, AStopLineIsBeforeItsTraffic) {
   const auto only = [](const std::string& keys) {
     const Design design = SoundDesign(RoadWith("      - {type: stop_line, s_m: 50" + keys + "}\n"));
     EXPECT_EQ(SpecOf(design).lines.size(), 1u);

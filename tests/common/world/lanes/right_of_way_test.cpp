@@ -53,7 +53,7 @@ class Crossing : public testing::TestWithParam<bool> {
   static std::string ComesBy(int arm) { return std::to_string(2 * arm + 1); }
 };
 
-TEST_P(Crossing, WhoComesFromTheRightGoesFirstAndWhoTurnsAcrossOncomingTrafficYields) {
+TEST_P(Crossing, RightBeforeLeftAndATurnAcrossOncomingTrafficYields) {
   Drawn drawn(MapText("lights", false));
   const Made made = Read(drawn);
   int beside = 0, oncoming = 0;
@@ -152,7 +152,7 @@ TEST_P(Crossing, AFilesJunctionPrioritiesGoBeforeTheRulesAndAfterSigns) {
   EXPECT_EQ(turned, 6);
 }
 
-TEST_P(Crossing, ARoundaboutsRingGoesBeforeWhoEnters) {
+TEST_P(Crossing, ARoundaboutsRingHasPriorityOverEntries) {
   constexpr double kRing_m = 16.0;
   Drawn drawn(MapText("roundabout"));
   const Made made = Read(drawn);

@@ -85,7 +85,7 @@ TEST(Zones, HoldEveryPlaceWhereCarsOnTwoTracksTouch) {
 
 // On a straight road a car of one direction that would swing out so far that it reaches one of the other direction
 // makes a zone with it; not one that swings to the kerb.
-TEST(Zones, KnowWhoSwingsOutToTheirSide) {
+TEST(Zones, KnowWhichVehiclesSwingOutToTheirSide) {
   const auto network = opendrive::MustRead(opendrive::Document(opendrive::RoadText().Text()));
   const Graph graph(*network);
   ASSERT_EQ(graph.tracks().size(), 2u);
@@ -138,7 +138,7 @@ TEST(Zones, ShortSectionsAtTheEndOfTwoWaysComeTogetherAndAtTheBeginningPart) {
 }
 
 // A way with a STOP sign yields to one without.
-TEST(Zones, WhoHasAStopIsNotFirst) {
+TEST(Zones, AWayWithAStopIsNotFirst) {
   const auto network = MapNetwork("crossing");
   const Graph graph(*network);
   const Zones zones(graph);

@@ -29,7 +29,7 @@ bool AskTogether(const Network& network, const Eigen::Vector2d& middle, double s
     cluster.feet.x_m[i] = middle.x() + base::RandomUniform({seed, i, 1}, -0.5, 0.5) * size_m;
     cluster.feet.y_m[i] = middle.y() + base::RandomUniform({seed, i, 2}, -0.5, 0.5) * size_m;
   }
-  if (!network.Together(cluster)) return false;
+  if (!network.QueryBatch(cluster)) return false;
   std::vector<Surfacing> alone;
   for (std::size_t i = 0; i < count; ++i) {
     network.Surfaces(cluster.feet.x_m[i], cluster.feet.y_m[i], alone);

@@ -4,7 +4,7 @@
 #include "common/core/base/mathematics.hpp"
 
 int main(int argc, char** argv) {
-  rodeira::base::FixMathematics(argv);
+  rodeira::base::PinMathLibrary(argv);
   ::testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

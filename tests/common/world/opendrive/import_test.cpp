@@ -212,7 +212,7 @@ TEST(OpenDrive, SignalsObjectsAndTheRestAreKept) {
                              HasSubstr("warnings: 0\n")));
 }
 
-TEST(OpenDrive, ReferencesDependenciesAndWhoMayDriveAreKept) {
+TEST(OpenDrive, ReferencesDependenciesAndPermissionsAreKept) {
   RoadText road;
   road.right =
       R"(<lane id="-1" type="driving" direction="reversed"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><access sOffset="20" rule="deny" restriction="trucks"/>

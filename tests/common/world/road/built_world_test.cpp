@@ -301,7 +301,7 @@ roads:
     std::vector<ground::GroundQuery> queries;
     for (int k = 0; k < 196; ++k) queries.push_back(ground::PatchPoint(patch, k / 14, k % 14));
     std::vector<ground::GroundPoint> points(queries.size());
-    if (!built.Together(queries, points)) continue;
+    if (!built.QueryBatch(queries, points)) continue;
     ++together;
     for (std::size_t k = 0; k < queries.size(); ++k) {
       const ground::GroundPoint alone = ground->At(queries[k].x_m, queries[k].y_m, queries[k].z_hint_m);

@@ -116,7 +116,7 @@ TEST_F(ToldOnce, AMisspeltElementOfAnAxisIsReadAsTheOneThatWasMeant) {
                           "w.yaml:6: 'ark' is no element of an axis; did you mean 'arc'?"));
 }
 
-TEST_F(ToldOnce, AnElementThatNobodyKnowsMakesNothingElseWrong) {
+TEST_F(ToldOnce, AnUnknownElementMakesNothingElseWrong) {
   EXPECT_THAT(Problems(OnAPlane("{bend: {angle: 7}}")),
               ElementsAre("w.yaml:6: 'bend' is no element of an axis; known are line, arc, clothoid"));
   EXPECT_THAT(Problems(OnAPlane("{bend: {angle: 7}}, {arc: {radius_m: 50, length_m: 20}}")),
@@ -164,7 +164,7 @@ TEST_F(ToldOnce, LightsThatAreGreenTogetherAreToldAtTheirPhase) {
   EXPECT_THAT(status.error().Text(), testing::StartsWith("w.yaml:17: the lights 'j: main'"));
 }
 
-TEST_F(ToldOnce, ALaneThatNobodyDrivesOnIsNoStart) {
+TEST_F(ToldOnce, ALaneWithoutTrafficIsNoStart) {
   const auto at = [](int lane) {
     return OnAPlane("line: {length_m: 200}", "start: {road: main, lane: " + std::to_string(lane) + ", s_m: 20}\n");
   };

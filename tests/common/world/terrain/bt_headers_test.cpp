@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t Setting(const char* name, std::size_t otherwise) {
+std::size_t Setting(const char* name, std::size_t default_value) {
   const char* set = std::getenv(name);
-  return set == nullptr ? otherwise : static_cast<std::size_t>(std::strtoull(set, nullptr, 10));
+  return set == nullptr ? default_value : static_cast<std::size_t>(std::strtoull(set, nullptr, 10));
 }
 
 class Draw {

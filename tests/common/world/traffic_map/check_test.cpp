@@ -191,7 +191,7 @@ TEST(Check, APictureHoldsItsPixels) {
               IsEmpty());  // 2000 by 2000 blocks of a bit
 }
 
-TEST(Check, WhoGoesFirstIsSaidOnce) {
+TEST(Check, PriorityIsSaidOnce) {
   const auto signs = [](const std::string& kinds) { return "rodeira: motors/1\nsigns:\n" + kinds; };
   EXPECT_THAT(Found(GoodMap(),
                     signs("  - {lane: 2, kind: stop}\n  - {lane: 2, kind: priority}\n  - {lane: 2, kind: give_way}\n")),

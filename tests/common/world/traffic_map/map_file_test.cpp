@@ -182,7 +182,7 @@ TEST(MapFile, WhatIsWrongIsSaid) {
   EXPECT_THAT(Refused(With(good, "s,10", "s," + std::string(2000, '1'))),
               HasSubstr("x.motors:12: the line has more than 1000 bytes"));
   std::string many;
-  for (std::size_t i = 0; i <= kMostLines; ++i) many += "c,1,2,True\n";
+  for (std::size_t i = 0; i <= kMaxLines; ++i) many += "c,1,2,True\n";
   EXPECT_THAT(Refused(many), HasSubstr("more than 100000 lines"));
 }
 

@@ -23,7 +23,7 @@ TEST(Capture, TakesBothOutputsAndTheStatus) {
 
 TEST(Capture, WhatCannotBeStartedLeavesWith127) { EXPECT_EQ(CaptureProgram({"/no/such/program"}, 20s).status, 127); }
 
-TEST(Capture, WhoTakesTooLongIsKilled) {
+TEST(Capture, AProgramThatTakesTooLongIsKilled) {
   const Captured slow = CaptureProgram({"/bin/sh", "-c", "echo begun; exec sleep 1000"}, 300ms);
   EXPECT_TRUE(slow.too_late);
   EXPECT_FALSE(slow.status.has_value());

@@ -59,7 +59,7 @@ TEST_F(BranchTest, ABranchWithoutAChangeIsItsParent) {
 }
 
 // A person who stops it is told so, also where no step was driven yet.
-TEST_F(BranchTest, WhoStopsItAtOnceIsToldSo) {
+TEST_F(BranchTest, ABranchStoppedAtOnceSaysSo) {
   const std::string file = Drive();
   for (const lockstep::Step at : {0, 1500}) {
     BranchSpec wish{file, at, {}, std::nullopt, (folder_.path() / "branch.mcap").string()};
@@ -226,13 +226,13 @@ TEST_F(BranchTest, ABranchMayHaveAnotherVehicleModel) {
   const auto parent = replay::RecordedRun::Open(file), branch = replay::RecordedRun::Open(wish.recording);
   ASSERT_TRUE(branch.ok()) << branch.error().Text();
   const auto was = CarAt(parent.value(), 3005), is = CarAt(branch.value(), 3005), later = CarAt(branch.value(), 4000),
-             otherwise = CarAt(parent.value(), 4000);
+             default_value = CarAt(parent.value(), 4000);
   EXPECT_GT(was.velocity_w_mps().x(), 1.0);
   EXPECT_NEAR(is.position_w_m().x(), was.position_w_m().x(), 0.005);
   EXPECT_NEAR(is.position_w_m().y(), was.position_w_m().y(), 0.005);
   EXPECT_NEAR(is.position_w_m().z(), was.position_w_m().z(), 0.3) << "another car's origin";
   EXPECT_NEAR(is.velocity_w_mps().x(), was.velocity_w_mps().x(), 0.05);
-  EXPECT_GT(std::fabs(later.velocity_w_mps().x() - otherwise.velocity_w_mps().x()), 0.01) << "and is another car";
+  EXPECT_GT(std::fabs(later.velocity_w_mps().x() - default_value.velocity_w_mps().x()), 0.01) << "and is another car";
   const auto verdict = Verify(branch.value(), 0);
   ASSERT_TRUE(verdict.ok()) << verdict.error().Text();
   EXPECT_FALSE(verdict.value().difference.has_value()) << verdict.value().difference->Text();

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "common/core/base/files.hpp"
-#include "common/runtime/replay/tape.hpp"
+#include "common/runtime/replay/sample_reader.hpp"
 #include "launch/rodeira/commands/info_command.hpp"
 #include "launch/rodeira/commands/repair_command.hpp"
 #include "launch/rodeira/replay/branch.hpp"
@@ -34,7 +34,7 @@ using record::Draw;
 using system_test::Bin;
 using system_test::RunCommand;
 
-constexpr Step kMostSteps = 60;  // whatever a changed file says of its end
+constexpr Step kMaxSteps = 60;  // whatever a changed file says of its end
 
 // What is printed meanwhile goes nowhere.
 class Quiet {
@@ -96,7 +96,7 @@ class RecordingFuzz : public ::testing::Test {
     if (!run) return run.error();
     Recomputation wish;
     wish.from = from;
-    wish.last_step = std::min(run.value().last_step(), kMostSteps);
+    wish.last_step = std::min(run.value().last_step(), kMaxSteps);
     auto done = Recompute(run.value(), wish);
     if (!done) return done.error();
     return std::move(done.value().verdict);
@@ -107,12 +107,12 @@ class RecordingFuzz : public ::testing::Test {
     if (!run) return ExpectASentence(run.error());
     std::vector<lockstep::SourceIndex> sources;
     for (lockstep::SourceIndex s = 0; s < run.value().roster().sources().size(); ++s) sources.push_back(s);
-    replay::Tape tape(run.value(), sources);
+    replay::SampleReader sample_reader(run.value(), sources);
     for (int i = 0; i < 3; ++i) {
-      const auto samples = tape.At(static_cast<Step>(draw.Below(kMostSteps)));
+      const auto samples = sample_reader.At(static_cast<Step>(draw.Below(kMaxSteps)));
       if (!samples) ExpectASentence(samples.error());
     }
-    const auto at = run.value().SnapshotAtOrBefore(static_cast<Step>(draw.Below(kMostSteps)));
+    const auto at = run.value().SnapshotAtOrBefore(static_cast<Step>(draw.Below(kMaxSteps)));
     if (!at) return ExpectASentence(at.error());
     const auto snapshots = run.value().Snapshots(at.value());
     if (!snapshots) ExpectASentence(snapshots.error());

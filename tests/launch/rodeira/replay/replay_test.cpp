@@ -273,7 +273,7 @@ TEST_F(ReplayTest, AFileNamedByItsWholePathIsTheEmbeddedOne) {
 
 TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
   const std::string file = Drive(1.0);
-  const auto otherwise = [](const std::string& topic, const record::Message& message, base::Bytes& data) {
+  const auto default_value = [](const std::string& topic, const record::Message& message, base::Bytes& data) {
     if (topic == "rodeira/vehicle_state" && message.log_time_ns == 500'000'000) data[100] ^= std::byte{1};
     return true;
   };
@@ -284,12 +284,12 @@ TEST_F(ReplayTest, ADifferenceIsSaidWithTheProgramThatRecorded) {
     return ended.out;
   };
   EXPECT_THAT(verify(Copied(
-                  file, [](const std::string&, record::TextMap&) {}, otherwise)),
+                  file, [](const std::string&, record::TextMap&) {}, default_value)),
               ::testing::Not(HasSubstr("recorded by another program")));
   const auto by_another = [](const std::string& name, record::TextMap& entries) {
     if (name == "rodeira") entries["commit"] = "0123456";
   };
-  EXPECT_THAT(verify(Copied(file, by_another, otherwise)),
+  EXPECT_THAT(verify(Copied(file, by_another, default_value)),
               HasSubstr(fmt::format(
                   "recorded by another program (version {0}, commit 0123456; this one is version {0}, commit ",
                   base::Version())));

@@ -83,7 +83,7 @@ base::Bytes Payload(const lockstep::Source& source, Step step) {
   return idl::Encode(traffic);
 }
 
-bool Same(const scene::Moment& a, const scene::Moment& b) {
+bool Same(const scene::SceneSnapshot& a, const scene::SceneSnapshot& b) {
   if (a.time_ns != b.time_ns || a.cars.size() != b.cars.size() || a.agents.size() != b.agents.size()) return false;
   for (std::size_t i = 0; i < a.cars.size(); ++i) {
     if (a.cars[i].p_WB_W != b.cars[i].p_WB_W || a.cars[i].q_WB.coeffs() != b.cars[i].q_WB.coeffs()) return false;
@@ -142,7 +142,7 @@ TEST_F(WatchTest, MovesAsTheLiveViewMovedInWhateverOrder) {
   RecordedMoments moments = MomentsOf(run.value());
   std::vector<std::int64_t> times;
   for (std::int64_t time_ns = 0; time_ns < 5'990'000'000; time_ns += 7'654'321) times.push_back(time_ns);
-  std::vector<scene::Moment> forward;
+  std::vector<scene::SceneSnapshot> forward;
   for (const std::int64_t time_ns : times) {
     auto moment = moments.At(time_ns);
     ASSERT_TRUE(moment.ok()) << moment.error().Text();
@@ -187,7 +187,7 @@ TEST_F(WatchTest, TheRunsEndIsAPicture) {
   EXPECT_NEAR(between, before + 0.4 * (end - before), 1e-9) << "the last interval is shorter than a period";
 }
 
-TEST_F(WatchTest, WhoComesAgainElsewhereDoesNotFlyThere) {
+TEST_F(WatchTest, AVehicleThatAppearsElsewhereDoesNotFlyThere) {
   const auto run = replay::RecordedRun::Open(Made());
   RecordedMoments moments = MomentsOf(run.value());
   EXPECT_EQ(moments.At(2'980'000'000).value().agents.size(), 2u);
@@ -240,7 +240,7 @@ TEST_F(WatchTest, ARunWithoutAViewIsSeenWhole) {
   EXPECT_EQ(seen_driven.value().settings.autopilots.begin()->second.driver.filename(), "driver.yaml");
 }
 
-TEST_F(WatchTest, OfRemarksOnlyWhatSomebodyMarkedIsOnTheBar) {
+TEST_F(WatchTest, OfRemarksOnlyMarksAreOnTheBar) {
   const auto remark = [](std::int64_t time_ns, const std::string& kind, const std::string& text) {
     msg::Remark one;
     one.time_ns(time_ns);

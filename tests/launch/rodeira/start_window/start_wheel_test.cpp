@@ -87,7 +87,7 @@ TEST_F(StartWheel, SixMovementsAndTheWheelIsTheOneToDriveWith) {
   EXPECT_EQ(start_->choice().wheel, file);
 }
 
-TEST_F(StartWheel, WhoCancelsOrHasNoneIsToldAndNothingIsWritten) {
+TEST_F(StartWheel, CancelledOrWithoutOneItSaysSoAndWritesNothing) {
   if (joysticks_->Connected().empty()) {
     ASSERT_TRUE(Click("set up a steering wheel"));
     EXPECT_FALSE(start_->wheel().open());

@@ -13,8 +13,8 @@
 #include <thread>
 
 #include "common/runtime/launch/live_keys.hpp"
-#include "nodes/view/window/screen.hpp"
-#include "nodes/view/window/stage.hpp"
+#include "nodes/view/window/render_thread.hpp"
+#include "nodes/view/window/view_window.hpp"
 #include "tests/nodes/view/headset/fake_headset.hpp"
 #include "tests/nodes/view/pictures.hpp"
 #include "tests/nodes/view/virtual_display.hpp"
@@ -74,8 +74,8 @@ class InTheHeadset : public ::testing::Test {
            middle.z() - aside * static_cast<float>(std::sin(left_rad))}};
     }
   }
-  std::unique_ptr<Screen> Opened() {
-    auto screen = Screen::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
+  std::unique_ptr<ViewWindow> Opened() {
+    auto screen = ViewWindow::Open(SurfaceKind::kOffscreen, settings_, *world_, false, "help");
     EXPECT_TRUE(screen.ok());
     return std::move(screen).value();
   }
@@ -128,7 +128,7 @@ class InTheHeadset : public ::testing::Test {
   static constexpr float kApart_m = 0.5F;
   std::shared_ptr<const road::World> world_;
   ViewSettings settings_;
-  scene::Moment moment_;
+  scene::SceneSnapshot moment_;
 };
 
 TEST_F(InTheHeadset, TheEyesDifferByTheirDistanceAndTheirFrusta) {
@@ -192,14 +192,14 @@ TEST_F(InTheHeadset, TheWindowGoesOnAsWithoutOne) {
     const auto screen = Opened();
     EXPECT_FALSE(screen->WaitForHeadset());
     screen->Show(moment_, 1.0);
-    without = screen->painter().Read();
+    without = screen->renderer().Read();
   }
   settings_.headset = true;
   const auto screen = Opened();
   for (int i = 0; i < 3; ++i) {
     ASSERT_TRUE(screen->WaitForHeadset());
     screen->Show(moment_, 1.0);
-    EXPECT_EQ(screen->painter().Read().rgb, without.rgb) << i;
+    EXPECT_EQ(screen->renderer().Read().rgb, without.rgb) << i;
   }
   EXPECT_EQ(Fake().frames, 3);
 }
@@ -236,7 +236,7 @@ TEST_F(InTheHeadset, ALostOneIsNamed) {
 }
 
 // Nothing is drawn for a head at an unknown place; the frame is ended all the same.
-TEST_F(InTheHeadset, NobodyKnowsWhereTheHeadIs) {
+TEST_F(InTheHeadset, ThePlaceOfTheHeadIsUnknown) {
   const auto screen = Opened();
   Fake().knows_where = false;
   ASSERT_TRUE(screen->WaitForHeadset());
@@ -299,7 +299,7 @@ TEST_F(InTheHeadset, InAWindowOfX11) {
   if (!display.there()) GTEST_SKIP() << "the package xvfb is not there";
   Fake().egl = false;  // it is not asked for here
   {
-    auto screen = Screen::Open(SurfaceKind::kWindow, settings_, *world_, false, "help");
+    auto screen = ViewWindow::Open(SurfaceKind::kWindow, settings_, *world_, false, "help");
     ASSERT_TRUE(screen.ok()) << screen.error().Text();
     ASSERT_TRUE(screen.value()->has_headset()) << Fake().refused;
     for (int i = 0; i < 2; ++i) {
@@ -317,17 +317,17 @@ TEST_F(InTheHeadset, InAWindowOfX11) {
 // The view's own thread: frames are shown as long as the run goes on, without a display too.
 TEST_F(InTheHeadset, ARunIsShownInIt) {
   settings_.window = WindowWish::kNever;
-  auto stage = Stage::Open(settings_, world_);
-  ASSERT_TRUE(stage.ok()) << stage.error().Text();
-  ASSERT_NE(stage.value(), nullptr);
-  EXPECT_TRUE(stage.value()->has_window());
-  stage.value()->Show(moment_);
+  auto render_thread = RenderThread::Open(settings_, world_);
+  ASSERT_TRUE(render_thread.ok()) << render_thread.error().Text();
+  ASSERT_NE(render_thread.value(), nullptr);
+  EXPECT_TRUE(render_thread.value()->has_window());
+  render_thread.value()->Show(moment_);
   moment_.time_ns = 20'000'000;
-  stage.value()->Show(moment_);
+  render_thread.value()->Show(moment_);
   const double begin_s = launch::WallSeconds();
   while (Fake().frames < 5 && launch::WallSeconds() - begin_s < 60.0)
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  stage.value().reset();
+  render_thread.value().reset();
   EXPECT_GE(Fake().frames, 5);
   EXPECT_EQ(Fake().layers, 1);
   EXPECT_EQ(Fake().living, 0);
@@ -338,9 +338,9 @@ TEST_F(InTheHeadset, WithoutOneAndWithoutAWindowNothingIsDrawn) {
   settings_.window = WindowWish::kNever;
   Fake().plugged_in = false;
   testing::internal::CaptureStderr();
-  auto stage = Stage::Open(settings_, world_);
-  ASSERT_TRUE(stage.ok()) << stage.error().Text();
-  EXPECT_EQ(stage.value(), nullptr);
+  auto render_thread = RenderThread::Open(settings_, world_);
+  ASSERT_TRUE(render_thread.ok()) << render_thread.error().Text();
+  EXPECT_EQ(render_thread.value(), nullptr);
   EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("nothing is shown"));
 }
 

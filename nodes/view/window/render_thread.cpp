@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nodes/view/window/render_thread.hpp"
+
+#include <SDL.h>
+
+#include <chrono>
+#include <utility>
+
+#include "common/core/base/wait.hpp"
+#include "nodes/view/frame/png.hpp"
+#include "nodes/view/run_connection/asker.hpp"
+#include "nodes/view/run_connection/key_forwarder.hpp"
+#include "nodes/view/window/view_window.hpp"
+
+namespace rodeira::nodes {
+
+struct RenderThread::State {
+  std::unique_ptr<ViewWindow> screen;
+  std::unique_ptr<KeyForwarder> keys;   // null: the window drives nothing
+  std::unique_ptr<Asker> asker;         // null: no node takes requests
+  std::unique_ptr<WheelButtons> wheel;  // null: it has no buttons for the window
+  scene::PicturePace pace;
+};
+
+RenderThread::RenderThread(const ViewSettings& settings, WorldReader reader,
+                           std::unique_ptr<launch::LiveKeysSender> keys,
+                           std::unique_ptr<launch::LiveRequestsSender> requests)
+    : settings_(settings), reader_(std::move(reader)), keys_(std::move(keys)), requests_(std::move(requests)) {
+  thread_ = std::thread([this] { Run(); });
+}
+
+base::Result<std::unique_ptr<RenderThread>> RenderThread::Open(const ViewSettings& settings,
+                                                               std::shared_ptr<const road::World> world) {
+  return Open(settings, [shown = ReadWorld{std::move(world), settings.built}] { return shown; });
+}
+
+base::Result<std::unique_ptr<RenderThread>> RenderThread::Open(const ViewSettings& settings, WorldReader reader,
+                                                               std::unique_ptr<launch::LiveKeysSender> keys,
+                                                               std::unique_ptr<launch::LiveRequestsSender> requests) {
+  std::unique_ptr<RenderThread> render_thread(
+      new RenderThread(settings, std::move(reader), std::move(keys), std::move(requests)));
+  {
+    const base::WaitNote note("the view's window and its world");
+    std::unique_lock lock(render_thread->mutex_);
+    render_thread->changed_.wait(lock, [&] { return render_thread->ready_; });
+    if (!render_thread->set_up_) return render_thread->set_up_.error();
+    if (!render_thread->nothing_to_draw_) return render_thread;
+  }
+  return std::unique_ptr<RenderThread>();
+}
+
+RenderThread::~RenderThread() {
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+bool RenderThread::has_window() const {
+  const std::lock_guard lock(mutex_);
+  return window_;
+}
+
+void RenderThread::Show(scene::SceneSnapshot moment) {
+  const double wall_s = launch::WallSeconds();
+  const std::lock_guard lock(mutex_);
+  history_.Add(std::move(moment));
+  clock_.Arrived(wall_s, static_cast<double>(history_.newest_ns()) * 1e-9,
+                 static_cast<double>(history_.interval_ns()) * 1e-9);
+}
+
+void RenderThread::Tell(const std::vector<scenario::Event>& events) {
+  const std::lock_guard lock(mutex_);
+  told_.insert(told_.end(), events.begin(), events.end());
+}
+
+base::Status RenderThread::Order(Picture picture, std::filesystem::path file) {
+  const std::lock_guard lock(mutex_);
+  if (!written_) return written_;
+  orders_.push_back({std::move(picture), std::move(file)});
+  changed_.notify_all();
+  return {};
+}
+
+base::Status RenderThread::Drain() {
+  const base::WaitNote note("pictures to be written");
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [&] { return orders_.empty() || !written_; });
+  return written_;
+}
+
+void RenderThread::Run() {
+  State hand;
+  base::Status status = SetUp(hand);
+  const bool go_on = status.ok() && hand.screen != nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    set_up_ = std::move(status);
+    nothing_to_draw_ = hand.screen == nullptr;
+    window_ = go_on && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+    ready_ = true;
+  }
+  changed_.notify_all();
+  if (go_on) Loop(hand);
+}
+
+// Null where there is nothing to draw here.
+base::Status RenderThread::OpenSurfaceFor(std::unique_ptr<Surface>& surface) const {
+  const bool only_window = settings_.frame_steps.empty() && !settings_.headset;
+  const auto open = [&](SurfaceKind kind) -> base::Status {
+    auto opened = OpenSurface(kind, settings_, settings_.frame_steps.empty());
+    if (!opened) return opened.error();
+    surface = std::move(opened).value();
+    return {};
+  };
+  if (settings_.window == WindowWish::kAlways) return open(SurfaceKind::kWindow);
+  if (settings_.window == WindowWish::kAuto && HasDisplay() && open(SurfaceKind::kWindow))
+    return {};  // a display without OpenGL is as good as none
+  return only_window ? base::Status() : open(SurfaceKind::kOffscreen);
+}
+
+base::Status RenderThread::SetUp(State& hand) {
+  std::unique_ptr<Surface> surface;
+  if (auto status = OpenSurfaceFor(surface); !status) return status;
+  auto shown = ReadBefore(surface.get(), reader_);
+  if (!shown) return shown.error();
+  if (surface == nullptr) return {};
+  world_ = std::move(shown.value().world);
+  ViewSettings settings = settings_;
+  settings.built = std::move(shown.value().built);
+  const std::string own = WindowHelp(settings_.mouse_button),
+                    help = settings_.driving_help.empty() ? own : own + "\n\n" + settings_.driving_help;
+  auto screen = ViewWindow::Open(std::move(surface), settings, *world_, help);
+  if (!screen) return screen.error();
+  hand.screen = std::move(screen).value();
+  if (hand.screen->surface().kind() == SurfaceKind::kOffscreen && settings_.frame_steps.empty() &&
+      !hand.screen->has_headset()) {
+    hand.screen.reset();
+    return {};
+  }
+  if (keys_ != nullptr) hand.keys = std::make_unique<KeyForwarder>(std::move(keys_));
+  if (hand.screen->surface().kind() == SurfaceKind::kWindow) hand.wheel = WheelButtons::Open(settings_.camera_buttons);
+  if (requests_ != nullptr) {
+    hand.asker = std::make_unique<Asker>(std::move(requests_));
+    hand.screen->set_ask([&asker = *hand.asker](const scenario::Request& request) { return asker.Ask(request); });
+  }
+  return {};
+}
+
+void RenderThread::Loop(State& hand) {
+  std::unique_lock lock(mutex_);
+  while (!quit_) {
+    if (!orders_.empty()) {
+      ServeOrder(hand, lock);
+    } else if (window_ && !history_.empty()) {
+      ShowWindow(hand, lock);
+    } else {
+      changed_.wait_for(lock, std::chrono::milliseconds(window_ ? 10 : 1000),
+                        [&] { return quit_ || !orders_.empty(); });
+      if (window_) {
+        lock.unlock();
+        const bool open = ReadKeys(hand);
+        lock.lock();
+        window_ = window_ && open;
+      }
+    }
+    if (hand.asker != nullptr) {
+      const std::vector<scenario::Event> told = std::exchange(told_, {});
+      lock.unlock();  // it writes to the bus, for which the run's thread must not wait
+      hand.asker->See(told);
+      hand.asker->Tell(launch::WallSeconds());
+      lock.lock();
+    }
+  }
+}
+
+void RenderThread::ServeOrder(State& hand, std::unique_lock<std::mutex>& lock) {
+  const Ordered& order = orders_.front();  // others are only added behind it
+  lock.unlock();
+  hand.screen->renderer().DrawWhole(order.picture);
+  base::Status status = WritePng(order.file, hand.screen->renderer().Read());
+  lock.lock();
+  if (written_) written_ = std::move(status);
+  orders_.pop_front();
+  changed_.notify_all();
+}
+
+void RenderThread::ShowWindow(State& hand, std::unique_lock<std::mutex>& lock) {
+  const double begin_s = launch::WallSeconds();
+  const double rate = clock_.rate();
+  lock.unlock();
+  bool open = ReadKeys(hand);
+  const bool waited = hand.screen->WaitForHeadset();
+  lock.lock();
+  scene::SceneSnapshot moment = history_.At(clock_.Now(waited ? launch::WallSeconds() : begin_s) * 1e9);
+  lock.unlock();
+  hand.screen->Show(std::move(moment), rate);
+  lock.lock();
+  open = open && (hand.screen->surface().kind() == SurfaceKind::kWindow || hand.screen->has_headset());
+  if (!open) window_ = false;
+  if (waited) return;
+  const double rest_s = hand.pace.Next(begin_s, hand.screen->surface().beat()) - launch::WallSeconds();
+  if (rest_s > 0.0)
+    changed_.wait_for(lock, std::chrono::duration<double>(rest_s), [&] { return quit_ || !orders_.empty(); });
+}
+
+// False where the person closed the window.
+bool RenderThread::ReadKeys(State& hand) {
+  SDL_Event event;
+  bool open = true;
+  while (SDL_PollEvent(&event) != 0) {
+    if (event.type == SDL_QUIT) open = false;
+    if (event.type == SDL_KEYDOWN && event.key.repeat == 0 && event.key.keysym.sym == SDLK_ESCAPE) open = false;
+    const bool own = event.type == SDL_KEYDOWN && event.key.repeat == 0 &&
+                     (event.key.keysym.sym == SDLK_ESCAPE ||
+                      hand.screen->TakeKey(event.key.keysym.sym, hand.keys != nullptr, event.key.keysym.mod));
+    if (hand.screen->TakeMouse(event)) continue;
+    if (!own && hand.keys != nullptr) hand.keys->Take(event);
+  }
+  open = open && !hand.screen->asked_to_close();
+  if (hand.wheel != nullptr && hand.wheel->Pressed()) (void)hand.screen->TakeKey(SDLK_k, true);
+  if (hand.keys != nullptr) {
+    if (!open) hand.keys->ReleaseAll();
+    hand.keys->Tell(launch::WallSeconds());
+  }
+  if (!open) hand.screen->surface().Hide();
+  return open;
+}
+
+}  // namespace rodeira::nodes
