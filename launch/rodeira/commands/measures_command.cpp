@@ -136,10 +136,16 @@ base::Status WriteSeries(const measures::Drive& drive, const std::string& file) 
   return out.value().Close();
 }
 
+fs::path SidecarOf(const std::string& table) { return fs::path(table).replace_extension(".measures.yaml"); }
+
 base::Status CheckOptions(const MeasuresOptions& options) {
   const std::string extension = fs::path(options.out).extension().string();
   if (!options.out.empty() && extension != ".csv" && extension != ".json")
     return base::WrongInput("a table is written as .csv or .json", "-o " + options.out);
+  std::error_code none;
+  if (!options.out.empty() && !options.spec.empty() && fs::equivalent(SidecarOf(options.out), options.spec, none))
+    return base::WrongInput("the options beside this table would replace the measures file; another name was expected",
+                            "-o " + options.out);
   if (options.long_format && extension == ".json")
     return base::WrongInput("a long table is written as .csv", "-o " + options.out);
   if (!options.series.empty() && options.recordings.size() != 1)
@@ -169,12 +175,11 @@ base::Status WriteTable(const MeasuresOptions& options, const measures::Measures
     return {};
   }
   const fs::path out(options.out);
-  const fs::path sidecar = fs::path(out).replace_extension(".measures.yaml");
   const std::string table = out.extension() == ".json" ? measures::JsonTable(spec, rows)
                             : options.long_format      ? measures::LongCsvTable(spec, rows)
                                                        : measures::CsvTable(spec, rows);
   if (auto status = base::WriteWhole(out, std::string_view(table)); !status) return status;
-  return base::WriteWhole(sidecar, std::string_view(measures::SidecarText(spec, rows, facts)));
+  return base::WriteWhole(SidecarOf(options.out), std::string_view(measures::SidecarText(spec, rows, facts)));
 }
 
 }  // namespace

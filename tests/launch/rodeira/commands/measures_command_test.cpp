@@ -102,6 +102,11 @@ TEST_F(MeasuresCommand, ATableOfTwoDrivesOnAPlane) {
   again.out = Path("again.csv");
   ASSERT_EQ(Of(again).status, 0);
   EXPECT_EQ(ReadBack("again.csv"), ReadBack("table.csv"));
+  again.out = Path("table.json");
+  const Said replaced = Of(again);
+  EXPECT_EQ(replaced.status, 2);
+  EXPECT_THAT(replaced.errors, HasSubstr("would replace the measures file"));
+  EXPECT_EQ(ReadBack("table.measures.yaml"), sidecar);
 }
 
 TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
