@@ -113,6 +113,12 @@ std::vector<PlanElement> ReadPlanView(const Node& road, RoadLines& lines) {
     if (element.kind == PlanElement::Kind::kClothoid && turned_rad > 2.0 * geometry::kPi * kMaxTurns) {
       geometry.Wrong("road.geometry.shape", fmt::format("this element turns {:.4g} times; at most {:.4g} were expected",
                                                         turned_rad / (2.0 * geometry::kPi), kMaxTurns));
+    } else if (!(std::hypot(element.u[0], element.v[0]) < 0.5 * network::Network::kFarthest_m)) {
+      geometry.Wrong(
+          "road.geometry.position",
+          fmt::format("this element's curve begins {:.6g} m from where the element does, beyond all that can "
+                      "be surveyed",
+                      std::hypot(element.u[0], element.v[0])));
     } else if (!geometry::PlanAxis::Make({element})) {
       geometry.Wrong("road.geometry.shape", "this element stands still somewhere, or turns or is longer than any road");
     }
