@@ -61,10 +61,10 @@ base::Status Clock::Take(const Report& report) {
   return {};
 }
 
-void Clock::SetIncarnation(NodeIndex node, std::uint32_t incarnation) {
-  if (incarnation == incarnation(node)) return;
+void Clock::SetIncarnation(NodeIndex node, std::uint32_t number) {
+  if (number == incarnation(node)) return;
   grant_.incarnations.resize(reports_.size(), 0);
-  grant_.incarnations[node] = incarnation;
+  grant_.incarnations[node] = number;
 }
 
 Step Clock::reached(NodeIndex node) const {

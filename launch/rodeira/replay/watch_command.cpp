@@ -106,18 +106,18 @@ base::Status WriteFrames(const WatchOptions& options) {
     return base::WrongInput(status.error().message, "--frames");
   auto world = nodes::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());
-  auto stage = nodes::Stage::Open(settings, std::move(world).value());
-  if (!stage) return stage.error();
+  auto render_thread = nodes::RenderThread::Open(settings, std::move(world).value());
+  if (!render_thread) return render_thread.error();
   RecordedMoments moments(run.value(), seen.value().sources, seen.value().period);
   for (const Step step : settings.frame_steps) {
     if (Interrupted()) break;
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
     const auto file = settings.folder / nodes::FrameName(step);
-    if (auto status = stage.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status)
+    if (auto status = render_thread.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status)
       return status;
   }
-  return stage.value()->Drain();
+  return render_thread.value()->Drain();
 }
 
 // Ctrl-C ends in order: what was unpacked is removed.
