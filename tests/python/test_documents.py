@@ -68,7 +68,7 @@ class WirePage(unittest.TestCase):
     def setUp(self):
         self.tables = marked("wire.md")
 
-    def test_each_topic_outside_of_the_lockstep_has_its_type_and_file(self):
+    def test_each_topic_stands_on_the_page_with_its_type_and_file(self):
         names = dict(re.findall(r'(k\w+) =\s*"rodeira/([^"]+)"', (ROOT / "idl/topics.hpp").read_text()))
         rows = re.findall(r'\{topics::(k\w+), "rodeira::msg::(\w+)", "(\w+)", (true|false)\}',
                           (ROOT / "idl/topics.cpp").read_text())
@@ -80,6 +80,9 @@ class WirePage(unittest.TestCase):
             *kinds, file = code(types)
             told |= {topic.partition("/")[0]: (kind, file) for topic, kind in zip(code(topics), kinds, strict=True)}
         self.assertEqual(told, wanted)
+        page = (ROOT / "docs/reference/wire.md").read_text(encoding="utf-8")
+        listed = code(" ".join(re.findall(r"^> .*", page, re.MULTILINE)))
+        self.assertEqual(listed, [names[constant] for constant, _, _, lockstep in rows if lockstep == "true"])
 
     def test_each_earlier_name_has_a_row(self):
         short = {**aliases.TOPICS}
