@@ -57,7 +57,7 @@ void Checker::Look(const TrafficModel& model, double time_s, Incidents& incident
     }
     if (!lights) continue;
     const Agent& agent = model.agent(pose.id);
-    if (agent.is_struck || agent.path.empty()) continue;
+    if (agent.is_crashed || agent.path.empty()) continue;
     if (!reds_.Passes(pose.id, pose.trip, agent.path, agent.o_m + 0.5 * bodies_[pose.id].length_m)) continue;
     ++counts_.reds;
     incidents.Tell(time_s, pose, "passes a red light");
