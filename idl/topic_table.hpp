@@ -12,7 +12,7 @@
 
 namespace rodeira::idl {
 
-// A topic whose type is not in Rodeira's IDL: an external node brings it.
+// A topic of a type that is not in Rodeira's IDL: an external node brings it.
 struct AddedTopic {
   std::string topic;
   std::string type;  // "lab::Gaze"

@@ -32,7 +32,7 @@ struct PlaceOrder {
   std::uint32_t id = 0;  // kOne: this agent, when it passes next
 };
 
-// Orders that wait for somebody to pass. Those for one agent, and for the next one, end when they have been obeyed;
+// Orders that wait for a vehicle to pass. Those for one agent, and for the next one, end when they have been obeyed;
 // those for all go on.
 class PlaceOrders {
  public:
@@ -40,7 +40,7 @@ class PlaceOrders {
   static base::Result<PlaceOrder> At(const TrafficModel& model, std::string_view road, double s_m);
   void Add(const PlaceOrder& order) { orders_.push_back(order); }
 
-  // Before the model's step, and after it: whoever has passed in between is told.
+  // Before the model's step, and after it: a vehicle that has passed in between is told.
   void Before(const TrafficModel& model);
   void After(TrafficModel& model);
 
@@ -57,7 +57,7 @@ class PlaceOrders {
   static std::optional<Seen> SeenAt(const TrafficModel& model, std::uint32_t id);
 
   std::vector<PlaceOrder> orders_;
-  std::vector<std::optional<Seen>> seen_;  // by agent; empty where nobody is waited for
+  std::vector<std::optional<Seen>> seen_;  // by agent; empty where none is waited for
 };
 
 }  // namespace rodeira::traffic

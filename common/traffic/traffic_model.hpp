@@ -33,7 +33,7 @@ class MotorsDriver;
 class Pedestrians;
 struct Simulation;
 
-// Cars on the lanes of a network: each draws its way at every branch, follows whoever is ahead on it with the IDM, at
+// Cars on the lanes of a network: each draws its way at every branch, follows its leader with the IDM, at
 // the speed that limits, bends and crests allow, and enters a stretch that other ways cross only when all of it up to
 // the next place to stand is its own (docs/explanation/traffic.md). A car that reaches the end of its last lane leaves
 // and enters again, by lot, where traffic enters the network, as soon as there is a safe gap: their number never
@@ -50,7 +50,7 @@ class TrafficModel {
   TrafficModel& operator=(TrafficModel&& other) noexcept;
   ~TrafficModel();
 
-  // Places the agents on all lanes, clear of `others`; who finds no room waits to enter. Wrong input where there should
+  // Places the agents on all lanes, clear of `others`; one without room waits to enter. Wrong input where there should
   // be vehicles and the world has no lane.
   static base::Result<TrafficModel> Make(const TrafficSettings& settings, std::shared_ptr<const road::World> world,
                                          std::span<const driver::Footprint> others);
@@ -81,9 +81,9 @@ class TrafficModel {
   bool IsSpawning(std::uint32_t id) const;
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
-  // 1 mm/s is nothing to it as long as it drives; nothing happens to who is not there.
+  // 1 mm/s is nothing to it as long as it drives; nothing happens to one that is not there.
   void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
-  // The next agent in front of this rectangle, in the lane on which its middle stands and whose way it faces, or
+  // The next agent in front of this rectangle, in the lane on which its middle stands and along which it faces, or
   // further on the way, and within sight; nothing where none is. One of the agents itself (by its id) is not in front
   // of itself.
   std::optional<std::uint32_t> LeaderOf(const driver::Footprint& other) const;
@@ -103,31 +103,32 @@ class TrafficModel {
   using FlowCount = traffic::FlowCount;
   const std::vector<FlowCount>& flows() const;
   std::uint64_t ended() const;
-  // How often somebody did not get over to the lane that his route goes on from.
+  // How often a vehicle did not get over to the lane that its route goes on from.
   std::uint64_t missed() const;
   // Those on foot; null where the settings have no `pedestrians`. All other numbers here count vehicles alone.
   const Pedestrians* people() const;
   // One more comes to the crossing of a road nearest to a station, from the road's left or right, at once. Wrong input
   // where there is none, or the settings have no `pedestrians`.
   base::Status SpawnPedestrian(std::string_view road, double s_m, bool from_left);
-  base::Status CheckSpawnPedestrian(std::string_view road, double s_m) const;  // whether somebody can be called there
-  // Who has been hit, by his number, stays where he is.
+  base::Status CheckSpawnPedestrian(std::string_view road,
+                                    double s_m) const;  // whether a pedestrian can be called there
+  // The pedestrian with this number has been hit and stays there.
   void HitPedestrian(std::uint32_t id);
-  // From its front bumper to who is ahead, as it was seen in the last step; 1e9 where nobody is in sight.
+  // From its front bumper to its leader, as it was seen in the last step; 1e9 where none is in sight.
   double GapAhead(std::uint32_t id) const;
-  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it
+  // Whether a standing agent has where to go, as it was seen in the last step: none within 5 m before it or, where it
   // stands at a line before conflict zones, none up to where it would stand behind them.
   bool RoomAhead(std::uint32_t id) const;
   // Whether its driver braked in an emergency in the last step (docs/explanation/traffic.md).
   bool Hurries(std::uint32_t id) const;
-  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30
-  // m or three seconds, indicates; in a roundabout only who leaves it.
+  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. One that changes lanes, or is to turn
+  // within 30 m or three seconds, indicates; in a roundabout only one that leaves it.
   std::uint32_t LightsOf(const AgentPose& pose) const;
   // Of those on the road, in the order of poses().
   std::vector<AgentDetail> Details();
   // By the network's controllers: what their lights show. Those without times are dark, and show red here.
   const std::vector<network::LightColour>& colours() const;
-  // What limit, bends, crests and descents of this track let somebody drive there whom nobody is in the way of.
+  // What limit, bends, crests and descents of this track let a vehicle drive there without another in its way.
   double FreeSpeed_mps(std::uint32_t track, double d_m) const;
   const lanes::Graph& graph() const;
   const lanes::Zones& zones() const;

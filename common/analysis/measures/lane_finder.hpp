@@ -23,7 +23,7 @@ struct LanePlace {
   std::optional<double> speed_limit_mps;  // none: nothing is said, or there is no limit
 };
 
-// Finds the lane of a point. A vehicle whose reference point is on a lane that is not for driving, as a shoulder, keeps
+// Finds the lane of a point. A vehicle with its reference point on a lane that is not for driving, as a shoulder, keeps
 // the position in the nearest driving lane, up to that lane's width beyond its edge; farther beside it is in none.
 class LaneFinder {
  public:

@@ -27,7 +27,7 @@ double ReferenceAt(double s_m, std::span<const LaneChangeSign> signs, const Refe
 Measure MeanDeviation(Series s_m, Series t_m, double from_s_m, double to_s_m, std::span<const LaneChangeSign> signs,
                       const ReferencePath& path);
 
-// Share of the signs whose lane is reached: |t - target| < half_lane_m at `by_m` behind the sign.
+// Share of the signs with a lane that is reached: |t - target| < half_lane_m at `by_m` behind the sign.
 Measure CorrectChanges(Series s_m, Series t_m, std::span<const LaneChangeSign> signs, double half_lane_m, double by_m);
 
 }  // namespace rodeira::measures

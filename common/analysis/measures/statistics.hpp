@@ -24,7 +24,7 @@ std::optional<double> Minimum(Series x);
 std::optional<double> Maximum(Series x);
 // The quantile of type 7, the default of R, NumPy and pandas: linear between the order statistics. p is 0 to 1.
 std::optional<double> Quantile(Series x, double p);
-// Weighted mean; samples whose value or weight is missing are left out. Nothing where the weights add up to 0.
+// Weighted mean; samples without a value or weight are left out. Nothing where the weights add up to 0.
 std::optional<double> WeightedMean(Series x, Series weights);
 
 // The deviation about each part's own mean, pooled: sqrt(sum((n_i - 1) s_i^2) / sum(n_i - 1)); with kN both n_i.

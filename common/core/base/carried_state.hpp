@@ -7,7 +7,7 @@
 
 namespace rodeira::base {
 
-// How the name of a field begins whose bytes are carried in snapshots and never compared: another program's state,
+// How the name of a field begins that is carried in snapshots and never compared: another program's state,
 // which may hold addresses. What it computes is compared: its outputs are fields of their own.
 inline constexpr std::string_view kCarried = "carried.";
 

@@ -11,7 +11,7 @@
 
 namespace rodeira::traffic {
 
-// Finds vehicles whose front passes a light that shows red, or red and amber, from one look to the next, at both.
+// Finds vehicles with a front that passes a light that shows red, or red and amber, from one look to the next, at both.
 class RedCheck {
  public:
   RedCheck(const lanes::Graph& graph, std::size_t vehicles);

@@ -39,7 +39,7 @@ bool RoadCheck::IsInOne(const Eigen::Vector3d& p_W, std::uint32_t corridor) {
   return false;
 }
 
-// That of the lane on this level whose middle is nearest.
+// That of the lane on this level with the nearest middle.
 std::uint32_t RoadCheck::Nearest(const Eigen::Vector3d& p_W) {
   double least_m = kWidest_m;
   std::uint32_t nearest = Corridors::kNone;

@@ -13,7 +13,7 @@
 
 namespace rodeira::traffic {
 
-// Finds vehicles whose middle is beside every drivable lane, and wheels beside all that is there for vehicles.
+// Finds vehicles with a middle beside every drivable lane, and wheels beside all that is there for vehicles.
 class RoadCheck {
  public:
   struct Finding {

@@ -20,8 +20,8 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kMaxSpawnBraking_mps2 = 4.0;  // neither the spawned vehicle nor its follower brakes harder
-constexpr double kBehindZones_m = 20.0;        // so far behind them those who have been let in may want to stand
-constexpr double kNear_m = 30.0;               // farther away nobody's rectangle can touch it
+constexpr double kBehindZones_m = 20.0;        // so far behind them vehicles with a reservation may want to stand
+constexpr double kNear_m = 30.0;               // farther away no rectangle can touch it
 
 }  // namespace
 
@@ -99,7 +99,7 @@ base::Result<bool> Spawning::Spawn(std::uint32_t id, const std::string& lane, do
   return true;
 }
 
-// Nobody's rectangle is nearer than it would stand behind him.
+// No rectangle is nearer than it would stand behind that vehicle.
 bool Spawning::IsClearFor(const SpawningVehicle& next) const {
   const AgentTraits& traits = in_.traits[next.id];
   const lanes::CurvePoint at = in_.map.graph[next.track].curve.At(next.d_m);
@@ -120,7 +120,7 @@ bool Spawning::IsClearFor(const SpawningVehicle& next) const {
                       [&](const driver::Footprint& body) { return driver::Overlap(own, body); });
 }
 
-// Whether somebody counts on that place: he has been let into zones before it, or comes back to it from overtaking, or
+// Whether a vehicle counts on that place: it has reserved zones before it, or comes back to it from overtaking, or
 // overtakes along it.
 bool Spawning::IsTakenUp(std::uint32_t id) const {
   const std::uint32_t track = out_.agents[id].path.front().track;
@@ -141,7 +141,8 @@ bool Spawning::IsTakenUp(std::uint32_t id) const {
   return false;
 }
 
-// At the speed that it was told, or what the way ahead bears, once nobody has to brake hard for it, nor it for anybody.
+// At the speed that it was told, or what the way ahead bears, once no vehicle has to brake hard for it, nor it for
+// another.
 bool Spawning::TrySpawn(const SpawningVehicle& next) {
   Agent& agent = out_.agents[next.id];
   const AgentTraits& traits = in_.traits[next.id];

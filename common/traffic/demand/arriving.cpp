@@ -21,7 +21,7 @@ void Arriving::BeginFlows() {
     out_.flows[f].next_ns = NextArrival_ns(in_.settings.demand.flows[f], in_.settings.seed, f, 0, 0);
 }
 
-// Who has arrived is given a vehicle that is not in use, by ascending numbers of flows and vehicles.
+// An arrival is given a vehicle that is not in use, by ascending numbers of flows and vehicles.
 void Arriving::Arrive(std::int64_t until_ns) {
   std::uint32_t id = 0;
   for (std::uint32_t f = 0; f < out_.flows.size(); ++f) {

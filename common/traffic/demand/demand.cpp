@@ -92,7 +92,7 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     demand.flows_.push_back(flow);
   }
   if (!settings.turns.empty()) demand.shares_.resize(graph.tracks().size());
-  std::map<std::uint32_t, const TurnSettings*> told;  // by the track at whose end they turn
+  std::map<std::uint32_t, const TurnSettings*> told;  // by the track at the end of which they turn
   for (const TurnSettings& turn : settings.turns) {
     auto tracks = TracksOf(graph, turn.lane, turn.place);
     if (!tracks) return tracks.error();

@@ -26,7 +26,7 @@ class Route {
 
   // Whether its end can be reached from a track, by changes of lanes where marks allow them.
   bool Reaches(std::uint32_t leg, std::uint32_t track) const { return At(leg, track).left_m < kNever_m; }
-  // The leg of who is on a track, having been on this one: further by every road that the track belongs to.
+  // The leg of a vehicle on a track, having been on this one: further by every road that the track belongs to.
   std::uint32_t LegOn(std::uint32_t leg, std::uint32_t track) const;
   // The link that leads on best; nothing where none does.
   std::optional<std::size_t> LinkOn(const lanes::Graph& graph, std::uint32_t leg, std::uint32_t track) const;
@@ -49,7 +49,7 @@ class Route {
   std::vector<std::vector<Left>> left_;     // by leg and track; the last one, when all have been reached: 0 everywhere
 };
 
-// What is asked of a network: who comes where, and where to.
+// What is asked of a network: which vehicles come where, and where to.
 class Demand {
  public:
   struct Flow {

@@ -36,7 +36,7 @@ struct RouteSettings {
   std::string place;
 };
 
-// How many of those on a lane who have no route go on into which road (ID) or lane (ROAD:LANE).
+// How many of those on a lane without a route go on into which road (ID) or lane (ROAD:LANE).
 struct TurnSettings {
   std::string lane;
   std::vector<std::pair<std::string, double>> shares;  // weights of any size

@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kDrawLane = 102;
 constexpr double kEnteringShare = 0.95;  // of the speed it wants
 constexpr double kEnteringBrake = 0.9;   // share of its comfortable braking before the first line
-constexpr double kUntouched_m = 0.4;     // between who enters by MOTORS' rule and who is ahead, at least
+constexpr double kUntouched_m = 0.4;     // between a vehicle that enters by MOTORS' rule and its leader, at least
 
 }  // namespace
 
@@ -53,8 +53,8 @@ void Entering::Leave(std::uint32_t id) {
   out_.waiting.push_back(id);
 }
 
-// At each entry the first who waits there. Who is on it, or, where that lies in the middle of the network, on the way
-// there, is looked for once for all.
+// At each entry the first that waits there. The vehicle on it, or, where that lies in the middle of the network, on the
+// way there, is looked for once for all.
 void Entering::Enter() {
   if (out_.waiting.empty()) return;
   out_.present.Clear();
@@ -88,7 +88,7 @@ void Entering::Enter() {
   out_.waiting = std::move(left);
 }
 
-// Whether somebody may come to a track's beginning, or to that of one that parts from it.
+// Whether a vehicle may come to a track's beginning, or to that of one that parts from it.
 bool Entering::IsAmongOthers(std::uint32_t track) const {
   const auto partings = in_.map.zones.DivergeZonesOf(track);
   return !in_.map.graph[track].before.empty() ||
@@ -96,7 +96,7 @@ bool Entering::IsAmongOthers(std::uint32_t track) const {
                      [&](const lanes::DivergeZone& part) { return !in_.map.graph[part.other].before.empty(); });
 }
 
-// Whether somebody is on his way to a track's beginning, or to that of one that parts from it, or is not clear of it
+// Whether a vehicle is on its way to a track's beginning, or to that of one that parts from it, or is not clear of it
 // yet on such a one.
 bool Entering::IsExpected(std::uint32_t track, double gap_m) const {
   if (IsAmongOthers(track) && out_.expected[track] != 0) return true;
@@ -144,7 +144,7 @@ bool Entering::TryEnter(std::uint32_t id) {
   speed = std::min(speed, AtMostForLine(id));
   if (in_.people) speed = std::min(speed, in_.crosswalks.AtMostForPeople(id));
   if (speed < 0.0) return wait();
-  // Nobody may stand where it enters, not even with its rear; agents have moved since they were last seen.
+  // No vehicle may stand where it enters, not even with its rear; agents have moved since they were last seen.
   for (const std::uint32_t other : out_.present.Of(agent.entry)) {
     for (const Piece& piece : out_.agents[other].path) {
       const double rear = out_.agents[other].o_m - 0.5 * in_.traits[other].length_m - piece.zero_m;

@@ -21,8 +21,8 @@ constexpr int kSweeps = 4;
 
 }  // namespace
 
-// Spread evenly over the lanes outside of junctions that somebody could have come to, jittered, clear of conflict zones
-// and of each other, no faster than lets them stop before whatever is ahead.
+// Spread evenly over the lanes outside of junctions that a vehicle could have come to, jittered, clear of conflict
+// zones and of each other, no faster than lets them stop before whatever is ahead.
 void Placing::PlaceAll(std::span<const driver::Footprint> others) {
   std::vector<std::uint32_t> tracks;
   double total = 0.0;
@@ -92,7 +92,7 @@ void Placing::PlaceAll(std::span<const driver::Footprint> others) {
     }
     agent.speed_mps = std::min(speed, out_.entering.AtMostForLine(id));
   }
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {  // nobody begins with hard braking
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {  // no vehicle begins with hard braking
     for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
       if (!out_.agents[id].on_road || !in_.ahead[id].any) continue;
       const double leader = in_.ahead[id].id < 0 ? in_.ahead[id].speed_mps

@@ -81,7 +81,8 @@ void Route::FindWays(const lanes::Graph& graph, const lanes::EdgeMarks& marks, s
         improve(*beside, {way_m + kChange_m, here.changes + 1, true});
     }
   }
-  for (std::uint32_t track = 0; track < left.size(); ++track) {  // who may as well change later, does not have to now
+  for (std::uint32_t track = 0; track < left.size();
+       ++track) {  // one that may as well change later does not have to now
     const auto& next = graph[track].next;
     if (left[track].must_change && std::any_of(next.begin(), next.end(), [&](const lanes::Link& on) {
           return left[on.to].left_m + graph[track].length_m() <= left[track].left_m + kLengthTolerance_m;

@@ -12,7 +12,7 @@ namespace rodeira::traffic {
 // As in traffic.idl.
 enum class VehicleKind : std::uint32_t { kCar = 0, kVan = 1, kLorry = 2, kBus = 3 };
 
-// How many of each kind there are among all; shares whose sum is 1.
+// How many of each kind there are among all; shares with the sum 1.
 struct VehicleMix {
   std::array<double, 4> shares{0.8, 0.2, 0.0, 0.0};  // by VehicleKind
 };

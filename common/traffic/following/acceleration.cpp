@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kComes_mps = -0.1,
                  kEvades_mps2 =
-                     1.0;  // who comes on the own lane; braking from which on it is braked for as hard as can be
+                     1.0;  // oncoming on the own lane; braking from which on it is braked for as hard as can be
 constexpr double kSeekingShare = 0.75,
                  kSeeking_mps2 =
                      1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
@@ -21,8 +21,8 @@ constexpr double kSeekingShare = 0.75,
 }  // namespace
 
 // The acceleration that keeps to the plan, and comes back to it. Where the plan soon asks for less than the driver does
-// now, he begins with that half of the time earlier that coming to it smoothly takes: as much below the plan before
-// that place as behind it, he is never faster than it.
+// now, the driver begins with that half of the time earlier that coming to it smoothly takes: as much below the plan
+// before that place as behind it, and is never faster than it.
 double Acceleration::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::Allowed& here) const {
   const Agent& agent = in_.agents[id];
   const double v = agent.speed_mps, share = in_.traits[id].speed_factor,
@@ -41,7 +41,7 @@ double Acceleration::WantedByPlan(std::uint32_t id, const driver::SpeedPlan::All
   return std::min(wanted, slows + (line - v) / in_.settings.tracking_s);
 }
 
-// The least of the plan, who is ahead, and the line before zones that are not its own.
+// The least of the plan, the leader, and the line before zones that are not its own.
 double Acceleration::Wanted(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const AgentTraits& traits = in_.traits[id];

@@ -42,7 +42,7 @@ double CarFollowing::Following(std::uint32_t id, double limit_mps, bool any, dou
                                              : driver::IdmFreeAcceleration(idm, v, limit_mps);
 }
 
-// What who follows does behind a leader.
+// What a follower does behind a leader.
 double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m, double leader_mps) const {
   if (!behind.any) return 0.0;
   const double d = std::max(0.0, behind.d_m);

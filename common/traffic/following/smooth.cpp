@@ -10,7 +10,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kHarder =
-    2.0;  // than its comfortable braking: who brakes so does it in an emergency, and lets go as quickly
+    2.0;  // than its comfortable braking: a driver brakes so in an emergency, and lets go as quickly
 constexpr double kRounding_mps2 = 1e-6;
 constexpr double kCreeps_mps = 1.0;
 
@@ -22,7 +22,7 @@ constexpr double kCreeps_mps = 1.0;
 // exactly. A car with full physics may brake a little harder than it is asked to, and so be slower than the
 // deceleration that it has come to would be let go of from: that is let go of by the planned jerk all the same, as long
 // as what is left of it is taken by the foot that ends the stop. Nor are the last centimetres before a line, which ask
-// for as much as one likes, an emergency for it: it comes to stand a hand's breadth behind; before somebody they are.
+// for as much as one likes, an emergency for it: it comes to stand a hand's breadth behind; before a vehicle they are.
 double Acceleration::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s) {
   const Agent& agent = in_.agents[id];
   const double before = agent.wish_mps2, v = agent.speed_mps, b = in_.traits[id].idm.braking_mps2;
@@ -33,7 +33,7 @@ double Acceleration::Smoothed(std::uint32_t id, double wanted_mps2, double dt_s)
   const double can_let_go =
       in_.full ? driver::EasedStop_mps2(v + driver::Pedals::kEnds_mps, smooth.planned_mps3, dt_s) : lets_go;
   const bool parts = in_.ahead[id].any && in_.ahead[id].id >= 0 &&
-                     in_.ahead[id].speed_mps > v;  // who has merged in before it, and drives away
+                     in_.ahead[id].speed_mps > v;  // one that has merged in before it, and drives away
   const bool longer = wanted_mps2 < -b && driver::NeedsHaste(wanted_mps2, v, before, smooth.planned_mps3);
   const bool at_line =
       in_.full && v < kCreeps_mps &&

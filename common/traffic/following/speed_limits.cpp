@@ -46,7 +46,7 @@ double SpeedLimits::Limit_mps(std::uint32_t id, std::uint32_t track, double d_m)
   return std::min(LimitOn(track, d_m) * in_.traits[id].speed_factor, Cap_mps(in_.agents[id], in_.traits[id]));
 }
 
-// By the limit where it is: the speed without anybody and any bend.
+// By the limit where it is: the speed without any vehicle and any bend.
 double SpeedLimits::Desired_mps(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   for (const RouteSegment& stretch : in_.stretches[id]) {

@@ -9,11 +9,11 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kCourtesy_mps2 = 1.0;  // braking of who makes room, at most
+constexpr double kCourtesy_mps2 = 1.0;  // braking to make room, at most
 
 }  // namespace
 
-// The next one on a lane beside, who finds no gap, is nearer than who is ahead and must come over to this lane, is let
+// The next one on a lane beside that finds no gap, is nearer than the leader and must come over to this lane, is let
 // in: followed by braking gently.
 double LaneChanges::WantedCourteous(std::uint32_t id, double limit_mps) const {
   const Agent& agent = out_.agents[id];

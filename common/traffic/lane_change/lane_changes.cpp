@@ -27,7 +27,7 @@ void LaneChanges::BeginChange(std::uint32_t id, LaneChangeOption&& way) {
   out_.ahead[id] = in_.neighbours.FindLeader(id);
 }
 
-// To which side it is to go over now: of a road of several lanes, who is ahead is passed on the lane beside. 0: to
+// To which side it is to go over now: of a road of several lanes, the leader is passed on the lane beside. 0: to
 // none, or there is no lane.
 int LaneChanges::ToldSide(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
@@ -50,7 +50,7 @@ void LaneChanges::ChangeAsTold(std::uint32_t id, int side) {
   BeginChange(id, std::move(*way));
 }
 
-// One after the other by their numbers: who has begun is seen by the next.
+// One after the other by their numbers: one that has begun is seen by the next.
 void LaneChanges::ChangeLanes(std::int64_t step_ns) {
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
     if (in_.beside[id] == 0) continue;

@@ -18,7 +18,7 @@ constexpr double kSlowest_mps = 3.0;
 // With these the vehicle can stop before anything that the other lane leads to.
 constexpr double kAnticipation_s = 2.0, kAnticipatedBraking_mps2 = 1.2;
 
-constexpr double kAlongsideTolerance_m = 1e-6;  // a vehicle whose middle is no farther ahead or behind is alongside
+constexpr double kAlongsideTolerance_m = 1e-6;  // a vehicle with a middle no farther ahead or behind is alongside
 constexpr double kSooner_m = 30.0;              // a lane that ends so much sooner is no choice …
 constexpr double kEnding_mps2 = 1.0;  // … and one that ends, or parts from the route, is left for so much …
 constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much over the last part

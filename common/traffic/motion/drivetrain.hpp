@@ -49,7 +49,7 @@ class PlanarCar {
 
 // The pedals and the gear for an acceleration at this speed on this grade (rise over plan distance), against rolling
 // resistance and air: the highest gear in which the engine neither labours nor is too weak; below idle speed the clutch
-// slips in the first gear. What the closed throttle does not slow down by, the brake does; who stands has his foot on
+// slips in the first gear. What the closed throttle does not slow down by, the brake does; at a stand the foot is on
 // it.
 Driving DrivingFor(const PlanarCar& car, double speed_mps, double acceleration_mps2, double grade);
 // The same of a car that has driven so for dt_s, with the vehicle's automatic gearbox's numbers (AutomaticSettings): at

@@ -33,7 +33,7 @@ driver::PedalSettings PedalsOf(const dynamics::BicycleChassis& chassis, const dy
   feet.most_mps2 = engine_mps2 * (full_Nm + drag_Nm);
   feet.full_brake_mps2 = FullBrake_N(car) / m;
   feet.coasting_mps2 = 0.0;  // it is in the next: the throttle begins to push where it has overcome the engine's drag
-  // Who slows down with the clutch pressed has no drag of the engine, nor who does so while the engine, not yet as slow
+  // A car that slows down with the clutch pressed has no drag of the engine, nor while the engine, not yet as slow
   // as the wheels, still pushes through a clutch that slips.
   const bool pushes = powertrain.engine().speed_radps() > kAsFast * ratio * speed_mps / radius;
   const double held = pushes ? 0.0 : 1.0 - powertrain.clutch(), drags = wanted_mps2 < 0.0 ? held : 1.0;
@@ -102,7 +102,7 @@ void FullCars::Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path
   const Eigen::Vector3d ahead_W = car.body.q_WG * Eigen::Vector3d::UnitX();
   const double speed = PlanSpeed_mps(id), grade = ahead_W.z() / std::max(1e-3, std::hypot(ahead_W.x(), ahead_W.y()));
   dynamics::Controls& controls = controls_[id];
-  // Who slows down does not first make good the speed that his engine was too weak to come to.
+  // A car that slows down does not first make good the speed that its engine was too weak to come to.
   driver::Pedals& foot = feet_[id];
   if (wanted_mps2 < kSlows_mps2 && !foot.holds() && foot.throttle() > 0.0 && foot.reference_mps() > speed)
     foot.InitialiseFrom(foot.throttle(), foot.brake(), speed);

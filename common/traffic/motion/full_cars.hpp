@@ -36,7 +36,7 @@ class FullCars {
   // How hands and feet are held until the next decision, for an acceleration in the plane and to stay on the path. Of
   // the agent's own alone.
   void Drive(std::uint32_t id, double wanted_mps2, const PathAhead& path, double dt_s);
-  // The same by hands and feet of somebody else.
+  // The same by other hands and feet.
   void Hold(std::uint32_t id, const dynamics::Controls& controls) { controls_[id] = controls; }
   // Every car by its controls; the number of threads changes no bit.
   void Step(double dt_s, base::ThreadPool* pool);

@@ -19,7 +19,7 @@ double HeadingChange_rad(const Eigen::Vector2d& from, const Eigen::Vector2d& to)
 
 }  // namespace
 
-// Who cannot stand where it was to begin waits to enter.
+// A vehicle that cannot stand where it was to begin waits to enter.
 void FullMotion::StartFull(std::shared_ptr<ground::Ground> ground) {
   out_.full.emplace(std::move(ground), out_.agents.size());
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {

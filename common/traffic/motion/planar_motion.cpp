@@ -11,13 +11,13 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr std::size_t kBendPrefetch = 6;  // agents ahead whose bends are prefetched
+constexpr std::size_t kBendPrefetch = 6;  // agents ahead with bends that are prefetched
 constexpr double kGentle_m = 3e-4;        // what a bend makes of the way of a step, and no more
 
 }  // namespace
 
-// The line of who soon moves in a bend lies in far memory where there are thousands of agents: first the track, then
-// what that names.
+// The line of an agent that soon moves in a bend lies in far memory where there are thousands of agents: first the
+// track, then what that names.
 void PlanarMotion::FetchBend(std::size_t id) const {
   const auto bends = [&](std::size_t of) {
     return of < in_.below.size() && in_.below[of].track < in_.map.graph.tracks().size() && !in_.below[of].straight;
@@ -80,7 +80,7 @@ void PlanarMotion::MovePlanar(std::uint32_t id, double wanted_mps2, double dt_s)
     after = 0.0;
     travel = acceleration < 0.0 ? -0.5 * before * before / acceleration : 0.0;
   }
-  agent.acceleration_mps2 = agent.wish_mps2 = (after - before) / dt_s;  // he goes on from what the car can
+  agent.acceleration_mps2 = agent.wish_mps2 = (after - before) / dt_s;  // it goes on from what the car can
   agent.speed_mps = after;
   agent.driven_m += travel;
   agent.fuel_mgps = driven.fuel_mgps;

@@ -33,7 +33,7 @@ class Crashes {
 
   // An impulse on an agent's body, N s, at a point, both in W: from then on it drives no more, but slides on locked
   // wheels and stays where it comes to rest, an obstacle to all others. A push that would change its speed by less than
-  // 1 mm/s is nothing to it as long as it drives; nothing happens to who is not there.
+  // 1 mm/s is nothing to it as long as it drives; nothing happens to one that is not there.
   void Strike(std::uint32_t id, const Eigen::Vector2d& impulse_Ns, const Eigen::Vector2d& point_W);
   void StepCrashed(double dt_s);
 

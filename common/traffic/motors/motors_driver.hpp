@@ -43,11 +43,11 @@ struct MotorsView {
   double engine_radps = 0.0;
   bool engine_runs = true;
 };
-// Of his car.
+// Of the driver's car.
 struct MotorsCar {
   double most_steer_rad = 0.6, steering_ratio = 16.0;
-  double stall_radps = 80.0;                       // below it he opens the throttle a little
-  double bite_radps = 90.0, closed_radps = 150.0;  // by clutch he keeps the engine from stalling between these
+  double stall_radps = 80.0;                       // below it the throttle is opened a little
+  double bite_radps = 90.0, closed_radps = 150.0;  // by the clutch the engine is kept from stalling between these
   int gears = 5;
 };
 
@@ -68,7 +68,7 @@ class MotorsDriver {
   void Save(base::StateWriter& writer) const;
   void Restore(base::StateReader& reader);
 
-  // Where it is on its trajectory; for who drives it.
+  // Where it is on its trajectory; for its driver.
   std::uint32_t track = 0;
   double zero_m = 0.0;      // of the track, in the odometer
   std::uint32_t lanes = 0;  // that it has come to on this trip

@@ -120,7 +120,7 @@ double MotorsDriving::MotorsTurn_rad(std::uint32_t id, const Vector2d& look_W) c
              : AngleBetween((out_.full->cars().car(id).body.q_WG * Eigen::Vector3d::UnitX()).head<2>(), to_W);
 }
 
-// Who sees his look-ahead cross that of somebody on his right stops (left-hand traffic: on his left). Two seconds of
+// A vehicle stops if its look-ahead crosses that of one on its right (left-hand traffic: on its left). Two seconds of
 // way, to the lane's end.
 void MotorsDriving::GiveWay() {
   EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {

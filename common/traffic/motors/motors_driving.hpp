@@ -37,8 +37,8 @@ class MotorsDriving {
   void StartMotors();
   Eigen::Vector2d MotorsPoint(const MotorsDriver& driver, std::uint32_t index) const;
   std::uint32_t MotorsPoints(const MotorsDriver& driver) const;
-  // The point that he looks to, two seconds of way on and not beyond the lane's end, and its angle from where his car
-  // points.
+  // The point that the driver looks to, two seconds of way on and not beyond the lane's end, and its angle from where
+  // the car points.
   Eigen::Vector2d MotorsLooksAt(std::uint32_t id) const;
   double MotorsTurn_rad(std::uint32_t id, const Eigen::Vector2d& look_W) const;
   void GiveWay();

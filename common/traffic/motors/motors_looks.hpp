@@ -15,8 +15,8 @@ struct MotorsLook {
   std::uint32_t id = 0;
 };
 
-// tell(a, b) once for every two whose lines cross on one level. Cells as large as the longest line say which may meet:
-// a line among n costs what its neighbours do, wherever they lie.
+// tell(a, b) once for every two with lines that cross on one level. Cells as large as the longest line say which may
+// meet: a line among n costs what its neighbours do, wherever they lie.
 void EachCrossing(const std::vector<MotorsLook>& looks,
                   const std::function<void(const MotorsLook&, const MotorsLook&)>& tell);
 

@@ -23,7 +23,8 @@ constexpr double kPlan_m = 0.5;
 constexpr double kPlannedBraking_mps2 = 1.5;
 constexpr double kMinSwingSpeed_mps = 0.5;
 constexpr std::array kShares{
-    1.0, 0.6, 0.3};  // of the planned speed: hands are late at the first, at the last who comes from rest cuts the bend
+    1.0, 0.6,
+    0.3};  // of the planned speed: hands are late at the first, at the last a car that comes from rest cuts the bend
 constexpr std::size_t kMaxPaths = 64;  // through one track
 
 class Swinger {
@@ -118,7 +119,7 @@ class Swinger {
     for (std::size_t i = squared.size(); i-- > 1;)
       squared[i - 1] = std::min(squared[i - 1], squared[i] + 2.0 * kPlannedBraking_mps2 * kPlan_m);
     const double liveliest =
-        settings_.idm.acceleration_mps2 * (1.0 + settings_.variety);  // nobody leaves a bend faster than so
+        settings_.idm.acceleration_mps2 * (1.0 + settings_.variety);  // no car leaves a bend faster than so
     for (std::size_t i = 1; i < squared.size(); ++i)
       squared[i] = std::min(squared[i], squared[i - 1] + 2.0 * liveliest * kPlan_m);
     Eigen::Vector2d rear = FrameAt(graph_, path, 0.0).p_W.head<2>();

@@ -12,8 +12,8 @@ namespace rodeira::traffic {
 // rad/s), or tighter than the wheels do (tan(limit) / L), its front leaves it to the outside by more. So the body with
 // the longest wheelbase that may be there is driven in the plane, its wheels rolling, by the hands of these drivers, at
 // the speed of their plan and slower, over every way through bends of less than some six wheelbases' radius, and its
-// outline noted, as wide as LargestOf says. Nothing of tracks where no such bend is near, for planar cars, whose axles
-// both keep to the line, and for MOTORS' driver, who knows no zones.
+// outline noted, as wide as LargestOf says. Nothing of tracks where no such bend is near, for planar cars, with axles
+// that both keep to the line, and for MOTORS' driver, who knows no zones.
 lanes::Swings SwingsOf(const lanes::Graph& graph, const TrafficSettings& settings);
 
 }  // namespace rodeira::traffic

@@ -45,7 +45,7 @@ struct TrackPlan {
   double limit_mps;             // at its beginning …
   bool one_limit;               // … and everywhere
   std::vector<StopLine> lines;  // ascending
-  int turn = 0;  // to which side who chooses this way turns: +1 to the left, -1 to the right, 0 straight on; kRing
+  int turn = 0;                 // to which side this way turns: +1 to the left, -1 to the right, 0 straight on; kRing
 
   TrackPlan(const lanes::Graph& graph, std::uint32_t track, const driver::SpeedPlanSettings& settings);
 };

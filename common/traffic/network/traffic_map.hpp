@@ -26,10 +26,10 @@ struct TrafficMap {
   std::vector<std::uint32_t> entries;
   std::vector<std::uint64_t>
       entry_keys;            // by entry: of its road's id, its lane and section, whatever else the network holds
-  std::vector<bool> enters;  // by track: somebody may begin his way there
+  std::vector<bool> enters;  // by track: a vehicle may begin its way there
   std::vector<bool>
-      watched;  // by track: who is on it is in the way of who begins his, there or on one that parts from it
-  std::vector<bool> reached;  // by track: by ways from where somebody may begin; every one where the network does not
+      watched;  // by track: a vehicle on it is in the way of one that begins there or on one that parts from it
+  std::vector<bool> reached;  // by track: by ways from where a vehicle may begin; every one where the network does not
                               // say where that is
   std::vector<bool> zips;     // by zone: two lanes beside one another come together there without any sign, one by one
                               // from each where it is slow
@@ -37,12 +37,12 @@ struct TrafficMap {
 
   TrafficMap(std::shared_ptr<const network::Network> of, const TrafficSettings& settings);
 
-  // Somebody may begin his way on this track, too.
+  // A vehicle may begin its way on this track, too.
   void LetEnter(std::uint32_t track);
 
-  // One of the entries, each with the same chance, by lot: the one whose own draw, keyed by it and by `draw`, is the
-  // highest (rendezvous hashing; Thaler, Ravishankar 1998). An entry more takes its share of all draws and changes none
-  // of the others.
+  // One of the entries, each with the same chance, by lot: the one with the own draw, keyed by it and by `draw`, that
+  // is the highest (rendezvous hashing; Thaler, Ravishankar 1998). An entry more takes its share of all draws and
+  // changes none of the others.
   std::uint32_t DrawEntry(std::uint64_t draw) const;
 };
 

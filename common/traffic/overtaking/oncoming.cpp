@@ -9,16 +9,17 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kPassedDistance_m = 2.0;   // a vehicle whose rear is this far behind the own rear has passed
-constexpr double kOvertakers_m = 100.0;     // so far behind nobody may drive on the other lane
+constexpr double kPassedDistance_m = 2.0;   // a vehicle with its rear this far behind the own rear has passed
+constexpr double kOvertakers_m = 100.0;     // so far behind no vehicle may drive on the other lane
 constexpr double kWrongWaySpeed_mps = 0.5;  // a vehicle that drives faster against the lane's direction overtakes
 constexpr double kEvery_m = 50.0;           // limits are looked at so often
-constexpr double kTrust_s = 0.5;  // who comes brakes for somebody who is back less than this before it is there
+constexpr double kTrust_s =
+    0.5;  // oncoming traffic brakes for a vehicle that is back less than this before it is there
 constexpr double kStops_mps2 = 3.0;
 
 }  // namespace
 
-// Along its way, as far as it sees: who comes, or could come from where it sees no further, or where vehicles begin
+// Along its way, as far as it sees: what comes, or could come from where it sees no further, or where vehicles begin
 // their way.
 Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
   const double half = 0.5 * in_.traits[id].length_m, front = in_.agents[id].o_m + half,
@@ -68,7 +69,7 @@ Oncoming OncomingLane::FindOncoming(std::uint32_t id) const {
   return found;
 }
 
-// Who comes towards somebody who overtakes goes on as long as that one will be back in time by what it does; else it
+// Oncoming traffic goes on as long as an overtaker will be back in time by what it does; else it
 // stops where both can stop.
 double OncomingLane::WantedForOvertaker(std::uint32_t id, double limit_mps) const {
   const Agent& agent = in_.agents[id];

@@ -7,22 +7,22 @@
 
 namespace rodeira::traffic {
 
-// When agents pass slower ones on the lane of those who come towards them.
+// When agents pass slower ones on the lane of oncoming traffic.
 struct OvertakingSettings {
   bool allowed = true;
-  double sight_m =
-      800.0;  // so far along the road who comes is seen; whoever is not is taken to come from there, as fast as may be
-  double margin_s = 3.0;  // that who comes has still to go to the place where the other one is back on its lane
+  double sight_m = 800.0;  // so far along the road oncoming traffic is seen; what is not is taken to come from there,
+                           // as fast as may be
+  double margin_s = 3.0;   // that oncoming traffic has still to go to the place where the other one is back on its lane
 };
 
 // An agent that passes another vehicle on the lane of oncoming traffic. Odometers are the agent's, along its own lane.
 struct Overtaking {
   int side = 0;                   // on which that lane lies: +1 left, -1 right; 0: does not overtake
   bool back = false;              // on its path back to its own lane
-  bool gives_up = false;          // falls back behind who was to be passed
+  bool gives_up = false;          // falls back behind the one to be passed
   std::int64_t passed = -1;       // the agent that is passed …
   std::int64_t passed_body = -1;  // … or the id of another vehicle
-  double clear_m = 0.0;           // its front from here on is clear of who is passed
+  double clear_m = 0.0;           // its front from here on is clear of the one passed
   double legal_m = 0.0;           // where it must be back at the latest
   double to_m = 0.0;              // where its front is back on its own lane, as told by its motion
   double back_s = 0.0;            // until all of it is
@@ -33,7 +33,7 @@ struct Overtaking {
 };
 
 // What has to be done to pass, from now on: first as far as the own lane's traffic is not cleared yet, at the speed
-// that it has; then gaining on who is passed, who keeps his speed; then back, with the speed that it has, on a path
+// that it has; then gaining on the one passed, which keeps its speed; then back, with the speed that it has, on a path
 // that takes a time, or a distance where that is longer.
 struct PassCase {
   double speed_mps = 0.0, passed_mps = 0.0;

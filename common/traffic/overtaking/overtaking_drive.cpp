@@ -8,10 +8,10 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kTooNear_s = 1.5;                // who comes: with less to spare it falls back, if that is sooner done
-constexpr double kSlower_mps = 4.0;               // than who was to be passed, while it falls back …
+constexpr double kTooNear_s = 1.5;                // oncoming: with less to spare it falls back, if that is sooner done
+constexpr double kSlower_mps = 4.0;               // than the one to be passed, while it falls back …
 constexpr double kFallsBack_mps2 = 2.5;           // … and its braking
-constexpr double kMinPassed_mps = 5.0;            // who is slower is not fallen back behind
+constexpr double kMinPassed_mps = 5.0;            // a slower one is not fallen back behind
 constexpr double kMaxFollowerBraking_mps2 = 2.0;  // braking of the follower when the overtaking vehicle goes back …
 constexpr double kMaxOwnBraking_mps2 = 2.5;       // … and its own
 constexpr double kNever_s = 1e9;
@@ -19,8 +19,8 @@ constexpr double kLastPart = 0.2;  // of the path back, on the own side (PlanPas
 
 }  // namespace
 
-// Whether its own lane is free beside it: nobody would have to brake hard, before it or, where it goes back before
-// somebody, behind it.
+// Whether its own lane is free beside it: no vehicle would have to brake hard, before it or, where it goes back before
+// a vehicle, behind it.
 bool OvertakingDrive::MayGoBack(std::uint32_t id, bool behind) const {
   const Agent& agent = out_.agents[id];
   const Piece& last = agent.path.back();
@@ -79,7 +79,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   };
   way.to_m = front + on.way_m, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : on.time_s;
   if (!passed || is_past || (passed->speed_mps < kMinPassed_mps && passed->gap_m < 0.0)) return;
-  // Falling back: slower than that one until it is behind him, and back.
+  // Falling back: slower than that one until it is behind, and back.
   const double slower = std::max(0.0, passed->speed_mps - kSlower_mps),
                least = std::max(1.0, passed->speed_mps - slower);
   const double behind_m = std::max(0.0, in_.traits[id].idm.standing_gap_m - passed->gap_m);
@@ -92,7 +92,7 @@ void OvertakingDrive::DriveOvertaking(std::uint32_t id) {
   if (way.gives_up) way.to_m = front + far, way.back_s = agent.brake_mps2 > 0.0 ? kNever_s : time;
 }
 
-// Who falls back brakes as long as he is beside that one, and who is passed does not go faster.
+// One that falls back brakes as long as it is beside that one, and the one passed does not go faster.
 double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const {
   const Agent& agent = out_.agents[id];
   if (in_.is_overtaken[id] != 0 && agent.speed_mps > kMinPassed_mps) wanted_mps2 = std::min(wanted_mps2, 0.0);
@@ -105,7 +105,7 @@ double OvertakingDrive::WantedBeside(std::uint32_t id, double wanted_mps2) const
   return std::min(wanted_mps2, std::clamp((slower - agent.speed_mps) / in_.settings.tracking_s, -kFallsBack_mps2, 0.5));
 }
 
-// One after the other by their numbers: who has begun is seen by the next.
+// One after the other by their numbers: one that has begun is seen by the next.
 void OvertakingDrive::Overtake(std::int64_t step_ns) {
   for (std::uint32_t id = 0; id < out_.agents.size(); ++id) {
     if (in_.passes[id] == 0) continue;

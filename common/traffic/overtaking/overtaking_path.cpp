@@ -49,7 +49,7 @@ std::optional<Piece> OvertakingStart::PieceOut(std::uint32_t id, double top_mps)
   return piece;
 }
 
-// What is still to be done from now on behind, or beside, who is passed.
+// What is still to be done from now on behind, or beside, the one passed.
 PassCase OvertakingStart::CaseOf(std::uint32_t id, const Leader& passed, double top_mps, double aside_m,
                                  double to_m) const {
   const Agent& agent = out_.agents[id];

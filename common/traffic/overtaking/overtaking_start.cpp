@@ -15,13 +15,13 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kHeldUp_mps2 = 0.3;   // so much less than on a free road
-constexpr double kGain_mps = 4.0;      // so much faster than who is passed at least …
-constexpr double kToldGain_mps = 1.0;  // … and who is told to
-constexpr double kToldNear_s = 4.0;    // he begins no farther behind who is ahead than this, and his standing gap
+constexpr double kGain_mps = 4.0;      // so much faster than the one passed at least …
+constexpr double kToldGain_mps = 1.0;  // … and one that is commanded to
+constexpr double kToldNear_s = 4.0;    // it begins no farther behind its leader than this, and its minimum gap
 constexpr double kOvertakingClearance_m = 0.45;  // lateral, between the two vehicles
 constexpr double kMaxAside = 0.97;               // of the way to the other lane's middle that it may need
 constexpr double kMinGain_mps2 = 0.15;
-constexpr double kRoom_s = 1.0;             // and its standing gap, behind who drives before that one
+constexpr double kRoom_s = 1.0;             // and its minimum gap, behind the leader of that one
 constexpr double kBrakes_mps2 = 2.0;        // there
 constexpr double kLegalMargin_m = 10.0;     // beyond the return for which marks and signs are checked
 constexpr double kInitialLength_m = 150.0;  // first guess of the overtaking distance
@@ -31,7 +31,7 @@ double GainFor(const Agent& agent) { return agent.told_past ? kToldGain_mps : kG
 
 }  // namespace
 
-// While it overtakes it is in more of a hurry, and comes nearer to who is before it.
+// While it overtakes it is in more of a hurry, and comes nearer to its leader.
 driver::IdmSettings OvertakingStart::IdmOf(std::uint32_t id) const {
   driver::IdmSettings idm = in_.traits[id].idm;
   const Overtaking& way = out_.agents[id].overtaking;
@@ -60,7 +60,7 @@ bool OvertakingStart::IsHeldUp(std::uint32_t id) const {
          in_.following.Following(id, limit, false, 0.0, 0.0) - kHeldUp_mps2;
 }
 
-// Whether there is room for it between who is passed and who drives before that one.
+// Whether there is room for it between the one passed and the leader of that one.
 bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, const PassPlan& plan, double top_mps) {
   Agent& agent = out_.agents[id];
   const Leader& passed = in_.ahead[id];
@@ -78,7 +78,7 @@ bool OvertakingStart::HasRoomBefore(std::uint32_t id, const Overtaking& way, con
 }
 
 // The path out, and what is to be known of it; nothing where it cannot be, or is not safe. The stretches reach as far
-// as who overtakes looks.
+// as an overtaker looks.
 std::optional<Piece> OvertakingStart::WeighOvertaking(std::uint32_t id, Overtaking& way) {
   const AgentTraits& traits = in_.traits[id];
   const Leader& passed = in_.ahead[id];

@@ -29,7 +29,7 @@ double NeedsToStop(double speed_mps, double braking_mps2) {
 
 }  // namespace
 
-// Green for those on foot; without a light of theirs red for those who come over every lane that has one, as long as
+// Green for pedestrians; without a light of theirs red for vehicles over every lane that has one, as long as
 // they need.
 bool Crosswalks::LightsLetGo(const lanes::FootCrossing& crossing) const {
   if (crossing.light >= 0) return in_.signals.IsGreen(crossing.light);
@@ -46,7 +46,7 @@ bool Crosswalks::LightsLetGo(const lanes::FootCrossing& crossing) const {
   return true;
 }
 
-// Who comes to which crossing, and who is on one.
+// Which vehicles come to which crossing, and which are on one.
 void Crosswalks::CarsAtCrossings() {
   for (std::uint32_t id = 0; id < in_.agents.size(); ++id) {
     const Agent& agent = in_.agents[id];
@@ -73,7 +73,7 @@ void Crosswalks::CarsAtCrossings() {
       }
     }
   }
-  // Each must stop behind those before it, also behind one who comes in from beside, whom it does not follow yet.
+  // Each must stop behind those before it, also behind one that comes in from beside and that it does not follow yet.
   const auto gap = [&](const ToCrossing& to) {
     return to.line_m - in_.agents[to.id].o_m - 0.5 * in_.traits[to.id].length_m;
   };
@@ -139,7 +139,7 @@ void Crosswalks::Yield(double dt_s) {
     out_.bars[to.id] = to.line_m;
     now[to.id] = {to.crossing + 1, in_.agents[to.id].speed_mps < kStandstill_mps ? waited + dt_s : 0.0};
   }
-  for (const ToCrossing& to : out_.to_crossings) {  // who is let go by those on foot has waited long until it drives
+  for (const ToCrossing& to : out_.to_crossings) {  // a vehicle that pedestrians let go has waited long until it drives
     const Yielding& before = out_.yielding[to.id];
     if (now[to.id].crossing == 0 && before.crossing == to.crossing + 1 && before.waited_s >= kMaxPedestrianWait_s)
       now[to.id] = before;
@@ -167,7 +167,7 @@ void Crosswalks::LookAtPeople(double dt_s) {
   Yield(dt_s);
 }
 
-// The speed from which an entering car can stop before the first crossing at which somebody walks or waits; below 0
+// The speed from which an entering car can stop before the first crossing at which a pedestrian walks or waits; below 0
 // where it would stand on one.
 double Crosswalks::AtMostForPeople(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];

@@ -160,7 +160,7 @@ void Pedestrians::Come(std::uint32_t crossing, std::uint32_t side) {
 }
 
 void Pedestrians::Step(double dt_s, std::int64_t until_ns) {
-  std::vector<double> last;  // by side and file: how far who walks there before has come
+  std::vector<double> last;  // by side and file: how far the one before has come
   for (std::uint32_t c = 0; c < order_.size(); ++c) {
     const auto files = static_cast<std::size_t>(FilesOf(c));
     last.assign(2 * files, 1e9);

@@ -17,25 +17,25 @@
 
 namespace rodeira::traffic {
 
-// Somebody on foot as others see him, at the middle between his feet.
+// A pedestrian as others see it, at the middle between its feet.
 struct PersonPose {
   std::uint32_t id = 0;
   std::uint32_t trip = 0;  // another trip is another person
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();
   double heading_rad = 0.0;
   double speed_mps = 0.0;
-  double stride_rad = 0.0;  // of a wheel of kStrideRadius_m that rolls along with him: it turns once in two steps
+  double stride_rad = 0.0;  // of a wheel of kStrideRadius_m that rolls along: it turns once in two steps
   double height_m = 1.75;
   std::uint32_t colour_rgb = 0x808080;
 };
 
-// Why nobody on foot crosses a road: it is not there, or has no crossing.
+// Why no pedestrian crosses a road: it is not there, or has no crossing.
 std::string WithoutCrossing(const network::Network& network, std::string_view road);
 
 // People on foot at a network's crossings: they arrive by Poisson flows, wait at the kerb until they are let go, cross
-// straight at a speed of their own, keeping to the right and behind one another, and are gone. Who is hit stays where
-// he is. What cars do is told from outside. A step is a function of the state and of what is told; draws are keyed by
-// seed, crossing and number of arrival.
+// straight at a speed of their own, keeping to the right and behind one another, and are gone. One that is hit stays
+// where it is. What cars do is told from outside. A step is a function of the state and of what is told; draws are
+// keyed by seed, crossing and number of arrival.
 class Pedestrians {
  public:
   static constexpr std::uint32_t kFirstId = 2'000'000;  // their numbers lie beyond those of vehicles
@@ -50,7 +50,7 @@ class Pedestrians {
     std::uint32_t side = 0;    // begins at the crossing's beginning (0) or end (1)
     std::uint32_t number = 0;  // of arrival at the crossing
     std::uint32_t trip = 0;
-    double u_m = 0.0;        // gone from his kerb; below 0 before it
+    double u_m = 0.0;        // gone from the kerb; below 0 before it
     double speed_mps = 0.0;  // now
     double gone_m = 0.0;
     double waited_s = 0.0;  // at the kerb
@@ -60,16 +60,16 @@ class Pedestrians {
   };
   struct Count {
     std::uint32_t arrived = 0, left = 0;
-    std::uint32_t flowed = 0;   // of those who have arrived: not called
-    std::int64_t next_ns = -1;  // when the next one comes; below 0: nobody does
-    double waited_s = 0.0;      // summed over all who have been let go
+    std::uint32_t flowed = 0;   // of those that have arrived: not called
+    std::int64_t next_ns = -1;  // when the next one comes; below 0: none does
+    double waited_s = 0.0;      // summed over all that have been let go
     std::uint32_t let_go = 0;
 
     void Save(base::StateWriter& writer) const;
     void Restore(base::StateReader& reader);
   };
 
-  // Wrong input where somebody should walk and there is no crossing.
+  // Wrong input where a pedestrian should walk and there is no crossing.
   static base::Result<Pedestrians> Make(const lanes::Graph& graph, const lanes::LargestCar& car,
                                         const PedestrianSettings& settings, std::uint64_t seed);
 
@@ -80,17 +80,17 @@ class Pedestrians {
   };
   const std::vector<OnTrack>& OfTrack(std::uint32_t track) const { return (*of_track_)[track]; }
 
-  // Whether anybody stands at the kerb of a crossing, ready to go.
+  // Whether a pedestrian stands at the kerb of a crossing, ready to go.
   bool Waits(std::uint32_t crossing) const;
-  // Whether anybody has been let go and is not beyond a pass yet, or lies there.
+  // Whether a pedestrian has been let go and is not beyond a pass yet, or lies there.
   bool IsUsed(std::uint32_t crossing, std::uint32_t pass) const;
-  // All who wait at its kerbs begin to cross.
+  // All that wait at its kerbs begin to cross.
   void LetGo(std::uint32_t crossing);
-  // Everybody moves, and who arrives within the step appears.
+  // All move, and arrivals within the step appear.
   void Step(double dt_s, std::int64_t until_ns);
   // One more comes, from a side (0, 1), at once.
   void Come(std::uint32_t crossing, std::uint32_t side);
-  // Who has been hit stays there; nothing where there is nobody with this number.
+  // One that has been hit stays there; nothing where there is none with this number.
   void Hit(std::uint32_t id);
   // The crossing of a road nearest to a station; nothing where the road has none.
   std::optional<std::uint32_t> Nearest(const network::Network& network, std::string_view road, double s_m) const;
@@ -125,7 +125,7 @@ class Pedestrians {
   std::vector<double> per_h_;  // by crossing
   std::vector<Count> counts_;  // by crossing
   std::vector<Person> people_;
-  std::vector<std::vector<std::uint32_t>> order_;  // by crossing: who is present, by arrival; found from people_
+  std::vector<std::vector<std::uint32_t>> order_;  // by crossing: the present ones, by arrival; found from people_
 };
 
 }  // namespace rodeira::traffic

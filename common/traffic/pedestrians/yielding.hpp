@@ -9,9 +9,9 @@ namespace rodeira::traffic {
 
 // What is so at a crossing for people on foot.
 struct AtCrossing {
-  bool held = false;     // somebody drives there who does not let them go, or stands there
-  bool blocked = false;  // somebody stands there
-  bool tired = false;    // somebody has waited long for those on foot
+  bool held = false;     // a vehicle drives there that does not let them go, or stands there
+  bool blocked = false;  // a vehicle stands there
+  bool tired = false;    // a vehicle has waited long for pedestrians
   bool go = false;       // the lights let them go
 };
 
@@ -22,9 +22,9 @@ struct ToCrossing {
   bool able = false;    // it can stop there comfortably
 };
 
-// For whom an agent stops.
+// The crossing that an agent stops for.
 struct Yielding {
-  std::uint32_t crossing = 0;  // its index and 1; 0: for nobody
+  std::uint32_t crossing = 0;  // its index and 1; 0: for none
   double waited_s = 0.0;       // at rest
 };
 

@@ -10,10 +10,10 @@
 
 namespace rodeira::traffic {
 
-// Who follows a rectangle whose middle and rear are there on a track: on it, or on those that lead to it.
+// The follower of a rectangle with its middle and rear there on a track: on it, or on those that lead to it.
 Follower Neighbours::FindFollower(std::uint32_t id, std::uint32_t track, double middle_m, double rear_m) const {
   Follower behind;
-  bool here = false;  // who is farther back on the same branch is nobody's follower
+  bool here = false;  // one farther back on the same branch is no follower
   const auto consider = [&](std::int64_t other, std::uint32_t on, double d_m, double gap_m, double speed_mps) {
     here = true;
     if (gap_m < in_.settings.sight_m && (!behind.any || gap_m < behind.gap_m))

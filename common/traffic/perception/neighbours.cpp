@@ -37,9 +37,9 @@ std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const RouteS
 }
 
 // The nearest of agents on the tracks of the way and what else stands in it. Or, of those on the lane that it is
-// leaving, and of agents on tracks that part from the way, as long as they are not clear, the one who lets it drive on
-// least (he need not be the nearest: of two who turn off to different sides one may drive away while the other one
-// stands, and who drives away on the new lane may be nearer than a queue on the old one), if that is less.
+// leaving, and of agents on tracks that part from the way, as long as they are not clear, the one that lets it drive on
+// least (it need not be the nearest: of two that turn off to different sides one may drive away while the other one
+// stands, and one that drives away on the new lane may be nearer than a queue on the old one), if that is less.
 Leader Neighbours::FindLeader(std::uint32_t id) const {
   const Agent& agent = in_.agents[id];
   const double half = 0.5 * in_.traits[id].length_m, front = agent.o_m + half;
@@ -76,7 +76,7 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
   };
   const auto seen_block = [&](const Block& block, double zero_m) -> std::optional<Leader> {
     const bool comes =
-        block.span.speed_mps < 0.0;  // who comes on the lane beside is looked for otherwise (oncoming.cpp)
+        block.span.speed_mps < 0.0;  // what comes on the lane beside is looked for otherwise (oncoming.cpp)
     const double left = half_width + (comes ? 0.0 : std::max(0.0, aside)),
                  right = -half_width + (comes ? 0.0 : std::min(0.0, aside));
     if (zero_m + block.middle_m <= agent.o_m || block.span.right_m > left || block.span.left_m < right)
@@ -101,7 +101,8 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
     if (ahead.any && agent.change.side == 0 && stretch.begin_m > front + ahead.gap_m + 10.0) break;
     for (Occupant other : in_.occupants.Beyond(stretch.track, agent.o_m - stretch.zero_m)) {
       if (ahead.any && stretch.zero_m + other.middle_m() - in_.longest_half_m - front >= ahead.gap_m) break;
-      // Who comes in from beside has his rear in the zone where the ways merge, which its own line keeps it out of.
+      // One that comes in from beside has its rear in the zone where the ways merge, which its own line keeps it out
+      // of.
       if (from >= 0 && other.from >= 0 && other.from != from)
         other.rear_m = std::max(other.rear_m, stretch.begin_m - stretch.zero_m);
       consider(other, stretch.zero_m);
@@ -130,7 +131,7 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
   return apart.any && (!ahead.any || apart_lets < lets(ahead)) ? apart : ahead;
 }
 
-// Those on which somebody may be.
+// Those on which a vehicle may be.
 std::span<const lanes::DivergeZone> Neighbours::DivergeZonesOf(std::uint32_t track) const {
   return in_.parts[track] != 0 ? in_.map.zones.DivergeZonesOf(track) : std::span<const lanes::DivergeZone>();
 }

@@ -66,7 +66,7 @@ void Observation::ShowOnLaneLeft(std::uint32_t id) {
   }
 }
 
-// It is seen on the lane of those who come, and who is passed keeps his speed.
+// It is seen on the lane of oncoming traffic, and the one passed keeps its speed.
 void Observation::ShowToOncoming(std::uint32_t id) {
   const Agent& agent = in_.agents[id];
   const Overtaking& way = agent.overtaking;
@@ -84,7 +84,7 @@ void Observation::ShowToOncoming(std::uint32_t id) {
   }
 }
 
-// Somebody is on this track: who drives on those that part from it must look. Of the others nobody need read what parts
+// A vehicle is on this track: one on those that part from it must look. Of the others none need read what parts
 // from them.
 void Observation::Part(std::uint32_t track) {
   for (const lanes::DivergeZone& part : in_.map.zones.DivergeZonesOf(track)) out_.parts[part.other] = 1;
@@ -102,7 +102,7 @@ void Observation::See(std::span<const driver::Footprint> others) {
   out_.any_facing = out_.any_overtaking = false;
   std::fill(out_.is_overtaken.begin(), out_.is_overtaken.end(), 0);
   EachDriving(in_.pool, in_.agents, [&](std::uint32_t id) {  // and as far as zones are its own, however slowly it
-                                                             // drives now, or it looks who overtakes
+                                                             // drives now, or it looks which overtake
     out_.tracks.LookBelow(id);
     const Agent& agent = in_.agents[id];
     const double own = agent.granted_m - agent.o_m - 0.5 * in_.traits[id].length_m;

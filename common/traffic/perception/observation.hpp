@@ -50,7 +50,7 @@ class Observation {
 
   void ShowToOncoming(std::uint32_t id);
   void Part(std::uint32_t track);
-  // Sight: who is where.
+  // Sight: which vehicle is where.
   void See(std::span<const driver::Footprint> others);
   void FindLeaders();
 

@@ -8,7 +8,7 @@
 
 namespace rodeira::traffic {
 
-// Somebody on a track, in its own d, which may lie beyond its ends.
+// A vehicle on a track, in its own d, which may lie beyond its ends.
 struct Occupant {
   std::uint32_t id = 0;
   std::int32_t from = -1;  // the track by which it came, as long as a part of it may be there
@@ -17,8 +17,8 @@ struct Occupant {
   double middle_m() const { return 0.5 * (rear_m + front_m); }
 };
 
-// Who is on each track in a step, ascending by middles and of equals by numbers: all in one piece of memory, found
-// through a table of eight bytes a track, since everybody looks at several tracks and most of them hold nobody or one.
+// The vehicles on each track in a step, ascending by middles and of equals by numbers: all in one piece of memory,
+// found through a table of eight bytes a track, since each looks at several tracks and most of them hold none or one.
 class Occupancy {
  public:
   explicit Occupancy(std::size_t tracks) : places_(tracks) {}
@@ -30,11 +30,11 @@ class Occupancy {
   // One more, after Sort. What On has given before holds no more.
   void Insert(std::uint32_t track, const Occupant& occupant);
 
-  const std::vector<std::uint32_t>& taken() const { return taken_; }  // tracks on which there is somebody
+  const std::vector<std::uint32_t>& taken() const { return taken_; }  // tracks with a vehicle
   std::span<const Occupant> On(std::uint32_t track) const {
     return {all_.data() + places_[track].begin, places_[track].count};
   }
-  // Those whose middles lie beyond d, and perhaps a few more.
+  // Those with middles beyond d, and perhaps a few more.
   std::span<const Occupant> Beyond(std::uint32_t track, double d_m) const;
 
  private:

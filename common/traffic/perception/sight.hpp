@@ -14,7 +14,7 @@
 
 namespace rodeira::traffic {
 
-// Who is where on the tracks, as agents see it in a step.
+// What is where on the tracks, as agents see it in a step.
 
 // A track on an agent's way, in its odometer, with what is asked of that track in each step: beside the agent it is in
 // near memory.
@@ -43,9 +43,10 @@ struct CurrentTrackCache {
   bool has_beside = false;  // there is another lane of its direction beside it
   double length_m = 0.0;
   std::optional<lanes::Curve::Straight> straight;
-  std::optional<Eigen::Quaterniond> turned;  // how a car stands anywhere on a straight whose surface does not twist …
-  double grade = 0.0;                        // … and climbs
-  driver::SpeedPlan::Part plan;              // about that place
+  std::optional<Eigen::Quaterniond>
+      turned;                    // how a car stands anywhere on a straight with a surface that does not twist …
+  double grade = 0.0;            // … and climbs
+  driver::SpeedPlan::Part plan;  // about that place
 };
 
 // Of what the stretches of a way were found from: as long as it is the same they are as well, but for how far they go.
@@ -72,7 +73,7 @@ struct Block {
   std::uint32_t body = 0;  // its id
 };
 
-// An agent that overtakes, on the track of those who come towards it, in its d: the front lies before the rear.
+// An agent that overtakes, on the track of oncoming traffic, in its d: the front lies before the rear.
 struct OncomingOvertaker {
   std::uint32_t id = 0;
   double front_m = 0.0, rear_m = 0.0;
@@ -88,7 +89,7 @@ struct Leader {
   double left_m = 0.0, right_m = 0.0;  // how far it reaches to both sides of the lane's middle, both to the left
 };
 
-// Who follows, on a track and up to a place on it.
+// The follower, on a track and up to a place on it.
 struct Follower {
   double gap_m = 1e9;
   double speed_mps = 0.0;
@@ -106,11 +107,11 @@ struct LaneChangeOption {
   RouteSegments stretches;
 };
 
-// The lane of oncoming traffic, as who overtakes sees it, in its odometer.
+// The lane of oncoming traffic, as an overtaker sees it, in its odometer.
 struct Oncoming {
-  double from_m = 0.0;     // nobody who comes is nearer than this …
+  double from_m = 0.0;     // no oncoming vehicle is nearer than this …
   double speed_mps = 0.0;  // … nor faster
-  bool own_way = false;    // somebody drives there who overtakes himself
+  bool own_way = false;    // a vehicle drives there that overtakes itself
 };
 
 }  // namespace rodeira::traffic

@@ -14,7 +14,7 @@ struct AgentDetail {
   Driving driving;
   double fuel_mgps = 0.0;
   double fuel_used_mg = 0.0;                           // since it entered
-  double target_mps = 0.0;                             // what it plans for here and now, whoever is ahead
+  double target_mps = 0.0;                             // what it plans for here and now, whatever is ahead
   Eigen::Vector2d target_W = Eigen::Vector2d::Zero();  // on its path, the point that it steers for
   double path_heading_rad =
       0.0;  // of its path beside its rear axle; of MOTORS' driver from one point of his trajectory to the next

@@ -39,8 +39,8 @@ class DetailReport {
   };
   DetailReport(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
 
-  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. Who changes lanes, or is to turn within 30
-  // m or three seconds, indicates; in a roundabout only who leaves it.
+  // Which lights it shows, bits as in vehicle.idl: brake 1, left 2, right 4. One that changes lanes, or is to turn
+  // within 30 m or three seconds, indicates; in a roundabout only one that leaves it.
   std::uint32_t LightsOf(const AgentPose& pose) const;
   // Of those on the road, in the order of poses().
   std::vector<AgentDetail> Details();

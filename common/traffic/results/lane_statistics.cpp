@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kQueuing_mps = 5.0 / 3.6;
 constexpr double kCellEndMargin_m = 0.3;     // a vehicle this near to the end of its cell may leave it in the next step
-constexpr std::uint32_t kCellPrefetch = 16;  // vehicles ahead whose cells are prefetched
+constexpr std::uint32_t kCellPrefetch = 16;  // vehicles ahead with cells that are prefetched
 
 double FreeTime_s(double way_m, double free_mps) { return free_mps > 0.0 ? way_m / free_mps : 0.0; }
 
@@ -46,7 +46,7 @@ LaneStatistics::LaneStatistics(const TrafficModel& model, double cell_m)
   there_ = began_;
 }
 
-// The cell is told what somebody has done in it.
+// The cell is told what a vehicle has done in it.
 void LaneStatistics::Pour(Seen& seen) const {
   if (seen.sum.time_s <= 0.0) return;
   LaneCell& cell = cells_[seen.cell];

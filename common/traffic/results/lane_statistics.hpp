@@ -16,7 +16,7 @@ struct LaneCell {
   double fuel_mg = 0.0;     // burnt in it
 
   // Of a stretch of a length, watched for a time: flow q = distance/(length · time), density k = time/(length · time),
-  // mean speed v = distance/time; so q = k v. A stretch that nobody was in has the speed 0.
+  // mean speed v = distance/time; so q = k v. A stretch without a vehicle has the speed 0.
   double Flow_vehps(double length_m, double watched_s) const { return distance_m / (length_m * watched_s); }
   double Density_vehpm(double length_m, double watched_s) const { return time_s / (length_m * watched_s); }
   double Speed_mps() const { return time_s > 0.0 ? distance_m / time_s : 0.0; }
@@ -42,7 +42,7 @@ struct LaneCount {
 
 // Sums for every metre (or so) of every lane, by watching a model after each step. The way of a step is shared out
 // exactly among the cells that it crosses, its time and fuel in the same shares. What a vehicle does within a cell is
-// summed up beside the vehicle and told to the cell when it leaves it, or somebody asks: cells lie in far memory, and
+// summed up beside the vehicle and told to the cell when it leaves it, or at a query: cells lie in far memory, and
 // most steps lead to no other one.
 class LaneStatistics {
  public:
@@ -62,7 +62,7 @@ class LaneStatistics {
     return {cells_.data() + tracks_[track].first, tracks_[track].count};
   }
   double CellLength_m(std::uint32_t track) const { return tracks_[track].cell_m; }
-  // In the middle of a cell, whoever was there (TrafficModel::FreeSpeed_mps).
+  // In the middle of a cell, whatever was there (TrafficModel::FreeSpeed_mps).
   double FreeSpeed_mps(std::uint32_t track, std::size_t cell) const { return free_mps_[tracks_[track].first + cell]; }
 
   // Of a track, over all looks: the longest and the mean queue, vehicles.
@@ -73,15 +73,15 @@ class LaneStatistics {
     return looks_ > 0 ? static_cast<double>(queues_[track].sum) / static_cast<double>(looks_) : 0.0;
   }
 
-  // Since the beginning: who came, who left; and who is there. began + entered - left = there, always.
+  // Since the beginning: vehicles that came, that left, and that are there. began + entered - left = there, always.
   std::int64_t began() const { return began_; }
   std::int64_t entered() const { return entered_; }
   std::int64_t left() const { return left_; }
   std::int64_t there() const { return there_; }
   // Of trips that began and ended while watched, in the order of their ends.
   const std::vector<LaneTrip>& trips() const { return trips_; }
-  // Of a track: whose middle was on it at first, came onto it (from another lane, or into the network), and left it:
-  // began + in - out = there.
+  // Of a track: vehicles with a middle on it at first, that came onto it (from another lane, or into the network), and
+  // left it: began + in - out = there.
   const LaneCount& CountOf(std::uint32_t track) const { return counts_[track]; }
   // Of each vehicle, over all its trips.
   const std::vector<double>& fuel_mg() const { return fuel_mg_; }
@@ -116,7 +116,7 @@ class LaneStatistics {
   std::vector<Cells> tracks_;
   mutable std::vector<LaneCell> cells_;  // track by track
   mutable std::vector<Seen> seen_;       // by vehicle
-  mutable bool pending_ = false;         // somebody's sum may not have been told to its cell
+  mutable bool pending_ = false;         // a vehicle's sum may not have been told to its cell
   std::vector<double> free_mps_;         // by cell
   std::vector<Queue> queues_;            // by track
   std::int64_t looks_ = 0;

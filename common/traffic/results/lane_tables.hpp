@@ -10,8 +10,8 @@
 namespace rodeira::traffic {
 
 // A row a cell of every lane: road, lane, s_m (of its middle), x_m, y_m, length_m, flow_vehph, density_vehpkm,
-// speed_mps, fuel_mlpkm (a vehicle's in the mean), free_mps. Speed and fuel are empty where nobody was. Names of roads
-// are cells of RFC 4180, here and below.
+// speed_mps, fuel_mlpkm (a vehicle's in the mean), free_mps. Speed and fuel are empty where no vehicle was. Names of
+// roads are cells of RFC 4180, here and below.
 std::string LaneTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
 // A row a lane: road, lane, length_m, queue_longest, queue_mean.
@@ -21,7 +21,7 @@ std::string QueueTable(const lanes::Graph& graph, const LaneStatistics& statisti
 std::string FlowTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
 // A row a stretch of time and lane: from_s, to_s, road, section, lane, in, out, flow_vehph, density_vehpkm, speed_mps
-// (empty where nobody was), queue_longest, queue_mean.
+// (empty where no vehicle was), queue_longest, queue_mean.
 std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& intervals);
 
 // A row a trip, in the order of their ends: vehicle, kind, from and to (ROAD:LANE), entered_s (since the watching
@@ -30,12 +30,12 @@ std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& interv
 std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
 // The network seen from above, coloured by mean speed over the limit there (red: standing, green: as fast as may be;
-// grey: nobody was there), as SVG.
+// grey: no vehicle was there), as SVG.
 std::string SpeedMap(const lanes::Graph& graph, const LaneStatistics& statistics, const std::string& title);
 
 // A GeoTIFF of square pixels (their edges in metres, over 0) with five bands of 32-bit numbers: flow (vehicles an
 // hour), density (vehicles a kilometre), mean speed (m/s), fuel (ml a vehicle kilometre), free speed (m/s), of all
-// cells whose middle lies in a pixel; NaN where there is none. Failed where it cannot be written; wrong input where it
+// cells with a middle in a pixel; NaN where there is none. Failed where it cannot be written; wrong input where it
 // would have more than 10^8 pixels, which CheckHeatRaster alone looks at.
 base::Status CheckHeatRaster(const lanes::Graph& graph, double pixel_m, const std::string& file);
 base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& statistics, double pixel_m,

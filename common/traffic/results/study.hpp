@@ -20,7 +20,7 @@ struct StudySettings {
   double step_s = 0.01;
   double watch_s = 0.1;  // how often contacts, lanes and speeds are looked at; a multiple of the step
   bool checks = true;    // whether faults are looked for every watch_s: overlaps, reds, wheels off the road
-  bool feels = false;    // whether it is told what somebody in the car feels: jerk, lateral and yaw acceleration
+  bool feels = false;    // whether it is told what a passenger feels: jerk, lateral and yaw acceleration
   double cell_m = 0.0;   // length of the cells of lanes that are summed up in; 0: none
   double warm_s = 0.0;   // lanes, trips and queues are watched from then on: roads that begin empty fill first
   double every_s = 0.0;  // the lanes' sums are noted so often, too; 0: they are not
@@ -43,13 +43,12 @@ struct StudyResult {
   std::int64_t wheels_off = 0;  // times that a wheel was seen beside all lanes and shoulders
   double worst_step_m = 0.0;    // |distance between two poses - mean speed · step|, in plan
   double hardest_mps2 = 0.0;    // deceleration with a foot on the brake, whatever else slows the car down
-  double foot_mps2 = 0.0;  // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (who
-                           // stands is held by it)
+  double foot_mps2 = 0.0;  // what a foot asks of the brake: its share of what the brake can, faster than 0.5 m/s (a car
+                           // that stands is held by it)
   double planned_jerk_mps3 = 0.0;    // largest change of acceleration from one step to the next, but …
   double emergency_jerk_mps3 = 0.0;  // … in an emergency
-  std::int64_t hurried_steps =
-      0;  // steps that somebody drove in an emergency (TrafficModel::Hurries), each vehicle's counted
-  double lateral_mps2 = 0.0;  // largest speed times yaw rate, and change of the yaw rate
+  std::int64_t hurried_steps = 0;    // steps driven in an emergency (TrafficModel::Hurries), each vehicle's counted
+  double lateral_mps2 = 0.0;         // largest speed times yaw rate, and change of the yaw rate
   double yaw_radps2 = 0.0;
   double hardest_any_mps2 =
       0.0;  // and by whatever: on a hill that the engine is too weak for, in overrun, while a gear changes
@@ -75,7 +74,8 @@ struct StudyMoment {
 base::Result<StudyResult> RunStudy(const StudySettings& settings, std::shared_ptr<const network::Network> network,
                                    const std::function<void(const StudyMoment&)>& watch = {});
 // The same on a world's roads and ground, with nobody beginning where a driver's car would (KeptClear): to the bit what
-// a traffic node with these settings publishes in a run of that world, as long as it meets nobody and is told nothing.
+// a traffic node with these settings publishes in a run of that world, as long as it meets no other vehicle and is told
+// nothing.
 base::Result<StudyResult> RunStudy(const StudySettings& settings, const std::shared_ptr<const road::World>& world,
                                    const std::function<void(const StudyMoment&)>& watch = {});
 

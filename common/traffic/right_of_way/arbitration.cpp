@@ -12,7 +12,7 @@
 namespace rodeira::traffic {
 namespace {
 
-constexpr std::size_t kZonePrefetch = 6;  // agents ahead whose zones are prefetched
+constexpr std::size_t kZonePrefetch = 6;  // agents ahead with zones that are prefetched
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void RightOfWay::Arbitrate(double dt_s) {
     if (!in_.agents[id].grants.empty() && in_.agents[id].speed_mps < kStandstill_mps) out_.held_up.push_back(id);
   }
   for (std::uint32_t id = 0; id < in_.agents.size();
-       ++id) {  // how far who is ahead comes depends on who holds his zones
+       ++id) {  // how far a leader comes depends on the holder of its zones
     ConflictPassage& passage = out_.passages[id];
     if (!passage.any) continue;
     out_.coming.push_back(id);
@@ -51,8 +51,8 @@ void RightOfWay::Arbitrate(double dt_s) {
   out_.claims.AskForZones();
   for (const std::uint32_t id : out_.coming) out_.claims.ComeToZones(id);
   out_.claims.OthersAtZones();
-  // Who has lost patience, by how long; then by when they come to the line, as told by their own motion; then by
-  // number.
+  // Those that have lost patience, by how long; then by when they come to the line, as told by their own motion; then
+  // by number.
   std::sort(out_.order.begin(), out_.order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const double patience_a = out_.grants.Urgent(a) ? in_.agents[a].waited_s : 0.0,
                  patience_b = out_.grants.Urgent(b) ? in_.agents[b].waited_s : 0.0;
@@ -68,8 +68,8 @@ void RightOfWay::Arbitrate(double dt_s) {
       if (passage.able) out_.claims.ComeLater(id);
       continue;
     }
-    // Nobody else takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if
-    // he is shorter.
+    // No other takes up what it waits for; nor, where there is not room enough for it yet, what there is of it, if
+    // that one is shorter.
     const bool comes_free =
         !passage.able && passage.lacks_m < in_.traits[id].length_m + in_.settings.idm.standing_gap_m;
     for (const Crossing& crossing : passage.crossings) {
@@ -81,7 +81,7 @@ void RightOfWay::Arbitrate(double dt_s) {
         out_.book.WantRoom(zone, theirs, {in_.agents[id].waited_s, id});
     }
   }
-  for (const std::uint32_t id : out_.order) {  // … and now who had to yield to such as cannot come yet
+  for (const std::uint32_t id : out_.order) {  // … and now those that had to yield to such as cannot come yet
     if (out_.passages[id].any && out_.passages[id].able) out_.grants.Grant(id, true);
   }
   out_.deadlocks.ResolveDeadlocks();

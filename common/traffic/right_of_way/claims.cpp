@@ -15,14 +15,15 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kLaterThan_s = 30.0;  // of no interest now
-constexpr double kYielded_mps2 = 1.0;  // by which others may have to brake, on the average, for who merges before them
-constexpr double kLag_s = 1.0;         // … and so much later than that one they come
+constexpr double kYielded_mps2 =
+    1.0;                        // by which others may have to brake, on the average, for one that merges before them
+constexpr double kLag_s = 1.0;  // … and so much later than that one they come
 constexpr double kEntryStandingMargin_m = 2.0;  // beyond its length, to stand between two zones near its entry
 
 }  // namespace
 
-// Zones lie in far memory where there are thousands of agents: those of who soon asks for his own are brought near
-// meanwhile.
+// Zones lie in far memory where there are thousands of agents: those of an agent that soon requests its own are brought
+// near meanwhile.
 void Claims::FetchZones(std::size_t id) const {
   if (id >= out_.agents.size() || out_.agents[id].granted_m < out_.agents[id].o_m) return;
   for (const RouteSegment& stretch : in_.stretches[id]) {
@@ -52,7 +53,7 @@ void Claims::HoldZones(std::uint32_t id) {
   }
 }
 
-// Which sides of zones those ask about who may be let in now.
+// The sides of zones that matter to agents that may get a reservation now.
 void Claims::AskForZones() {
   for (const std::uint32_t side : out_.asked_sides) out_.is_asked[side] = 0;
   out_.asked_sides.clear();
@@ -66,7 +67,7 @@ void Claims::AskForZones() {
   }
 }
 
-// A head that waits to be granted its zones comes to them; where nobody asks it is not told.
+// A head that waits to be granted its zones comes to them; without a query it is not told.
 void Claims::ComeToZones(std::uint32_t id) {
   const ConflictPassage& passage = out_.passages[id];
   if (out_.agents[id].brake_mps2 > 0.0 || passage.red || passage.barred ||
@@ -107,8 +108,8 @@ double Claims::ComesWithin(const ApproachingVehicle& comer, double way_m) const 
                     {agent.wish_mps2, in_.settings.smooth.planned_mps3});
 }
 
-// Where two ways merge, whether who comes, surely behind it, need not brake much for it to stay there until it is out
-// of the zone.
+// Where two ways merge, whether the approaching one, surely behind it, need not brake much for it to stay there until
+// it is out of the zone.
 bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const ApproachingVehicle& comer, double comes_s,
                          double clears_s) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge ||
@@ -124,7 +125,7 @@ bool Claims::IsFarEnough(std::uint32_t id, const Crossing& crossing, const Appro
   return 2.0 * (comes - may_come) < kYielded_mps2 * clears_s * clears_s;
 }
 
-// Who has just been refused does not come before whoever keeps it out is gone.
+// One that was just refused does not come before the vehicle that keeps it out is gone.
 void Claims::ComeLater(std::uint32_t id) {
   ConflictPassage& passage = out_.passages[id];
   passage.later_s = std::max(0.0, passage.delay_s);

@@ -17,8 +17,8 @@ constexpr double kQueuedGap_m = 1.0;
 
 }  // namespace
 
-// Whom who stands waits for; below 0: nobody, or somebody who is no agent. Who has been let in waits for who is ahead
-// only where it has come up to him, and else for who keeps it in its own zones.
+// The agent that a standing one waits for; below 0: none, or one that is no agent. One with a reservation waits for its
+// leader only where it has come up to it, and else for the one that keeps it in its own zones.
 std::int64_t Deadlocks::WaitsFor(std::uint32_t id) const {
   if (out_.agents[id].speed_mps > kStandstill_mps) return -1;
   const Leader& ahead = in_.ahead[id];
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> Deadlocks::FindWaitCycle(std::uint32_t start, std::ve
 }
 
 // Gives the zones back that were granted to it, but for those that it stands in, and asks for them anew, unless
-// somebody else holds one of those it stands in: nobody counts on it in the others, and it stands where it would have
+// another holds one of those it stands in: none counts on it in the others, and it stands where it would have
 // waited.
 bool Deadlocks::RevokeReservation(std::uint32_t id) {
   Agent& agent = out_.agents[id];
@@ -92,16 +92,16 @@ bool Deadlocks::AreInOneAnothersWay(std::span<const std::uint32_t> some) const {
   });
 }
 
-// Lets those of the circle in, each of whom waits for the next one, who are not in anybody's way, although they would
-// have to yield, and whether anybody was. First those for whom there is room, who has waited longest first (of equals
-// the first). Then who has none since those who stand there wait, one behind another, for one who goes now. Where
-// nobody has any all of them go at once or, if one cannot, one who comes to stand in nobody's way of them: who went in
-// else though those before him stay where they are would stand in the zones, in the way of everybody else, and for good
-// where they wait for one whom he is in the way of.
+// Gives reservations to those of the circle, each of which waits for the next one, that block no other, although they
+// would have to yield, and whether any was given. First those with room, the longest waiting first (of equals the
+// first). Then one without room since those that stand there wait, one behind another, for one that goes now. Where
+// none has any all of them go at once or, if one cannot, one that comes to block none of them: one that went in
+// else though those before it stay where they are would stand in the zones, in the way of all others, and for good
+// where they wait for one that it blocks.
 bool Deadlocks::GrantCycle(const std::vector<std::uint32_t>& circle) {
   struct AtLine {
     std::uint32_t id = 0;
-    std::size_t next = 0;  // of those at a line whom those before it wait for
+    std::size_t next = 0;  // of those at a line that those before it wait for
     bool goes = false;
   };
   std::vector<AtLine> lines;
@@ -146,9 +146,9 @@ bool Deadlocks::GrantCycle(const std::vector<std::uint32_t>& circle) {
     for (const std::size_t i : order) let_in(lines[i]);
     return any;
   }
-  for (const std::size_t i : order) {  // … or one who comes to stand in nobody's way of them
+  for (const std::size_t i : order) {  // … or one that comes to block none of them
     const ConflictPassage& passage = in_.passages[lines[i].id];
-    const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind who stands there
+    const double rear = passage.end_m + kLoose_m - passage.lacks_m;  // behind the one that stands there
     const auto keeps_out = [&](const Crossing& mine) {
       return mine.zone >= 0 && mine.out_m > rear && std::any_of(all.begin(), all.end(), [&](std::uint32_t other) {
                const auto& theirs = in_.passages[other].crossings;
@@ -164,13 +164,13 @@ bool Deadlocks::GrantCycle(const std::vector<std::uint32_t>& circle) {
   return false;
 }
 
-// Where nobody of the circle can be let in, since somebody has been who stands behind one of them, he waits outside:
-// first he who has come up to somebody ahead, of several he who was let in last.
+// Where none of the circle can get a reservation, since one with a reservation stands behind one of them, that one
+// waits outside: first one that has come up to a leader, of several the last reservation.
 void Deadlocks::BreakDeadlock(std::vector<std::uint32_t> circle) {
   if (GrantCycle(circle)) return;
   const std::uint32_t first = circle.front();
   std::vector<std::uint8_t> seen(out_.agents.size(), 0);
-  if (FindWaitCycle(first, seen).size() != circle.size()) return;  // who keeps them out is not one of them
+  if (FindWaitCycle(first, seen).size() != circle.size()) return;  // the one that keeps them out is not one of them
   const auto is_behind = [&](std::uint32_t id) { return WaitsFor(id) == in_.ahead[id].id; };
   const auto number = [&](std::uint32_t id) {
     return out_.agents[id].grants.empty() ? 0 : out_.agents[id].grants.back().number;

@@ -12,12 +12,12 @@ namespace {
 // A vehicle that has waited longer has priority over vehicles that have waited less.
 constexpr double kPriorityWait_s = 40.0;
 
-constexpr double kGap_s = 1.0;     // after the own clearing before who goes first may arrive
-constexpr double kBehind_s = 0.5;  // after the own arrival who holds a zone may be out of it at the latest
+constexpr double kGap_s = 1.0;     // after the own clearing before the one with priority may arrive
+constexpr double kBehind_s = 0.5;  // after the own arrival a zone's holder may be out of it at the latest
 constexpr double kZipSpeed_mps = 7.0,
                  kZipTime_s = 4.0;  // a vehicle this slow and this close to a merge takes turns with the other lane
 
-// The side of who was let in last of those who hold a zone, by both sides; -1: nobody does.
+// The side of the last reservation of a zone, by both sides; -1: there is none.
 int LastLetIn(const ReservationTable& book, std::size_t zone, std::size_t agents) {
   int last = -1;
   std::uint64_t number = 0;
@@ -33,7 +33,7 @@ int LastLetIn(const ReservationTable& book, std::size_t zone, std::size_t agents
 
 bool Grants::Urgent(std::uint32_t id) const { return out_.agents[id].waited_s > kPriorityWait_s; }
 
-// Where two ways merge who holds the zone takes up room behind it, too.
+// Where two ways merge the holder of the zone takes up room behind it, too.
 bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Reservation& holder) {
   const ConflictPassage& passage = out_.passages[id];
   if (!passage.able || in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge)
@@ -43,15 +43,15 @@ bool Grants::RoomBehind(std::uint32_t id, const Crossing& crossing, const Reserv
   return out_.room.LeavesInTime(id, holder.id, passage.room_m - crossing.out_m + holder.out_m - its_rear);
 }
 
-// Whether who holds the zone takes up the same room behind it, and does not go round there.
+// Whether the holder of the zone takes up the same room behind it, and does not go round there.
 bool Grants::TakesRoom(const Crossing& crossing) const {
   const lanes::Zone& zone = in_.map.zones[static_cast<std::uint32_t>(crossing.zone)];
   return zone.kind == lanes::ZoneKind::kMerge && in_.map.plans[zone.track[0]].turn != kRing &&
          in_.map.plans[zone.track[1]].turn != kRing;
 }
 
-// Whether somebody keeps it out of the zone: who is in it, or has been granted it, and is not surely out before it
-// comes; and, where that is `heeded`, who has waited longer.
+// Whether a vehicle keeps it out of the zone: one in it, or with a grant, that is not surely out before it
+// comes; and, where that is `heeded`, one that has waited longer.
 bool Grants::Held(std::uint32_t id, const Crossing& crossing, bool heeded) {
   const auto zone = static_cast<std::size_t>(crossing.zone);
   const auto mine = static_cast<std::size_t>(crossing.side), theirs = 1 - mine;
@@ -92,8 +92,8 @@ bool Grants::IsHeld(std::uint32_t id, bool heeded) {
                      [&](const Crossing& crossing) { return crossing.zone >= 0 && Held(id, crossing, heeded); });
 }
 
-// Whether somebody who goes first is about to come to the zone before this one is out of it. Where lanes zip, it is the
-// other side's turn as long as who was let in last is from this one.
+// Whether one with priority is about to come to the zone before this one is out of it. Where lanes zip, it is the
+// other side's turn as long as the last reservation is from this one.
 bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   const auto index = static_cast<std::size_t>(crossing.zone);
   const int theirs = 1 - crossing.side;
@@ -130,7 +130,7 @@ bool Grants::Yields(std::uint32_t id, const Crossing& crossing) {
   return false;
 }
 
-// Grants the passage unless somebody is in its way: holds one of the zones or, where the agent has to yield, comes to
+// Grants the passage unless a vehicle is in its way: holds one of the zones or, where the agent has to yield, comes to
 // one or has waited longer.
 bool Grants::Grant(std::uint32_t id, bool yields) {
   ConflictPassage& passage = out_.passages[id];

@@ -14,19 +14,19 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kUnhindered_mps2 = 1e3;  // more than any vehicle accelerates by
-constexpr double kFollowing_mps2 = 1.5;   // who is let in behind somebody brakes no harder for it
-constexpr double kLeast_mps2 = 1e-3;  // who is left less than this at rest does not drive on; with pedals who is left
+constexpr double kFollowing_mps2 = 1.5;   // a reservation behind another vehicle costs no harder braking
+constexpr double kLeast_mps2 = 1e-3;      // one left less than this at rest does not drive on; with pedals one left
 
 }  // namespace
 
-// From its front to the rear of who goes before it through a zone in which their ways come together, both by their way
-// to its end.
+// From its front to the rear of the one that goes before it through a zone in which their ways come together, both by
+// their way to its end.
 double Merging::MergingGap(std::uint32_t id, double out_m, const Reservation& before) const {
   const double to_end = out_m - out_.agents[id].o_m - 0.5 * in_.traits[id].length_m;
   return to_end - (before.out_m - out_.agents[before.id].o_m + 0.5 * in_.traits[before.id].length_m);
 }
 
-// Where two ways merge it may come behind who is nearer to the end of the zone, as behind a leader, if it need not
+// Where two ways merge it may come behind the one nearer to the end of the zone, as behind a leader, if it need not
 // brake much for that.
 bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const {
   if (in_.map.zones[static_cast<std::uint32_t>(crossing.zone)].kind != lanes::ZoneKind::kMerge) return false;
@@ -35,7 +35,7 @@ bool Merging::MayFollow(std::uint32_t id, const Crossing& crossing, const Reserv
 }
 
 // What those leave it: tell(id, gap_m, leaves_mps2), the acceleration that each leaves it. It stops at the line before
-// each zone or, where ways merge, follows who is nearer to the zone's end (so far before it; else no gap, below 0),
+// each zone or, where ways merge, follows the one nearer to the zone's end (so far before it; else no gap, below 0),
 // whichever is the less.
 template <class Tell>
 void Merging::EachLeaves(std::uint32_t id, const Tell& tell) const {
@@ -51,7 +51,7 @@ void Merging::EachLeaves(std::uint32_t id, const Tell& tell) const {
   });
 }
 
-// What those who hold its zones before it leave it.
+// What those that hold its zones before it leave it.
 void Merging::YieldInZones(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   double& leaves = out_.leaves[id] = kUnhindered_mps2;
@@ -69,8 +69,8 @@ void Merging::YieldInZones(std::uint32_t id) {
     agent.eased_for = eased_for;
 }
 
-// Who holds its zones before it and keeps it where it stands; of several the one who lets it drive on least, below 0:
-// nobody does.
+// The one that holds its zones before it and keeps it where it stands; of several the one that lets it drive on least;
+// below 0: none does.
 std::int64_t Merging::KeptInZonesBy(std::uint32_t id) const {
   std::int64_t keeps = -1;
   double least = in_.full ? driver::Pedals::kGoes_mps2 : kLeast_mps2;

@@ -42,7 +42,7 @@ class Merging {
   bool MayFollow(std::uint32_t id, const Crossing& crossing, const Reservation& holder) const;
   void YieldInZones(std::uint32_t id);
   std::int64_t KeptInZonesBy(std::uint32_t id) const;
-  // Those who hold its zones before it, and which: tell(holder, in_m, out_m, whether ways merge there), in its own
+  // Those that hold its zones before it, and which: tell(holder, in_m, out_m, whether ways merge there), in its own
   // odometer.
   template <class Tell>
   void EachBefore(std::uint32_t id, const Tell& tell) const {
@@ -50,7 +50,7 @@ class Merging {
     const double front = FrontOf(out_.agents[id], in_.traits[id]);
     for (const RouteSegment& stretch : in_.stretches[id]) {
       if (agent.grants.empty() || stretch.begin_m > agent.granted_m)
-        break;  // without any nobody goes before it by his number
+        break;  // without any none goes before it by its number
       if (!stretch.crosses) continue;
       for (const lanes::ZoneSide& part : in_.map.zones.ConflictsOf(stretch.track)) {
         const double in = stretch.zero_m + part.in_m, out = stretch.zero_m + part.out_m;

@@ -8,7 +8,7 @@
 
 namespace rodeira::traffic {
 
-// Conflict zones as an agent comes to them in a step, and who has or wants them.
+// Conflict zones as an agent comes to them in a step, and which have or want them.
 
 struct Crossing {
   std::int32_t zone = -1;  // none: only a STOP line
@@ -27,10 +27,11 @@ struct ConflictPassageKey {
 struct ConflictPassage {
   bool any = false;
   bool due = false;   // it must know now whether it may go on
-  bool head = false;  // nobody stands between it and the line who waits himself (this, and the next: of whom must know,
-                      // and of whom others ask about)
+  bool head = false;  // none that waits itself stands between it and the line (this, and the next: of those that must
+                      // know, and of those that others ask about)
   bool able = false;  // there is room for it behind the zones
-  bool taken = false;      // somebody is where it would stand behind them, or on the way there, now; of whom must know
+  bool taken =
+      false;  // a vehicle is where it would stand behind them, or on the way there, now; of those that must know
   bool must_stop = false;  // a STOP sign
   bool lit = false;        // there is a light in it
   bool red = false;        // … that shows something else than green
@@ -38,10 +39,10 @@ struct ConflictPassage {
   double line_m = 0.0;     // odometer at which its front stops
   double end_m = 0.0;
   ConflictPassageKey key;
-  double room_m = 0.0;     // odometer up to which who is ahead must have left
+  double room_m = 0.0;     // odometer up to which the leader must have left
   double lacks_m = 0.0;    // of that, at most, when all ahead have come as far as they surely do
-  double arrives_s = 0.0;  // of whom others ask about
-  double delay_s = 0.0;    // until who keeps it out is out of the way
+  double arrives_s = 0.0;  // of those that others ask about
+  double delay_s = 0.0;    // until the one that keeps it out is out of the way
   double later_s = 0.0;    // so much later than it could it comes, as others are told
   std::int64_t waits_for = -1;
   std::vector<Crossing> crossings;

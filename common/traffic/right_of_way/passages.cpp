@@ -48,8 +48,8 @@ bool Passages::KeepPassage(std::uint32_t id) {
   return true;
 }
 
-// Who must know now looks on to where it would stand, however slowly it drives: where zones are longer than it sees,
-// the next ones may begin where those end, and who has taken the first ones alone would stand in them.
+// One that must know now looks on to where it would stand, however slowly it drives: where zones are longer than it
+// sees, the next ones may begin where those end, and one with the first ones alone would stand in them.
 void Passages::FindPassage(std::uint32_t id) {
   if (!KeepPassage(id)) FindCrossings(id);
   const ConflictPassage& passage = out_.passages[id];

@@ -20,16 +20,16 @@ constexpr double kMinGapAhead_m = 5.0;  // ahead of a vehicle that stands anywhe
 constexpr int kDeepest = 256;           // longer columns count as ending there
 constexpr double kStands_mps = 0.5, kFollows_s = 1.2,
                  kClose_m =
-                     3.0;  // slower, who has no more than so far to close up starts so much later than who is ahead
-constexpr double kWaits_s = 3.0;  // within its zones for who leaves it room, at most, as told beforehand
+                     3.0;  // slower, one with no more than so far to close up starts so much later than its leader
+constexpr double kWaits_s = 3.0;  // within its zones for one that leaves it room, at most, as told beforehand
 
 double StopsWithin(double speed_mps) { return std::max(0.0, speed_mps) * speed_mps / (2.0 * kStoppingBraking_mps2); }
 
 }  // namespace
 
-// Whoever stands or drives before it on its way as far as `to_m`, and how far its rear surely comes: `tell(id,
-// rear_m)`, in its own odometer, -1 for a vehicle that is no agent. Who parts from its way and surely comes clear of it
-// is nobody to it.
+// The vehicles that stand or drive before it on its way as far as `to_m`, and how far its rear surely comes: `tell(id,
+// rear_m)`, in its own odometer, -1 for a vehicle that is no agent. One that parts from its way and surely comes clear
+// of it does not count.
 template <class Tell>
 void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell) {
   const Agent& agent = in_.agents[id];
@@ -73,9 +73,9 @@ void Room::EachAhead(std::uint32_t id, double to_m, int depth, const Tell& tell)
 }
 
 // How far its front comes whatever others decide: as far as it sees, to the line before zones that are not its own (but
-// for the hand's breadth before it at which it may come to rest), behind whoever is before it as far as those come, and
-// as far as those let it who hold its own zones before it. Who is told to brake, and whoever is no agent, may stop at
-// once. In a ring of followers the one that closes it counts as standing.
+// for the hand's breadth before it at which it may come to rest), behind the vehicles before it as far as those come,
+// and as far as the holders of its own zones before it let it. One that is told to brake, and one that is no agent, may
+// stop at once. In a ring of followers the one that closes it counts as standing.
 double Room::ReachOf(std::uint32_t id, int depth) {
   if (out_.reaches[id] >= 0.0) return out_.reaches[id];
   const Agent& agent = in_.agents[id];
@@ -93,9 +93,9 @@ double Room::ReachOf(std::uint32_t id, int depth) {
   return out_.reaches[id] = std::max(0.0, to - front);
 }
 
-// How far its front surely comes, `to_m` at most, for those: to the line before a zone that somebody does not surely
-// leave or, where ways merge, behind him as far as he comes, whichever is the farther. Whom nothing keeps as far as he
-// sees, and who has room behind his zones, leaves them.
+// How far its front surely comes, `to_m` at most, for those: to the line before a zone that a vehicle does not surely
+// leave or, where ways merge, behind it as far as it comes, whichever is the farther. One that nothing keeps as far as
+// it sees, and that has room behind its zones, leaves them.
 double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
   const double front = FrontOf(in_.agents[id], in_.traits[id]), apart = in_.traits[id].idm.standing_gap_m + kLoose_m;
   in_.merging.EachBefore(id, [&](const Reservation& holder, double in, double out, bool merges) {
@@ -114,8 +114,9 @@ double Room::ReachBehindThose(std::uint32_t id, double to_m, int depth) {
   return to_m;
 }
 
-// Whether somebody has gone so far before this one has long been waiting at the end of its zones. Who stands starts so
-// long after all who stand in a row before him; who drives up to such a row comes as far as its end before.
+// Whether a vehicle has gone so far before this one has long been waiting at the end of its zones. One that stands
+// starts so long after all that stand in a row before it; one that drives up to such a row comes as far as its end
+// before.
 bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const {
   double comes = 0.0, starts = 0.0;
   std::uint32_t at = other;
@@ -143,8 +144,8 @@ bool Room::LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) con
   return leaves < arrives + kWaits_s;
 }
 
-// Whether it can stand behind the zones once all before it have come as far as they surely do. Who waits before it at
-// the same line makes it no head.
+// Whether it can stand behind the zones once all before it have come as far as they surely do. One that waits before it
+// at the same line makes it no head.
 void Room::FindRoom(std::uint32_t id) {
   ConflictPassage& passage = out_.passages[id];
   passage.head = passage.able = true;
@@ -174,7 +175,8 @@ bool Room::RoomAhead(std::uint32_t id) const {
                  : in_.ahead[id].gap_m > kMinGapAhead_m;
 }
 
-// What others, and it, must know of who may come to its zones soon: when, and whether there is room behind them.
+// What others, and it, must know of a vehicle that may come to its zones soon: when, and whether there is room behind
+// them.
 void Room::TellComing(std::uint32_t id) {
   ConflictPassage& passage = out_.passages[id];
   const double in = passage.crossings.front().in_m, most = out_.passages_ahead.KnowAllowedAt(id, in, 0);

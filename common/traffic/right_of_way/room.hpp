@@ -46,7 +46,7 @@ class Room {
 
   double ReachOf(std::uint32_t id, int depth);
   bool LeavesInTime(std::uint32_t id, std::uint32_t other, double way_m) const;
-  // Whether who stands has where to go, as it was seen in the last step: nobody within 5 m before it or, where it
+  // Whether a standing agent has where to go, as it was seen in the last step: none within 5 m before it or, where it
   // stands at a line before conflict zones, none up to where it would stand behind them.
   bool RoomAhead(std::uint32_t id) const;
   void TellComing(std::uint32_t id);

@@ -9,7 +9,7 @@
 
 namespace rodeira::traffic {
 
-// Somebody who holds a side of a zone. Ids from the number of agents on are others.
+// A vehicle that holds a side of a zone. Ids from the number of agents on are others.
 struct Reservation {
   std::uint32_t id = 0;
   bool sure = false;         // there is room for it behind its zones
@@ -17,14 +17,15 @@ struct Reservation {
   double out_m = 0.0;        // odometer at the zone's end
 };
 
-// Somebody who comes to a side of a zone. When, is found out where it is asked for: few are.
+// A vehicle that comes to a side of a zone. When, is found out where it is asked for: few are.
 struct ApproachingVehicle {
   std::uint32_t id = 0;
   double in_m = 0.0, out_m = 0.0;          // odometer; of agents
   double arrives_s = 0.0, clears_s = 0.0;  // of others
 };
 
-// Who has or wants each side of each conflict zone in a step. Only zones that something is said of cost anything.
+// The vehicles that have or want each side of each conflict zone in a step. Only zones that something is said of cost
+// anything.
 class ReservationTable {
  public:
   explicit ReservationTable(std::size_t zones);
@@ -48,8 +49,8 @@ class ReservationTable {
   bool IsAwaited(std::size_t zone, std::size_t side) const {
     return !urged_.empty() && awaited_[Side(zone, side)] != 0;
   }
-  // … or has waited so long for room behind the zone that this side could take; of several who has waited longest, of
-  // equals the first who said so.
+  // … or has waited so long for room behind the zone that this side could take; of several the longest waiting, of
+  // equals the first that said so.
   struct Wish {
     double waited_s = 0.0;
     std::uint32_t id = 0;

@@ -10,12 +10,12 @@
 namespace rodeira::traffic {
 namespace {
 
-// Who can stop at the line by braking so hard, and coming to that smoothly, stops at amber. At 50 km/h three seconds of
-// amber are as long as v/(2 b) and half of the time in which the braking grows, so that nobody comes to the line at red
-// (Gazis, Herman, Maradudin 1960).
+// A car that can stop at the line by braking so hard, and coming to that smoothly, stops at amber. At 50 km/h three
+// seconds of amber are as long as v/(2 b) and half of the time in which the braking grows, so that none comes to the
+// line at red (Gazis, Herman, Maradudin 1960).
 constexpr double kForAmber_mps2 = 2.9;
 
-constexpr double kOthers_mps2 = 2.8;  // of who is no agent
+constexpr double kOthers_mps2 = 2.8;  // of vehicles that are no agents
 constexpr double kLineTolerance_m = 0.01;
 
 // The way to rest from an acceleration, by a jerk to that braking and from it.
@@ -37,7 +37,7 @@ void Signals::FindColours() {
   }
 }
 
-// The first line of a track beyond a place whose light is not green, if who comes from there with this speed can stop
+// The first line of a track beyond a place with a light that is not green, if a car from there with this speed can stop
 // before it; far away where there is none.
 double Signals::RedAhead(std::uint32_t track, double from_m, double speed_mps) const {
   for (const StopLine& line : in_.map.plans[track].lines) {
@@ -61,8 +61,8 @@ bool Signals::AllGreen(std::uint32_t id, double from_m, double to_m) const {
   return true;
 }
 
-// Who has been granted a way past a light that is green no more, and can stop before it, gives it back. It stands where
-// it would have waited: nobody who holds a zone of that way counts on it.
+// One with a grant past a light that is green no more, and that can stop before it, gives it back. It stands where
+// it would have waited: no holder of a zone of that way counts on it.
 void Signals::ObeyLights(std::uint32_t id) {
   Agent& agent = out_.agents[id];
   if (agent.grants.empty()) return;

@@ -35,14 +35,14 @@ struct AgentPose {
 // The rectangle of an agent.
 driver::Footprint FootprintOf(const AgentPose& pose, const AgentTraits& traits);
 
-// How a car stands whose axles are on a straight line.
+// How a car stands with axles on a straight line.
 Eigen::Quaterniond AttitudeOn(const lanes::Curve::Straight& straight);
 // Rise over plan distance of its length.
 double GradeOf(const Eigen::Quaterniond& q_WB);
 
 // A part of the path of one agent, by the agent's odometer: the middle of a track, which it approaches from where it
-// came over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. Who
-// overtakes drives beside that middle, by aside_m, and the offset is from there.
+// came over blend_m from blend_from_m on, offset and slope going to 0 with the smooth polynomials of degree five. One
+// that overtakes drives beside that middle, by aside_m, and the offset is from there.
 struct Piece {
   std::uint32_t track = 0;
   double zero_m = 0.0;    // odometer where the track's d is 0
@@ -67,7 +67,7 @@ struct LaneChange {
 // Conflict zones that an agent was granted together.
 struct ZoneGrant {
   double to_m = 0.0;         // odometer at their end
-  std::uint64_t number = 0;  // of two who hold a zone the lower one goes first
+  std::uint64_t number = 0;  // of two that hold a zone the lower one goes first
   bool sure = false;         // there is room behind the zones, so that nothing keeps the agent in them
   double light_m = -1.0;     // odometer of the line of a light before them; below 0: none
 };
@@ -79,7 +79,7 @@ struct alignas(64) Agent {
   bool on_road = false;        // drives
   bool is_crashed = false;     // has been hit, and drives no more
   bool seeks = false;          // drives slower to find a gap beside, for its route
-  bool told_past = false;      // told to overtake who is ahead, and has not begun yet
+  bool told_past = false;      // told to overtake its leader, and has not begun yet
   std::int32_t told_side = 0;  // told to go over to the lane on that side, +1 left, -1 right, and has not yet; 0: not
   double o_m = 0.0;            // odometer of its middle on this trip
   double speed_mps = 0.0;
@@ -104,7 +104,8 @@ struct alignas(64) Agent {
   double cap_mps = kNoCap_mps;
   double stopped_m = -1.0;      // odometer of the STOP line at which it has come to rest
   std::int64_t settled_ns = 0;  // until then it keeps to its lane
-  std::int64_t eased_for = -1;  // who has come in before it and is still followed nearer than it likes; below 0: nobody
+  std::int64_t eased_for =
+      -1;  // the one that has come in before it and is still followed nearer than it likes; below 0: none
   LaneChange change;
   Overtaking overtaking;
   Crashed struck;

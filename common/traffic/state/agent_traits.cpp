@@ -123,7 +123,7 @@ AgentTraits TraitsOf(const TrafficSettings& settings, std::uint32_t id) {
 
 namespace {
 
-// Whether somebody of this kind may be on the road.
+// Whether a vehicle of this kind may be on the road.
 bool MayBe(const TrafficSettings& settings, std::size_t k) {
   return settings.mix.shares[k] > 0.0 ||
          std::count(settings.scripted.begin(), settings.scripted.end(), static_cast<VehicleKind>(k)) > 0 ||

@@ -25,16 +25,16 @@ enum class Physics {
   kFull,    // as the driver's car: four wheels with suspension and slipping tyres on the ground, the whole powertrain
 };
 
-// When somebody who waits enters the network.
+// When a waiting vehicle enters the network.
 enum class EnterRule {
-  kSafe,  // as soon as he need not brake hard behind who is ahead
-  kFree,  // as MOTORS has it: unless somebody stands within some metres of the lane's beginning
+  kSafe,  // as soon as it need not brake hard behind its leader
+  kFree,  // as MOTORS has it: unless a vehicle stands within some metres of the lane's beginning
 };
 
-// Who drives.
+// The kind of driver.
 enum class DriverKind {
   kStandard,
-  kMotors,  // as MOTORS' own: gives way to the right and sees nobody else
+  kMotors,  // as MOTORS' own: gives way to the right and sees no other
 };
 
 // What a traffic source is told. Each agent draws its own values from the ranges, by seed and number.
@@ -62,10 +62,10 @@ struct TrafficSettings {
   driver::MobilSettings lane_changes;
   OvertakingSettings overtaking;
   std::vector<VehicleKind>
-      scripted;           // whom a scenario may let appear, beside `vehicles`: their numbers follow those of the others
-  VehicleMix mix;         // of who does not belong to a flow with a mix of its own
+      scripted;    // those that a scenario may spawn, beside `vehicles`: their numbers follow those of the others
+  VehicleMix mix;  // of vehicles that belong to no flow with a mix of its own
   DemandSettings demand;  // with flows `vehicles` is how many there are at a time at most; the roads are empty at first
-  std::optional<PedestrianSettings> pedestrians;  // none: crossings are nothing to anybody
+  std::optional<PedestrianSettings> pedestrians;  // none: crossings have no effect
 };
 
 // Reads `vehicles`, `following`, `comfort` … of a mapping; the seed is the run's. Problems stay in the file's

@@ -24,7 +24,7 @@ struct Variable {
   int line = 0;      // of modelDescription.xml
 };
 
-// A unit by the SI base units and radian, whose exponents are in this order: kg, m, s, A, K, mol, cd, rad. A value in
+// A unit by the SI base units and radian, with exponents in this order: kg, m, s, A, K, mol, cd, rad. A value in
 // SI is `factor` times the value plus `offset`.
 struct UnitDefinition {
   std::array<int, 8> exponents{};

@@ -50,9 +50,9 @@ struct GreenTogether {
 // The first such two; nothing where there are none.
 std::optional<GreenTogether> FindGreenTogether(const Graph& graph, const Zones& zones);
 
-// Wrong input where a light for vehicles is never green. Wrong input where two lights are green or amber together whose
-// ways come from different sides and cross or merge. Who turns across the way of those who come towards him may be
-// green with them: he yields. The two are named, with the line of the later one's green where that is known.
+// Wrong input where a light for vehicles is never green. Wrong input where two lights are green or amber together with
+// ways that come from different sides and cross or merge. A turn across the way of oncoming traffic may be
+// green with it: it yields. The two are named, with the line of the later one's green where that is known.
 base::Status CheckLights(const Graph& graph, const Zones& zones);
 
 }  // namespace rodeira::lanes

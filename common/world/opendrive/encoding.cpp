@@ -99,7 +99,7 @@ base::Result<std::string> ToUtf8(std::string bytes, const std::filesystem::path&
       std::all_of(bytes.begin(), bytes.end(), [](char c) { return static_cast<signed char>(c) >= 0; });
   const auto [begin, end] = NamedEncoding(bytes);
   const std::string named = bytes.substr(begin, end - begin), lower = Lower(named);
-  // A text whose declaration is read byte by byte is in none of the wide ones.
+  // A text with a declaration that is read byte by byte is in none of the wide ones.
   for (const std::string_view none : {"", "utf-8", "utf8", "us-ascii", "ascii"}) {
     if (lower == none) return bytes;
   }

@@ -79,8 +79,8 @@ void ReadObjects(const Node& road, network::RoadSpec& spec);
 void ReadSurface(const Node& road, network::RoadSpec& spec);
 JunctionReading ReadJunction(const Node& junction);
 network::Controller ReadController(const Node& controller);
-// Lights of controllers whose orientation fits none of the lanes that their validity names, as in the towns of CARLA
-// and RoadRunner, hold for these lanes: their orientation is turned, with one warning.
+// Lights of controllers with an orientation that fits none of the lanes that their validity names, as in the towns of
+// CARLA and RoadRunner, hold for these lanes: their orientation is turned, with one warning.
 void TurnLights(const std::vector<network::Controller>& controllers, std::vector<RoadReading>& readings,
                 Findings& findings);
 // Controllers that a junction names and that say no times take turns, in the order of the junctions: 20 s of green, 3 s

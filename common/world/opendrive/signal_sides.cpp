@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights whose orientation says the side that they face, as some map editors write it.
+// Lights with an orientation that says the side that they face, as some map editors write it.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -92,7 +92,7 @@ std::string Without(std::string_view list, const std::string& vehicle_class) {
   return kept;
 }
 
-// Takes a class out of all lists of a network. Who alone is allowed there is then nobody: all are denied.
+// Takes a class out of all lists of a network. A lane for that class alone is then for none: all are denied.
 bool ForgetClass(const std::filesystem::path& file, const std::string& vehicle_class) {
   pugi::xml_document document;
   if (!document.load_file(file.c_str())) return false;

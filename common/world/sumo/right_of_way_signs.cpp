@@ -25,7 +25,7 @@ const NetRequest* RequestOf(const Net& net, const NetConnection& connection) {
   return at < junction->second.requests.size() ? &junction->second.requests[at] : nullptr;
 }
 
-// Which connecting road goes before which: those of whose lanes each that meets the other one goes first.
+// Which connecting road goes before which: those with priority of each lane that meets the other one.
 std::set<std::pair<std::string, std::string>> PairsOf(const Net& net, const std::vector<const ConnectingLane*>& ways) {
   std::set<std::pair<std::string, std::string>> pairs;
   for (const ConnectingLane* low : ways) {
@@ -72,7 +72,7 @@ Says SaysTo(const std::vector<const ConnectingLane*>& ways) {
     major = major || state == 'M';
     stop = stop || state == 's' || state == 'w';
     minor = minor || state == 'm';
-    if (state == '=' || state == 'Z') return Says::kNothing;  // who comes from the right; in turns
+    if (state == '=' || state == 'Z') return Says::kNothing;  // the one from the right; in turns
   }
   if (major) return Says::kMajor;
   return stop ? Says::kStop : minor ? Says::kGiveWay : Says::kNothing;

@@ -13,7 +13,7 @@ struct RightOfWayWritten {
   std::size_t signs = 0;
 };
 
-// Writes who goes first: for two ways over a junction of which SUMO makes one yield, a <priority> of the junction; at
+// Writes the priorities: for two ways over a junction of which SUMO makes one yield, a <priority> of the junction; at
 // junctions without lights the signs that say so (206, 205, 301) and the lines before them.
 RightOfWayWritten WriteRightOfWay(const Net& net, const RoadEdges& edges, pugi::xml_node drive);
 

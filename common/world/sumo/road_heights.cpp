@@ -194,7 +194,7 @@ class Heights {
   const GroundHeight& ground_;
   std::map<std::string, std::vector<Arm>> arms_;
   std::map<std::string, Plane> planes_;  // by junction
-  std::string unknown_;                  // the first road whose ground is not known
+  std::string unknown_;                  // the first road on unknown ground
 };
 
 }  // namespace

@@ -68,7 +68,7 @@ std::vector<bool> HeldPhases(const Net& net, const LightProgram& program, const 
   return held;
 }
 
-// The controllers of a network's lights: connections whose lights show the same share one.
+// The controllers of a network's lights: connections with lights that show the same share one.
 class Controllers {
  public:
   Controllers(const Net& net, const RoadEdges& edges, const std::set<std::string>& dark, LightsWritten& written) {

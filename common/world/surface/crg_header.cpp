@@ -40,8 +40,8 @@ std::optional<double> Number(std::string_view text) {
   return value;
 }
 
-// A number whose exponent is misspelt and nothing, as ASAM's own library reads it: "2.0+e00" is 2. Others may be meant
-// in more than one way.
+// A number with an exponent that is misspelt and nothing, as ASAM's own library reads it: "2.0+e00" is 2. Others may be
+// meant in more than one way.
 std::optional<double> LeadingNumber(std::string_view text, std::size_t& length) {
   const std::size_t sign = text.starts_with('+') ? 1 : 0;
   double value = 0.0;

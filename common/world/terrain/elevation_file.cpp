@@ -174,7 +174,7 @@ base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, cons
   return std::optional<BtHeader>(header.value());
 }
 
-// A raster in a map whose scale is off: how, and what the grid then says of its origin.
+// A raster in a map with a scale that is off: how, and what the grid then says of its origin.
 struct Warping {
   MapScale scale;
   MapOrigin origin;

@@ -19,7 +19,7 @@ enum class Registration { kUsual, kPosts, kCells };
 
 // Reads an elevation file through GDAL: .bt, gzipped or not, or a raster of another format (GeoTIFF, Arc/Info ASCII …),
 // with the .prj beside it. North up; coordinates and heights in metres or feet come out as metres, and the coordinate
-// system with them; what is in degrees, or in a map whose scale is off by more than half a per cent
+// system with them; what is in degrees, or in a map with a scale that is off by more than half a per cent
 // (Web Mercator), is brought into the UTM zone of its middle (WarpedToMetres). Wrong input where
 // the file is missing, cut short, of no format known, turned, of more than one band, or has a broken .prj.
 base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const std::filesystem::path& path,

@@ -7,7 +7,7 @@
 
 namespace rodeira::cli {
 
-// Declares `rodeira measures`, whose words go into the options, which must live as long as the app.
+// Declares `rodeira measures`; its words go into the options, which must live as long as the app.
 CLI::App* AddMeasures(CLI::App& app, MeasuresOptions& options);
 
 }  // namespace rodeira::cli

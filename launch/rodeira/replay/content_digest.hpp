@@ -12,7 +12,7 @@
 namespace rodeira::cli {
 
 // A digest of all samples of the lockstep of a recording, in the order of the file: recordings with the same one are
-// identical. Samples of the lockstep are those whose channel says a period.
+// identical. Samples of the lockstep are those of a channel with a period.
 class ContentDigest {
  public:
   void Add(const record::Channel& channel, const record::Message& message) {

@@ -114,7 +114,8 @@ base::Status WriteFrames(const WatchOptions& options) {
     auto moment = moments.Exactly(step);
     if (!moment) return moment.error();
     const auto file = settings.folder / nodes::FrameName(step);
-    if (auto status = render_thread.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file); !status)
+    if (auto status = render_thread.value()->Order(nodes::PictureOf(settings, std::move(moment).value()), file);
+        !status)
       return status;
   }
   return render_thread.value()->Drain();

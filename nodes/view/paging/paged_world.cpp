@@ -30,7 +30,7 @@ PagedWorld PagedTree(const std::vector<TileFiles>& tiles) {
   return paged;
 }
 
-void GiveBack(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
+void ReleaseFarTiles(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, double detail_scale) {
   // The coarsest level is wanted up to the plane at far_m, which is farther off in a wide picture's corners.
   constexpr double kBeyond = 1.25, kBeyondFar = 1.8;
   for (osg::PagedLOD* const at : paged.tiles) {

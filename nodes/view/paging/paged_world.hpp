@@ -24,7 +24,7 @@ struct PagedWorld {
 PagedWorld PagedTree(const std::vector<TileFiles>& tiles);
 // Gives back the levels of tiles that the eye has left by a quarter of their range, and tiles far beyond what is drawn
 // at all. Only while the pager reads nothing. `detail_scale`: as the camera's.
-void GiveBack(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, double detail_scale);
+void ReleaseFarTiles(const PagedWorld& paged, const osg::Vec3d& eye_W, double far_m, double detail_scale);
 // How many levels of tiles are in memory.
 std::size_t HeldLevels(const PagedWorld& paged);
 // Asks for the coarsest level of the nearest few tiles that have none, wherever one looks: a viewer that turns round

@@ -193,7 +193,7 @@ void Renderer::SetUp() {
                         osg::CullSettings::FAR_PLANE_CULLING);  // what cannot be seen is not read either
   camera.setLODScale(TraitsOf(surface.quality()).detail_scale);
   viewer.setSceneData(&root);
-  // What was read stays until the eye has left it (GiveBack), also behind its back: turning round shows no gaps.
+  // What was read stays until the eye has left it (ReleaseFarTiles), also behind its back: turning round shows no gaps.
   if (parts_->paged.root)
     viewer.getDatabasePager()->setTargetMaximumNumberOfPageLOD(static_cast<unsigned>(parts_->paged.tiles.size()));
   viewer.realize();
@@ -269,7 +269,7 @@ void Renderer::DrawOnce(const Picture& picture, const PictureTarget& target, boo
   parts_->timeline.Show(picture.timeline, panels);
   parts_->viewer.frame(static_cast<double>(picture.moment.time_ns) * 1e-9);
   if (parts_->paged.root && !parts_->viewer.getDatabasePager()->getRequestsInProgress())
-    GiveBack(parts_->paged, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
+    ReleaseFarTiles(parts_->paged, ToOsg(camera.eye_W), kFar_m, static_cast<double>(eye.getLODScale()));
 }
 
 void Renderer::DrawWhole(const Picture& picture, const scene::Progress& progress) {

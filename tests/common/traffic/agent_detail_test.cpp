@@ -26,7 +26,7 @@ double Arc_m(double from, double to) {
 class AgentDetails : public testing::TestWithParam<Physics> {};
 
 // The target: as far ahead of the rear axle as hands make good what is missing, 0.7 s, on the lane's middle. The path
-// leads along the circle where that axle is. He looks so far beyond his front as he brakes in comfort at 1.5 m/s2 and
+// leads along the circle where that axle is. It looks so far beyond its front as it brakes in comfort at 1.5 m/s2 and
 // drives in 3 s, and 60 m more, at most 200.
 TEST_P(AgentDetails, LieOnTheCircleAsFarAheadAsItsDriverSteersAndLooks) {
   TrafficSettings settings;

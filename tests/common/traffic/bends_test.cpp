@@ -16,7 +16,7 @@
 namespace rodeira::traffic {
 namespace {
 
-// What is felt sideways at most, by heading and speed from step to step, and by how much somebody is faster than his
+// What is felt sideways at most, by heading and speed from step to step, and by how much a vehicle is faster than its
 // share of the plan.
 struct Felt {
   double lateral_mps2 = 0.0, over_mps = 0.0;
@@ -60,9 +60,9 @@ Felt DriveOver(const std::shared_ptr<const road::World>& world, double step_s) {
 }
 
 // A bend that lets go and then draws in on a smaller radius, as slip roads of real files do: the plan allows more on
-// the way there, and soon less. Who only looked at the plan where he is would have to brake all at once, which 3 m/s³
-// do not let him: he came by up to 1 m/s, a third, too fast into a bend of 4 m, and was pressed sideways by 3.0 m/s²
-// instead of 2.
+// the way there, and soon less. One that only looked at the plan where it is would have to brake all at once, which 3
+// m/s³ do not let it: it came by up to 1 m/s, a third, too fast into a bend of 4 m, and was pressed sideways by 3.0
+// m/s² instead of 2.
 TEST(Bends, ATighterBendBehindABendIsComeToSlowly) {
   for (const double way : {-1.0, 1.0}) {
     for (const double lets_go_m : {1.0, 2.0, 3.0, 5.0}) {

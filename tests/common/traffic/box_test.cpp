@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nobody blocks the box: who comes to rest does so where nobody else's way crosses his.
+// No vehicle blocks the box: a car that comes to rest does so where it crosses no other's way.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -35,9 +35,9 @@ bool InABox(const TrafficModel& model, std::uint32_t id) {
   return false;
 }
 
-// More cars than these roads bear: there are queues before all junctions, and none in them. Who has been let in after
-// another one may wait for him on the way through: for seconds, and that is less than a hundredth of all standing, of
-// seven seeds.
+// More cars than these roads bear: there are queues before all junctions, and none in them. One that has been let in
+// after another one may wait for it on the way through: for seconds, and that is less than a hundredth of all standing,
+// of seven seeds.
 TEST(Box, IsNotBlockedByAQueue) {
   struct Case {
     std::string name;

@@ -34,8 +34,8 @@ std::uint32_t TrackOf(const Agent& agent) {
   return agent.path[i].track;
 }
 
-// Drives a map and tells of each time that somebody's middle goes from one track onto another: told(before, after), the
-// moments since he entered, oldest first.
+// Drives a map and tells of each time that a vehicle's middle goes from one track onto another: told(before, after),
+// the moments since it entered, oldest first.
 template <class Told>
 void WatchTracks(const std::string& map, double for_s, const Told& told) {
   TrafficSettings settings;
@@ -56,8 +56,8 @@ void WatchTracks(const std::string& map, double for_s, const Told& told) {
   }
 }
 
-// Whoever turns by more than 30° at a branch has indicated to that side, and to no other, for two seconds before he
-// reaches it and until half way round; whoever goes straight on has not.
+// A vehicle that turns by more than 30° at a branch has indicated to that side, and to no other, for two seconds before
+// it reaches it and until half way round; a vehicle that goes straight on has not.
 TEST(CarLights, ACarThatTurnsIndicatesToThatSide) {
   for (const char* map : {"crossing", "town", "lights"}) {
     int left = 0, right = 0, straight = 0;
@@ -88,7 +88,7 @@ TEST(CarLights, ACarThatTurnsIndicatesToThatSide) {
   }
 }
 
-// Round a roundabout nobody indicates but who leaves it at the next exit, to the outside, from before he does.
+// Round a roundabout no vehicle indicates but one that leaves it at the next exit, to the outside, from before it does.
 TEST(CarLights, ACarThatLeavesARoundaboutIndicates) {
   int leaves = 0, stays = 0, enters = 0;
   WatchTracks("roundabout", 200.0, [&](const TrafficModel& model, std::uint32_t id, const std::deque<Moment>& moments) {
@@ -112,8 +112,8 @@ TEST(CarLights, ACarThatLeavesARoundaboutIndicates) {
   EXPECT_GT(enters, 10);
 }
 
-// On two lanes around a circle: whoever goes over from one to the other indicates to that side from the first hand's
-// breadth on, and nobody else does.
+// On two lanes around a circle: a vehicle that goes over from one to the other indicates to that side from the first
+// hand's breadth on, and no other does.
 TEST(CarLights, ACarThatChangesLanesIndicatesToThatSide) {
   constexpr double kRadius_m = 500.0, kAbout_m = 0.15;
   opendrive::RoadText road = CircleRoad(2.0 * std::numbers::pi * kRadius_m);
@@ -146,8 +146,8 @@ TEST(CarLights, ACarThatChangesLanesIndicatesToThatSide) {
   EXPECT_GT(over, 200);
 }
 
-// Brake lights burn while somebody brakes harder than a lifted foot does, until he stands and as long as he does, and
-// never while he gains speed.
+// Brake lights burn while a vehicle brakes harder than a lifted foot does, until it stands and as long as it does, and
+// never while it gains speed.
 TEST(CarLights, BrakeLightsBurnFromTheFootToTheStand) {
   TrafficSettings settings;
   settings.vehicles = 25;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streets as full as can be, whose chains of who waits for whom close: who goes, so that all of them go on, and who is
+// Streets as full as can be, with closed chains of waiting: which one goes, so that all of them go on, and which is
 // not counted on to go, so that none closes.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -97,7 +97,7 @@ std::string To(const std::string& junction) {
 // Vehicles that stand one behind another.
 class Streets {
  public:
-  static constexpr std::uint32_t kVehicles = 120;  // of whom some are on the road
+  static constexpr std::uint32_t kVehicles = 120;  // of which some are on the road
 
   explicit Streets(const std::string& text) {
     settings_.vehicles = kVehicles;
@@ -129,7 +129,7 @@ class Streets {
     return 0;
   }
 
-  // Where who takes that way at a street's end stands at his line, from the street's beginning.
+  // Where a car that takes that way at a street's end stands at its line, from the street's beginning.
   double LineOf(std::uint32_t street, std::uint32_t way) const {
     double first = 1e9;
     for (const lanes::ZoneSide& part : model->zones().ConflictsOf(way))
@@ -140,7 +140,7 @@ class Streets {
     return first - kLine_m - kAtLine_m;
   }
 
-  // With his front so far from a street's beginning, also beyond its end, on the trip on which he goes on by this way.
+  // With its front so far from a street's beginning, also beyond its end, on the trip on which it goes on by this way.
   void Put(std::uint32_t id, std::uint32_t street, double front_m, std::uint32_t way) {
     Agent& agent = agents[id];
     agent.on_road = true;
@@ -160,7 +160,7 @@ class Streets {
     if (agent.o_m - 0.5 * Length(id) > end) agent.path.erase(agent.path.begin());
   }
 
-  // With his front so far from a street's beginning: he stands for good.
+  // With its front so far from a street's beginning: it stands for good.
   void PutForGood(std::uint32_t id, std::uint32_t street, double front_m) {
     Agent& agent = agents[id];
     agent.on_road = true;
@@ -170,7 +170,7 @@ class Streets {
     all_.push_back(id);
   }
 
-  // The zones of the way at its street's end are his own.
+  // The zones of the way at its street's end are its own.
   void Let(std::uint32_t id, std::uint32_t street, std::uint32_t way, std::uint64_t number) {
     double out = 0.0;
     for (const lanes::ZoneSide& part : model->zones().ConflictsOf(way))
@@ -179,8 +179,8 @@ class Streets {
     agents[id].grants.push_back({out, number, true, -1.0});
   }
 
-  // Cars one behind another, backwards from a place, as long as the last one's rear stays beyond `to_m`, of whom those
-  // who are on the street yet take another way; the first one, and where the last one's rear is.
+  // Cars one behind another, backwards from a place, as long as the last one's rear stays beyond `to_m`, of which those
+  // that are on the street yet take another way; the first one, and where the last one's rear is.
   struct Queue {
     std::uint32_t first = 0;
     double rear_m = 0.0;
@@ -214,9 +214,10 @@ class Streets {
 };
 
 // A bus has waited longest to come into a street that goes round into itself and is full but for the metres that a car
-// needs: they are kept for the bus. But those who stand behind them wait, one for another, for the car at the street's
-// end, which wants to go round and is kept out for the bus. That chain is closed, and he goes, and as the next ones
-// leave there is room for the bus as well. If who is kept out for somebody did not wait for him nobody would ever move.
+// needs: they are kept for the bus. But those that stand behind them wait, one for another, for the car at the street's
+// end, which wants to go round and is kept out for the bus. That chain is closed, and it goes, and as the next ones
+// leave there is room for the bus as well. If a car did not wait for the one that it is kept out for, none would ever
+// move.
 TEST(Circle, AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt) {
   Streets at(
       Text({Road("round",
@@ -244,16 +245,16 @@ TEST(Circle, AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt) {
     if (at.On(bus) == round) bus_s = i * kStep_s;
   }
   EXPECT_GT(first_s, 0.0);
-  EXPECT_LT(first_s, 10.0);  // he stands there already
+  EXPECT_LT(first_s, 10.0);  // it stands there already
   EXPECT_GT(bus_s, 0.0);
 }
 
 // A short street between two junctions, with queues both ways; at its east end a bus that turns into it stands with its
-// rear in the way of those who want to leave there; its queue wants into a street that is full as well, and that leads
-// back, into the short one, to its west end, where a bus has waited longest to come in. Nobody goes before another one
-// of them does but the car at that street's end, for whom there is room: he is let in, and all go on. Was the bus let
-// in, since who stands in its way waits for somebody else of them, it would stand in the way of the next ones, and
-// nobody would ever move.
+// rear in the way of those that want to leave there; its queue wants into a street that is full as well, and that leads
+// back, into the short one, to its west end, where a bus has waited longest to come in. No vehicle goes before another
+// one of them does but the car at that street's end, for which there is room: it is let in, and all go on. Was the bus
+// let in, since the one in its way waits for another of them, it would stand in the way of the next ones, and none
+// would ever move.
 TEST(Circle, AVehicleWithoutRoomGoesOnlyWhereItsLeadersGo) {
   constexpr double kBetween_m = 37.0, kEast_m = 15.0 + kBetween_m;
   opendrive::RoadText between = Road("between", {{15.0, 0.0, 0.0, kBetween_m, 0.0}}, From("1") + To("2"));
@@ -283,7 +284,7 @@ TEST(Circle, AVehicleWithoutRoomGoesOnlyWhereItsLeadersGo) {
   const Streets::Queue leaves = at.Fill(eastward, at.Track("on"), at.Track("on"), at.LineOf(eastward, at.Track("on")),
                                         at.Length(leads.first) + kStand_m + 0.3);
   ASSERT_LT(leaves.rear_m, at.Length(waits) + 2.0);
-  // The bus that turns in: its rear in what those who leave cross, from its own street's beginning.
+  // The bus that turns in: its rear in what those that leave cross, from its own street's beginning.
   const std::uint32_t bus = at.Next(VehicleKind::kBus);
   double out = 0.0;
   for (const lanes::ZoneSide& part : at.model->zones().ConflictsOf(turns))
@@ -327,7 +328,7 @@ std::string Crossed(const std::vector<opendrive::RoadText>& east, const std::vec
   return Text(roads, ways);
 }
 
-// One comes from the north, and gets away: nobody comes to stand in his way. `stays` is still on his way then.
+// One comes from the north, and gets away: no vehicle comes to stand in its way. `stays` is still on its way then.
 void PassesAcross(Streets& at, std::uint64_t next_grant, std::uint32_t stays) {
   constexpr double kFor_s = 90.0;
   const std::uint32_t across = at.Next(VehicleKind::kCar), away = at.Track("away"),
@@ -344,16 +345,16 @@ void PassesAcross(Streets& at, std::uint64_t next_grant, std::uint32_t stays) {
   EXPECT_EQ(at.On(stays), stood);
 }
 
-// Two of whom the first one follows a bus that merges in before him: the room that the bus takes up is not there for
-// the second one, although the bus is not on their way yet when he asks.
+// Two of which the first one follows a bus that merges in before it: the room that the bus takes up is not there for
+// the second one, although the bus is not on their way yet when it asks.
 TEST(Circle, AVehicleThatMergesBeforeTheLeaderTakesItsRoom) {
   constexpr double kStreet_m = 80.0, kRoom_m = 24.0;
   Streets at(
       Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1")),
                Road("before", {{-1.0, 115.0, -0.5 * kPi, 100.0, 0.0}}, To("1")),
                Road("aside", {{-1.0, -15.0, -0.5 * kPi, 100.0, 0.0}}, From("1"))},
-              {{"1", "early", "before", "aside", {-1.0, 15.0, -0.5 * kPi, 30.0, 0.0}}}));  // who comes from the west
-                                                                                           // waits before that way
+              {{"1", "early", "before", "aside", {-1.0, 15.0, -0.5 * kPi, 30.0, 0.0}}}));  // one that comes from the
+                                                                                           // west waits before that way
   const std::uint32_t west = at.Track("west"), south = at.Track("south"), straight = at.Track("straight");
   const std::uint32_t stands = at.Next(VehicleKind::kCar);
   at.PutForGood(stands, at.Track("east"), kRoom_m + at.Length(stands));
@@ -368,7 +369,7 @@ TEST(Circle, AVehicleThatMergesBeforeTheLeaderTakesItsRoom) {
   PassesAcross(at, 1, second);
 }
 
-// Who has been let in behind somebody who stands in his way, with nowhere to go, is not counted on to go.
+// One that has been let in behind a vehicle that stands in its way, with nowhere to go, is not counted on to go.
 TEST(Circle, AVehicleThatIsHeldInItsZonesIsNotCountedOn) {
   constexpr double kStreet_m = 5.0, kEast_m = 15.0 + kStreet_m, kUp_m = kEast_m + 4.0;
   Streets at(Crossed({Road("east", {{15.0, 0.0, 0.0, kStreet_m, 0.0}}, From("1") + To("2")),
@@ -380,7 +381,7 @@ TEST(Circle, AVehicleThatIsHeldInItsZonesIsNotCountedOn) {
   const std::uint32_t east = at.Track("east"), west = at.Track("west"), below = at.Track("below"), on = at.Track("on"),
                       up = at.Track("up");
   const std::uint32_t in_the_way = at.Next(VehicleKind::kCar);
-  const double rear = 12.0;  // from where the way up begins, in the way of who goes on
+  const double rear = 12.0;  // from where the way up begins, in the way of one that goes on
   at.Put(in_the_way, below, at.LengthOf(below) + rear + at.Length(in_the_way), up);
   at.Let(in_the_way, below, up, 1);
   const std::uint32_t stands = at.Next(VehicleKind::kCar);

@@ -66,7 +66,7 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
       }).value();
   town.driven_m = {until_m[0], until_m[1] - until_m[0], until_m[2] - until_m[1]};
   for (const std::string& incident : town.result.incidents) town.told += "\n  " + incident;
-  // Who comes to rest within a step goes v²/(2 a), up to a dt²/8 less than the mean of both speeds says.
+  // One that comes to rest within a step goes v²/(2 a), up to a dt²/8 less than the mean of both speeds says.
   EXPECT_LT(town.result.worst_step_m, 1e-3 + town.result.hardest_mps2 * settings.step_s * settings.step_s / 8.0)
       << town.told;
   EXPECT_EQ(town.result.collisions, 0) << town.told;
@@ -82,10 +82,10 @@ Town Drive(int count, double vehicles_pkm, std::uint64_t seed, double for_s) {
   return town;
 }
 
-// 45 vehicles a kilometre: nobody stands longer than 300 s while there is room at the exit, nobody touches anybody or
-// brakes in an emergency, nobody is lost (Drive). So full the flow may fall to a tenth where streets fill one another
-// up in a circle; nothing is asked of it here (docs/explanation/traffic.md). RODEIRA_CLOSED_GRID: crossings each way
-// (3; tests/run
+// 45 vehicles a kilometre: no vehicle stands longer than 300 s while there is room at the exit, no vehicle touches
+// another or brakes in an emergency, no vehicle is lost (Drive). So full the flow may fall to a tenth where streets
+// fill one another up in a circle; nothing is asked of it here (docs/explanation/traffic.md). RODEIRA_CLOSED_GRID:
+// crossings each way (3; tests/run
 // --endurance takes 10), RODEIRA_CLOSED_GRID_SEED (1).
 TEST(ClosedGrid, AsFullAsItMayBeNoVehicleIsStuck) {
   const Town town = Drive(static_cast<int>(Count("RODEIRA_CLOSED_GRID", 3)), 45.0, Count("RODEIRA_CLOSED_GRID_SEED", 1),
@@ -105,7 +105,7 @@ TEST(ClosedGrid, LessFullItGoesOn) {
   }
 }
 
-// The picture of docs/explanation/traffic.md: how fast everybody goes in the mean, minute by minute, the fuller the
+// The picture of docs/explanation/traffic.md: how fast every vehicle goes in the mean, minute by minute, the fuller the
 // slower.
 TEST(ClosedGrid, TheFullerTheSlower) {
   const std::array<std::pair<double, const char*>, 4> towns = {

@@ -79,7 +79,7 @@ inline std::string PlotSvg(const std::string& title, const std::string& across, 
   return svg + "</svg>\n";
 }
 
-// Into the folder that RODEIRA_PICTURES names, where somebody wants pictures; whether that went well.
+// Into the folder that RODEIRA_PICTURES names, where pictures are wanted; whether that went well.
 inline bool WritePicture(const std::string& name, const std::string& svg) {
   const char* folder = std::getenv("RODEIRA_PICTURES");
   return folder == nullptr || base::WriteWhole(std::filesystem::path(folder) / name, svg).ok();

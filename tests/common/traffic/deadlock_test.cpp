@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Three at a crossing of whom each keeps the next one out: who turns right waits for room at his exit, another one
-// wants to go straight on behind him, and a third one comes across to the same exit.
+// Three at a crossing of which each keeps the next one out: one that turns right waits for room at its exit, another
+// one wants to go straight on behind it, and a third one comes across to the same exit.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct Way {
 
 class Deadlock : public testing::Test {
  protected:
-  static constexpr std::uint32_t kCars = 40;  // of whom four are on the road
+  static constexpr std::uint32_t kCars = 40;  // of which four are on the road
 
   Deadlock() {
     settings_.vehicles = kCars;
@@ -72,7 +72,7 @@ class Deadlock : public testing::Test {
     ADD_FAILURE() << "no zone";
     return 0.0;
   }
-  // Where who turns right stands at his line, in his way within the crossing.
+  // Where one that turns right stands at its line, in its way within the crossing.
   double RightLine() const { return FirstZone(right_.track) - kLine_m; }
 
   std::uint32_t TripFor(std::uint32_t id, const Way& way) const {
@@ -84,7 +84,7 @@ class Deadlock : public testing::Test {
     }
   }
 
-  // With his front so far on a track; beyond a street's end on the way that he takes there.
+  // With its front so far on a track; beyond a street's end on the way that it takes there.
   void Put(std::uint32_t id, std::uint32_t track, double front_m, double speed_mps = 0.0, const Way* way = nullptr) {
     Agent& agent = agents_[id];
     agent.on_road = true;
@@ -97,7 +97,7 @@ class Deadlock : public testing::Test {
     if (front_m > end) agent.path.push_back({way->track, end, end, 0.0, 0.0, 1.0}), agent.links = 1;
   }
 
-  // One whose rear, when he stands a centimetre before his line, is clear of who goes straight on but for less than a
+  // One with a rear that, a centimetre before its line, is clear of one that goes straight on but for less than a
   // centimetre.
   std::optional<std::uint32_t> NearlyClear() const {
     const double clear = ZoneOf(right_.track, straight_.track, lanes::ZoneKind::kDiverge, false);
@@ -120,8 +120,8 @@ class Deadlock : public testing::Test {
     return first;
   }
 
-  // Each of them comes to a street beyond the crossing within a minute after who blocks the exit drives on, and nobody
-  // touches anybody.
+  // Each of them comes to a street beyond the crossing within a minute after the one that blocks the exit drives on,
+  // and none touches another.
   void AllGoOn(const std::vector<std::uint32_t>& cars, std::uint32_t blocks, double blocks_until_s) {
     std::set<std::uint32_t> through;
     for (int i = 1; i * kStep_s < blocks_until_s + 60.0; ++i) {
@@ -152,8 +152,8 @@ class Deadlock : public testing::Test {
   std::optional<std::uint32_t> nearly_clear_;
 };
 
-// Nobody is let in behind who stands at a line with his rear in the way, be it by a centimetre that he would still have
-// to his line.
+// No car gets a reservation behind one at a line with its rear in the way, be it by a centimetre that it would still
+// have to its line.
 TEST_F(Deadlock, NoVehicleIsAdmittedBehindOneThatBlocksItByACentimetre) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_;
@@ -193,8 +193,8 @@ TEST_F(Deadlock, ThreeThatWaitForRoomAllGoOn) {
   }
 }
 
-// Who is behind has been let in although he cannot go, and the third one after him, who waits for him: the chain is
-// closed, and he gives back what he has not come into.
+// One that is behind has been let in although it cannot go, and the third one after it, which waits for it: the chain
+// is closed, and it gives back what it has not come into.
 TEST_F(Deadlock, AReservationThatCannotBeUsedIsRevokedWhereTheCycleCloses) {
   ASSERT_TRUE(nearly_clear_);
   const std::uint32_t right = *nearly_clear_, behind = (right + 1) % kCars, across = (right + 2) % kCars;

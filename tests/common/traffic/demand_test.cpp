@@ -44,7 +44,7 @@ std::string RoadOf(const TrafficModel& model, const AgentPose& pose) {
   return model.graph().network().roads()[static_cast<std::size_t>(pose.road)].id();
 }
 
-// At every step all who were given a vehicle wait, drive, or have ended; who has arrived and was given none finds none
+// At every step all that were given a vehicle wait, drive, or have ended; an arrival without one finds none
 // free.
 TEST(Demand, VehiclesAreConserved) {
   const TrafficSettings settings = Settings(
@@ -70,7 +70,8 @@ TEST(Demand, VehiclesAreConserved) {
   EXPECT_GT(busy.size(), 10u);
 }
 
-// Who enters a free road enters when he arrives, and enough of them: Poisson's number of them within four deviations.
+// One that enters a free road enters when it arrives, and enough of them: Poisson's number of them within four
+// deviations.
 TEST(Demand, ComesAsTheFlowSays) {
   TrafficModel model =
       TrafficModel::Make(Settings("flows:\n  - {lane: \"1:-1\", vehicles_per_h: 400}\n"), lanes::MapNetwork("ramp"), {})
@@ -82,7 +83,7 @@ TEST(Demand, ComesAsTheFlowSays) {
   EXPECT_GT(model.ended(), 150u);
 }
 
-// Everybody of a flow with a route is last seen on the route's last road, and has passed the one between.
+// Every vehicle of a flow with a route is last seen on the route's last road, and has passed the one between.
 TEST(Demand, RoutesAreDriven) {
   const auto network = lanes::MapNetwork("town");
   const lanes::Graph graph(*network);
@@ -157,7 +158,7 @@ TEST(Demand, TurnsHaveTheirShares) {
 }
 
 // Both lanes full of drivers of whom half want over to the other lane before it parts: nearly all get there, who does
-// not is counted, and nobody touches anybody.
+// not is counted, and no vehicle touches another.
 TEST(Demand, LanesAreChangedForARoute) {
   const auto network = Exit(900.0);
   StudySettings study;
@@ -211,7 +212,7 @@ TEST(Demand, TheMixIsWhatItSays) {
   }
 }
 
-// Lorries and buses turn through crossings and a roundabout among cars without touching anybody or making anybody brake
+// Lorries and buses turn through crossings and a roundabout among cars without touching another or making another brake
 // hard.
 TEST(Demand, LongVehiclesDriveTheMaps) {
   for (const std::string map : {"crossing", "roundabout", "town", "ramp", "overpass"}) {
@@ -269,7 +270,7 @@ TEST(Demand, WhatIsWrongIsSaid) {
   EXPECT_NE(RefusedBy("ramp", "turns:\n  - {lane: \"1:-1\", shares: {\"1\": 1}}\n" + flow("1:-1"))
                 .find("does not go on into '1'"),
             std::string::npos);
-  // Where traffic enters nobody comes from elsewhere.
+  // Where traffic enters none comes from elsewhere.
   const auto network = lanes::MapNetwork("town");
   const lanes::Graph graph(*network);
   std::vector<std::string> starts;
@@ -318,8 +319,8 @@ TEST(Demand, WhatIsWrongIsSaid) {
 }
 
 // A car a second wants to come onto a lane. By MOTORS' rule each is let in in the first step in which the first five
-// metres, or its own length and 0.4 m, are free of everybody's rear, told from the poses; otherwise later, when it need
-// not brake.
+// metres, or its own length and 0.4 m, are free of every vehicle's rear, told from the poses; otherwise later, when it
+// need not brake.
 TEST(Demand, BySourcesRuleAWaitingVehicleEntersWhereFiveMetresAreFree) {
   opendrive::RoadText road;
   road.length = 800.0;
@@ -333,13 +334,13 @@ TEST(Demand, BySourcesRuleAWaitingVehicleEntersWhereFiveMetresAreFree) {
       "vehicles: 300\nmix: {car: 2, van: 1, lorry: 1}\nflows:\n  - {lane: \"1:-1\", vehicles_per_h: 3600, arrivals: "
       "even}\n";
   std::map<std::string, int> entered;
-  std::map<std::string, double> closest_m;  // to who is ahead, when somebody enters
+  std::map<std::string, double> closest_m;  // to the leader, when a vehicle enters
   for (const auto& [rule, free_m] : {std::pair{"safe", 0.0}, {"free", 5.0}, {"free, free_m: 9", 9.0}}) {
     TrafficModel model = TrafficModel::Make(Settings(flows + "entering: {rule: " + rule + "}\n"), network, {}).value();
     std::set<std::uint32_t> before;
     int refused = 0;
     for (int i = 0; i < 4000; ++i) {
-      // Who waits longest: of all that have come the one with the least number.
+      // The longest waiting: of all that have come the one with the least number.
       std::optional<std::uint32_t> first;
       for (std::uint32_t id = 0; id < model.vehicles(); ++id) {
         const Agent& agent = model.agent(id);

@@ -11,11 +11,11 @@
 
 namespace rodeira::traffic {
 
-// How long anybody stands before a crossing, first at its line, while there is room at the exit that he takes: told by
-// the published poses and the lanes alone, apart from what drivers take for room. Streets are the tracks that are not
-// short; an exit is the next street on a way; there is room on it while no rectangle lies on its first metres, as many
-// as the car needs to stand there clear of who else comes into it. Which exit he takes is what he does later; of who
-// still stands in the end any counts.
+// How long any vehicle stands before a crossing, first at its line, while there is room at the exit that it takes: told
+// by the published poses and the lanes alone, apart from what drivers take for room. Streets are the tracks that are
+// not short; an exit is the next street on a way; there is room on it while no rectangle lies on its first metres, as
+// many as the car needs to stand there clear of others that come into it. Which exit it takes is what it does later; of
+// one that still stands in the end any counts.
 class ExitRoom {
  public:
   ExitRoom(const lanes::Graph& graph, std::size_t vehicles, double look_s)
@@ -73,9 +73,9 @@ class ExitRoom {
 
  private:
   static constexpr double kStreet_m = 50.0, kAtRest_mps = 0.05, kEvery_m = 0.5;
-  static constexpr double kShared_m = 3.0,
-                          kGap_m =
-                              2.5;  // ways into a street are one from so far on; before and behind who stands there
+  static constexpr double
+      kShared_m = 3.0,
+      kGap_m = 2.5;  // ways into a street are one from so far on; before and behind the one that stands there
 
   struct Car {
     std::uint32_t street = 0xFFFFFFFF;

@@ -22,7 +22,7 @@ std::size_t Warnings(const opendrive::Import& import, const std::string& rule) {
 }
 
 // Of four arms, numbered in their order around the crossing, neighbours cross one another's ways; opposite ones do not
-// (who turns left yields).
+// (one that turns left yields).
 bool AreNeighbours(int a, int b) { return (a - b) % 2 != 0; }
 
 bool Goes(network::LightColour colour) {
@@ -135,7 +135,7 @@ TEST(FileLights, StayDarkWhereTheirOwnWaysCross) {
   }
 }
 
-// A controller with times of the file's is not crossed by one whose times are made up.
+// A controller with times of the file's is not crossed by one with times that are made up.
 TEST(FileLights, TimesOfTheFileAreKept) {
   LitCrossing crossing;
   crossing.times = "60 5 25 3 1";

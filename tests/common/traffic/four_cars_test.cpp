@@ -72,7 +72,7 @@ class FourCars : public testing::Test {
     }
   }
 
-  // Everybody at the limit, 80 m and `later_s` before the crossing; those whose `there` is false are not there at all.
+  // Every vehicle at the limit, 80 m and `later_s` before the crossing; those without `there` are not there at all.
   Outcome Run(const Meeting& meeting, const std::array<bool, 4>& there, double step_s) {
     std::array<Agent, 4> agents;
     for (std::uint32_t id = 0; id < 4; ++id) {
@@ -164,8 +164,8 @@ double MeanDelay(const std::vector<Course>& courses) {
 
 // All pass, gently, and what it costs does not depend on the step: not in the mean, nor, where they leave in the same
 // order, by more than a step for nineteen of twenty. Nearly all leave in the same order. (SUMO 1.15's last one leaves
-// after 38.5 s with a step of a second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.) Who comes to a line
-// in the same moment as another one may go before him by one step and behind him by another.
+// after 38.5 s with a step of a second, after 61.4 s with one of 0.01 s: shared/facts/traffic.md.) One that comes to a
+// line in the same moment as another one may go before it by one step and behind it by another.
 TEST_F(FourCars, AllPassAndTheStepDoesNotMatter) {
   ASSERT_EQ(arms_.size(), 4u);
   std::mt19937 random(11);

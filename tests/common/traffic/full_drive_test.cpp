@@ -56,7 +56,7 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
       const double jerk_mps3 = std::fabs(pose.acceleration_mps2 - b.acceleration_mps2) / kStep_s;
       const bool same_trip = b.trip == pose.trip && i > 0;
       b.acceleration_mps2 = pose.acceleration_mps2, b.trip = pose.trip;
-      if (pose.speed_mps < 0.5) continue;  // who stands has his foot on the brake
+      if (pose.speed_mps < 0.5) continue;  // one that stands has its foot on the brake
       if (same_trip) (b.since_s < kTakesHold_s ? shifting_mps3 : jerks_mps3).push_back(jerk_mps3);
       const dynamics::BicycleSettings& car = CarOfBody(model.traits(pose.id).body);
       foot_mps2 = std::max(foot_mps2, driving.brake * FullBrake_N(car) / car.body.mass_kg);
@@ -82,7 +82,7 @@ TEST(FullDrive, BrakesHardOnlyWhileAGearTakesHold) {
   RecordProperty("hard_steps", std::to_string(hard));
 }
 
-// Whoever crosses a light's line does so at green or amber.
+// A vehicle that crosses a light's line does so at green or amber.
 TEST(FullDrive, NoVehiclePassesAtRed) {
   TrafficModel model = TrafficModel::Make(Full(30), lanes::MapNetwork("lights"), {}).value();
   std::vector<std::optional<double>> gaps(model.vehicles());
@@ -110,7 +110,7 @@ TEST(FullDrive, NoVehiclePassesAtRed) {
   EXPECT_GT(passed, 10);
 }
 
-// Cars, vans, lorries and buses on two lanes of a direction pass one another, touch nobody and keep to the road.
+// Cars, vans, lorries and buses on two lanes of a direction pass one another, touch no other and keep to the road.
 TEST(FullDrive, LanesAreChangedOnTheMotorway) {
   const auto world = road::World::Load(std::filesystem::path(SourceDir()) / "configs/worlds/motorway.yaml");
   ASSERT_TRUE(world.ok()) << world.error().Text();
@@ -133,8 +133,8 @@ TEST(FullDrive, LanesAreChangedOnTheMotorway) {
   EXPECT_GT(changes, 5);
 }
 
-// A crawling car is passed on the lane of oncoming traffic; who comes is two seconds away at least, and nobody is
-// touched.
+// A crawling car is passed on the lane of oncoming traffic; one that comes is two seconds away at least, and no vehicle
+// is touched.
 TEST(FullDrive, SlowOnesAreOvertaken) {
   TrafficSettings settings = Full(12);
   settings.speed_factor_low = 0.9;
@@ -193,8 +193,8 @@ TEST(FullDrive, DrivesARealTown) {
   DriveAFile("carla_Town04", BriefOrLong(brief, long_form));
 }
 
-// Lorries and buses among them, which cannot pass one another in its bends: nobody stands in the way of somebody who
-// stands in his. (Two did from 30 s on.)
+// Lorries and buses among them, which cannot pass one another in its bends: no vehicle stands in the way of a vehicle
+// that stands in its. (Two did from 30 s on.)
 TEST(FullDrive, LongBodiesGoOnInARealTown) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
@@ -214,10 +214,10 @@ TEST(FullDrive, LongBodiesGoOnInARealTown) {
   EXPECT_LT(r.longest_with_room_s, BriefOrLong(40.0, 75.0)) << what;
 }
 
-// Somebody who has waited long for room at a merge keeps it, and who is kept out for that counts as waiting for him, so
-// that a chain of them that closes is opened: here the room was missing since those who stood there waited, one for
-// another, for the one who was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1 s
-// since). That begins after 256 s, in the long form; Circle.AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt asks for
+// A vehicle that has waited long for room at a merge keeps it, and one that is kept out for that counts as waiting for
+// it, so that a chain of them that closes is opened: here the room was missing since those that stood there waited, one
+// for another, for the one that was kept out (123.6 s to the end of this drive, and 643 s of a quarter of an hour; 76.1
+// s since). That begins after 256 s, in the long form; Circle.AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt asks for
 // the same of four cars.
 TEST(FullDrive, AVehicleKeptOutForOneThatWaitsForRoomWaitsForIt) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";

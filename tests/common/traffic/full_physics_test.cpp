@@ -122,7 +122,7 @@ TEST(FullPhysics, KeepsTheEquilibriumGapWithin5Centimetres) {
     ASSERT_EQ(model.on_road(), 10u);
     model.CapSpeed(0, speed_mps);  // the leader of the nine others
     for (int i = 0; i < (speed_mps > 10.0 ? BriefOrLong(30000, 50000) : BriefOrLong(10000, 15000)); ++i)
-      model.Step(kStep_s, {});  // near the limit who is behind comes up slowly
+      model.Step(kStep_s, {});  // near the limit the follower comes up slowly
     int compared = 0;
     for (std::uint32_t id = 1; id < 10; ++id) {
       if (model.GapAhead(id) > 40.0) continue;
@@ -295,10 +295,10 @@ TEST(FullPhysics, DrivesTheProjectsMaps) {
   }
 }
 
-// Lorries and buses among cars touch nobody, keep to their lanes with their middle, and drive in no emergency. Bends of
-// these maps are too tight for them: a lane of 3.25 m that bends by 10 m has room for the wheels of a car, not of a
-// bus, whose front and rear axles' tracks lie 1.5 m apart there. So their wheels leave a lane, by 0.75 m at most (0.67
-// measured, behind a roundabout's opposite bends), and only there; nobody else's do.
+// Lorries and buses among cars touch no other, keep to their lanes with their middle, and drive in no emergency. Bends
+// of these maps are too tight for them: a lane of 3.25 m that bends by 10 m has room for the wheels of a car, not of a
+// bus, with tracks of its front and rear axles 1.5 m apart there. So their wheels leave a lane, by 0.75 m at most (0.67
+// measured, behind a roundabout's opposite bends), and only there; no other's do.
 TEST(FullPhysics, LongBodiesDriveTheProjectsMaps) {
   for (const std::string& map : lanes::MapNames()) {
     const auto network = lanes::MapNetwork(map);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Somebody gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit
-// him.
+// A vehicle gets in an agent's way: where half a second of reaction and braking at mu g suffice, the agent does not hit
+// it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ std::shared_ptr<const network::Network> Straight() {
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
-// How somebody comes in: from beside into the lane and perhaps braking, across it, against it, or there all at once.
+// How a vehicle comes in: from beside into the lane and perhaps braking, across it, against it, or there all at once.
 struct Intruder {
   enum Kind { kCutsIn, kCrosses, kAgainst, kAppears };
   int kind;
@@ -88,8 +88,8 @@ driver::Footprint CarAt(double x_m, double speed_mps, const AgentTraits& traits)
   return {0, x_m, kLane_y, 0.0, speed_mps, traits.length_m, traits.width_m};
 }
 
-// Whether who keeps his speed for the reaction's time, from when it is in the way, and then brakes as hard as he can,
-// gets by without driving into it. What drives into a car at rest is not that one's doing.
+// Whether one that keeps its speed for the reaction's time, from when it is in the way, and then brakes as hard as it
+// can, gets by without driving into it. What drives into a car at rest is not that one's doing.
 bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const AgentTraits& traits) {
   double since = -1.0, x = x_m, v = speed_mps;
   for (double t = 0.0; t < kFor_s; t += 0.005) {
@@ -103,7 +103,7 @@ bool Suffices(const Intruder& intruder, double x_m, double speed_mps, const Agen
   return true;
 }
 
-// What became of so many drawn intrusions: whether half a second and 0.8 g sufficed, and whether somebody was driven
+// What became of so many drawn intrusions: whether half a second and 0.8 g sufficed, and whether a vehicle was driven
 // into all the same.
 struct Intruded {
   std::uint64_t sufficed = 0, hopeless = 0;
@@ -221,9 +221,9 @@ std::string Touching(const TrafficModel& model) {
   return told;
 }
 
-// Twenty cars follow one another around a ring, and somebody is there all at once before one of them, in its lane, at
-// rest or braking to it: who comes does not drive into him where half a second and braking at 0.8 g suffice, and none
-// of those behind drives into the one before.
+// Twenty cars follow one another around a ring, and a vehicle is there all at once before one of them, in its lane, at
+// rest or braking to it: one that comes does not drive into it where half a second and braking at 0.8 g suffice, and
+// none of those behind drives into the one before.
 TEST(Intrusion, FollowersDoNotRunIntoOneAnother) {
   constexpr double kLength_m = 700.0;
   const auto network = Ring(kLength_m, 25.0);
@@ -282,9 +282,9 @@ TEST(Intrusion, FollowersDoNotRunIntoOneAnother) {
   EXPECT_GT(hardest, 4.0);
 }
 
-// Somebody stands all at once anywhere on a crossing, whichever way he points, for eight seconds, and is gone again: as
-// long as everybody is so far from him that half a second and braking at 0.8 g suffice on the straight way to him,
-// nobody drives into him, nor anybody into anybody.
+// A vehicle stands all at once anywhere on a crossing, whichever way it points, for eight seconds, and is gone again:
+// as long as every vehicle is so far from it that half a second and braking at 0.8 g suffice on the straight way to it,
+// no vehicle drives into it, nor into another.
 TEST(Intrusion, OnACrossingNoCarIsDrivenInto) {
   TrafficSettings settings;
   settings.vehicles = 22;

@@ -67,7 +67,7 @@ class RingSeen {
 
   struct Verdict {
     std::vector<std::uint32_t> near;
-    bool clean;  // nobody near is on both lanes
+    bool clean;  // none near is on both lanes
     bool safe;
     double surplus_mps2;
   };
@@ -144,7 +144,8 @@ class RingSeen {
   std::vector<Seen> seen_;
 };
 
-// Whoever changes lanes has MOBIL's leave, and whoever has had it for longer than the time between two looks has gone.
+// A vehicle that changes lanes has MOBIL's leave, and a vehicle that has had it for longer than the time between two
+// looks has gone.
 void ChangesAsMobilSays(bool left_hand) {
   const auto network = TwoLaneRing("broken", left_hand);
   int changes = 0, judged = 0, to_keep = 0;
@@ -164,7 +165,7 @@ void ChangesAsMobilSays(bool left_hand) {
       model.Step(0.02, {});
       for (const auto& [id, verdict] : verdicts) {
         const bool began = model.agent(id).change.side != 0;
-        // Who began in the same step was seen by some and not by others.
+        // One that began in the same step was seen by some and not by others.
         const bool clean =
             verdict.clean && std::none_of(verdict.near.begin(), verdict.near.end(),
                                           [&](std::uint32_t n) { return model.agent(n).change.side != 0; });
@@ -191,7 +192,7 @@ void ChangesAsMobilSays(bool left_hand) {
 TEST(LaneChange, EachChangeIsWhatMobilSays) { ChangesAsMobilSays(false); }
 TEST(LaneChange, MirroredInLeftHandTraffic) { ChangesAsMobilSays(true); }
 
-// Alone on the road everybody comes to the lane to keep to, and stays there.
+// Alone on the road every vehicle comes to the lane to keep to, and stays there.
 TEST(LaneChange, AFreeRoadIsDrivenOnItsOuterLane) {
   for (const bool left_hand : {false, true}) {
     TrafficModel model = TrafficModel::Make(Drivers(6), TwoLaneRing("broken", left_hand), {}).value();
@@ -205,7 +206,7 @@ TEST(LaneChange, AFreeRoadIsDrivenOnItsOuterLane) {
   }
 }
 
-// A lorry's pace before them: everybody else passes it, on the side for it, and nobody touches anybody.
+// A lorry's pace before them: every other vehicle passes it, on the side for it, and no vehicle touches another.
 TEST(LaneChange, ASlowOneIsPassedByAll) {
   TrafficSettings settings = Drivers(12);
   settings.speed_factor_low = 0.9;
@@ -324,10 +325,10 @@ std::shared_ptr<const network::Network> TwoRoads() {
   return opendrive::MustRead(opendrive::Document(one.Text() + other.Text()));
 }
 
-// Who has gone over sees nobody on the lane that he has left, though his rear is not quite there yet, where his front
-// comes onto another road as well: one who crawls there, and appears when he is clear of that lane, is nothing to him.
-// Until now the front's piece of path there began without an offset, and he seemed to be at the beginning of his change
-// again.
+// One that has gone over sees no vehicle on the lane that it has left, though its rear is not quite there yet, where
+// its front comes onto another road as well: one that crawls there, and appears when it is clear of that lane, is
+// nothing to it. Until now the front's piece of path there began without an offset, and it seemed to be at the
+// beginning of its change again.
 TEST(LaneChange, AfterALaneChangeTheOldLaneIsClearOnTheNextRoadToo) {
   constexpr double kSpeed_mps = 15.0, kAhead_m = 30.0;
   int came_onto_it = 0;
@@ -359,9 +360,9 @@ TEST(LaneChange, AfterALaneChangeTheOldLaneIsClearOnTheNextRoadToo) {
   EXPECT_GT(came_onto_it, 10);
 }
 
-// Who leaves a lane on which somebody stands brakes for that one until he is clear of him, though somebody nearer
-// drives away before him on the new lane: nobody comes into an emergency. Until now the nearer one of both alone was
-// seen, and who stood when he had become the nearer one.
+// One that leaves a lane on which a vehicle stands brakes for that one until it is clear of it, though a vehicle nearer
+// drives away before it on the new lane: no vehicle comes into an emergency. Until now the nearer one of both alone was
+// seen, and one that stood when it had become the nearer one.
 TEST(LaneChange, AStandingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheNewOne) {
   constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0;
   int hidden = 0;
@@ -388,7 +389,7 @@ TEST(LaneChange, AStandingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheN
       EXPECT_EQ(model.agent(0).change.side, 0) << stands_m << " " << away_m;
     }
   }
-  EXPECT_GT(hidden, 10);  // who lets it drive on less is farther away
+  EXPECT_GT(hidden, 10);  // the one that lets it drive on less is farther away
 }
 
 TEST(LaneChange, RestoredInTheMiddleOfAChangeItGoesOnWithTheSameBits) {

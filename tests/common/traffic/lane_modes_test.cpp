@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a traffic map lets vehicles begin and end (modes of lanes), and who begins among others.
+// Where a traffic map lets vehicles begin and end (modes of lanes), and how one begins among others.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,7 +38,8 @@ NetworkPointer NetworkWith(const std::string& name, const std::map<std::int32_t,
   return traffic_map::ToNetwork(MapWith(name, modes), name).value();
 }
 
-// On which roads trips began and were last seen, how many of each; whoever is on the road at first has begun before.
+// On which roads trips began and were last seen, how many of each; a vehicle that is on the road at first has begun
+// before.
 struct Trips {
   std::map<std::string, int> began, ended;
   std::int64_t collisions = 0;
@@ -122,7 +123,7 @@ TEST(LaneModes, VehiclesAreGoneAtTheEndOfAnEndLaneThatGoesOn) {
   EXPECT_EQ(ends, (std::set<std::string>{"2", "4", "6", "8", "9"}));
 }
 
-// Vehicles that begin and end on a ring, among those who drive round it.
+// Vehicles that begin and end on a ring, among those that drive round it.
 TEST(LaneModes, HoldOnARing) {
   std::map<std::int32_t, LaneMode> modes{{10, LaneMode::kStart}, {13, LaneMode::kEnd}, {16, LaneMode::kStart}};
   for (const std::uint64_t seed : {1u, 2u}) {
@@ -179,8 +180,8 @@ TEST(LaneModes, GoWithAConvertedMap) {
 }
 
 // A flow into the middle of a crossing, and others that come to it: from the arm from which its lane leads on, and from
-// those that cross its way within its first metres. Who begins there waits until nobody comes and its zones are its
-// own.
+// those that cross its way within its first metres. One that begins there waits until no vehicle comes and its zones
+// are its own.
 TEST(LaneModes, AVehicleThatBeginsWithinACrossingBlocksNoOther) {
   const auto flow = [](const std::string& lane, int per_h) {
     return "{lane: \"" + lane + ":-1\", vehicles_per_h: " + std::to_string(per_h) + "}";

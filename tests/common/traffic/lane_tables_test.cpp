@@ -134,7 +134,7 @@ std::vector<Eigen::Vector2d> PointsOf(const pugi::xml_node& line) {
 }
 
 // Every cell of the map lies where its lane does, north up, and has the colour of the legend that its mean speed over
-// its limit asks for; grey where nobody was.
+// its limit asks for; grey where no vehicle was.
 TEST_F(Written, TheMapHasTheColoursOfItsLegend) {
   pugi::xml_document document;
   ASSERT_TRUE(document.load_string(SpeedMap(model_.graph(), statistics_, "a").c_str()));

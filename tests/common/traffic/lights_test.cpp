@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Traffic at lights: who stops and who goes on at amber, nobody at red, and what a green lets pass.
+// Traffic at lights: which cars stop and which go on at amber, none at red, and what a green lets pass.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -57,8 +57,8 @@ std::optional<Line> LineAhead(const TrafficModel& model, const AgentPose& pose) 
 }
 
 // At the instant at which a light turns amber every car that comes to it is looked at: the motion apart says whether it
-// could stop (Gazis, Herman, Maradudin 1960), but for a decimetre. Whoever crosses a line is one that could not, or
-// does it at green.
+// could stop (Gazis, Herman, Maradudin 1960), but for a decimetre. A vehicle that crosses a line is one that could not,
+// or does it at green.
 TEST(Lights, AtAmberACarStopsIfItCanAndNonePassesAtRed) {
   TrafficSettings settings;
   settings.vehicles = 60;
@@ -120,8 +120,8 @@ struct Car {
 };
 
 // A queue that starts at green, by the IDM integrated here with accelerations that change by 3 m/s³ at most: how many
-// pass if it is green for `green_s` and whoever cannot stop at the line then goes on. `passes`: when each front passes
-// were it green for ever; `last_mps`: how fast the last one that passes is when green ends.
+// pass if it is green for `green_s` and a vehicle that cannot stop at the line then goes on. `passes`: when each front
+// passes were it green for ever; `last_mps`: how fast the last one that passes is when green ends.
 int PassedBy(std::vector<Car> queue, const driver::IdmSettings& idm, double desired_mps, double green_s,
              std::vector<double>& passes, double& last_mps) {
   constexpr double kStep_s = 0.002;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lanes of a traffic map that share a border: they are neighbours, and what is painted there decides who may change
-// over or overtake.
+// Lanes of a traffic map that share a border: they are neighbours, and what is painted there decides which way a change
+// is allowed over or overtake.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ traffic_map::LaneMap TwoLanes(bool two_way, BorderType of_south, BorderType of_n
     for (int k = 0; k < 3; ++k)
       text += Straight(3 * piece + k + 1, piece * kLength_m, 3.6 * (1 - k));  // from north to south
   }
-  // In left-hand traffic who drives to the west is on the south side.
+  // In left-hand traffic one that drives to the west is on the south side.
   const bool south_west = two_way && left_hand, north_west = two_way && !left_hand;
   const auto lane = [&](int id, int north, int south, BorderType of_north_side, BorderType of_south_side, bool west,
                         bool begins) {
@@ -194,7 +194,7 @@ TEST(MapNeighbours, TrafficChangesOverWhereItMay) {
             dashed.digest);
 }
 
-// Times that somebody has come over to the side of those who come, where a third crawls; and overlaps of two.
+// Times that a vehicle has come over to the side of those that come, where a third crawls; and overlaps of two.
 std::pair<int, int> OvertakesOn(const NetworkPointer& network) {
   TrafficSettings settings;
   settings.vehicles = 12, settings.seed = 3;

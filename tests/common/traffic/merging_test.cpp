@@ -54,9 +54,9 @@ void TwoQueuesZip(const std::shared_ptr<const network::Network>& network, const 
                                 std::to_string(3600.0 * static_cast<double>(passed.size()) / (kFor_s - kWarm_s)));
 }
 
-// Somebody comes on each of two ways whose last decimetres are lane sections of their own, at all times apart: who is
-// let in behind the other stops at the line or follows him, whichever is the less braking, when the other one's front
-// is on these sections as well. While they were told as ways that part he followed from then on, and braked in an
+// A vehicle comes on each of two ways with last decimetres that are lane sections of their own, at all times apart: one
+// that is let in behind the other stops at the line or follows it, whichever is the less braking, when the other one's
+// front is on these sections as well. While they were told as ways that part it followed from then on, and braked in an
 // emergency. Returns how often one came in behind the other.
 int ComeTogetherCalmly(double straight_mps, double cut_m) {
   constexpr double kBend_mps = 4.0, kFrom_m = 220.0, kFor_s = 45.0;

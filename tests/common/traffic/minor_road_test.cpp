@@ -17,8 +17,8 @@
 namespace rodeira::traffic {
 namespace {
 
-// A minor road across a major one, whose cars are given from outside at chosen times. The minor road's cars queue; how
-// many of them cross is counted.
+// A minor road across a major one, with cars that are given from outside at chosen times. The minor road's cars queue;
+// how many of them cross is counted.
 class Crossroads {
  public:
   static constexpr double kMajor_mps = 50.0 / 3.6, kHalf_m = 300.0, kStep_s = 0.05;

@@ -81,7 +81,7 @@ TEST_F(TwoOnARing, LeaderOutOfSightIsNone) {
   EXPECT_FALSE(MakeNeighbours().FindLeader(0).any);
 }
 
-// The follower of a rectangle at 95 m, whose rear is at 93 m, is the vehicle at 40 m.
+// The follower of a rectangle at 95 m, with its rear at 93 m, is the vehicle at 40 m.
 TEST_F(TwoOnARing, FollowerIsTheNextVehicleBehind) {
   SeeBoth(kRing_m);
   const Follower follower = MakeNeighbours().FindFollower(7, 0, 95.0, 93.0);

@@ -116,8 +116,8 @@ TEST(Motion, PlannedDrivingIsSmoothOnTheMaps) {
   }
 }
 
-// Who drives with the throttle open until his engine turns as fast as it may, and would have less pull in the next gear
-// all at once, gives way before: lorries and buses uphill, each from rest to as fast as it comes.
+// One that drives with the throttle open until its engine turns as fast as it may, and would have less pull in the next
+// gear all at once, gives way before: lorries and buses uphill, each from rest to as fast as it comes.
 TEST(Motion, AChangeOfGearWithTheThrottleOpenIsPlannedToo) {
   constexpr double kLong_m = 3000.0;
   for (const double grade : {0.03, 0.05}) {
@@ -195,8 +195,8 @@ TEST(Motion, BendsBeginNoHarderThanTheirPathsSay) {
   }
 }
 
-// A car stands in the lane all at once, so near that it takes more than comfort: who comes hurries, by 15 m/s³ at most,
-// to rest, and does not touch it.
+// A car stands in the lane all at once, so near that it takes more than comfort: one that comes hurries, by 15 m/s³ at
+// most, to rest, and does not touch it.
 TEST(Motion, AnEmergencyGrowsByItsOwnJerk) {
   for (const double step_s : {0.01, 0.05}) {
     TrafficModel model = TrafficModel::Make(Identical(1, 1.4), driver::StraightWorld(1500.0, 20.0), {}).value();

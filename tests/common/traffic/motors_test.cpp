@@ -114,8 +114,8 @@ TrafficSettings AsMotors(std::uint32_t vehicles) {
   return settings;
 }
 
-// Alone on a long straight road, where he begins slower: he comes to 17 m/s and no faster, whatever the lane's limit,
-// within his lane.
+// Alone on a long straight road, where it begins slower: it comes to 17 m/s and no faster, whatever the lane's limit,
+// within its lane.
 TEST(Motors, DrivesAloneToItsLimit) {
   opendrive::RoadText road;
   road.length = 8000.0;
@@ -138,7 +138,7 @@ TEST(Motors, DrivesAloneToItsLimit) {
     ASSERT_NEAR(detail.target_mps, 17.0, 1e-9);
     const Eigen::Vector3d& at_W = model.poses()[0].p_WB_W;
     ASSERT_NEAR(detail.look_ahead_W.x() - at_W.x(), 2.0 * model.poses()[0].speed_mps, 1.0);
-    // The point behind the nearest one of his trajectory, which has one every 0.3 m along the road, as it was before
+    // The point behind the nearest one of its trajectory, which has one every 0.3 m along the road, as it was before
     // the step's way.
     const double ahead_m = detail.target_W.x() - at_W.x() + 0.01 * model.poses()[0].speed_mps;
     ASSERT_TRUE(ahead_m > 0.14 && ahead_m < 0.46) << ahead_m;
@@ -149,7 +149,7 @@ TEST(Motors, DrivesAloneToItsLimit) {
   EXPECT_GT(fastest, 16.5);
   EXPECT_LT(fastest, 17.3);
   EXPECT_GT(published, 1000);
-  EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what he is beside his trajectory
+  EXPECT_LT(aside, 0.15 * 3.5 + 0.3);  // the weight's range, and what it is beside its trajectory
 }
 
 // On the maps: he drives through to the end, and runs into others, whom he does not see; the default driver into nobody
@@ -175,7 +175,7 @@ TEST(Motors, DrivesTheMapsAndItsCollisionsAreCounted) {
   EXPECT_GT(collisions, 0);
 }
 
-// Speed goes on from step to step even where he has lost his car and slides sideways or turns about: by no more than
+// Speed goes on from step to step even where it has lost its car and slides sideways or turns about: by no more than
 // what four tyres take of friction, and as fast as the direction turns along which it is told, heading and steering; it
 // stays at 0 where the car goes backwards.
 TEST(Motors, TheSpeedHasNoStepsInASlide) {
@@ -211,7 +211,7 @@ TEST(Motors, TheSpeedHasNoStepsInASlide) {
       }
     }
   }
-  EXPECT_GT(fastest_aside_mps, 3.0);  // somebody does slide
+  EXPECT_GT(fastest_aside_mps, 3.0);  // a vehicle does slide
   if (std::getenv("RODEIRA_TELL") != nullptr)
     fmt::print("at most {:.2f} m/s aside, {:.1f} m/s2 slower\n", fastest_aside_mps, hardest_mps2);
 }

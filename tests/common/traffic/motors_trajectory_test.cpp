@@ -45,7 +45,7 @@ struct Lap {
   }
 };
 
-// Two laps: where he looks to is the point that lies two seconds of way beyond the one that he comes to, and those two
+// Two laps: where it looks to is the point that lies two seconds of way beyond the one that it comes to, and those two
 // are passed when the next is nearer, or is reached within 10 cm. At the second lap's beginning the first point lies
 // halfway between where it would, and where the first lap's last one was.
 TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
@@ -81,7 +81,7 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
       EXPECT_LE(lap.weight, 0.65);
       continue;
     }
-    // He has passed every point up to the one that he comes to, and not that one.
+    // It has passed every point up to the one that it comes to, and not that one.
     for (std::uint32_t k = checkpoint; k < driver.checkpoint; ++k) {
       const double here = (lap.At(k) - at).norm(), next = (lap.At(k + 1) - at).norm();
       EXPECT_TRUE(next <= here || next < 0.1) << k << " of lap " << laps;
@@ -104,7 +104,7 @@ TEST(MotorsTrajectory, PointsAreThoseOfTheBordersMean) {
   EXPECT_LT(farthest, 0.5) << "he drives along it";
 }
 
-// A.71: a tenth more of throttle below the speed at which the engine would stall, also while he stops; the clutch comes
+// A.71: a tenth more of throttle below the speed at which the engine would stall, also while it stops; the clutch comes
 // down as it falls further.
 TEST(MotorsPedals, AreForAnEngineThatWouldStall) {
   MotorsCar car;
@@ -151,8 +151,8 @@ std::shared_ptr<const network::Network> Crossing(bool left_hand, double above_m,
   return opendrive::MustRead(opendrive::Document(text));
 }
 
-// Both come to the crossing together: the one to the east has the other one on his right. He stops, and that one drives
-// on; in left-hand traffic it is the other way about. Where one drives above the other nobody stops.
+// Both come to the crossing together: the one to the east has the other one on its right. It stops, and that one drives
+// on; in left-hand traffic it is the other way about. Where one drives above the other none stops.
 TEST(MotorsYielding, AVehicleStopsForOneOnItsRight) {
   for (const bool left_hand : {false, true}) {
     for (const double above_m : {0.0, 6.0}) {
@@ -183,12 +183,12 @@ TEST(MotorsYielding, AVehicleStopsForOneOnItsRight) {
   }
 }
 
-// A third one comes from the left of the one who yields, later (in left-hand traffic all is mirrored): he has that one
-// on his right, and stops for him; without him for nobody, since the two on the crossing road see past one another.
-// They pass in this order: who has nobody on his right, who yields to him, the third.
+// A third one comes from the left of the one that yields, later (in left-hand traffic all is mirrored): it has that one
+// on its right, and stops for it; without it for none, since the two on the crossing road see past one another.
+// They pass in this order: the one with none on its right, the one that yields to it, the third.
 TEST(MotorsYielding, AThirdThatComesLaterLetsBothGo) {
   for (const bool left_hand : {false, true}) {
-    for (const bool is_there : {true, false}) {  // the one who yields first
+    for (const bool is_there : {true, false}) {  // the one that yields first
       TrafficModel model = TrafficModel::Make(AsMotors({VehicleKind::kCar, VehicleKind::kCar, VehicleKind::kCar}),
                                               Crossing(left_hand, 0.0, true), {})
                                .value();

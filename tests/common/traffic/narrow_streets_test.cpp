@@ -58,8 +58,8 @@ std::shared_ptr<const network::Network> InARow(const std::vector<Street>& street
   return opendrive::MustRead(opendrive::Document(text));
 }
 
-// Both are taken together: who went in as far as the end of the first one would stand in it before whoever went into
-// the other one from the far side, each in the other's way for ever.
+// Both are taken together: one that went in as far as the end of the first one would stand in it before one that went
+// into the other one from the far side, each in the other's way for ever.
 TEST(NarrowStreets, AreTakenTogether) {
   for (const double length_m : {100.0, 150.0, 250.0}) {
     StudySettings settings;
@@ -89,8 +89,8 @@ TEST(NarrowStreets, AreTakenTogether) {
   }
 }
 
-// Who stands at his line before a street has room ahead as long as nobody stands where he would behind it, however far
-// that is away; whoever comes against him makes no difference.
+// One that stands at its line before a street has room ahead as long as none stands where it would behind it, however
+// far that is away; one that comes against it makes no difference.
 TEST(NarrowStreets, HaveRoomBehindThemWhereNoVehicleStands) {
   constexpr double kStreet_m = 150.0, kFor_s = 40.0;
   for (const bool taken : {true, false}) {  // too narrow beside a bus, though none comes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far it is to who is ahead, who touches whom and whose looks cross: each against a search through all pairs.
+// How far it is to the leader, which vehicles touch and which looks cross: each against a search through all pairs.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ namespace {
 
 constexpr double kStep_s = 0.05, kSame_m = 1e-6, kNobody_m = 1e9, kLookedAt_m = 200.0;
 
-// A track on somebody's way, in his odometer.
+// A track on a vehicle's way, in its odometer.
 struct Part {
   std::uint32_t track = 0;
   double zero_m = 0.0, begin_m = 0.0;
 };
 
-// Somebody at one moment.
+// A vehicle at one moment.
 struct Car {
   std::uint32_t id = 0, trip = 0;
   double o_m = 0.0, half_m = 0.0, speed_mps = 0.0;
@@ -46,13 +46,13 @@ struct Car {
   double rear_m() const { return o_m - half_m; }
 };
 
-// A whole drive: every moment, what was said of it, and each car's way as it turned out to be. Where somebody goes on
+// A whole drive: every moment, what was said of it, and each car's way as it turned out to be. Where a vehicle goes on
 // is so not asked of the model, but read from where it was seen to go later.
 class Drive {
  public:
   struct Moment {
     std::vector<Car> cars;
-    std::map<std::uint32_t, double> said;  // by those who drive on: the gap before them
+    std::map<std::uint32_t, double> said;  // by those that drive on: the gap before them
   };
 
   Drive(TrafficModel& model, int steps) : model_(model), parting_(model.graph().tracks().size()) {
@@ -110,11 +110,11 @@ struct Found {
   std::int64_t id = -1;
 };
 
-// What a search through everybody says of one car. `unsure`: somebody changes lanes near by, or the way is not known so
+// What a full search says of one car. `unsure`: a vehicle changes lanes near by, or the way is not known so
 // far.
 struct Verdict {
   Found ahead;
-  std::vector<double> others_m;  // whom else it could mean: who drives ahead on its way, and who parts from it
+  std::vector<double> others_m;  // what else it could mean: one ahead on its way, and one that parts from it
   double known_m = kNobody_m;    // of its way before its front
   bool unsure = false;
 };
@@ -134,7 +134,7 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
   Verdict verdict;
   std::vector<std::pair<double, Found>> partings;  // with where the lane of the way begins that they part from
   const auto& way = drive.WayOf(me);
-  // A change of lanes later on is not known to who drives now: he looks along his lane, which is its only way on.
+  // A change of lanes later on is not known to one that drives now: it looks along its lane, which is its only way on.
   std::vector<Part> looked;
   for (const Part& part : way) {
     if (!looked.empty() && part.begin_m < drive.EndOf(looked.back()) - kSame_m && part.begin_m > me.front_m()) break;
@@ -147,7 +147,7 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
     looked.push_back({on.to, end - on.from_d_m, end});
   }
   if (!drive.graph()[looked.back().track].next.empty()) verdict.known_m = drive.EndOf(looked.back()) - me.front_m();
-  std::vector<double> changing;  // how far ahead somebody changes lanes on this way or beside it
+  std::vector<double> changing;  // how far ahead a vehicle changes lanes on this way or beside it
   for (std::size_t i = 0; i < looked.size(); ++i) {
     const Part& mine = looked[i];
     const double left = i + 1 < looked.size() ? looked[i + 1].begin_m : drive.EndOf(mine);
@@ -187,7 +187,7 @@ Verdict WhoIsAhead(const Drive& drive, const Drive::Moment& moment, const Car& m
   Found parting;
   verdict.others_m.push_back(verdict.ahead.gap_m);
   for (const auto& [begins_m, found] : partings) verdict.others_m.push_back(found.gap_m);
-  for (const auto& [begins_m, found] : partings) {  // beyond who is ahead nobody is looked for
+  for (const auto& [begins_m, found] : partings) {  // beyond the leader none is looked for
     if (begins_m <= verdict.ahead.gap_m + 10.0 && (parting.id < 0 || lets(found) < lets(parting))) parting = found;
   }
   if (parting.id >= 0 && (verdict.ahead.id < 0 || lets(parting) < lets(verdict.ahead))) verdict.ahead = parting;
@@ -263,8 +263,8 @@ TEST(Neighbours, OnTheMotorwayAreThoseThatAFullSearchFinds) {
   EXPECT_EQ(compared.another, 0);
 }
 
-// Two turn off to different sides: one drives away, the other one stands a little farther on. Who goes straight on
-// between them stops for him who stands, all the time, and not in an emergency.
+// Two turn off to different sides: one drives away, the other one stands a little farther on. One that goes straight on
+// between them stops for the one that stands, all the time, and not in an emergency.
 TEST(Neighbours, OfTwoThatTurnOffTheOneThatSlowsMostCounts) {
   constexpr std::uint32_t kMe = 0, kDrives = 1, kStands = 2;
   constexpr std::uint64_t kDrawLink = 103;  // of the draws at branches
@@ -292,7 +292,7 @@ TEST(Neighbours, OfTwoThatTurnOffTheOneThatSlowsMostCounts) {
     agents[id].grants = {{agents[id].granted_m, id + 1, true}};
   };
   const double end = graph[street].length_m(), stands_m = 7.0,
-               before_m = 20.0;  // in the way of who goes straight on, and in no one else's
+               before_m = 20.0;  // in the way of one that goes straight on, and of no other
   put(kMe, street, end + stands_m - before_m - model.traits(kMe).length_m, 5.0);
   while (static_cast<std::size_t>(3.0 * base::RandomUniform({settings.seed, kMe, kDrawLink, agents[kMe].trip, 0})) !=
          way[1])

@@ -70,8 +70,8 @@ void Feels(const std::string& name, const StudyResult& r) {
   EXPECT_GT(r.planned_jerk_mps3, 2.9) << name;  // it says something
 }
 
-// Nobody touches anybody, leaves the lanes, or the road with a wheel, moves otherwise than its speed says, brakes in an
-// emergency or is stuck. Half an hour is looked at every tenth of a second, two minutes at every second step.
+// No vehicle touches another, leaves the lanes, or the road with a wheel, moves otherwise than its speed says, brakes
+// in an emergency or is stuck. Half an hour is looked at every tenth of a second, two minutes at every second step.
 void Behaves(const std::string& name, const NetworkPointer& network, std::uint32_t vehicles, std::uint64_t seed,
              const VehicleMix& mix = {}) {
   StudySettings settings;
@@ -124,7 +124,7 @@ TEST(NetworkTraffic, DrivesWithLorriesAndBuses) {
   if (std::filesystem::exists(file)) Behaves(file.filename(), opendrive::LoadNetwork(file).value(), 100, 1, mix);
 }
 
-// Lanes that several ways lead to: who follows is looked for on all of them, whoever else is found first on another.
+// Lanes that several ways lead to: the follower is looked for on all of them, whatever is found first on another.
 TEST(NetworkTraffic, NoCarChangesLanesBeforeOneFromARoadBehind) {
   const auto file = lanes::RealFolder() / "carla_Town04.xodr";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the real files are not beside the project";
@@ -189,8 +189,8 @@ TEST(NetworkTraffic, DrivesTheHillRoadAndTheLongOne) {
   }
 }
 
-// More cars than the town bears without queues that reach back into the next junction: it goes on, and everybody with
-// it.
+// More cars than the town bears without queues that reach back into the next junction: it goes on, and every vehicle
+// with it.
 TEST(NetworkTraffic, AFullTownGoesOn) {
   StudySettings settings;
   settings.traffic.vehicles = 150;
@@ -302,7 +302,7 @@ TEST(NetworkTraffic, WhatIsRememberedChangesNoBit) {
   }
 }
 
-// STOP: whoever passes the line has come to rest within two metres of it.
+// STOP: a vehicle that passes the line has come to rest within two metres of it.
 TEST(NetworkTraffic, StopsFullyAtStopSigns) {
   const auto network = lanes::MapNetwork("crossing");
   TrafficSettings settings;
@@ -339,7 +339,7 @@ TEST(NetworkTraffic, StopsFullyAtStopSigns) {
   EXPECT_GT(passed, 5);
 }
 
-// A car that is no agent stands in the middle of the crossing: nobody drives into it, whatever way it points.
+// A car that is no agent stands in the middle of the crossing: no vehicle drives into it, whatever way it points.
 TEST(NetworkTraffic, NoCarDrivesIntoOneThatStandsOnTheCrossing) {
   const auto network = lanes::MapNetwork("crossing");
   TrafficSettings settings;

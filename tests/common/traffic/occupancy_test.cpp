@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who is on each track: what a list of all that were added says.
+// The vehicles on each track: what a list of all that were added says.
 #include "common/traffic/perception/occupancy.hpp"
 
 #include <gtest/gtest.h>

@@ -17,7 +17,7 @@ namespace rodeira::traffic {
 namespace {
 
 constexpr double kStep_s = 0.02;
-constexpr double kLeast_s = 2.0;  // who comes needs at least so long to where somebody is back on his side
+constexpr double kLeast_s = 2.0;  // oncoming traffic needs at least so long to where a vehicle is back on its side
 
 TrafficSettings Drivers(std::uint32_t vehicles, std::uint64_t seed = 1) {
   TrafficSettings settings;
@@ -35,9 +35,9 @@ TrafficModel WithSlowOnes(const TrafficSettings& settings, const std::shared_ptr
   return model;
 }
 
-// Slow ones are passed against oncoming traffic by everybody behind them; who comes is never nearer than two seconds
-// when somebody is back on his side; nobody touches anybody. Who goes over indicates to that side, before he is over,
-// and to the other one on the way back.
+// Slow ones are passed against oncoming traffic by all behind them; oncoming traffic is never nearer than two seconds
+// when a vehicle is back on its side; no vehicle touches another. One that goes over indicates to that side, before it
+// is over, and to the other one on the way back.
 void PassesInTime(bool left_hand) {
   const auto network = TwoWayRing(Mark("broken"), left_hand);
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -75,7 +75,7 @@ void PassesInTime(bool left_hand) {
 TEST(Overtaking, SlowOnesArePassedBeforeOncomingTrafficIsNear) { PassesInTime(false); }
 TEST(Overtaking, MirroredInLeftHandTraffic) { PassesInTime(true); }
 
-// More of them, who come closer to one another: nobody touches anybody, and who goes over is back in time.
+// More of them, which come closer to one another: no vehicle touches another, and one that goes over is back in time.
 TEST(Overtaking, DenseTrafficBothWaysIsSafe) {
   std::size_t crossings = 0;
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
@@ -95,7 +95,7 @@ TEST(Overtaking, DenseTrafficBothWaysIsSafe) {
   EXPECT_GE(crossings, 3u);
 }
 
-// Marks, signs and settings: where they say no, nobody is on the other side.
+// Marks, signs and settings: where they say no, no vehicle is on the other side.
 TEST(Overtaking, MarksAndSignsAreKept) {
   const auto run = [](const std::shared_ptr<const network::Network>& network, const TrafficSettings& settings) {
     TrafficModel model = WithSlowOnes(settings, network);
@@ -134,7 +134,7 @@ TEST(Overtaking, MarksAndSignsAreKept) {
 }
 
 // A driver's car that crawls is passed; one that goes faster as soon as somebody is beside it, one that comes faster
-// than the law allows, and one that stops: nobody drives into it.
+// than the law allows, and one that stops: no vehicle drives into it.
 TEST(Overtaking, TheDriversCarIsPassedAndNeverHit) {
   int passes = 0, given_up = 0;
   std::array<int, 4> out_steps{};
@@ -177,8 +177,7 @@ TEST(Overtaking, TheDriversCarIsPassedAndNeverHit) {
       if (kind == 1 && beside) wants = 17.0;
       if (kind == 3 && beside && i % 3000 < 1500) wants = 0.0;
       const double free = gap() - 3.0;
-      wants =
-          std::min(wants, free > 0.0 ? std::sqrt(2.0 * 2.5 * free) : 0.0);  // it follows who is before it on its lane
+      wants = std::min(wants, free > 0.0 ? std::sqrt(2.0 * 2.5 * free) : 0.0);  // it follows its leader
       car.speed_mps += std::clamp(wants - car.speed_mps, -4.0 * kStep_s, 2.0 * kStep_s);
       angle += (comes ? -1.0 : 1.0) * car.speed_mps * kStep_s / radius;
       car.x_m = radius * std::sin(angle), car.y_m = kRadius_m - radius * std::cos(angle),

@@ -23,7 +23,7 @@ namespace {
 
 using NetworkPointer = std::shared_ptr<const network::Network>;
 
-// Looks at everybody on foot at one moment.
+// Looks at all pedestrians at one moment.
 class PeopleWatcher {
  public:
   void Look(const TrafficModel& model, double time_s) {
@@ -156,7 +156,7 @@ NetworkPointer Street(bool left_hand = false) {
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
-// The gaps between those who come are exponentially distributed (Kolmogorov and Smirnov at 1 %), and half come from
+// The gaps between those that come are exponentially distributed (Kolmogorov and Smirnov at 1 %), and half come from
 // each side.
 TEST(Pedestrians, ComeByPoisson) {
   constexpr double kPerHour = 720.0;
@@ -194,7 +194,8 @@ TEST(Pedestrians, ComeByPoisson) {
 }
 
 // Vehicles that do not yield come one every h seconds. Each keeps the kerb from where it cannot stop any more until its
-// rear has passed: for T = (v²/(2 b) + v t + walkway + length)/v. Who comes at any time waits T²/(2 h) in the mean.
+// rear has passed: for T = (v²/(2 b) + v t + walkway + length)/v. One that comes at any time waits T²/(2 h) in the
+// mean.
 TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
   constexpr double kSpeed = 12.0, kLength = 4.5, kEvery_s = 14.0, kStep_s = 0.05, kBrake = 2.0, kReacts_s = 1.0;
   const NetworkPointer network = Street();
@@ -232,7 +233,7 @@ TEST(Pedestrians, WaitForEvenGapsAsLongAsTheFormulaSays) {
 }
 
 // One car and one person, who comes to the kerb when it is so far away: from where it can stop by three quarters of its
-// comfortable braking, half a second later, it does, before the walkway; nearer, it drives on as if nobody was there,
+// comfortable braking, half a second later, it does, before the walkway; nearer, it drives on as if none was there,
 // and the person goes when it has passed.
 void YieldsWhereItCan(bool left_hand) {
   constexpr double kStep_s = 0.01;
@@ -257,7 +258,7 @@ void YieldsWhereItCan(bool left_hand) {
     double hardest = 0.0, closest = 1e9;
     for (int i = 0; i < 6000 && model.on_road() == 1 && to_walkway() < 1e8; ++i) {
       const double v = model.agent(0).speed_mps, way = to_walkway();
-      // He walks to the kerb meanwhile.
+      // It walks to the kerb meanwhile.
       if (!called && way < far + comes_m / 1.35 * v) called = model.SpawnPedestrian("1", 200.0, false).ok();
       if (called && !judged && model.people()->Waits(0)) {
         judged = true;
@@ -300,8 +301,8 @@ TEST(Pedestrians, NoPedestrianWaitsForEver) {
   EXPECT_GT(watcher.crossed, 500u);
 }
 
-// A crossing between two lights that face it: nobody steps out while they do not show red, or would not as long as he
-// walks; and cars do not stop for who waits at green.
+// A crossing between two lights that face it: no pedestrian steps out while they do not show red, or would not as long
+// as it walks; and cars do not stop for a pedestrian that waits at green.
 TEST(Pedestrians, WalkWhileLightsAreRed) {
   opendrive::RoadText road;
   road.length = 400.0;
@@ -340,14 +341,14 @@ TEST(Pedestrians, WalkWhileLightsAreRed) {
   EXPECT_EQ(stood_at_green, 0u);
 }
 
-// Who is hit stays, and so do those who come: nobody drives over him.
+// A pedestrian that is hit stays, and so do oncoming cars: none drives over it.
 TEST(Pedestrians, APedestrianThatIsHitStays) {
   TrafficModel model = TrafficModel::Make(WithPeople(6, 0.0), Street(), {}).value();
   ASSERT_TRUE(model.SpawnPedestrian("1", 200.0, true).ok());
   while (model.people()->counts()[0].let_go == 0) model.Step(0.05, {});
   for (int i = 0; i < 60; ++i) model.Step(0.05, {});
   model.HitPedestrian(Pedestrians::kFirstId);
-  model.HitPedestrian(Pedestrians::kFirstId + 7);  // nobody
+  model.HitPedestrian(Pedestrians::kFirstId + 7);  // none
   const Eigen::Vector3d where = model.people()->Poses()[0].p_W;
   PeopleWatcher watcher;
   for (int i = 0; i < 1200; ++i) {

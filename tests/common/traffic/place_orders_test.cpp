@@ -43,7 +43,7 @@ std::map<std::uint32_t, double> Stations(const TrafficModel& model) {
   return stations;
 }
 
-// Drives until a time, and says who passed the place when: those who are on the road in one trip before and after.
+// Drives until a time, and says which passed the place when: those that are on the road in one trip before and after.
 std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrders& orders, int steps,
                                                  const std::function<void(int)>& look = {}) {
   std::vector<std::pair<int, std::uint32_t>> passed;
@@ -63,7 +63,7 @@ std::vector<std::pair<int, std::uint32_t>> Drive(TrafficModel& model, PlaceOrder
   return passed;
 }
 
-// Whoever passes first, in either direction, brakes at exactly the rate from there to rest; the others are not told.
+// The first to pass, in either direction, brakes at exactly the rate from there to rest; the others are not told.
 TEST(PlaceOrders, TheNextOneBrakesWhereItPasses) {
   TrafficModel model = Made(30);
   PlaceOrders orders;

@@ -50,8 +50,8 @@ double HeadingOf(const AgentPose& pose) {
   return std::atan2(ahead.y(), ahead.x());
 }
 
-// From one state with somebody at a pose, turned by so much and with a speed of his own, and without him: the step that
-// sees him first is driven otherwise, by the pedals of a car with full physics, by acceleration and speed of a planar
+// From one state with a vehicle at a pose, turned by so much and with a speed of its own, and without it: the step that
+// sees it first is driven otherwise, by the pedals of a car with full physics, by acceleration and speed of a planar
 // one.
 void AnswersAtOnce(const TrafficModel& model, const std::shared_ptr<const network::Network>& network,
                    const TrafficSettings& settings, const AgentPose& at, double turned_rad, double speed_mps,

@@ -9,7 +9,7 @@
 
 namespace rodeira::traffic {
 
-// A model at its beginning with just these agents, by number: on the road where they say so, nobody waits to enter.
+// A model at its beginning with just these agents, by number: on the road where they say so, no vehicle waits to enter.
 // Their grants have numbers below `next_grant`.
 inline void RestoreWith(TrafficModel& model, std::span<const Agent> agents, std::uint64_t next_grant = 1) {
   base::StateWriter writer;

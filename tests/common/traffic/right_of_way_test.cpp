@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two cars who would meet: whose right of way it is drives as if he were alone, the other one waits. In right-hand and
-// in left-hand traffic.
+// Two cars that would meet: the one with the right of way drives as if it were alone, the other one waits. In
+// right-hand and in left-hand traffic.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 constexpr std::uint64_t kDrawLink = 103;  // of the draws at branches
 constexpr double kStep_s = 0.02, kNever_s = 1e9;
 
-// How somebody comes: his front so far before the end of his lane, and which way he takes there.
+// How a vehicle comes: its front so far before the end of its lane, and which way it takes there.
 struct Comes {
   std::uint32_t track = 0;
   std::size_t way = 0;
@@ -32,7 +32,7 @@ struct Comes {
 };
 
 struct Came {
-  double enters_s = kNever_s;  // his front comes to where the two ways meet
+  double enters_s = kNever_s;  // its front comes to where the two ways meet
   double slowest_mps = 1e9;    // before that
 };
 
@@ -155,7 +155,7 @@ class Meeting : public testing::TestWithParam<bool> {
   const TrafficSettings settings_ = Identical(2, 1.4);
   std::shared_ptr<const network::Network> network_;
   std::unique_ptr<TrafficModel> model_;
-  Came yielded_;  // how the one who yielded came
+  Came yielded_;  // how the one that yielded came
 };
 
 TEST_P(Meeting, RightBeforeLeft) {
@@ -189,7 +189,7 @@ TEST_P(Meeting, ACarAtAStopSignComesToRestAndYields) {
     Draw(std::move(drawn.Sign(std::to_string(2 * ((arm + 1) % 4) + 1), "206")));
     const std::uint32_t mine = Arm(arm), right = Arm((arm + 1) % 4);
     const Comes stops{right, Way(right, 0)};
-    // The other one is there soon after who has the STOP could be.
+    // The other one is there soon after the one with the STOP could be.
     Comes goes{mine, Way(mine, 0)};
     const auto meets = WhereTheyMeet(goes, stops);
     const auto alone = Run({std::nullopt, stops}, meets)[1];
@@ -218,7 +218,7 @@ TEST_P(Meeting, ARingHasPriorityOverEntries) {
       return std::size_t{0};
     };
     ++met;
-    // On the ring all of its last lane before the entry lies before him; the other one would be at its end at the same
+    // On the ring all of its last lane before the entry lies before it; the other one would be at its end at the same
     // time.
     const double ring_m = graph()[*ring].length_m() - model_->traits(0).length_m - 0.1;
     GoesFirst(

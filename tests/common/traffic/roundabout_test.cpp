@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A roundabout's entry at which a queue waits, and who circulates past it.
+// A roundabout's entry at which a queue waits, and traffic that circulates past it.
 #include <gtest/gtest.h>
 
 #include <algorithm>

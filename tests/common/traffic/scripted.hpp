@@ -15,7 +15,7 @@ namespace rodeira::traffic {
 inline constexpr double kStep_s = 0.02;
 inline constexpr VehicleKind kCar = VehicleKind::kCar;
 
-// Nobody is there but whom the test lets appear; they neither change lanes nor overtake of themselves.
+// None is there but those that the test spawns; they neither change lanes nor overtake of themselves.
 inline TrafficSettings OnlyScripted(std::vector<VehicleKind> kinds) {
   TrafficSettings settings;
   settings.vehicles = 0;

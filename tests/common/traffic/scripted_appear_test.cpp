@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where, when and beside whom vehicles of an experiment appear.
+// Where, when and beside which others vehicles of an experiment appear.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -79,8 +79,8 @@ TEST(Scripted, AVehicleAppearsWithFullPhysicsToo) {
   }
 }
 
-// Somebody stands there: it waits, and appears in the first step in which nobody's rectangle is within its standing
-// gap, nor it nor who comes would have to brake harder than 4 m/s².
+// A vehicle stands there: it waits, and appears in the first step in which no rectangle is within its minimum
+// gap, and neither it nor its follower would have to brake harder than 4 m/s².
 TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   TrafficModel model =
       TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), driver::StraightWorld(2000.0, 20.0), {}).value();
@@ -102,7 +102,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
     return PoseOf(model, id)->p_WB_W.x() * std::cos(0.3) + PoseOf(model, id)->p_WB_W.y() * std::sin(0.3);
   };
   const AgentTraits& own = model.traits(1);
-  // From bumper to bumper; and whether who comes would have to brake hard.
+  // From bumper to bumper; and whether the follower would have to brake hard.
   const auto gap = [&](std::uint32_t other) {
     return std::fabs(along(other) - 503.0) - 0.5 * (own.length_m + model.traits(other).length_m);
   };
@@ -128,7 +128,7 @@ TEST(Scripted, WhereThereIsNoRoomItAppearsAsSoonAsThereIs) {
   for (const AgentPose& pose : model.poses()) EXPECT_GT(pose.speed_mps, 10.0) << pose.id;
 }
 
-// Not before somebody who could not stop for it within 4 m/s², by the IDM: v = 20 m/s, so near that it takes more.
+// Not before a vehicle that could not stop for it within 4 m/s², by the IDM: v = 20 m/s, so near that it takes more.
 TEST(Scripted, NoVehicleHasToBrakeHardForIt) {
   for (const double distance_m : {30.0, 60.0, 100.0, 150.0}) {
     TrafficModel model =
@@ -238,7 +238,7 @@ TEST(Scripted, AVehicleThatDoesNotAppearChangesNothing) {
   }
 }
 
-// Behind zones into which somebody has been let nobody appears before he has come to where he wants to stand, though
+// Behind zones that a vehicle has reserved none appears before that one has come to where it wants to stand, though
 // there were room for both.
 TEST(Scripted, NoVehicleTakesAReservedPlace) {
   TrafficSettings settings = OnlyScripted({kCar});
@@ -269,7 +269,7 @@ TEST(Scripted, NoVehicleTakesAReservedPlace) {
   EXPECT_EQ(waited, tried);
 }
 
-// Vehicles appear in a town that is full of others: nobody touches anybody.
+// Vehicles appear in a town that is full of others: no vehicle touches another.
 TEST(Scripted, AmongOthersNoVehicleIsTouched) {
   TrafficSettings settings;
   settings.vehicles = 40;

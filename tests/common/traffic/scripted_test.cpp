@@ -34,8 +34,8 @@ TrafficModel Following(bool left_hand, double comes_m) {
   return model;
 }
 
-// Who is told overtakes, though nobody slow enough holds it up; not before who comes is far enough, and back in time;
-// who is not told does not.
+// A commanded vehicle overtakes, though none slow enough holds it up; not before oncoming traffic is far enough, and
+// back in time; others do not.
 TEST(Scripted, ACommandedVehicleOvertakesAsSoonAsItIsSafe) {
   for (const bool left_hand : {false, true}) {
     for (const double comes_m : {1800.0, 300.0}) {
@@ -51,7 +51,7 @@ TEST(Scripted, ACommandedVehicleOvertakesAsSoonAsItIsSafe) {
       EXPECT_EQ(still.passes, 0);
       EXPECT_TRUE(still.crossings.empty());
       ASSERT_TRUE(began.has_value()) << left_hand << " " << comes_m;
-      EXPECT_EQ(*began == 0, comes_m > 1000.0) << *began;  // at once, or when who comes has gone by
+      EXPECT_EQ(*began == 0, comes_m > 1000.0) << *began;  // at once, or when oncoming traffic has gone by
       ASSERT_EQ(watch.crossings.size(), 1u);
       EXPECT_EQ(watch.passed_by[0], std::set<std::uint32_t>{1});
       EXPECT_GE(watch.crossings[0].spare_s, 2.0);
@@ -61,7 +61,7 @@ TEST(Scripted, ACommandedVehicleOvertakesAsSoonAsItIsSafe) {
   }
 }
 
-// Before somebody who overtakes nobody appears on the lane of oncoming traffic, as long as he does.
+// Before an overtaker none appears on the lane of oncoming traffic, as long as it overtakes.
 TEST(Scripted, NoVehicleAppearsBeforeAnOvertaker) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoWayRing(Mark("broken")), {}).value();
   Put(model, 0, "1:-1", 400.0, 12.0);
@@ -135,7 +135,7 @@ TEST(Scripted, MarksAreKeptWhateverIsTold) {
   EXPECT_EQ(model.agent(0).told_side, 1);
 }
 
-// Somebody comes faster on the lane beside: it begins in the first step in which that one need not brake harder than 2
+// A vehicle comes faster on the lane beside: it begins in the first step in which that one need not brake harder than 2
 // m/s² by the IDM, worked out from the poses, and has gone by where it does not before.
 TEST(Scripted, ACommandedVehicleChangesLanesWhenItIsSafe) {
   for (const double behind_m : {12.0, 35.0, 90.0}) {
@@ -174,7 +174,7 @@ TEST(Scripted, ACommandedVehicleChangesLanesWhenItIsSafe) {
   }
 }
 
-// On a road of several lanes who is told to overtake goes over to the lane for it, and by.
+// On a road of several lanes a vehicle that is told to overtake goes over to the lane for it, and by.
 TEST(Scripted, OnSeveralLanesTheCommandedVehiclePassesOnTheOther) {
   TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoLanes("broken"), {}).value();
   Put(model, 0, "1:-2", 400.0, 12.0);

@@ -57,7 +57,7 @@ TEST(PlanarFuel, IsTheIntegralOfItsFlowAndNoneInOverrun) {
 }
 
 // In a town where cars come, go and queue: q = k v in every cell to 1e-9; all cells together have the vehicle seconds
-// and the way that were there; and nobody comes or goes uncounted.
+// and the way that were there; and none comes or goes uncounted.
 TEST(LaneStatistics, SumsAreWhatWasDriven) {
   TrafficSettings settings;
   settings.vehicles = 90;
@@ -116,8 +116,8 @@ TEST(LaneStatistics, SumsAreWhatWasDriven) {
   for (const LaneTrip& trip : statistics.trips()) EXPECT_GT(trip.took_s, 3.0);
 }
 
-// Each cell's time is, within a step a visit, that of the steps at whose ends somebody's middle was in it, on lanes
-// that are changed, in a ring and at merges; and who looks in the middle of it all finds as much there, and changes
+// Each cell's time is, within a step a visit, that of the steps with a vehicle's middle in it at the end, on lanes
+// that are changed, in a ring and at merges; and a query in the middle of it all finds as much there, and changes
 // nothing.
 TEST(LaneStatistics, EachCellHasItsOwn) {
   constexpr double kStep_s = 0.02;
@@ -197,7 +197,7 @@ TEST(LaneStatistics, SteadyFlowIsThatOfTheEquilibrium) {
   EXPECT_EQ(statistics.left(), 0);
 }
 
-// What somebody could drive of whom nobody is in the way: √(a R) on a ring too narrow for its limit, the limit on a
+// The speed of a vehicle without another in its way: √(a R) on a ring too narrow for its limit, the limit on a
 // wide one.
 TEST(LaneStatistics, FreeSpeedIsThatOfBendAndLimit) {
   TrafficSettings settings = Identical(3, 1.4);

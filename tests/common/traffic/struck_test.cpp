@@ -60,7 +60,7 @@ TEST(Crashed, SpinsAsLongAsFrictionSays) {
   EXPECT_NEAR(struck.p_W.norm(), 0.0, 1e-6);
 }
 
-// A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; nobody is lost, and a
+// A car of a column is hit: it takes the momentum, slides, and stays; the others stop behind it; none is lost, and a
 // snapshot goes on with the same bits.
 void StaysAnObstacle(Physics physics) {
   TrafficSettings settings = Identical(20, 1.4);
@@ -114,7 +114,7 @@ void StaysAnObstacle(Physics physics) {
 
 TEST(Crashed, StaysAnObstacleToTheOthers) { StaysAnObstacle(Physics::kPlanar); }
 
-// The others' cars feel the ground; his is one that slides, as in the plane.
+// The others' cars feel the ground; the hit one slides, as in the plane.
 TEST(Crashed, StaysAnObstacleToOthersWithFullPhysics) { StaysAnObstacle(Physics::kFull); }
 
 }  // namespace

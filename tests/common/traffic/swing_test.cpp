@@ -67,9 +67,9 @@ std::shared_ptr<const network::Network> BendOf(double radius_m) {
   return opendrive::MustRead(opendrive::Document(road.Text()));
 }
 
-// A car that is steered by its front wheels, the mean of whose axles' circles is the line of radius R: its rear axle
-// runs on R - L² / (4 R), tangent to its circle, its outer corner in front on √((ρ + w/2)² + (L + o)²), its inner side
-// beside the rear axle on ρ - w/2.
+// A car that is steered by its front wheels, with a mean of the axles' circles that is the line of radius R: its rear
+// axle runs on R - L² / (4 R), tangent to its circle, its outer corner in front on √((ρ + w/2)² + (L + o)²), its inner
+// side beside the rear axle on ρ - w/2.
 TEST(Swing, OnACircleIsThatOfACarSteeredInFront) {
   const lanes::LargestCar car = LargestOf(Full());
   for (const double round_m : {45.0, 60.0, 90.0}) {
@@ -177,7 +177,7 @@ TEST(Swing, ACarThatLeavesABendGainsSpeedAsDriversDo) {
   }
 }
 
-// Straight roads are as wide as before, and who keeps to his line, or knows no zones, has none.
+// Straight roads are as wide as before, and one that keeps to its line, or knows no zones, has none.
 TEST(Swing, IsNothingOnStraightRoadsNorOfPlanarCars) {
   for (const std::string& name : lanes::MapNames()) {
     const auto network = lanes::MapNetwork(name);

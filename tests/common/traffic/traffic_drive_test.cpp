@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The autopilot drives the bicycle among the traffic of N222: everyone sees everyone, nobody touches anybody.
+// The autopilot drives the bicycle among the traffic of N222: all see one another, none touches another.
 #include <gtest/gtest.h>
 
 #include <array>

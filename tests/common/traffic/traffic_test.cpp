@@ -104,7 +104,7 @@ TEST(Traffic, KeepsTheEquilibriumGapWithin5Centimetres) {
   EXPECT_GE(compared, 4);
 }
 
-// Ten minutes on N222: the number is conserved, nobody touches, nobody is faster than the plan in a bend.
+// Ten minutes on N222: the number is conserved, none touches, none is faster than the plan in a bend.
 TEST(Traffic, CirculatesOnN222WithoutLossOrCollision) {
   const WorldPointer world = N222();
   TrafficSettings settings;

@@ -32,7 +32,7 @@ inline std::shared_ptr<const network::Network> TwoWayRing(const std::string& mar
   return opendrive::MustRead(opendrive::Document(text));
 }
 
-// What the poses on that ring say: who is over the middle, passes, and touches whom.
+// What the poses on that ring say: which are over the middle, pass, and touch.
 class RingWatch {
  public:
   explicit RingWatch(bool left_hand = false) : left_hand_(left_hand) {}
@@ -47,7 +47,7 @@ class RingWatch {
     std::uint32_t id;
     bool with;
     double from_m, to_m;         // along the road, where it was over the middle
-    double spare_s = kNobody_s;  // until who came was where it then was, at the end
+    double spare_s = kNobody_s;  // until the oncoming one was where it then was, at the end
     double length_s = 0.0;
   };
 

@@ -111,7 +111,7 @@ TEST(UnrelatedRoad, TakesItsShareOfTheTripsAlone) {
   }
 }
 
-// A vehicle that meets nobody drives each of its trips that still begin on the old roads as before, to the bit, from
+// A vehicle that meets no other drives each of its trips that still begin on the old roads as before, to the bit, from
 // its first step to its last.
 TEST(UnrelatedRoad, ChangesNoTripOfALoneVehicle) {
   using Step = std::tuple<double, double, double, double, double, double>;

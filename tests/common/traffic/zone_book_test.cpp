@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who wants what of a conflict zone.
+// What is wanted of a conflict zone.
 #include "common/traffic/right_of_way/zone_book.hpp"
 
 #include <gtest/gtest.h>

@@ -28,7 +28,7 @@ bool OverLane(const network::Road& road, double s_m, double t_m) {
   return span.lane != nullptr && outside == 0.0 && network::IsDrivable(span.lane->type);
 }
 
-// Whether the road bends to the left of those who read a sign at s, over what lies before them.
+// Whether the road bends to the left of the readers of a sign at s, over what lies before them.
 bool BendsLeft(const network::Road& road, const network::Placed& placed) {
   const double way = placed.signal->orientation == "-" ? -1.0 : 1.0;
   const double end = std::clamp(placed.s_m + way * kAhead_m, 0.0, road.length_m());

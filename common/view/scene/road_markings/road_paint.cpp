@@ -85,7 +85,7 @@ void PaintLineAcross(const network::Road& road, const network::Placed& placed, T
       for (const auto& [right, left] : lanes) sum += std::max(0.0, std::min(high, left) - std::max(low, right));
       return sum;
     };
-    const double aside = against ? placed.t_m : placed.t_m - width;  // to the right of who reads it
+    const double aside = against ? placed.t_m : placed.t_m - width;  // to the right of its readers
     const bool about = covered(placed.t_m - 0.5 * width, placed.t_m + 0.5 * width) >= covered(aside, aside + width);
     from = about ? placed.t_m - 0.5 * width : aside;
     to = from + width;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The motions are closed forms on roads whose lanes are known: what the builder says must be what was put in.
+// The motions are closed forms on roads with known lanes: what the builder says must be what was put in.
 #include "common/analysis/measures/drive_builder.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ std::vector<OtherVehicle> Nobody(double) { return {}; }
 
 OtherVehicle Car(std::int64_t id, double x, double y, double speed) { return {id, x, y, 0.0, speed, 4.0, 2.0}; }
 
-// A weaving drive along lane -1, whose middle is at t = -1.75: position, heading error, lines and limit.
+// A weaving drive along lane -1, with its middle at t = -1.75: position, heading error, lines and limit.
 TEST(DriveBuilder, LanePositionOfAWeavingDrive) {
   const auto network = OneRoad();
   const double w = 2.0 * std::numbers::pi * 0.2;

@@ -13,7 +13,7 @@
 
 namespace rodeira::measures {
 
-// The real matrices of doubles of a MATLAB v5 file whose variables are compressed (MAT-File Format, MathWorks 2019).
+// The real matrices of doubles of a MATLAB v5 file with compressed variables (MAT-File Format, MathWorks 2019).
 inline std::map<std::string, std::vector<double>> ReadMatFile(const std::filesystem::path& path) {
   std::ifstream in(path, std::ios::binary);
   const std::string file{std::istreambuf_iterator<char>(in), {}};

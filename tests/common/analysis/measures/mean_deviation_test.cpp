@@ -18,7 +18,7 @@ TEST(MeanDeviation, TheReferenceIsStraightWithRamps) {
   }
 }
 
-// Nobody changes: the deviation is the reference's area, 3.5 m times 150 m, over the stretch of 400 m. The samples are
+// Without a change the deviation is the reference's area, 3.5 m times 150 m, over the stretch of 400 m. The samples are
 // 7 m apart, so that the corners lie between them.
 TEST(MeanDeviation, StayingInTheLaneIsTheAreaOfTheReference) {
   const auto s = Sampled(60.0, 1.0, [](double t) { return 7.0 * t; });

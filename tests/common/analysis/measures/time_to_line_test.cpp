@@ -9,7 +9,7 @@ namespace rodeira::measures {
 namespace {
 
 // A straight lane, a heading psi and no yaw: (half lane - half car - |y|) / (v sin psi) of a car without a length,
-// whose corners' half width counts by cos psi.
+// with corners' half width by cos psi.
 TEST(TimeToLine, StraightLaneStraightOn) {
   for (const double heading : {0.02, -0.05}) {
     const LaneApproach a{.y_m = 0.2, .heading_rad = heading, .speed_mps = 25.0, .lane_width_m = 3.6, .width_m = 1.8};

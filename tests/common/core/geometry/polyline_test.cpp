@@ -194,7 +194,7 @@ RC_GTEST_PROP(Offset, TheStripBetweenBothSidesFacesUp, (std::uint64_t seed)) {
 }
 
 TEST(Offset, OfAParabolaFoldsWhereItsRadiusIsSmaller) {
-  // y = x^2 / 2 has the radius (1 + x^2)^(3/2): an offset by 2 to the left folds for |x| < sqrt(2^(2/3) - 1), whose
+  // y = x^2 / 2 has the radius (1 + x^2)^(3/2): an offset by 2 to the left folds for |x| < sqrt(2^(2/3) - 1), with
   // stations follow from the arc length (x sqrt(1 + x^2) + asinh x) / 2.
   Polyline parabola;
   for (int i = -6000; i <= 6000; ++i) parabola.points_W.emplace_back(5e-4 * i, 0.5 * 25e-8 * i * i, 0.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beginners at the keyboard, who know no angles, only keys that are down or up, keep the lane of a winding road.
+// A beginner at the keyboard, a person who knows no angles, only keys that are down or up, keep the lane of a winding
+// road.
 #include <gtest/gtest.h>
 
 #include <algorithm>

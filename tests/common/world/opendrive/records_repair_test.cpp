@@ -95,7 +95,7 @@ TEST(RecordsTwiceAtOnePlace, TheLaterCounts) {
   EXPECT_NEAR(import.network->Span({0, 0, -1}, 10.0)->width_m(), 3.5, 1e-12);
 }
 
-// Profiles across the road whose records stand in any order of t: z at t is that of the record before it.
+// Profiles across the road with records in any order of t: z at t is that of the record before it.
 TEST(ShapesOfARoad, StandInAnyOrderOfT) {
   std::vector<std::pair<double, double>> profile = {{-6, 0.1}, {-2, 0.2}, {1, 0.3}, {3, 0.4}};  // t, a
   do {

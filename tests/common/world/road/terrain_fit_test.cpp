@@ -70,7 +70,7 @@ TEST(TerrainFit, AVoidOfAnElevationFileIsNoTerrain) {
             place + "road 'a' leaves the terrain at s = 335 m: its left edge lies at (194.3, 395.5)");
 }
 
-// Heights in a ring about a void, and a start that nobody has said: the car stands on the ground nearest to the middle.
+// Heights in a ring about a void, and no start: the car stands on the ground nearest to the middle.
 TEST(TerrainFit, WithoutAStartTheCarStandsOnTheNearestGround) {
   const cli::TemporaryFolder folder;
   std::string heights = "ncols 30\nnrows 30\nxllcorner 100\nyllcorner 200\ncellsize 10\nNODATA_value -1\n";

@@ -227,7 +227,8 @@ TEST_F(ImportFileTest, LanesThatCarsMayNotUseAreNotDriven) {
   EXPECT_THAT(imported.value().drive, HasSubstr("id=\"in sign\" name=\"priority\""));
 }
 
-// A network of a newer SUMO, whose classes of vehicles this one does not know: the lanes are for the others as before.
+// A network of a newer SUMO, with classes of vehicles that this one does not know: the lanes are for the others as
+// before.
 TEST_F(ImportFileTest, ForgetsClassesOfANewerSumo) {
   Write("own.nod.xml", kBusNodes);
   Write("own.edg.xml", kBusEdges);
@@ -247,7 +248,7 @@ TEST_F(ImportFileTest, ForgetsClassesOfANewerSumo) {
   ASSERT_TRUE(newer) << newer.error().Text();
   EXPECT_THAT(newer.value().table, HasSubstr("lanes closed to cars: 3\n"));
   const auto network = Network(newer.value());
-  EXPECT_FALSE(IsDriven(lanes::Graph(*network), "in", 0));  // for a class that nobody is of
+  EXPECT_FALSE(IsDriven(lanes::Graph(*network), "in", 0));  // for a class without a vehicle
   EXPECT_TRUE(IsDriven(lanes::Graph(*network), "in", 2));
 }
 

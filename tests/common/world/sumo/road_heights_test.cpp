@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Roads on a ground whose height is a formula: the right answer is the formula, and that no wheel feels a step.
+// Roads on a ground with a formula as its height: the right answer is the formula, and that no wheel feels a step.
 #include "common/world/sumo/road_heights.hpp"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(RoadHeights, MeetAnElevationFileOfAnotherProjection) {
   if (std::system("command -v netconvert > /dev/null 2>&1") != 0) GTEST_SKIP() << "SUMO's netconvert is not installed";
   const base::TemporaryFolder folder = std::move(base::TemporaryFolder::Make("heights-test")).value();
   const std::filesystem::path map = folder.path() / "a.osm", ground = folder.path() / "ground.asc";
-  // Longitude 23.99 lies in zone 34, and the file in zone 35, whose middle is longitude 27.
+  // Longitude 23.99 lies in zone 34, and the file in zone 35, with its middle at longitude 27.
   ASSERT_TRUE(
       base::WriteWhole(map,
                        "<osm version=\"0.6\"><node id=\"1\" lat=\"60.000\" lon=\"23.990\"/>"
