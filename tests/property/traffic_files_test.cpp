@@ -219,6 +219,10 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
           EXPECT_NE(scenario::FindEventKind(event.name), nullptr) << event.name;
           if (event.name != scenario::kTrafficAppear) continue;
           const auto choice = scenario::ParseAgentOnLane(event.argument).value();
+          if (!choice.at) {
+            ADD_FAILURE() << event.argument << " names no place";
+            continue;
+          }
           const auto told = model.Spawn(choice.id, choice.at->road, choice.at->s_m, event.value);
           if (!told)
             refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too

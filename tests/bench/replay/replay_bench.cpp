@@ -145,7 +145,7 @@ void Seek(benchmark::State& state) {
     worst_s = std::max(worst_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
   }
   state.counters["worst_ms"] = worst_s * 1e3;
-  state.counters["chunks_a_seek"] = static_cast<double>(moments.tape().chunks_read()) / static_cast<double>(n);
+  state.counters["chunks_a_seek"] = static_cast<double>(moments.sample_reader().chunks_read()) / static_cast<double>(n);
   state.counters["file_GB"] = static_cast<double>(run.reader().condition().file_bytes) * 1e-9;
 }
 BENCHMARK(Seek)->ArgName("cold")->Arg(0)->Arg(1)->Iterations(200)->Unit(benchmark::kMillisecond)->UseRealTime();

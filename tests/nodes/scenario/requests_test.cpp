@@ -149,7 +149,7 @@ TEST_F(Requests, TheCarStandsWhereItWasAskedToBeAndTheRecordingKnowsIt) {
 // first sample.
 TEST_F(Requests, TheCarGoesBackToWhereItBegan) {
   const auto world = N222();
-  scene::Moment moment;
+  scene::SceneSnapshot moment;
   moment.cars.resize(1);
   moment.cars[0].id = 5;
   const auto request = nodes::AskStart(*world, moment, 0, {{5, "ego"}}, {});
