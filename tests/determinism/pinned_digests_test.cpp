@@ -47,6 +47,20 @@ struct PinnedTraffic {
 
 void PrintTo(const PinnedTraffic& traffic, std::ostream* out) { *out << traffic.map; }
 
+// The first `count` columns of a CSV text.
+std::string FirstColumns(const std::string& text, std::size_t count) {
+  std::string kept;
+  std::size_t column = 0;
+  for (const char letter : text) {
+    if (letter == '\n')
+      column = 0;
+    else if (letter == ',')
+      ++column;
+    if (column < count) kept += letter;
+  }
+  return kept;
+}
+
 class PinnedTrajectories : public ::testing::TestWithParam<PinnedTraffic> {};
 
 TEST_P(PinnedTrajectories, KeepTheirDigest) {
