@@ -62,6 +62,7 @@ base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport&
 // Two processes as one node, of one incarnation: its program was started twice. The second one may fail before it has
 // said anything else; a first report that is a failure is not the node's process yet.
 base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& named) {
+  if (named.hello.pid == 0) return {};  // of the follower on the node's PC
   const Who now{named.report.incarnation, named.hello.host, named.hello.pid};
   Who& known = who_[node];
   if (named.report.phase >= lockstep::Phase::kFailed && known.incarnation != now.incarnation) return {};

@@ -185,6 +185,7 @@ class Follower {
     report.node = roster_.node(lost.node).name;
     report.clock_id = now.clock_id;
     report.hello = OwnHello(launch_, lost.node);
+    report.hello.pid = 0;  // not the node's own word
     if (now.reports[lost.node]) report.report = *now.reports[lost.node];
     report.report.incarnation = lost.incarnation;
     report.report.phase = phase;

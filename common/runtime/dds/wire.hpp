@@ -25,7 +25,7 @@ struct Hello {
   base::Digest world = 0;  // 0: knows none
   base::Digest mathematics = 0;
   std::string host;
-  std::uint32_t pid = 0;
+  std::uint32_t pid = 0;  // 0: of a report that another process makes about the node
   std::shared_ptr<const std::vector<idl::TopicText>> topics;  // behind `protocol`; null: the report does not say
 };
 
