@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the named tests of this folder, or all: exit status 1 if one fails, 77 if one is skipped; the last line says why,
-for tests/skips."""
+"""Runs the named tests of this folder, or all: exit status 1 if one fails, 77 if one is skipped; the last line says
+why, for tests/skips."""
 
 import pathlib
 import sys
