@@ -178,6 +178,7 @@ class ClockProcess {
     for (const LostNode& one : lost) {
       if (auto end = losses_.TakeLost(one)) return end;
     }
+    for (LostNode& one : supervisor_.TakeExited()) losses_.NoteExit(std::move(one));
     const auto now = WallClock::now();
     if (now - checked_ < 20ms) return std::nullopt;
     checked_ = now;

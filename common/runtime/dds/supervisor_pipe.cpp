@@ -80,10 +80,10 @@ void SupervisorPipe::Read(int descriptor, const std::function<void()>& on_line) 
 bool SupervisorPipe::Take(std::string_view line) {
   const std::string_view what = TakeWord(line);
   const std::lock_guard lock(mutex_);
-  if (what == "lost") {
-    auto lost = ParseLostNode(line);
-    if (!lost) return false;
-    lost_.push_back(std::move(*lost));
+  if (what == "lost" || what == "exited") {
+    auto node = ParseLostNode(line);
+    if (!node) return false;
+    (what == "lost" ? lost_ : exited_).push_back(std::move(*node));
   } else if (what == "do") {
     commands_.emplace_back(line);
   } else if (what == "abort") {
@@ -97,6 +97,11 @@ bool SupervisorPipe::Take(std::string_view line) {
 std::vector<LostNode> SupervisorPipe::TakeLost() {
   const std::lock_guard lock(mutex_);
   return std::exchange(lost_, {});
+}
+
+std::vector<LostNode> SupervisorPipe::TakeExited() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(exited_, {});
 }
 
 std::vector<std::string> SupervisorPipe::TakeCommands() {

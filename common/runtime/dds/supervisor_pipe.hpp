@@ -23,6 +23,7 @@ struct LostNode {
 
 // What `rodeira run` writes to the standard input of the clock that it started, a line each:
 //   lost NODE INCARNATION TEXT   a process of this PC died or was stopped; seen sooner than by any heartbeat
+//   exited NODE INCARNATION TEXT a process of this PC has ended by itself: why its node will be silent, if it is
 //   do NUMBER COMMAND            an operator's command
 //   abort                        an orderly stop takes too long
 // Other lines are ignored. All functions from any thread.
@@ -38,6 +39,7 @@ class SupervisorPipe {
   base::Status Listen(int descriptor, std::function<void()> on_line);
 
   std::vector<LostNode> TakeLost();         // each once
+  std::vector<LostNode> TakeExited();       // each once
   std::vector<std::string> TakeCommands();  // "NUMBER COMMAND", each once
   bool must_abort() const;
   // The other end is closed: `rodeira run` has ended, however it did.
@@ -50,7 +52,7 @@ class SupervisorPipe {
   bool Take(std::string_view line);
 
   mutable std::mutex mutex_;
-  std::vector<LostNode> lost_;
+  std::vector<LostNode> lost_, exited_;
   std::vector<std::string> commands_;
   bool must_abort_ = false;
   bool is_closed_ = false;

@@ -138,6 +138,8 @@ class ProcessRun {
           TellClock(child);
         } else if (!child.ended()) {
           told_.erase(child.name());  // it goes on
+        } else {
+          TellExit(child);
         }
       }
       const int interrupts = g_interrupts;
@@ -187,6 +189,12 @@ class ProcessRun {
     if (!child.ended()) return false;
     const bool by_itself = child.exit_status() && *child.exit_status() <= 2 && !child.ended_by_foreign_code();
     return !by_itself || WallClock::now() - child.ended_at() > 1s;
+  }
+  // Only why the node is silent: whether it is lost, the clock finds by its reports.
+  void TellExit(const Child& child) {
+    const std::uint32_t incarnation = processes_.incarnation(child.name());
+    if (!exits_told_.emplace(child.name(), incarnation).second) return;
+    processes_.clock().Send(fmt::format("exited {} {} {}", child.name(), incarnation, child.Fate()));
   }
   void TellClock(const Child& broken) {
     if (!told_.insert(broken.name()).second) return;
@@ -314,9 +322,10 @@ class ProcessRun {
   int passed_on_ = 0;
   std::optional<WallClock::time_point> interrupted_at_;
   bool told_to_abort_ = false;
-  std::set<std::string> told_;          // nodes of which the clock was told that they are lost
-  std::int64_t clocks_last_step_ = -1;  // where it was lost …
-  int clocks_losses_ = 0;               // … so often
+  std::set<std::string> told_;                                  // nodes of which the clock was told that they are lost
+  std::set<std::pair<std::string, std::uint32_t>> exits_told_;  // node and incarnation that ended by itself
+  std::int64_t clocks_last_step_ = -1;                          // where it was lost …
+  int clocks_losses_ = 0;                                       // … so often
   bool shown_ = false;
   const dds::NetworkNeed network_need_;
   std::optional<std::string> network_problem_;

@@ -76,6 +76,7 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   EXPECT_FALSE(pipe.is_waiting());
   const std::string text =
       "do 1 pause\nlost ego 3 was killed by signal 9 (Killed)\nnonsense\nlost\nlost x\nlost x y z\nlost road 0\n\n"
+      "exited view 1 left with status 0\nexited\n"
       "do 2 mark a b  c\n";
   for (const char one : text) Write(std::string(1, one));
   EXPECT_EQ(CommandsThrough(pipe, "2 mark a b  c"), (std::vector<std::string>{"1 pause", "2 mark a b  c"}));
@@ -85,6 +86,11 @@ TEST_F(SupervisorPipeTest, TakesTheLinesThatCountHoweverTheyCome) {
   EXPECT_EQ(lost[0].incarnation, 3u);
   EXPECT_EQ(lost[0].text, "was killed by signal 9 (Killed)");
   EXPECT_EQ(lost[1].text, "was lost");
+  const std::vector<LostNode> exited = pipe.TakeExited();
+  ASSERT_EQ(exited.size(), 1u);
+  EXPECT_EQ(exited[0].node, "view");
+  EXPECT_EQ(exited[0].incarnation, 1u);
+  EXPECT_EQ(exited[0].text, "left with status 0");
   EXPECT_FALSE(pipe.must_abort());
   Write("abort\ndo 3 stop\n");
   (void)CommandsThrough(pipe, "3 stop");
