@@ -21,21 +21,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// A pipe from the program's standard error.
-class ErrorPipe {
+// A pipe from the program.
+class TextPipe {
  public:
-  ErrorPipe() {
+  TextPipe() {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
     from_ = ends[0], to_ = ends[1];
     ::fcntl(from_, F_SETFL, O_NONBLOCK);
   }
-  ~ErrorPipe() {
+  ~TextPipe() {
     if (from_ >= 0) ::close(from_);
     CloseWriter();
   }
-  ErrorPipe(const ErrorPipe&) = delete;
-  ErrorPipe& operator=(const ErrorPipe&) = delete;
+  TextPipe(const TextPipe&) = delete;
+  TextPipe& operator=(const TextPipe&) = delete;
 
   bool ok() const { return from_ >= 0; }
   int writer() const { return to_; }
@@ -92,21 +92,23 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   // errno of the failure, or 0.
-  int Start(const ProgramRun& run, int errors) {
+  int Start(const ProgramRun& run, int pipe) {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
     ::posix_spawn_file_actions_init(&files);
     ::posix_spawnattr_init(&attributes);
     ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     ::posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    ::posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
-    ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
+    ::posix_spawn_file_actions_adddup2(&files, pipe, run.text_descriptor);
+    ::posix_spawn_file_actions_addclosefrom_np(&files, run.text_descriptor + 1);
     sigset_t none, all;
     ::sigemptyset(&none);
     ::sigfillset(&all);
     ::posix_spawnattr_setsigmask(&attributes, &none);
     ::posix_spawnattr_setsigdefault(&attributes, &all);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    short flags = POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF;
+    if (run.is_own_group) flags |= POSIX_SPAWN_SETPGROUP;  // group 0: its own
+    ::posix_spawnattr_setflags(&attributes, flags);
     std::vector<std::string> words{run.program.string()}, variables = Environment(run);
     words.insert(words.end(), run.arguments.begin(), run.arguments.end());
     const int problem = ::posix_spawn(&pid_, run.program.c_str(), &files, &attributes, Pointers(words).data(),
@@ -146,7 +148,7 @@ std::optional<std::filesystem::path> FindInPath(std::string_view program) {
 }
 
 Result<ProgramEnd> RunProgram(const ProgramRun& run) {
-  ErrorPipe pipe;
+  TextPipe pipe;
   if (!pipe.ok()) return Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)), run.program.string());
   Child child;
   if (const int problem = child.Start(run, pipe.writer()); problem != 0)
@@ -162,12 +164,12 @@ Result<ProgramEnd> RunProgram(const ProgramRun& run) {
     if (end.stopped || end.too_long) return end;  // the child is killed
     if (is_open) {
       pipe.Wait(kLook);
-      is_open = pipe.Read(end.errors, run.text_limit_bytes);
+      is_open = pipe.Read(end.text, run.text_limit_bytes);
     } else {
       ::usleep(1000);
     }
   }
-  (void)pipe.Read(end.errors, run.text_limit_bytes);
+  (void)pipe.Read(end.text, run.text_limit_bytes);
   if (WIFSIGNALED(*status))
     end.signal = WTERMSIG(*status);
   else

@@ -22,7 +22,9 @@ struct ProgramRun {
   std::vector<std::string> arguments;                            // without the program's own name
   std::vector<std::pair<std::string, std::string>> environment;  // variables that are set where they are not
   std::chrono::seconds limit{600};                               // the program is killed after it
-  std::size_t text_limit_bytes = 1u << 20;                       // of what it writes to its standard error
+  int text_descriptor = 2;                                       // what it writes there is kept; 2: standard error
+  std::size_t text_limit_bytes = 1u << 20;                       // of that
+  bool is_own_group = false;                                     // a signal of the terminal does not reach it
   std::function<bool()> stop;                                    // asked often; true: the program is killed
 };
 
@@ -31,10 +33,11 @@ struct ProgramEnd {
   int signal = 0;        // the signal that ended it; 0: it ended itself
   bool stopped = false;  // by `stop`
   bool too_long = false;
-  std::string errors;  // the beginning of what it wrote to its standard error
+  std::string text;  // the beginning of what it wrote to `text_descriptor`
 };
 
-// Runs a program without a standard input, and waits for its end. What it writes to its standard output is dropped.
+// Runs a program without a standard input, and waits for its end. What it writes to its standard output is dropped. Its
+// standard error is this process's, unless it is kept.
 // Failed where it cannot be started.
 Result<ProgramEnd> RunProgram(const ProgramRun& run);
 

@@ -127,7 +127,11 @@ base::Result<Converted> RunNetconvert(const std::filesystem::path& file, SourceK
     return base::WrongInput("SUMO's netconvert, which reads such files, is not in PATH; `apt install sumo` installs it",
                             said);
   const Converted converted{folder / "it.net.xml", folder / "it.xodr"};
-  base::ProgramRun run{*program, {}, {{"SUMO_HOME", Home().string()}}, kLimit, 1u << 20, stop};
+  base::ProgramRun run;
+  run.program = *program;
+  run.environment = {{"SUMO_HOME", Home().string()}};
+  run.limit = kLimit;
+  run.stop = stop;
   if (kind == SourceKind::kOpenStreetMap) {
     const auto types = TypeFiles(said);
     if (!types) return types.error();
@@ -144,7 +148,7 @@ base::Result<Converted> RunNetconvert(const std::filesystem::path& file, SourceK
   auto end = base::RunProgram(run);
   constexpr int kMaxClasses = 16;  // that are new in newer versions
   for (int known = 0; known < kMaxClasses && kind == SourceKind::kNet && end; ++known) {
-    const std::string unknown = UnknownClass(FirstError(end.value().errors));
+    const std::string unknown = UnknownClass(FirstError(end.value().text));
     if (unknown.empty() || !ForgetClass(file, unknown)) break;
     end = base::RunProgram(run);
   }
@@ -156,7 +160,7 @@ base::Result<Converted> RunNetconvert(const std::filesystem::path& file, SourceK
     return base::Failed(
         fmt::format("netconvert crashed (signal {}, {})", end.value().signal, ::strsignal(end.value().signal)), said);
   if (end.value().status != 0) {
-    const std::string error = FirstError(end.value().errors);
+    const std::string error = FirstError(end.value().text);
     return base::WrongInput(
         "netconvert refuses it: " + (error.empty() ? fmt::format("exit status {}", end.value().status) : error), said);
   }

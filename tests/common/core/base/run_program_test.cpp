@@ -22,7 +22,17 @@ TEST(RunProgram, GivesStatusAndErrors) {
   ASSERT_TRUE(end);
   EXPECT_EQ(end.value().status, 3);
   EXPECT_EQ(end.value().signal, 0);
-  EXPECT_EQ(end.value().errors, "one\ntwo\n");
+  EXPECT_EQ(end.value().text, "one\ntwo\n");
+}
+
+TEST(RunProgram, KeepsWhatComesOnAnotherDescriptor) {
+  ProgramRun run = Shell("echo three >&3; echo two >&2; [ $(cut -d ' ' -f 5 /proc/$$/stat) = $$ ]");
+  run.text_descriptor = 3;
+  run.is_own_group = true;
+  const auto end = RunProgram(run);
+  ASSERT_TRUE(end.ok());
+  EXPECT_EQ(end.value().text, "three\n");
+  EXPECT_EQ(end.value().status, 0) << "the program leads a group of its own";
 }
 
 TEST(RunProgram, NamesTheSignalThatEndsIt) {
@@ -53,7 +63,7 @@ TEST(RunProgram, KeepsTheBeginningOfALongText) {
   const auto end = RunProgram(run);
   ASSERT_TRUE(end);
   EXPECT_EQ(end.value().status, 0);
-  EXPECT_EQ(end.value().errors.size(), 1000u);
+  EXPECT_EQ(end.value().text.size(), 1000u);
 }
 
 TEST(RunProgram, SetsVariablesThatAreNotSet) {
@@ -61,7 +71,7 @@ TEST(RunProgram, SetsVariablesThatAreNotSet) {
   run.environment = {{"RODEIRA_TEST_NEW", "new"}, {"PATH", "other"}};
   const auto end = RunProgram(run);
   ASSERT_TRUE(end);
-  EXPECT_EQ(end.value().errors, std::string("new ") + std::getenv("PATH"));
+  EXPECT_EQ(end.value().text, std::string("new ") + std::getenv("PATH"));
 }
 
 TEST(RunProgram, FindsProgramsInPath) {
