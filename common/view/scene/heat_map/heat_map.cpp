@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/view/scene/heat_map/heat_map.hpp"
+#include "common/view/scene/vehicles/equal_ids.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,19 +20,6 @@ constexpr std::array<HeatScale, kHeatKinds> kScales{
 
 std::uint8_t ColourByte(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
-}
-
-// Calls `each` for the pairs of equal ids.
-template <class Pose, class Each>
-void ForSame(const std::vector<Pose>& a, const std::vector<Pose>& b, Each each) {
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i].id == b[j].id)
-      each(a[i++], b[j++]);
-    else if (a[i].id < b[j].id)
-      ++i;
-    else
-      ++j;
-  }
 }
 
 }  // namespace
@@ -84,7 +72,7 @@ void HeatMap::Add(const SceneSnapshot& moment) {
   if (passed_s > kLongest_s) Clear();
   if (before_ && passed_s > 0.0) {
     watched_s_ += passed_s;
-    ForSame(before_->agents, moment.agents, [&](const AgentPose& a, const AgentPose& b) {
+    ForEqualIds(before_->agents, moment.agents, [&](const AgentPose& a, const AgentPose& b) {
       if (b.kind == AgentKind::kPedestrian) return;  // a map of vehicles
       // What is said of its fuel comes more seldom than moments: its flow, which holds until then, is as even as the
       // way.
@@ -93,7 +81,7 @@ void HeatMap::Add(const SceneSnapshot& moment) {
                               : std::nullopt;
       AddWay(a.p_WB_W, b.p_WB_W, passed_s, fuel_l);
     });
-    ForSame(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) {
+    ForEqualIds(before_->cars, moment.cars, [&](const CarPose& a, const CarPose& b) {
       AddWay(a.p_WB_W, b.p_WB_W, passed_s, std::fabs(a.fuel_used_l - b.fuel_used_l));
     });
   }

@@ -6,6 +6,7 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/geometry/angle.hpp"
+#include "common/view/scene/vehicles/equal_ids.hpp"
 
 namespace rodeira::scene {
 namespace {
@@ -59,19 +60,6 @@ AgentPose BetweenAgents(const AgentPose& a, const AgentPose& b, double alpha, do
   return agent;
 }
 
-// Calls `each` for the pairs of equal ids.
-template <class Part, class Each>
-void ForPairs(const std::vector<Part>& a, const std::vector<Part>& b, Each each) {
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    if (a[i].id == b[j].id)
-      each(a[i++], b[j++]);
-    else if (a[i].id < b[j].id)
-      ++i;
-    else
-      ++j;
-  }
-}
-
 }  // namespace
 
 Eigen::Quaterniond Attitude(double heading_rad, double pitch_rad, double roll_rad) {
@@ -86,9 +74,9 @@ SceneSnapshot Interpolate(const SceneSnapshot& a, const SceneSnapshot& b, double
   SceneSnapshot moment;
   moment.time_ns = a.time_ns + std::llround(alpha * static_cast<double>(b.time_ns - a.time_ns));
   const double interval_s = static_cast<double>(b.time_ns - a.time_ns) * 1e-9;
-  ForPairs(a.cars, b.cars,
-           [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
-  ForPairs(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) {
+  ForEqualIds(a.cars, b.cars,
+              [&](const CarPose& p, const CarPose& q) { moment.cars.push_back(BetweenCars(p, q, alpha, interval_s)); });
+  ForEqualIds(a.agents, b.agents, [&](const AgentPose& p, const AgentPose& q) {
     moment.agents.push_back(BetweenAgents(p, q, alpha, interval_s));
   });
   moment.lights = alpha < 0.5 ? a.lights : b.lights;
