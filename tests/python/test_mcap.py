@@ -232,7 +232,8 @@ class Files(unittest.TestCase):
                 handmade.channel(2, 2, "rodeira/scenario_events", "story")]
         for time_ns, kind, words in ((0, "start", ""), (2_500_000_000, "mark", "calibrated"),
                                      (9_000_000_000, "mark", "")):
-            cdr = Cdr().put("q", time_ns // 1_000_000, time_ns, 17, 18).put("d", 1).text(kind).text(words).put("I", 1, 0)
+            cdr = Cdr().put("q", time_ns // 1_000_000, time_ns, 17, 18).put("d", 1)
+            cdr = cdr.text(kind).text(words).put("I", 1, 0)
             data.append(handmade.message(1, time_ns, cdr.payload()))
         for time_ns, name in ((1_000_000_000, "mark"), (4_000_000_000, "weather"), (5_000_000_000, "mark")):
             cdr = Cdr().put("q", time_ns // 1_000_000, time_ns).put("I", 0, 0).put("Q", 5).put("I", 1)

@@ -20,7 +20,7 @@ struct Neighbour {
 };
 
 // The motion of one road user over a recording, at a uniform rate from time 0 on. A missing value is NaN. Lateral
-// quantities are positive to the left of the driver, who drives along the road or against it.
+// quantities are positive to the driver's left, along the road or against it.
 struct Drive {
   double rate_hz = 100.0;
   std::string subject;  // name of the vehicle, or "agent 7"

@@ -11,7 +11,7 @@
 
 namespace rodeira::traffic {
 
-// Finds vehicles whose boxes share ground (driver::Overlap) on one level (network::Network::kLevel_m).
+// Finds vehicles with boxes that share ground (driver::Overlap) on one level (network::Network::kLevel_m).
 class BoxCheck {
  public:
   using Pair = std::pair<std::uint32_t, std::uint32_t>;  // ids, the lower one first

@@ -56,7 +56,7 @@ double CarFollowing::FollowerDoes(const Follower& behind, bool any, double gap_m
 }
 
 // The acceleration with which it follows another agent that has come in, or comes in, before it: by what that one's
-// driver wants, since what his car does while he changes gear is over at once.
+// driver wants, since what that car does in a change of gears is over at once.
 double CarFollowing::FollowComing(std::uint32_t id, std::uint32_t leader, double gap_m) const {
   const Agent& other = in_.agents[leader];
   return driver::AccAcceleration(in_.traits[id].idm, in_.agents[id].speed_mps, in_.limits.Desired_mps(id), gap_m,

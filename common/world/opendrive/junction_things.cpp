@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to a junction and to no road of it: objects beside its own line, and the paths of pedestrians who cross
-// it on foot. It is given to the road beside which it lies.
+// What belongs to a junction and to no road of it: objects beside its own line, and the paths of pedestrians
+// across it. It is given to the road beside which it lies.
 #include <fmt/format.h>
 
 #include <algorithm>
