@@ -112,6 +112,8 @@ CLI::Validator Above0(std::string what) {
       "NUMBER");
 }
 
+CLI::Validator PositiveSeconds() { return Above0("a positive number of seconds"); }
+
 CLI::Validator Finite() {
   return CLI::Validator(
       [](std::string& text) {

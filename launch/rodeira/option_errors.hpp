@@ -12,6 +12,8 @@ namespace rodeira::cli {
 CLI::Validator OneOf(std::vector<std::string> words);
 // A finite number above 0; `what` says of which kind ("a positive number of seconds").
 CLI::Validator Above0(std::string what);
+// A duration: a finite number of seconds above 0.
+CLI::Validator PositiveSeconds();
 // A finite number, below 0 too; what is no number at all is left to the parser's own conversion; its sentence names
 // it.
 CLI::Validator Finite();

@@ -6,7 +6,6 @@
 namespace rodeira::cli {
 
 struct EditOptions {
-  bool asked = false;
   std::string file;  // empty: a new map
 };
 

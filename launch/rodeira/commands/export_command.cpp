@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -15,7 +14,6 @@
 #include "idl/aliases.hpp"
 #include "idl/topics.hpp"
 #include "launch/rodeira/interrupt.hpp"
-#include "launch/rodeira/option_errors.hpp"
 #include "launch/rodeira/replay/recording_text.hpp"
 
 namespace rodeira::cli {
@@ -68,20 +66,6 @@ csv::Selection SelectionOf(const ExportOptions& options) {
 }
 
 }  // namespace
-
-void AddExport(CLI::App& app, ExportOptions& options) {
-  CLI::App* tables = app.add_subcommand("export", "write a recording as tables");
-  tables->add_option("--csv", options.csv, "new folder, one CSV file a topic")->required();
-  tables->add_option("--topics", options.topics, "topics, separated by commas; default: all");
-  tables->add_option("--columns", options.columns,
-                     "columns or groups, separated by commas (position_w_m,wheels.load_n); default: all");
-  tables->add_option("--rate", options.rate_hz, "samples a second of each source, at most; events are all written")
-      ->check(Above0("a positive number of samples a second"));
-  tables->add_option("--from", options.from_s, "simulated seconds; from this time on")->check(From0());
-  tables->add_option("--to", options.to_s, "simulated seconds; before this time")->check(From0());
-  tables->add_option("FILE.mcap", options.recording, "recording")->required();
-  tables->add_flag("--quiet", options.quiet, "no progress, no list");
-}
 
 int Export(const ExportOptions& options) {
   CatchInterrupts();

@@ -4,10 +4,6 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace rodeira::cli {
 
 // `rodeira export --csv DIR FILE.mcap`
@@ -21,8 +17,6 @@ struct ExportOptions {
   std::optional<double> to_s;
   bool quiet = false;
 };
-
-void AddExport(CLI::App& app, ExportOptions& options);
 
 // Writes the tables and says what they are. Status 1 where the recording is not whole: the tables are there then, with
 // what could be read.

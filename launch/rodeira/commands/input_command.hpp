@@ -10,7 +10,6 @@ namespace rodeira::cli {
 
 // `rodeira input setup`: finds out by at most five movements what turns and what is pressed, and writes a wheel file.
 struct InputOptions {
-  bool asked = false;
   std::optional<std::filesystem::path> out;  // otherwise the user's folder, by GUID
   double lock_deg = 450.0;
 };

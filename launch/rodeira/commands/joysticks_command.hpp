@@ -13,7 +13,6 @@ namespace rodeira::cli {
 
 // `rodeira joysticks [--watch]`: what is plugged in, by the GUIDs that a wheel file names, and what moves.
 struct JoysticksOptions {
-  bool asked = false;
   bool watch = false;
   std::optional<double> duration_s;  // of watching; otherwise until Ctrl-C
 };

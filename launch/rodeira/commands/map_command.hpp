@@ -7,7 +7,7 @@ namespace rodeira::cli {
 
 // `rodeira map check FILE.motors`, `rodeira map convert FILE.motors -o OUT.svg|OUT.xodr|OUT.yaml`
 struct MapOptions {
-  std::string command;  // empty: another command was given
+  std::string command;  // check or convert
   std::string file;
   std::string out;
 };

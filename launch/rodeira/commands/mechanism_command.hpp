@@ -6,7 +6,6 @@
 namespace rodeira::cli {
 
 struct MechanismOptions {
-  bool asked = false;
   std::string file;
   double until_s = 0.0;
   double step_s = 0.0;

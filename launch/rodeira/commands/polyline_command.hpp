@@ -7,7 +7,7 @@
 namespace rodeira::cli {
 
 struct PolylineOptions {
-  std::string command;  // join, translate, rotate, scale, offset; empty: not asked
+  std::string command;  // join, translate, rotate, scale, offset
   std::vector<std::string> files;
   std::string out;
   std::vector<double> by_m;     // translate: 2 or 3 numbers

@@ -6,7 +6,7 @@
 namespace rodeira::cli {
 
 struct SurfaceOptions {
-  std::string command;  // check; empty: not asked
+  std::string command;  // check
   std::string file;
   std::string svg;
 };

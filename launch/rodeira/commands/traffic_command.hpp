@@ -11,7 +11,6 @@ namespace rodeira::cli {
 // [--csv DIR [--every S]] [--rows-every S] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane
 // ROAD:LANE]`
 struct TrafficOptions {
-  bool asked = false;
   std::string map;  // a world file, .xodr or .motors
   std::optional<std::uint32_t>
       vehicles;  // as the settings say; without settings 50, or with flows at most 1000 at a time

@@ -7,7 +7,7 @@
 namespace rodeira::cli {
 
 struct VehicleOptions {
-  std::string command;                  // "test", "tyre" or "list"; empty: another command was given
+  std::string command;                  // "test", "tyre" or "list"
   std::string file;                     // a path, or the name of a vehicle (InputKind::kVehicle); a tyre file
   std::vector<std::string> manoeuvres;  // none: all
   double step_s = 0.001;

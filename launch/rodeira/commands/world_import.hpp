@@ -7,7 +7,6 @@ namespace rodeira::cli {
 
 // `rodeira world import FILE [--elevation FILE.tif] -o WORLD`
 struct WorldImportOptions {
-  bool chosen = false;    // the command was given
   std::string file;       // .osm, .net.xml, or one of them gzipped
   std::string out;        // WORLD.xodr, or WORLD.yaml with WORLD.xodr beside it; none of them may exist
   std::string elevation;  // heights of the ground; empty: as the file says

@@ -12,7 +12,6 @@ namespace rodeira::cli {
 
 // `rodeira doctor …`: is this PC ready?
 struct DoctorOptions {
-  bool asked = false;
   std::string transport = "shared_memory";
   std::uint32_t domain = 0;
   bool quiet = false;

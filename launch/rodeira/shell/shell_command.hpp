@@ -8,7 +8,7 @@ namespace rodeira::cli {
 
 // `rodeira completion bash|zsh`, `rodeira manual`
 struct ShellOptions {
-  std::string command;  // "completion" or "manual"; empty: another command was given
+  std::string command;  // "completion" or "manual"
   std::string shell;
 };
 
