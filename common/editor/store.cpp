@@ -47,7 +47,7 @@ base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompani
   const auto clean = [&] { std::filesystem::remove(new_map, ignored), std::filesystem::remove(new_beside, ignored); };
   const auto fail = [&](const base::Error& error) {
     clean();
-    return base::Error{error.code, error.message, map_file.string()};
+    return error.WithContext(map_file.string());
   };
   const std::string text = traffic_map::CompanionText(document.companion, loaded.value, loaded.text);
   if (!text.empty()) {

@@ -140,9 +140,8 @@ base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeCont
   const std::filesystem::path& file = context.launch().world();
   auto world = road::World::Load(file);
   if (!world)
-    return base::Error{world.error().code,
-                       fmt::format("{} (without the world's files: '{}')", world.error().message, without),
-                       world.error().context};
+    return world.error().WithMessage(
+        fmt::format("{} (without the world's files: '{}')", world.error().message, without));
   if (world.value()->content_hash() != summary.content_hash) {
     return base::WrongInput(
         fmt::format(

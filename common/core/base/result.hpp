@@ -4,13 +4,17 @@
 /// @file
 /// Errors as values.
 
+#include <concepts>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "common/core/base/assert.hpp"
+#include "common/core/base/error_id.hpp"
 #include "common/core/base/printable.hpp"
 
 /// Errors, bytes, digests, random numbers and snapshots: what every other module uses.
@@ -22,9 +26,10 @@ enum class ErrorCode {
   kFailed,      ///< the environment failed (disk full, peer lost, time-out): exit status 1
 };
 
-/// An error outside of the program's code, described for the reader.
+/// An error outside of the program's code, described for the reader and named for programs.
 struct Error {
   ErrorCode code = ErrorCode::kWrongInput;  ///< the cause
+  ErrorId id;                               ///< the kind of failure; stable, whatever the message says
   std::string message;                      ///< one sentence: what was found, what was expected, the nearest right name
   std::string context;                      ///< the place: file:line, topic, step; may be empty
 
@@ -34,22 +39,59 @@ struct Error {
   /// Gives the exit status of a program that ends with this error.
   /// @return 2 for kWrongInput, 1 for kFailed
   int exit_status() const { return code == ErrorCode::kWrongInput ? 2 : 1; }
+
+  /// Gives this error at another place, instead of its own.
+  /// @param place the place (file:line, topic, step)
+  /// @return the same code, id and message
+  Error WithContext(std::string_view place) const { return Error{code, id, message, Printable(place)}; }
+  /// Gives this error inside a larger place: its own place goes in front of the message.
+  /// @param place the larger place (file, node, option)
+  /// @return the same code and id; Text() is "place: context: message"
+  Error In(std::string_view place) const { return Error{code, id, Text(), Printable(place)}; }
+  /// Gives this error with another sentence.
+  /// @param sentence what was found, what was expected
+  /// @return the same code, id and context
+  Error WithMessage(std::string_view sentence) const { return Error{code, id, Printable(sentence), context}; }
+};
+
+// The first argument of an error: its id, or the message of an error without an id.
+class IdOrMessage {
+ public:
+  template <std::size_t N>
+  consteval IdOrMessage(const char (&literal)[N])  // NOLINT: implicit by design
+      : text_(literal, N - 1), id_(ErrorId::FromId(text_)), is_id_(ErrorId::IsId(text_)) {}
+  constexpr IdOrMessage(ErrorId id) : id_(id), is_id_(true) {}  // NOLINT
+  template <class T>
+  requires(std::convertible_to<const T&, std::string_view> && !std::is_array_v<T>) IdOrMessage(const T& text)  // NOLINT
+      : text_(text) {}
+
+  Error Make(ErrorCode code, std::string_view second, std::string_view third) const {
+    return is_id_ ? Error{code, id_, Printable(second), Printable(third)}
+                  : Error{code, ErrorId(), Printable(text_), Printable(second)};
+  }
+
+ private:
+  std::string_view text_;
+  ErrorId id_;
+  bool is_id_ = false;
 };
 
 /// Makes an error of code kWrongInput. Both texts become one printable line each, so they may contain parts of files
 /// and messages.
+/// @param id the kind of failure, such as "config.unknown_key"
 /// @param message one sentence: what was found, what was expected
 /// @param context the place (file:line, topic, step); may be empty
 /// @return the error
-inline Error WrongInput(std::string_view message, std::string_view context = {}) {
-  return Error{ErrorCode::kWrongInput, Printable(message), Printable(context)};
+inline Error WrongInput(IdOrMessage id, std::string_view message = {}, std::string_view context = {}) {
+  return id.Make(ErrorCode::kWrongInput, message, context);
 }
 /// Makes an error of code kFailed. Both texts become one printable line each.
+/// @param id the kind of failure, such as "file.cannot_open"
 /// @param message one sentence: what was found, what was expected
 /// @param context the place (file, topic, step); may be empty
 /// @return the error
-inline Error Failed(std::string_view message, std::string_view context = {}) {
-  return Error{ErrorCode::kFailed, Printable(message), Printable(context)};
+inline Error Failed(IdOrMessage id, std::string_view message = {}, std::string_view context = {}) {
+  return id.Make(ErrorCode::kFailed, message, context);
 }
 
 /// A value, or the Error that explains why there is none. Access to the absent one is an assertion failure.

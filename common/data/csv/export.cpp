@@ -63,8 +63,7 @@ class Workplace {
     return {};
   }
   base::Status Finish() {
-    if (auto status = base::SyncFolder(path_); !status)
-      return base::Error{status.error().code, status.error().message, target_.string()};
+    if (auto status = base::SyncFolder(path_); !status) return status.error().WithContext(target_.string());
     if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
       const std::string what =
           fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));

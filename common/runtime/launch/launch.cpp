@@ -79,7 +79,7 @@ base::Result<std::shared_ptr<const NodeKind>> ReadKind(const config::Map& map, s
   if (!manifest) return manifest.error();
   for (std::size_t i = 0; i < manifest.value().topics.size(); ++i) {
     if (auto status = topics.Add(manifest.value().topics[i]); !status)
-      return base::Error{status.error().code, status.error().message, manifest.value().topic_places[i]};
+      return status.error().WithContext(manifest.value().topic_places[i]);
   }
   manifest.value().kind.program = std::filesystem::absolute(program).lexically_normal().string();
   if (const auto library = map.OptionalPath("library"))

@@ -212,7 +212,7 @@ base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep:
   record::WriterSettings settings;
   settings.profile = reader.value().header().profile;
   auto writer = record::McapWriter::Open(part, settings);
-  if (!writer) return base::Error{writer.error().code, writer.error().message, target.string()};
+  if (!writer) return writer.error().WithContext(target.string());
   auto status = Splicer(parent, reader.value(), at, writer.value(), stop_requested).Write(about);
   if (status.ok()) {
     status = base::PutInPlace(part, target);

@@ -320,10 +320,8 @@ void FmuModel::Restore(base::StateReader& reader) {
   if (problem_) problem_ = instance_->ExitInitialisation();
   if (problem_ && !restored_.empty()) problem_ = instance_->SetState(std::as_bytes(std::span(restored_)));
   if (!problem_) {
-    problem_ =
-        base::Error{problem_.error().code,
-                    fmt::format("its state at {:.6g} s cannot be taken over: {}", time_s_, problem_.error().message),
-                    problem_.error().context};
+    problem_ = problem_.error().WithMessage(
+        fmt::format("its state at {:.6g} s cannot be taken over: {}", time_s_, problem_.error().message));
   }
 }
 

@@ -106,8 +106,7 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
     if (const base::Status status = file.value().Finish(); !status) return status.error();
     if (kind.complete) {
       if (const base::Status status = kind.complete(*model, root); !status) {
-        return status.error().context.empty() ? base::Error{status.error().code, status.error().message, path.string()}
-                                              : status.error();
+        return status.error().context.empty() ? status.error().WithContext(path.string()) : status.error();
       }
       if (const base::Status status = file.value().Finish(); !status) return status.error();
     }

@@ -80,8 +80,7 @@ base::Result<MeasuredRecording> ReadRecording(const std::string& file, const std
   query.progress = progress;
   auto reading = measures::ReadDrive(run.value().reader(), world == nullptr ? nullptr : world->network(), query);
   if (!reading) {
-    const base::Error& error = reading.error();
-    return base::Error{error.code, error.Text(), file};
+    return reading.error().In(file);
   }
   MeasuredRecording measured{std::move(reading).value(), {}, {}};
   measures::RecordingFacts& facts = measured.facts;
@@ -111,7 +110,7 @@ base::Result<measures::MeasuresSpec> SpecOf(const MeasuresOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.intervals) {
     auto interval = measures::ParseInterval(text);
-    if (!interval) return base::Error{interval.error().code, interval.error().Text(), "--intervals"};
+    if (!interval) return interval.error().In("--intervals");
     names.push_back(interval.value().name);
     if (std::ranges::count(names, names.back()) > 1)
       return base::WrongInput(fmt::format("two intervals are named '{}'", names.back()), "--intervals");

@@ -77,7 +77,7 @@ int TestVehicle(const VehicleOptions& options) {
     if (shown) fmt::print(stderr, "\r\033[K");
     if (!options.quiet) fmt::print("{}: {}\n", manoeuvre->name, manoeuvre->what);
     if (!outcome) {
-      status = base::PrintError("rodeira", base::Error{outcome.error().code, outcome.error().Text(), manoeuvre->name});
+      status = base::PrintError("rodeira", outcome.error().In(manoeuvre->name));
       continue;
     }
     for (const manoeuvres::Figure& figure : outcome.value().figures) {

@@ -106,7 +106,7 @@ base::Result<std::vector<std::string>> Adapt(const lockstep::Roster& roster, con
       if (in.Finish().ok()) continue;
     }
     if (auto status = nodes[n]->InitialiseFrom(snapshots[n].samples); !status) {
-      return base::Error{status.error().code, status.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+      return status.error().In(fmt::format("node '{}'", roster.node(n).name));
     }
     taken_over.push_back(roster.node(n).name);
     snapshots[n].has_state = nodes[n]->can_save();

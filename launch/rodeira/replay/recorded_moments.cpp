@@ -28,7 +28,7 @@ base::Result<scene::SceneSnapshot> RecordedMoments::Exactly(Step step) {
     if (sample) newest[sample->source()] = sample->payload;
   }
   auto moment = nodes::MakeMoment(run_.roster(), step, newest);
-  if (!moment) return base::Error{moment.error().code, moment.error().Text(), run_.path().string()};
+  if (!moment) return moment.error().In(run_.path().string());
   return moment;
 }
 

@@ -90,8 +90,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
                               fmt::format("node '{}'", roster.node(n).name));
     if (launch.node(n).is_external()) {
       auto loaded = LibraryOf(launch.node(n));
-      if (!loaded)
-        return base::Error{loaded.error().code, loaded.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+      if (!loaded) return loaded.error().In(fmt::format("node '{}'", roster.node(n).name));
       factory = std::move(loaded).value();
     }
     if (factory == nullptr)
@@ -99,8 +98,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
                               fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());
     if (node.ok()) node = launch::AsManifestSays(*launch.node(n).kind, std::move(node).value());
-    if (!node)
-      return base::Error{node.error().code, node.error().Text(), fmt::format("node '{}'", roster.node(n).name)};
+    if (!node) return node.error().In(fmt::format("node '{}'", roster.node(n).name));
     made.owned_.push_back(std::move(node).value());
     made.nodes_.back() = made.owned_.back().get();
   }
