@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include "common/core/base/print_error.hpp"
+
 namespace rodeira::cli {
 
 int WithCheckedOutput(const std::function<int()>& command) {
@@ -24,8 +26,10 @@ int WithCheckedOutput(const std::function<int()>& command) {
     reason = problem.code().message();
   }
   if (std::ferror(stdout) == 0) return status;
-  std::cerr << "rodeira: cannot write to standard output" << (reason.empty() ? "" : ": ") << reason << '\n';
-  return status == 0 ? 1 : status;
+  const int failed = base::PrintError(
+      "rodeira",
+      base::Failed("file.cannot_write", "cannot write to standard output" + (reason.empty() ? reason : ": " + reason)));
+  return status == 0 ? failed : status;
 }
 
 }  // namespace rodeira::cli

@@ -4,15 +4,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 
 #include "common/core/base/display.hpp"
 #include "common/core/base/exhaustion.hpp"
 #include "common/core/base/mathematics.hpp"
+#include "common/core/base/print_error.hpp"
 #include "common/core/base/version.hpp"
 #include "launch/rodeira/checked_output.hpp"
 #include "launch/rodeira/commands/all_commands.hpp"
 #include "launch/rodeira/graphics/graphics.hpp"
+#include "launch/rodeira/json_option.hpp"
 #include "launch/rodeira/option_errors.hpp"
 
 namespace rodeira::cli {
@@ -23,9 +24,10 @@ int ChooseCommand() {
   const Graphics* graphics = RegisteredGraphics();
   if (graphics == nullptr && base::NamesDisplay()) return ContinueInGraphics("rodeira without a command");
   if (graphics != nullptr && graphics->has_display()) return graphics->start_window();
-  std::cerr << "rodeira: without a command a window opens to choose one, but there is no display; set DISPLAY, or "
-               "name a command (`rodeira --help` lists them)\n";
-  return 2;
+  return base::PrintError(
+      "rodeira", base::WrongInput("command.missing_command",
+                                  "without a command a window opens to choose one, but there is no display; set "
+                                  "DISPLAY, or name a command (`rodeira --help` lists them)"));
 }
 
 int RunCommandLine(int argc, char** argv) {
@@ -33,6 +35,7 @@ int RunCommandLine(int argc, char** argv) {
   base::NameExhaustion("rodeira");
   KeepArguments(argc, argv);
   if (argc == 1) return ChooseCommand();
+  if (WantsJson(argc, argv)) base::PrintErrorsAsJson();
   ChosenCommand chosen;
   CLI::App app{"Rodeira, a distributed driving simulator."};
   app.name("rodeira");
@@ -43,13 +46,13 @@ int RunCommandLine(int argc, char** argv) {
                          AddExport,  AddRepair, AddMeasures,  AddReplay,  AddView,     AddShell}) {
     add(app, chosen);
   }
+  AddJson(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& problem) {
     if (problem.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
       return app.exit(problem);  // --help, --version
-    std::cerr << OptionSentence(app, problem) << "\n";
-    return 2;
+    return base::PrintError("", OptionError(app, problem));
   }
   return chosen.Run();
 }

@@ -11,7 +11,7 @@ base::Result<std::vector<std::pair<std::string, std::string>>> KeyValues(std::st
   for (const std::string& text : texts) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-      return base::WrongInput("KEY=VALUE was expected", fmt::format("{} {}", option, text));
+      return base::WrongInput("command.wrong_value", "KEY=VALUE was expected", fmt::format("{} {}", option, text));
     pairs.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return pairs;

@@ -167,42 +167,59 @@ CLI::Validator NewFile() {
 
 namespace {
 
+base::Error UnknownCommand(const std::string& word, const std::vector<std::string>& commands) {
+  return base::WrongInput("command.unknown_command",
+                          fmt::format("unknown command '{}'{}", word, base::DidYouMean(word, commands)));
+}
+
+template <class Kind>
+bool Is(const CLI::ParseError& problem) {
+  return dynamic_cast<const Kind*>(&problem) != nullptr;
+}
+
+// The id of an error that the parser names by its class.
+base::ErrorId IdOf(const CLI::ParseError& problem) {
+  if (Is<CLI::ConversionError>(problem) || Is<CLI::ValidationError>(problem)) return "command.wrong_value";
+  if (Is<CLI::ArgumentMismatch>(problem)) return "command.wrong_count";
+  if (Is<CLI::RequiredError>(problem)) return "command.missing_argument";
+  if (Is<CLI::RequiresError>(problem)) return "command.missing_option";
+  if (Is<CLI::ExcludesError>(problem)) return "command.conflicting_options";
+  return "command.wrong_usage";
+}
+
 // What is wrong with the command that was read.
-std::string Problem(const Reading& reading, const CLI::ParseError& problem) {
+base::Error Problem(const Reading& reading, const CLI::ParseError& problem) {
   const std::vector<std::string> extras = reading.command->remaining(true);
   const auto option = std::find_if(extras.begin(), extras.end(),
                                    [](const std::string& word) { return word.size() > 1 && word.front() == '-'; });
   if (option != extras.end()) {
     const std::string name = option->substr(0, option->find('='));
-    return fmt::format("unknown option '{}'{}", name, base::DidYouMean(name, OptionsOf(*reading.command)));
+    return base::WrongInput("command.unknown_option", fmt::format("unknown option '{}'{}", name,
+                                                                  base::DidYouMean(name, OptionsOf(*reading.command))));
   }
   const std::vector<std::string> commands = CommandsOf(*reading.command);
-  if (!commands.empty() && !extras.empty())
-    return fmt::format("unknown command '{}'{}", extras.front(), base::DidYouMean(extras.front(), commands));
-  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&problem) != nullptr)
-    return fmt::format("a command is missing; expected {}", fmt::join(commands, ", "));
-  if (!extras.empty()) return fmt::format("unexpected argument '{}'", extras.front());
-  if (dynamic_cast<const CLI::ConversionError*>(&problem) != nullptr) {
-    if (const std::string sentence = ConversionSentence(*reading.command, problem.what()); !sentence.empty())
-      return sentence;
-  }
-  if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem) != nullptr) {
-    if (const std::string sentence = CountSentence(*reading.command, problem.what()); !sentence.empty())
-      return sentence;
-  }
-  return problem.what();
+  if (!commands.empty() && !extras.empty()) return UnknownCommand(extras.front(), commands);
+  if (!commands.empty() && Is<CLI::RequiredError>(problem))
+    return base::WrongInput("command.missing_command",
+                            fmt::format("a command is missing; expected {}", fmt::join(commands, ", ")));
+  if (!extras.empty())
+    return base::WrongInput("command.unexpected_argument", fmt::format("unexpected argument '{}'", extras.front()));
+  std::string sentence;
+  if (Is<CLI::ConversionError>(problem)) sentence = ConversionSentence(*reading.command, problem.what());
+  if (Is<CLI::ArgumentMismatch>(problem)) sentence = CountSentence(*reading.command, problem.what());
+  return base::WrongInput(IdOf(problem), sentence.empty() ? problem.what() : sentence);
 }
 
 }  // namespace
 
-std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem) {
+base::Error OptionError(const CLI::App& app, const CLI::ParseError& problem) {
   const Reading reading = Deepest(app);
   // A word before the command that was read: 'trafic run' is not 'run'.
   const std::vector<std::string> before = app.remaining(false);
-  if (reading.command != &app && !before.empty() && before.front().front() != '-')
-    return fmt::format("{0}: unknown command '{1}'{2} (see '{0} --help')", app.get_name(), before.front(),
-                       base::DidYouMean(before.front(), CommandsOf(app)));
-  return fmt::format("{0}: {1} (see '{0} --help')", reading.name, Problem(reading, problem));
+  const bool is_before = reading.command != &app && !before.empty() && before.front().front() != '-';
+  const std::string name = is_before ? app.get_name() : reading.name;
+  const base::Error error = is_before ? UnknownCommand(before.front(), CommandsOf(app)) : Problem(reading, problem);
+  return error.WithMessage(fmt::format("{} (see '{} --help')", error.message, name)).WithContext(name);
 }
 
 }  // namespace rodeira::cli

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/base/result.hpp"
+
 // What a person is told of a command line that is not right.
 namespace rodeira::cli {
 
@@ -27,8 +29,8 @@ CLI::Validator WholeNumber();
 // A file to be written, in a folder that is there.
 CLI::Validator NewFile();
 
-// One line without its end, "COMMAND: what is wrong (see 'COMMAND --help')": an unknown word with the nearest known
-// one; otherwise the parser's own words.
-std::string OptionSentence(const CLI::App& app, const CLI::ParseError& problem);
+// "what is wrong (see 'COMMAND --help')" of the command, which is the error's context: an unknown word with the nearest
+// known one; otherwise the parser's own words. Wrong input.
+base::Error OptionError(const CLI::App& app, const CLI::ParseError& problem);
 
 }  // namespace rodeira::cli

@@ -31,21 +31,6 @@ std::string OptionsText(const Measure& measure) {
   return text;
 }
 
-std::string JsonText(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
 std::string JsonNumber(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
 
 }  // namespace
@@ -81,17 +66,19 @@ std::string JsonTable(const MeasuresSpec& spec, std::span<const MeasuresRow> row
     text += fmt::format(
         "{}\n  {{\"file\": {}, \"participant\": {}, \"condition\": {}, \"run\": {}, \"interval\": {}, "
         "\"from_s\": {}, \"to_s\": {}, \"measures\": {{",
-        text.size() > 1 ? "," : "", JsonText(row.file), JsonText(row.participant), JsonText(row.condition),
-        JsonText(row.run), JsonText(row.interval.name), JsonNumber(row.interval.from_s), JsonNumber(row.interval.to_s));
+        text.size() > 1 ? "," : "", base::JsonText(row.file), base::JsonText(row.participant),
+        base::JsonText(row.condition), base::JsonText(row.run), base::JsonText(row.interval.name),
+        JsonNumber(row.interval.from_s), JsonNumber(row.interval.to_s));
     for (std::size_t i = 0; i < row.values.size(); ++i) {
       const Measure& m = row.values[i];
       text += fmt::format("{}\n    {}: {{\"value\": {}, \"unit\": {}, \"n\": {}, \"valid_share\": {}",
-                          i == 0 ? "" : ",", JsonText(spec.measures[i]->name), JsonNumber(m.value.value_or(kMissing)),
-                          JsonText(m.unit), m.n, m.valid_share);
-      if (!m.reason.empty()) text += fmt::format(", \"missing\": {}", JsonText(m.reason));
+                          i == 0 ? "" : ",", base::JsonText(spec.measures[i]->name),
+                          JsonNumber(m.value.value_or(kMissing)), base::JsonText(m.unit), m.n, m.valid_share);
+      if (!m.reason.empty()) text += fmt::format(", \"missing\": {}", base::JsonText(m.reason));
       text += ", \"options\": {";
       for (std::size_t o = 0; o < m.options.size(); ++o)
-        text += fmt::format("{}{}: {}", o == 0 ? "" : ", ", JsonText(m.options[o].name), JsonText(m.options[o].value));
+        text += fmt::format("{}{}: {}", o == 0 ? "" : ", ", base::JsonText(m.options[o].name),
+                            base::JsonText(m.options[o].value));
       text += "}}";
     }
     text += "}}";

@@ -87,12 +87,13 @@ int Export(const ExportOptions& options) {
     for (const std::string& sentence : report.value().left_out) fmt::print("left out  {}\n", sentence);
   }
   for (const std::string& loss : report.value().losses)
-    fmt::print(stderr, "rodeira: {}: {}\n", options.recording, loss);
+    base::PrintError("rodeira", base::Failed("recording.damaged", loss, options.recording));
   const bool whole = report.value().losses.empty() && reader.value().condition().whole;
   if (whole) return 0;
-  fmt::print(stderr, "rodeira: {} is not whole: the tables in {} hold what could be read\n", options.recording,
-             options.csv);
-  return 1;
+  return base::PrintError(
+      "rodeira", base::Failed("recording.damaged", fmt::format("{} is not whole: the tables in {} hold what could be "
+                                                               "read",
+                                                               options.recording, options.csv)));
 }
 
 }  // namespace rodeira::cli

@@ -47,10 +47,10 @@ int CheckMapFile(const std::string& path) {
     findings.push_back(std::move(*driven));
   int status = 0;
   for (const traffic_map::Finding& finding : findings) {
-    const bool is_error = finding.severity == traffic_map::Severity::kError;
-    fmt::print(stderr, "rodeira: {}: {}{}\n", base::Printable(finding.Place(path)),
-               is_error ? "" : "warning: ", finding.Text());
-    if (is_error) status = 2;
+    if (finding.severity == traffic_map::Severity::kError)
+      status = base::PrintError("rodeira", base::WrongInput("world.wrong_map", finding.Text(), finding.Place(path)));
+    else
+      fmt::print(stderr, "rodeira: {}: warning: {}\n", base::Printable(finding.Place(path)), finding.Text());
   }
   fmt::print("{}", traffic_map::DescribeMap(file.value(), heights.value(), findings));
   return status;

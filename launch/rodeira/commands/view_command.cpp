@@ -55,10 +55,10 @@ int View(const ViewOptions& options) {
     const Graphics* graphics = RegisteredGraphics();
     return graphics != nullptr ? graphics->start_window() : ContinueInGraphics("view");
   }
-  if (options.launch_file.empty()) {
-    fmt::print(stderr, "rodeira: view: a launch file was expected before --screen and --headset\n");
-    return 2;
-  }
+  if (options.launch_file.empty())
+    return base::PrintError("rodeira",
+                            base::WrongInput("command.missing_argument",
+                                             "a launch file was expected before --screen and --headset", "view"));
   auto file = ResolveInputFile(InputKind::kLaunch, options.launch_file);
   if (!file) return base::PrintError("rodeira", file.error());
   ViewOptions resolved = options;

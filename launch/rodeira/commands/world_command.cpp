@@ -62,7 +62,7 @@ int CheckOpenDrive(const WorldOptions& options) {
   const road::NetworkCheck check =
       road::CheckNetwork(options.world_file, options.strict, options.verbose, !options.no_repair);
   for (const std::string& warning : check.warnings) fmt::print(stderr, "rodeira: warning: {}\n", warning);
-  for (const base::Error& error : check.errors) fmt::print(stderr, "rodeira: {}\n", error.Text());
+  for (const base::Error& error : check.errors) base::PrintError("rodeira", error);
   if (!check.errors.empty()) return check.errors.front().exit_status();
   if (const int status = check.network != nullptr ? CheckLights(*check.network) : 0; status != 0) return status;
   fmt::print("{}{}: no error found\n", check.table, options.world_file);
@@ -78,7 +78,7 @@ int CheckBuilt(const WorldOptions& options) {
     const auto seen = road::VisualProblems(folder, hash);
     problems.insert(problems.end(), seen.begin(), seen.end());
   }
-  for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
+  for (const base::Error& problem : problems) base::PrintError("rodeira", problem);
   if (!problems.empty()) return problems.front().exit_status();
   std::error_code none;
   const bool is_seen = std::filesystem::exists(folder / road::kVisualManifest, none);
@@ -110,7 +110,7 @@ int CheckWorldFile(const WorldOptions& options) {
   for (const std::string& warning : road::WorldWarnings(options.world_file))
     fmt::print(stderr, "rodeira: warning: {}\n", warning);
   const auto problems = road::WorldProblems(options.world_file);
-  for (const base::Error& problem : problems) fmt::print(stderr, "rodeira: {}\n", problem.Text());
+  for (const base::Error& problem : problems) base::PrintError("rodeira", problem);
   if (!problems.empty()) return problems.front().exit_status();
   if (const int status = CheckLights(options.world_file); status != 0) return status;
   fmt::print("{}: no problem found\n", options.world_file);

@@ -90,9 +90,12 @@ int MakeBranch(const ReplayOptions& options) {
   desk.reset();  // the terminal is a terminal again
   if (!outcome) return base::PrintError("rodeira", outcome.error());
   if (outcome.value().difference) {
-    fmt::print(stderr, "rodeira: {}: the parent could not be repeated up to the branch; {}\n{}", options.file,
-               outcome.value().difference->Text(), outcome.value().recorded_by_another);
-    return 1;
+    const int status = base::PrintError("rodeira", base::Failed("replay.different",
+                                                                "the parent could not be repeated up to the branch; " +
+                                                                    outcome.value().difference->Text(),
+                                                                options.file));
+    fmt::print(stderr, "{}", outcome.value().recorded_by_another);
+    return status;
   }
   Tell(options, outcome.value());
   return 0;

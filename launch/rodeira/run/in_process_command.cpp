@@ -35,8 +35,8 @@ void EndWhatHangs(const std::stop_token& done) {
     if (!Interrupted()) continue;
     if (!interrupted_at) interrupted_at = WallClock::now();
     if (WallClock::now() - *interrupted_at < kForcedStop) continue;
-    fmt::print(stderr, "rodeira: stopped by a signal before all nodes had finished\n");
-    std::_Exit(1);
+    std::_Exit(
+        base::PrintError("rodeira", base::Failed("run.stopped", "stopped by a signal before all nodes had finished")));
   }
 }
 
@@ -90,11 +90,13 @@ int RunInProcess(const RunOptions& options, const launch::Launch& launch) {
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   const double wall_s = SecondsSince(start);
   const RunReport report = ReportOf(outcome, roster, wall_s);
-  if (!outcome.ok) fmt::print(stderr, "rodeira: {}\n", outcome.fault);
-  if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
   const bool is_refused = std::ranges::any_of(
       outcome.reports, [](const lockstep::Report& one) { return one.phase == lockstep::Phase::kRefused; });
-  return outcome.ok ? 0 : is_refused ? 2 : 1;
+  const int status = outcome.ok   ? 0
+                     : is_refused ? base::PrintError("rodeira", base::WrongInput("run.refused", outcome.fault))
+                                  : base::PrintError("rodeira", base::Failed("run.failed", outcome.fault));
+  if (!options.quiet) fmt::print("{}", report.Table(static_cast<double>(roster.base_step_ns()) * 1e-9, options.record));
+  return status;
 }
 
 }  // namespace rodeira::cli

@@ -229,7 +229,7 @@ class ProcessRun {
     if (!fault_.empty()) return;
     LookAtNetwork();
     fault_ = fault;
-    Tell(fault);
+    if (!base::ErrorsAreJson()) Tell(fault);  // JSON has the exit status, which is known when the run is closed
   }
   void Tell(const std::string& sentence) {
     fmt::print(stderr, "{}rodeira: {}\n", shown_ ? "\r\033[K" : "", sentence);
@@ -280,6 +280,9 @@ class ProcessRun {
     if (shown_) fmt::print(stderr, "\r\033[K");
     report_.faults = fault_.empty() ? std::vector<std::string>() : std::vector<std::string>{fault_};
     for (const std::string& remark : report_.remarks) fmt::print(stderr, "rodeira: {}\n", remark);
+    if (base::ErrorsAreJson() && ExitStatus() != 0)
+      base::PrintError("rodeira", ExitStatus() == 2 ? base::WrongInput("run.refused", FaultText())
+                                                    : base::Failed("run.failed", FaultText()));
     LeaveReport();
     if (!report_.ready || options_.quiet) return;
     fmt::print("{}", report_.Table(static_cast<double>(launch_.roster().base_step_ns()) * 1e-9, options_.record));
@@ -292,13 +295,14 @@ class ProcessRun {
     for (const Child& child : processes_.children())
       parts.push_back({child.name(), child.Fate(), processes_.LogOf(child.name())});
     const auto file = FailureFile(options_.record, launch_.name());
-    const std::string fault = fault_.empty() ? "the run did not end in order" : fault_;
-    const auto written = base::WriteWhole(file, FailureText(fault, launch_, parts));
+    const auto written = base::WriteWhole(file, FailureText(FaultText(), launch_, parts));
     if (written.ok())
       fmt::print(stderr, "rodeira: report of the failure: {}\n", file.string());
     else
       fmt::print(stderr, "rodeira: the report of the failure cannot be written: {}\n", written.error().Text());
   }
+
+  std::string FaultText() const { return fault_.empty() ? "the run did not end in order" : fault_; }
 
   int ExitStatus() const {
     if (report_.ok && fault_.empty()) return 0;
