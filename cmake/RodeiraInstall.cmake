@@ -105,8 +105,9 @@ function(rodeira_install_kit)
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/rodeira/${folder} COMPONENT development
             EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.hpp PATTERN *.idl PATTERN sdl_devices EXCLUDE)
   endforeach()
+  # Scripts stay executable.
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${RODEIRA_DATA_FOLDER} COMPONENT development
-          EXCLUDE_FROM_ALL)
+          EXCLUDE_FROM_ALL USE_SOURCE_PERMISSIONS)
   install(DIRECTORY ${CMAKE_BINARY_DIR}/idl/generated/ DESTINATION include/rodeira/generated COMPONENT development
           EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.h)
 endfunction()
