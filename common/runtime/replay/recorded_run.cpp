@@ -35,7 +35,7 @@ base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
   base::ByteReader in(attachment.data);
   const auto size = in.Get<std::uint64_t>();
   if (!in.ok() || size > kMaxFileBytes)
-    return base::WrongInput(fmt::format("the embedded file '{}' is damaged", attachment.name));
+    return base::WrongInput("recording.damaged", fmt::format("the embedded file '{}' is damaged", attachment.name));
   return record::ZstdDecompress(in.GetRaw(in.remaining()), size);
 }
 
@@ -43,10 +43,12 @@ base::Result<base::Bytes> Unpacked(const record::Attachment& attachment) {
 
 base::Result<lockstep::SampleHeader> HeaderOf(std::span<const std::byte> payload, lockstep::SourceIndex source) {
   if (!lockstep::SampleHeader::HasHeader(payload))
-    return base::WrongInput(fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
+    return base::WrongInput("recording.wrong_sample",
+                            fmt::format("a sample of {} bytes was found, which has no header", payload.size()));
   const auto header = lockstep::SampleHeader::Read(payload);
   if (header.source != source)
     return base::WrongInput(
+        "recording.wrong_sample",
         fmt::format("a sample of source {} was found on the channel of source {}", header.source, source));
   return header;
 }
@@ -72,7 +74,8 @@ base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::
   if (!reader) return reader.error();
   if (!reader.value().condition().whole) {
     const auto& findings = reader.value().condition().findings;
-    return base::WrongInput(fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved",
+    return base::WrongInput("recording.not_whole",
+                            fmt::format("the recording is not whole{}; `rodeira repair` saves what can be saved",
                                         findings.empty() ? "" : " (" + findings.front() + ")"),
                             path.string());
   }
@@ -86,7 +89,7 @@ base::Result<RecordedRun> RecordedRun::Open(const fs::path& path, const launch::
 
 base::Error RecordedRun::Named(const base::Error& error) const {
   const std::string text = error.context == path_.string() ? error.message : error.Text();
-  return {error.code, launch::WithNames(text, folder_.path()), path_.string()};
+  return error.WithMessage(launch::WithNames(text, folder_.path())).WithContext(path_.string());
 }
 
 base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::TextMap& about) const {
@@ -108,14 +111,17 @@ base::Result<std::vector<launch::NamedFile>> RecordedRun::Files(const record::Te
     }
   }
   if (!has_launch)
-    return base::WrongInput("the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
+    return base::WrongInput("recording.file_missing",
+                            "the embedded file 'launch.yaml' is missing; without it nobody knows who took part");
   return files;
 }
 
 base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const auto metadata = reader_.FindMetadata("rodeira");
   if (!metadata) return metadata.error();
-  if (!metadata.value()) return base::WrongInput("this is no recording of Rodeira: its metadata 'rodeira' is missing");
+  if (!metadata.value())
+    return base::WrongInput("recording.not_of_rodeira",
+                            "this is no recording of Rodeira: its metadata 'rodeira' is missing");
   const record::TextMap& about = metadata.value()->entries;
   mathematics_ = Entry(about, "mathematics_hash");
   version_ = Entry(about, "version");
@@ -134,19 +140,22 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
                            attachment.value().data.size());
     const auto equals = line.find('=');
     if (equals == std::string::npos)
-      return base::WrongInput(fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
+      return base::WrongInput("recording.contradiction",
+                              fmt::format("the recorded override '{}' is no KEY=VALUE", line.substr(0, 100)));
     overrides.emplace_back(line.substr(0, equals), launch::LaidOut(line.substr(equals + 1), launch_file.value()));
   }
   // The run as it was: its roster must be the recorded one, whatever is changed afterwards.
   auto recorded = launch::Launch::Load(launch_file.value(), overrides);
   if (!recorded) return recorded.error();
   if (base::Hex(recorded.value().roster().hash()) != Entry(about, "roster_hash")) {
-    return base::WrongInput(fmt::format("the recorded launch file gives the roster {}, the recording says {}",
+    return base::WrongInput("recording.contradiction",
+                            fmt::format("the recorded launch file gives the roster {}, the recording says {}",
                                         base::Hex(recorded.value().roster().hash()), Entry(about, "roster_hash")));
   }
   const auto said = [&about](const char* key, const std::string& expected) -> base::Status {
     if (Entry(about, key).empty() || Entry(about, key) == expected) return {};
     return base::WrongInput(
+        "recording.contradiction",
         fmt::format("the recording says {} {}, but its launch file {}; it was changed after it was written", key,
                     Entry(about, key), expected));
   };
@@ -160,6 +169,7 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     if (!recorded) return recorded.error();
     if (recorded.value().roster().hash() != roster) {
       return base::WrongInput(
+          "replay.other_roster",
           "the changes give another roster (other nodes, periods or wires); a branch has its parent's");
     }
   }
@@ -175,7 +185,8 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
     if (!number) continue;
     if (*number < 0 || static_cast<std::size_t>(*number) >= roster().sources().size() ||
         roster().source(static_cast<lockstep::SourceIndex>(*number)).topic != idl::Aliases().Topic(channel.topic)) {
-      return base::WrongInput(fmt::format("the channel '{}' says that it is source {}, which the roster does not know",
+      return base::WrongInput("recording.contradiction",
+                              fmt::format("the channel '{}' says that it is source {}, which the roster does not know",
                                           channel.topic, *number));
     }
     sources_[id] = static_cast<lockstep::SourceIndex>(*number);
@@ -185,7 +196,8 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   if (!branch) return branch.error();
   if (branch.value()) {
     const auto at = record::WholeNumber(branch.value()->entries, "step");
-    if (!at || *at < 0) return base::WrongInput("the recording does not say at which step it left its parent");
+    if (!at || *at < 0)
+      return base::WrongInput("recording.contradiction", "the recording does not say at which step it left its parent");
     branched_at_ = *at;
     parent_ = Entry(branch.value()->entries, "parent");
   }
@@ -194,9 +206,11 @@ base::Status RecordedRun::Read(const launch::Overrides& extra) {
   const auto last = end.value() ? record::WholeNumber(end.value()->entries, "last_step") : std::nullopt;
   if (!last || *last < 0)
     return base::WrongInput(
+        "recording.contradiction",
         "the recording does not say at which step the run ended; not even its first samples are there");
   if (*last > std::numeric_limits<std::int64_t>::max() / 4 / roster().base_step_ns()) {
-    return base::WrongInput(fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
+    return base::WrongInput("recording.contradiction",
+                            fmt::format("the recording says that the run ended at step {}, which cannot be", *last));
   }
   last_step_ = *last;
   complete_ = Entry(end.value()->entries, "complete") == "true";
@@ -218,6 +232,7 @@ base::Status RecordedRun::CheckTypes(const std::set<std::string_view>& topics) c
   }
   if (differences.empty()) return {};
   return base::WrongInput(
+      "replay.other_types",
       fmt::format("the recording's types are not this program's: {}; it was recorded by version {}, "
                   "commit {}: use that version",
                   differences, version_, commit_),
@@ -247,9 +262,11 @@ base::Status RecordedRun::CheckChannels() const {
     for (const lockstep::Port& port : roster().node(n).inputs) {
       for (const lockstep::SourceIndex source : port.sources) {
         if (known.contains(source)) continue;
-        return base::WrongInput(fmt::format(
-            "the recording holds nothing that node '{}' said on topic {}; it was lost with what was damaged",
-            roster().node(roster().source(source).node).name, port.topic));
+        return base::WrongInput(
+            "recording.sample_missing",
+            fmt::format(
+                "the recording holds nothing that node '{}' said on topic {}; it was lost with what was damaged",
+                roster().node(roster().source(source).node).name, port.topic));
       }
     }
   }
@@ -260,6 +277,7 @@ base::Status RecordedRun::CheckBytes() const {
   const std::vector<std::string> findings = reader_.Verify();
   if (findings.empty()) return {};
   return base::WrongInput(
+      "recording.damaged",
       fmt::format("the recording was changed or damaged after it was written ({})", findings.front()), path_.string());
 }
 
@@ -267,6 +285,7 @@ base::Status RecordedRun::CheckMathematics() const {
   const std::string own = base::Hex(base::MathLibraryFingerprint());
   if (mathematics_ == own) return {};
   return base::WrongInput(
+      "replay.other_mathematics",
       fmt::format(
           "the recording's mathematics hash is {}, this program's is {}: its mathematics library computes other bits",
           mathematics_, own),
@@ -318,7 +337,8 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
   if (!without) return without.error();
   if (!without.value().empty()) {
     if (branched_at_ == 0) return Step{0};
-    return base::WrongInput(fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes "
+    return base::WrongInput("replay.node_without_state",
+                            fmt::format("node '{}' cannot save its state, and up to step {} its parent's nodes "
                                         "computed: the branch cannot be computed again",
                                         roster().node(without.value().front()).name, branched_at_),
                             path_.string());
@@ -328,7 +348,8 @@ base::Result<Step> RecordedRun::SnapshotAtOrBefore(Step step) const {
     const Step period = roster().source(*node.snapshots).period;
     const Step own = lockstep::CeilTo(branched_at_, period);
     if (own > last_step_)
-      return base::WrongInput("the branch is shorter than the distance of two snapshots; it holds none of its own",
+      return base::WrongInput("replay.no_snapshot",
+                              "the branch is shorter than the distance of two snapshots; it holds none of its own",
                               path_.string());
     return std::max(own, lockstep::FloorTo(std::min(step, last_step_), period));
   }
@@ -347,6 +368,7 @@ base::Status RecordedRun::CheckSamples(const lockstep::Snapshot& snapshot) const
       };
       if (std::ranges::count_if(snapshot.samples, is_it) == 1) continue;
       return base::WrongInput(
+          "recording.sample_missing",
           fmt::format("one sample of {} valid at step {} was expected, which the run goes on with from step {}",
                       roster().SourceName(source), valid, snapshot.at),
           path_.string());
@@ -383,6 +405,7 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
       if (!snapshot) return snapshot.error();
       if (snapshot.value().node != n || snapshot.value().at != at) {
         return base::WrongInput(
+            "recording.snapshot_missing",
             fmt::format("the snapshot of node '{}' at step {} says that it is of node number {} at step {}", spec.name,
                         at, snapshot.value().node, snapshot.value().at),
             path_.string());
@@ -399,7 +422,8 @@ base::Result<std::vector<lockstep::Snapshot>> RecordedRun::Snapshots(Step at) co
   for (lockstep::NodeIndex n = 0; n < snapshots.size(); ++n) {
     if (auto status = CheckSamples(snapshots[n]); !status) return status.error();
     if (roster().node(n).snapshots && !found[n]) {
-      return base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at),
+      return base::WrongInput("recording.snapshot_missing",
+                              fmt::format("the snapshot of node '{}' at step {} is missing", roster().node(n).name, at),
                               path_.string());
     }
   }
