@@ -11,10 +11,10 @@
 namespace rodeira::base {
 
 /// What an error is about: the first part of its id.
-inline constexpr std::array<std::string_view, 24> kErrorScopes = {
-    "command", "config",  "dds",   "device",    "driver",    "edit",    "file", "fmu",
-    "launch",  "measure", "node",  "opendrive", "recording", "replay",  "run",  "scenario",
-    "sumo",    "surface", "table", "terrain",   "traffic",   "vehicle", "view", "world"};
+inline constexpr std::array<std::string_view, 30> kErrorScopes = {
+    "command",   "config",  "dds",    "device",    "edit",     "file",      "fmu",    "launch",  "map",      "measure",
+    "mechanism", "message", "node",   "opendrive", "polyline", "recording", "replay", "run",     "scenario", "snapshot",
+    "sumo",      "surface", "system", "table",     "terrain",  "traffic",   "tyre",   "vehicle", "view",     "world"};
 
 /// The id of an error: "scope.what_happened", such as "config.unknown_key". An id is stable: programs may compare it,
 /// the sentence beside it may change. One id stands for one kind of failure, wherever it is found.

@@ -31,10 +31,11 @@ Result<Buffer> ReadStream(std::ifstream& in, const std::filesystem::path& path, 
     in.read(reinterpret_cast<char*>(buffer.data() + held), kChunk);
     buffer.resize(held + static_cast<std::size_t>(in.gcount()));
     if (buffer.size() > limit_bytes)
-      return WrongInput(fmt::format("more than the {} bytes that were expected at most came", limit_bytes),
+      return WrongInput("file.too_large",
+                        fmt::format("more than the {} bytes that were expected at most came", limit_bytes),
                         path.string());
   }
-  if (in.bad()) return Failed("the file cannot be read to its end", path.string());
+  if (in.bad()) return Failed("file.cannot_read", "the file cannot be read to its end", path.string());
   return buffer;
 }
 
@@ -42,19 +43,21 @@ template <class Buffer>
 Result<Buffer> ReadInto(const std::filesystem::path& path, std::size_t limit_bytes) {
   std::error_code problem;
   const auto status = std::filesystem::status(path, problem);
-  if (!std::filesystem::exists(status)) return WrongInput(NoSuchFile(path), path.string());
-  if (std::filesystem::is_directory(status)) return WrongInput("this is a folder, a file was expected", path.string());
+  if (!std::filesystem::exists(status)) return WrongInput("file.not_found", NoSuchFile(path), path.string());
+  if (std::filesystem::is_directory(status))
+    return WrongInput("file.is_folder", "this is a folder, a file was expected", path.string());
   std::ifstream in(path, std::ios::binary);
   if (!in) return OpenError("the file cannot be opened", errno, path.string());
   if (!std::filesystem::is_regular_file(status)) return ReadStream<Buffer>(in, path, limit_bytes);
   const auto size = static_cast<std::size_t>(in.seekg(0, std::ios::end).tellg());
   if (size > limit_bytes) {
-    return WrongInput(fmt::format("the file has {} bytes, at most {} were expected", size, limit_bytes), path.string());
+    return WrongInput("file.too_large",
+                      fmt::format("the file has {} bytes, at most {} were expected", size, limit_bytes), path.string());
   }
   Buffer buffer(size, {});
   in.seekg(0);
   if (size > 0 && !in.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(size))) {
-    return Failed("the file cannot be read to its end", path.string());
+    return Failed("file.cannot_read", "the file cannot be read to its end", path.string());
   }
   return buffer;
 }
@@ -74,7 +77,8 @@ Status WriteWhole(const std::filesystem::path& path, std::span<const std::byte> 
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
   const std::filesystem::path beside = path.string() + fmt::format(".{}.part", ::getpid());
   const auto fail = [&](std::string_view what) {
-    Error error = Failed(fmt::format("the file cannot be {}: {}", what, std::strerror(errno)), path.string());
+    Error error = Failed("file.cannot_write", fmt::format("the file cannot be {}: {}", what, std::strerror(errno)),
+                         path.string());
     std::filesystem::remove(beside, problem);
     return error;
   };
@@ -109,7 +113,8 @@ Status SyncFolder(const std::filesystem::path& folder) {
   const int error = errno;
   if (opened >= 0) ::close(opened);
   if (done) return {};
-  return Failed(fmt::format("the folder cannot be written to the disk: {}", std::strerror(error)), folder.string());
+  return Failed("file.cannot_write", fmt::format("the folder cannot be written to the disk: {}", std::strerror(error)),
+                folder.string());
 }
 
 Status WriteWhole(const std::filesystem::path& path, std::string_view text) {

@@ -13,7 +13,8 @@ namespace rodeira::base {
 
 Status PutInPlace(const std::filesystem::path& from, const std::filesystem::path& to) {
   if (::rename(from.c_str(), to.c_str()) != 0)
-    return Failed(fmt::format("the file cannot be put in its place: {}", std::strerror(errno)), to.string());
+    return Failed("file.cannot_write", fmt::format("the file cannot be put in its place: {}", std::strerror(errno)),
+                  to.string());
   SyncName(to);
   return {};
 }

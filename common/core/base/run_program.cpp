@@ -149,10 +149,13 @@ std::optional<std::filesystem::path> FindInPath(std::string_view program) {
 
 Result<ProgramEnd> RunProgram(const ProgramRun& run) {
   TextPipe pipe;
-  if (!pipe.ok()) return Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)), run.program.string());
+  if (!pipe.ok())
+    return Failed("system.no_pipe", fmt::format("cannot create a pipe: {}", std::strerror(errno)),
+                  run.program.string());
   Child child;
   if (const int problem = child.Start(run, pipe.writer()); problem != 0)
-    return Failed(fmt::format("cannot start the program: {}", std::strerror(problem)), run.program.string());
+    return Failed("system.cannot_start_program", fmt::format("cannot start the program: {}", std::strerror(problem)),
+                  run.program.string());
   pipe.CloseWriter();
   ProgramEnd end;
   const auto until = Clock::now() + run.limit;

@@ -41,10 +41,11 @@ void StateReader::Fail(std::string_view name, std::string_view found) {
 }
 
 Status StateReader::Finish() const {
-  if (!problem_.empty()) return WrongInput(problem_);
-  if (!in_.ok()) return WrongInput("the snapshot ends within a field");
+  if (!problem_.empty()) return WrongInput("snapshot.wrong_field", problem_);
+  if (!in_.ok()) return WrongInput("snapshot.wrong_field", "the snapshot ends within a field");
   if (in_.remaining() != 0)
-    return WrongInput(fmt::format("{} bytes are left over after the last state field", in_.remaining()));
+    return WrongInput("snapshot.wrong_field",
+                      fmt::format("{} bytes are left over after the last state field", in_.remaining()));
   return {};
 }
 

@@ -48,7 +48,7 @@ std::vector<StateField> WithoutCarried(std::vector<StateField> fields) {
 }  // namespace
 
 Result<std::vector<StateField>> StateFields(std::span<const std::byte> state) {
-  const auto cut = [] { return WrongInput("the snapshot's state ends within a field"); };
+  const auto cut = [] { return WrongInput("snapshot.wrong_field", "the snapshot's state ends within a field"); };
   ByteReader in(state);
   std::vector<StateField> fields;
   std::string part;
@@ -70,12 +70,14 @@ Result<std::vector<StateField>> StateFields(std::span<const std::byte> state) {
       if (list) fields.push_back({path + ".size", fmt::format("{}", count)});
       for (std::uint32_t i = 0; i < count; ++i) {
         const auto value = ScalarText(in, scalar, size);
-        if (!value) return WrongInput(fmt::format("state field '{}' has no type of a snapshot", path.substr(0, 64)));
+        if (!value)
+          return WrongInput("snapshot.wrong_field",
+                            fmt::format("state field '{}' has no type of a snapshot", path.substr(0, 64)));
         fields.push_back({list ? fmt::format("{}[{}]", path, i) : path, *value});
       }
     } else {
-      return WrongInput(fmt::format("state field '{}' has shape {}, which no snapshot has", path.substr(0, 64),
-                                    static_cast<int>(shape)));
+      return WrongInput("snapshot.wrong_field", fmt::format("state field '{}' has shape {}, which no snapshot has",
+                                                            path.substr(0, 64), static_cast<int>(shape)));
     }
     if (!in.ok()) return cut();
   }

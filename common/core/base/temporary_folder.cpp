@@ -55,13 +55,15 @@ void Sweep(const fs::path& where, const std::string& start) {
 Result<TemporaryFolder> TemporaryFolder::Make(std::string_view what) {
   std::error_code problem;
   const fs::path where = fs::temp_directory_path(problem);
-  if (problem) return Failed("no temporary folder can be made: " + problem.message(), where.string());
+  if (problem)
+    return Failed("file.cannot_make_folder", "no temporary folder can be made: " + problem.message(), where.string());
   const std::string start = "rodeira-" + std::string(what) + "-";
   Sweep(where, start);
   for (;;) {
     std::string name = (where / start).string() + std::string(kLetters, 'X');
     if (::mkdtemp(name.data()) == nullptr)
-      return Failed(std::string("no temporary folder can be made: ") + std::strerror(errno), where.string());
+      return Failed("file.cannot_make_folder", std::string("no temporary folder can be made: ") + std::strerror(errno),
+                    where.string());
     const int lock = Lock(name, true);
     if (lock >= 0 && IsThere(lock)) return TemporaryFolder(name, lock);
     if (lock < 0 && fs::exists(name, problem)) return TemporaryFolder(name, -1);  // a file system without locks

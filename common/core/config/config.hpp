@@ -154,8 +154,15 @@ class Map {
   std::string Place(std::string_view key) const;
   /// Adds a problem that the caller found, such as values that do not fit together.
   /// @param key the key to locate
+  /// @param id the kind of failure
   /// @param message one sentence: what was found, what was expected
-  void Problem(std::string_view key, std::string message) const;
+  void Problem(std::string_view key, base::ErrorId id, std::string message) const;
+  /// Adds a problem of the id "config.wrong_value".
+  /// @param key the key to locate
+  /// @param message one sentence: what was found, what was expected
+  void Problem(std::string_view key, std::string message) const {
+    Problem(key, "config.wrong_value", std::move(message));
+  }
 
  private:
   friend class File;
@@ -201,8 +208,15 @@ class List {
   std::string Place(std::size_t index) const;
   /// Adds a problem that the caller found. The index may be any number.
   /// @param index index of the item to locate
+  /// @param id the kind of failure
   /// @param message one sentence: what was found, what was expected
-  void Problem(std::size_t index, std::string message) const;
+  void Problem(std::size_t index, base::ErrorId id, std::string message) const;
+  /// Adds a problem of the id "config.wrong_value".
+  /// @param index index of the item to locate
+  /// @param message one sentence: what was found, what was expected
+  void Problem(std::size_t index, std::string message) const {
+    Problem(index, "config.wrong_value", std::move(message));
+  }
 
  private:
   friend class Map;

@@ -14,7 +14,8 @@ namespace rodeira::config {
 inline bool RejectConflictingKeys(const Map& map, std::string_view key, std::string_view other) {
   if (!map.Has(key) || !map.Has(other)) return false;
   map.IgnoreKey(other);
-  map.Problem(other, fmt::format("'{}' and '{}' say the same in two ways; one of both was expected", key, other));
+  map.Problem(other, "config.conflicting_keys",
+              fmt::format("'{}' and '{}' say the same in two ways; one of both was expected", key, other));
   return true;
 }
 

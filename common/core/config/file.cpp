@@ -82,21 +82,23 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
   context->path = name;
   context->text = std::string(text);
   if (text.find('\0') != std::string_view::npos)
-    return base::WrongInput("the file holds a zero byte; YAML text was expected", name.string());
+    return base::WrongInput("config.not_text", "the file holds a zero byte; YAML text was expected", name.string());
   if (const auto at = base::FirstNotUtf8(text)) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(*at), '\n');
     return base::WrongInput(
+        "config.not_utf8",
         fmt::format("byte 0x{:02x} is not UTF-8; YAML in UTF-8 was expected; save the file as UTF-8",
                     static_cast<unsigned char>(text[*at])),
         fmt::format("{}:{}", name.string(), line));
   }
   const auto root = LoadYaml(context->text, "this");
   if (!root)
-    return base::WrongInput(root.error().message,
-                            root.error().context.empty() ? name.string() : name.string() + ":" + root.error().context);
+    return root.error().WithContext(root.error().context.empty() ? name.string()
+                                                                 : name.string() + ":" + root.error().context);
   context->root.reset(root.value());
   if (!context->root.IsMap()) {
     return base::WrongInput(
+        "config.not_mapping",
         fmt::format("the file holds {}; a mapping (key: value) was expected", KindOf(context->root)), name.string());
   }
   return File(context);
@@ -105,16 +107,17 @@ base::Result<File> File::Parse(std::string_view text, const std::filesystem::pat
 base::Status File::Override(std::string_view key, std::string_view value) {
   const std::string where = fmt::format("--set {}={}", key, value);
   const auto leaf = LoadYaml(std::string(value), "the value");
-  if (!leaf) return base::WrongInput(leaf.error().message, where);
+  if (!leaf) return leaf.error().WithContext(where);
   YAML::Node at;
   at.reset(context_->root);
   std::size_t from = 0;
   for (;;) {
     const std::size_t dot = key.find('.', from);
     const std::string part(key.substr(from, dot == std::string_view::npos ? dot : dot - from));
-    if (part.empty()) return base::WrongInput("a key of the form a.b.c was expected", where);
+    if (part.empty()) return base::WrongInput("config.wrong_override", "a key of the form a.b.c was expected", where);
     if (!at.IsMap() && !at.IsNull())
       return base::WrongInput(
+          "config.not_mapping",
           fmt::format("'{}' is {}, no mapping", key.substr(0, from == 0 ? 0 : from - 1), KindOf(at)), where);
     if (dot == std::string_view::npos) {
       if (leaf.value().IsNull())
@@ -143,12 +146,13 @@ std::vector<base::Error> File::Problems() const {
     std::set<std::string> seen;
     for (const auto& item : asked.node) {
       if (!item.first.IsScalar()) {
-        all.push_back({LineOf(item.first), "a key is no plain word", ""});
+        all.push_back({LineOf(item.first), "config.wrong_key", "a key is no plain word", ""});
         continue;
       }
       const std::string key = item.first.Scalar();
       if (!seen.insert(key).second)
-        all.push_back({LineOf(item.first), fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
+        all.push_back({LineOf(item.first), "config.duplicate_key",
+                       fmt::format("key '{}' stands twice", Sub(asked.path, key)), ""});
       if (asked.keys.contains(key)) continue;
       if (strange.size() + misspelt.size() >= kMaxUnknown) break;
       std::set<std::string, std::less<>> known = asked.keys;
@@ -161,7 +165,8 @@ std::vector<base::Error> File::Problems() const {
       const std::string missing = Sub(asked.path, meant.key);
       if (!meant.key.empty()) std::erase_if(all, [&](const auto& problem) { return problem.missing == missing; });
       (meant.key.empty() ? strange : misspelt)
-          .push_back({LineOf(item.first), fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
+          .push_back({LineOf(item.first), "config.unknown_key",
+                      fmt::format("unknown key '{}'{}", Sub(asked.path, key), meant.hint), ""});
     }
   }
   // What is misspelt comes before what is missing in its line, perhaps for that; what no reader asked for behind both,
@@ -175,7 +180,8 @@ std::vector<base::Error> File::Problems() const {
   all.insert(all.end(), strange.begin(), strange.end());
   std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.line < b.line; });
   std::vector<base::Error> errors;
-  for (auto& problem : all) errors.push_back(base::WrongInput(problem.message, PlaceOf(*context_, problem.line)));
+  for (auto& problem : all)
+    errors.push_back(base::WrongInput(problem.id, problem.message, PlaceOf(*context_, problem.line)));
   return errors;
 }
 

@@ -18,8 +18,8 @@ std::string List::Place(std::size_t index) const {
   return PlaceOf(*context_, index < size() ? LineOf(node_->node[index]) : 0);
 }
 
-void List::Problem(std::size_t index, std::string message) const {
-  context_->Add(index < size() ? LineOf(node_->node[index]) : 0, std::move(message));
+void List::Problem(std::size_t index, base::ErrorId id, std::string message) const {
+  context_->Add(index < size() ? LineOf(node_->node[index]) : 0, id, std::move(message));
 }
 
 Map List::At(std::size_t index) const {
@@ -30,7 +30,8 @@ Map List::At(std::size_t index) const {
   if (child->present)
     child->node.reset(found);
   else
-    Problem(index, fmt::format("item {} of '{}' is {}; a mapping was expected", index + 1, path_, KindOf(found)));
+    Problem(index, "config.wrong_type",
+            fmt::format("item {} of '{}' is {}; a mapping was expected", index + 1, path_, KindOf(found)));
   return Map(context_, child, fmt::format("{}[{}]", path_, index));
 }
 
@@ -39,8 +40,9 @@ double List::Number(std::size_t index, Range range) const {
   const YAML::Node found = node_->node[index];
   const auto value = found.IsScalar() ? ToNumber(found.Scalar()) : std::nullopt;
   if (!value || !(*value >= range.low && *value <= range.high)) {
-    Problem(index, fmt::format("item {} of '{}' is {}; a number {} was expected", index + 1, path_, KindOf(found),
-                               RangeText(range)));
+    Problem(index, value ? base::ErrorId("config.out_of_range") : base::ErrorId("config.wrong_type"),
+            fmt::format("item {} of '{}' is {}; a number {} was expected", index + 1, path_, KindOf(found),
+                        RangeText(range)));
   }
   return value.value_or(std::clamp(0.0, range.low, range.high));
 }
@@ -49,7 +51,8 @@ std::string List::Text(std::size_t index) const {
   RODEIRA_ASSERT(index < size());
   const YAML::Node found = node_->node[index];
   if (found.IsScalar()) return found.Scalar();
-  Problem(index, fmt::format("item {} of '{}' is {}; a text was expected", index + 1, path_, KindOf(found)));
+  Problem(index, "config.wrong_type",
+          fmt::format("item {} of '{}' is {}; a text was expected", index + 1, path_, KindOf(found)));
   return {};
 }
 
@@ -58,14 +61,15 @@ std::vector<double> List::Numbers(std::size_t index) const {
   const YAML::Node found = node_->node[index];
   std::vector<double> values;
   if (!found.IsSequence()) {
-    Problem(index,
+    Problem(index, "config.wrong_type",
             fmt::format("item {} of '{}' is {}; a list of numbers was expected", index + 1, path_, KindOf(found)));
     return values;
   }
   for (const auto& item : found) {
     const auto value = item.IsScalar() ? ToNumber(item.Scalar()) : std::nullopt;
     if (!value)
-      context_->Add(LineOf(item), fmt::format("'{}[{}]' holds {}; numbers were expected", path_, index, KindOf(item)));
+      context_->Add(LineOf(item), "config.wrong_type",
+                    fmt::format("'{}[{}]' holds {}; numbers were expected", path_, index, KindOf(item)));
     values.push_back(value.value_or(0.0));
   }
   return values;

@@ -31,14 +31,15 @@ std::string Map::Place(std::string_view key) const {
   return PlaceOf(*context_, node_->present ? LineOfKey(node_->node, key) : 0);
 }
 
-void Map::Problem(std::string_view key, std::string message) const {
+void Map::Problem(std::string_view key, base::ErrorId id, std::string message) const {
   if (node_->present && node_->node.IsMap()) context_->asked[{LineOf(node_->node), path_}].wrong = true;
-  context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, std::move(message));
+  context_->Add(node_->present ? LineOfKey(node_->node, key) : 0, id, std::move(message));
 }
 
 void Map::Missing(std::string_view key, std::string_view expected) const {
   const std::string path = Sub(path_, key);
-  context_->Add(LineOf(node_->node), fmt::format("key '{}' is missing; {} was expected", path, expected), path);
+  context_->Add(LineOf(node_->node), "config.missing_key",
+                fmt::format("key '{}' is missing; {} was expected", path, expected), path);
 }
 
 template <class T>
@@ -62,13 +63,16 @@ std::optional<T> Map::Scalar(std::string_view key, bool required, std::string_vi
       value = found.Scalar();
     }
   }
-  if (!value) Problem(key, fmt::format("'{}' is {}; {} was expected", Sub(path_, key), KindOf(found), expected));
+  if (!value)
+    Problem(key, "config.wrong_type",
+            fmt::format("'{}' is {}; {} was expected", Sub(path_, key), KindOf(found), expected));
   return value;
 }
 
 std::optional<double> Map::Checked(std::string_view key, std::optional<double> value, Range range) const {
   if (value && !(*value >= range.low && *value <= range.high)) {
-    Problem(key, fmt::format("'{}' is {}; a number {} was expected", Sub(path_, key), *value, RangeText(range)));
+    Problem(key, "config.out_of_range",
+            fmt::format("'{}' is {}; a number {} was expected", Sub(path_, key), *value, RangeText(range)));
   }
   return value;
 }
@@ -91,7 +95,7 @@ std::int64_t Map::Integer(std::string_view key, std::int64_t low, std::int64_t h
   const std::string expected = fmt::format("a whole number from {} to {}", low, high);
   const auto value = Scalar<std::int64_t>(key, false, expected);
   if (value && (*value < low || *value > high))
-    Problem(key, fmt::format("'{}' is {}; {} was expected", Sub(path_, key), *value, expected));
+    Problem(key, "config.out_of_range", fmt::format("'{}' is {}; {} was expected", Sub(path_, key), *value, expected));
   return std::clamp(value.value_or(default_value), low, high);
 }
 
@@ -116,7 +120,8 @@ std::string Map::Choice(std::string_view key, const std::vector<std::string>& al
   const auto value = Scalar<std::string>(key, false, "a word");
   if (!value) return std::string(default_value);
   if (std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
-    Problem(key, fmt::format("'{}' is '{}'{}", Sub(path_, key), *value, base::DidYouMean(*value, allowed)));
+    Problem(key, "config.unknown_word",
+            fmt::format("'{}' is '{}'{}", Sub(path_, key), *value, base::DidYouMean(*value, allowed)));
     return std::string(default_value);
   }
   return *value;
@@ -144,7 +149,8 @@ Map Map::OptionalChild(std::string_view key) const {
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsMap();
   if (found.IsDefined() && !present)
-    Problem(key, fmt::format("'{}' is {}; a mapping was expected", Sub(path_, key), KindOf(found)));
+    Problem(key, "config.wrong_type",
+            fmt::format("'{}' is {}; a mapping was expected", Sub(path_, key), KindOf(found)));
   auto child = std::make_shared<detail::YamlNode>();
   if (present) child->node.reset(found);
   child->present = present;
@@ -160,7 +166,7 @@ List Map::OptionalItems(std::string_view key) const {
   const YAML::Node found = node_->present ? Find(node_->node, key) : YAML::Node(YAML::NodeType::Undefined);
   const bool present = found.IsDefined() && found.IsSequence();
   if (found.IsDefined() && !present)
-    Problem(key, fmt::format("'{}' is {}; a list was expected", Sub(path_, key), KindOf(found)));
+    Problem(key, "config.wrong_type", fmt::format("'{}' is {}; a list was expected", Sub(path_, key), KindOf(found)));
   auto child = std::make_shared<detail::YamlNode>();
   if (present) child->node.reset(found);
   child->present = present;

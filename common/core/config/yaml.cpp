@@ -132,7 +132,7 @@ std::optional<std::int64_t> ToInteger(const std::string& text) {
 
 base::Result<YAML::Node> LoadYaml(const std::string& text, const char* what) {
   const auto failed = [](const std::string& why, const YAML::Mark& mark) {
-    return base::WrongInput(why, mark.is_null() ? "" : std::to_string(mark.line + 1));
+    return base::WrongInput("config.not_yaml", why, mark.is_null() ? "" : std::to_string(mark.line + 1));
   };
   try {
     CheckDocument(text);

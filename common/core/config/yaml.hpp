@@ -28,6 +28,7 @@ struct YamlNode {
 
 struct Problem {
   int line = 0;  // from 1; 0: no place
+  base::ErrorId id;
   std::string message;
   std::string missing;  // the key's path, where it is that a key is missing
 };
@@ -47,8 +48,8 @@ struct Context {
   };
   std::map<std::pair<int, std::string>, Asked> asked;
 
-  void Add(int line, std::string message, std::string missing = "") {
-    problems.push_back({line, std::move(message), std::move(missing)});
+  void Add(int line, base::ErrorId id, std::string message, std::string missing = "") {
+    problems.push_back({line, id, std::move(message), std::move(missing)});
   }
 };
 

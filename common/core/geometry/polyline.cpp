@@ -62,7 +62,8 @@ base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const s
   Polyline joined = lines[0];
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i].has_z != joined.has_z) {
-      return base::WrongInput(fmt::format("'{}' and '{}' do not both have heights (z_m)", names[i - 1], names[i]));
+      return base::WrongInput("polyline.does_not_join",
+                              fmt::format("'{}' and '{}' do not both have heights (z_m)", names[i - 1], names[i]));
     }
     const Eigen::Vector3d end = joined.points_W.back();
     const double to_begin = (lines[i].points_W.front() - end).norm(), to_end = (lines[i].points_W.back() - end).norm();
@@ -70,9 +71,11 @@ base::Result<Polyline> Joined(std::span<const Polyline> lines, std::span<const s
     const Polyline next = turned ? Reversed(lines[i]) : lines[i];
     const double gap = turned ? to_end : to_begin;
     if (gap > rules.within_m && !rules.bridge) {
-      return base::WrongInput(fmt::format(
-          "'{}' begins {:.6g} m from where '{}' ends; at most {} m were expected{}", names[i], gap, names[i - 1],
-          rules.within_m, to_end <= rules.within_m ? " (its end lies there: --turn turns it round)" : ""));
+      return base::WrongInput(
+          "polyline.does_not_join",
+          fmt::format("'{}' begins {:.6g} m from where '{}' ends; at most {} m were expected{}", names[i], gap,
+                      names[i - 1], rules.within_m,
+                      to_end <= rules.within_m ? " (its end lies there: --turn turns it round)" : ""));
     }
     const bool same = gap <= rules.within_m || PlanDistance(next.points_W.front(), end) <= kSamePoint_m;
     for (std::size_t k = same ? 1 : 0; k < next.points_W.size(); ++k) {

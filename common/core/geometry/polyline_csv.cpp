@@ -44,17 +44,19 @@ class CsvReader {
       if (const auto status = columns_.empty() ? Header(line) : Point(line); !status) return status.error();
     }
     if (columns_.empty()) {
-      return base::WrongInput("the file is empty; a line 'x_m,y_m,z_m' and a point a line were expected", name_);
+      return base::WrongInput("polyline.too_few_points",
+                              "the file is empty; a line 'x_m,y_m,z_m' and a point a line were expected", name_);
     }
     if (line_of_.size() < 2) {
-      return base::WrongInput(fmt::format("the file has {} points; at least 2 were expected", line_of_.size()), name_);
+      return base::WrongInput("polyline.too_few_points",
+                              fmt::format("the file has {} points; at least 2 were expected", line_of_.size()), name_);
     }
     return std::move(polyline_);
   }
 
  private:
   base::Error Wrong(std::string_view message) const {
-    return base::WrongInput(message, fmt::format("{}:{}", name_, line_));
+    return base::WrongInput("polyline.wrong_line", message, fmt::format("{}:{}", name_, line_));
   }
 
   base::Status Header(std::string_view line) {

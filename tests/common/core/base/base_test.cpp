@@ -207,7 +207,7 @@ TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
   EXPECT_EQ(Printable("\xc0\xaf \xed\xa0\x80 \xf5"),
             "\\xc0\\xaf \\xed\\xa0\\x80 \\xf5");  // overlong, surrogate, beyond Unicode
   EXPECT_EQ(Printable(std::string(5000, 'x'), 10), "xxxxxxxxxx…");
-  EXPECT_EQ(WrongInput("'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
+  EXPECT_EQ(WrongInput("file.not_found", "'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
 }
 
 TEST(Files, AMissingFileIsSaidWithTheNearestBesideIt) {
