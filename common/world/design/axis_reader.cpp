@@ -26,15 +26,17 @@ constexpr double kGap_m = 0.05;
 double ReadCurvature(const Map& map, std::string_view key) {
   const double radius = map.Number(key);
   if (std::fabs(radius) >= kSmallestRadius_m && std::fabs(radius) <= 1e7) return 1.0 / radius;
-  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
-                               radius, kSmallestRadius_m));
+  map.Problem(key, "config.out_of_range",
+              fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
+                          radius, kSmallestRadius_m));
   return 1.0 / 1e7;
 }
 
 // s rho = A^2: the length over which the curvature changes as it does.
 double ReadClothoidLength(const Map& map, double change_1pm) {
   if (map.Has("a_m") == map.Has("length_m")) {
-    map.Problem(map.Has("a_m") ? "a_m" : "", "a clothoid has either a 'length_m' or a parameter 'a_m'");
+    map.Problem(map.Has("a_m") ? "a_m" : "", "config.conflicting_keys",
+                "a clothoid has either a 'length_m' or a parameter 'a_m'");
     if (!map.Has("a_m")) return 1.0;
   }
   if (!map.Has("a_m")) return map.Number("length_m", kLength_m);
@@ -59,11 +61,13 @@ PlanElement ReadElement(const Map& item) {
     element.curvature_start_1pm = element.curvature_end_1pm = ReadCurvature(arc, "radius_m");
     if (arc.Has("turn_deg")) {
       const double turn = arc.Number("turn_deg", {0.001, 3600.0}) * geometry::kPi / 180.0;
-      if (arc.Has("length_m")) arc.Problem("turn_deg", "an arc has either a 'length_m' or an angle 'turn_deg'");
+      if (arc.Has("length_m"))
+        arc.Problem("turn_deg", "config.conflicting_keys", "an arc has either a 'length_m' or an angle 'turn_deg'");
       element.length_m = turn / std::fabs(element.curvature_start_1pm);
       if (element.length_m > kLength_m.high)
-        arc.Problem("turn_deg", fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m,
-                                            kLength_m.high));
+        arc.Problem(
+            "turn_deg", "config.out_of_range",
+            fmt::format("the arc is {:.4g} m long; at most {} m was expected", element.length_m, kLength_m.high));
       element.length_m = std::min(element.length_m, kLength_m.high);
     } else {
       element.length_m = arc.Number("length_m", kLength_m);
@@ -73,7 +77,8 @@ PlanElement ReadElement(const Map& item) {
     if (clothoid.Has("radius_start_m")) element.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
     if (clothoid.Has("radius_end_m")) element.curvature_end_1pm = ReadCurvature(clothoid, "radius_end_m");
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
-      clothoid.Problem("", "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
+      clothoid.Problem("", "config.missing_key",
+                       "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
     element.length_m = ReadClothoidLength(clothoid, element.curvature_end_1pm - element.curvature_start_1pm);
   }
@@ -107,7 +112,7 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, const terra
                   AxisReading& axis) {
   const config::List items = road.Items("axis");
   if (road.Has("axis") && items.size() == 0)
-    road.Problem("axis", "the axis has no elements; at least one was expected");
+    road.Problem("axis", "config.too_few", "the axis has no elements; at least one was expected");
   geometry::PlanPoint end = start;
   double s = 0.0;
   for (std::size_t i = 0; i < items.size(); ++i) {
@@ -135,7 +140,7 @@ void ReadElements(const Map& road, const geometry::PlanPoint& start, const terra
 AxisReading ReadAxis(const Map& road, const terrain::GroundMove& move) {
   AxisReading axis;
   if (road.Has("points") && road.Has("axis"))
-    road.Problem("points", "a road has either an 'axis' of elements or 'points'");
+    road.Problem("points", "config.conflicting_keys", "a road has either an 'axis' of elements or 'points'");
   if (road.Has("points")) {
     ReadPoints(road.Child("points"), move, axis);
     return axis;

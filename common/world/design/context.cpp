@@ -72,13 +72,14 @@ void ReadMaterials(const config::Map& map, Context& context) {
     material.friction = item.Number("friction", {0.01, 2.0}, material.friction);
     if (const auto texture = item.OptionalPath("texture")) {
       const auto facts = terrain::LookAtPicture(*texture);
-      if (!facts) context.missing.push_back(base::WrongInput(facts.error().message, item.Place("texture")));
+      if (!facts) context.missing.push_back(facts.error().WithContext(item.Place("texture")));
       material.texture = std::filesystem::absolute(*texture).string();
       material.texture_width_m = item.Number("texture_m", {0.01, 10'000.0}, 4.0);
       material.texture_height_m = facts ? material.texture_width_m * facts.value().height_px / facts.value().width_px
                                         : material.texture_width_m;
     } else if (item.Has("texture_m")) {
-      item.Problem("texture_m", "'texture_m' says how wide a 'texture' lies on the ground; there is none");
+      item.Problem("texture_m", "config.conflicting_keys",
+                   "'texture_m' says how wide a 'texture' lies on the ground; there is none");
     }
     context.materials[name] = material;
   }

@@ -60,20 +60,21 @@ class Files {
       const std::filesystem::path folder = std::filesystem::path(place.substr(0, place.rfind(':'))).parent_path();
       const std::filesystem::path path = named.is_absolute() ? named : folder / named;
       if (!seen_.insert(Canonical(path)).second) {
-        list.Problem(i, fmt::format("'{}' is included already", named.string()));
+        list.Problem(i, "config.duplicate_name", fmt::format("'{}' is included already", named.string()));
         continue;
       }
       if (seen_.size() > kMaxFiles) return;
       auto file = config::File::Load(path);
       if (!file) {
-        list.Problem(i, file.error().Text());
+        list.Problem(i, file.error().id, file.error().Text());
         continue;
       }
       files_.push_back(std::move(file).value());
       roots_.push_back(files_.back().root());
       const std::string version = roots_.back().Text("rodeira");
       if (version != "world/2" && roots_.back().Has("rodeira"))
-        roots_.back().Problem("rodeira", fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
+        roots_.back().Problem("rodeira", "config.other_version",
+                              fmt::format("'rodeira' is '{}'; an included file says 'world/2'", version));
     }
   }
 
@@ -137,7 +138,8 @@ void JoinRoads(const std::vector<Link>& links, const std::vector<RoadDesign>& de
       if (designs[i].spec.id == link.other) target = i;
     }
     if (!target) {
-      link.map.Problem("road", fmt::format("there is no road '{}'{}", link.other, base::DidYouMean(link.other, ids)));
+      link.map.Problem("road", "world.unknown_road",
+                       fmt::format("there is no road '{}'{}", link.other, base::DidYouMean(link.other, ids)));
       continue;
     }
     const auto own = PieceAt(layout, link.road, link.end), other = PieceAt(layout, *target, link.contact);
@@ -182,7 +184,8 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
     if (designs[i].spec.id == wish.road || (wish.road.empty() && i == 0)) road = i;
   }
   if (!road) {
-    map.Problem("road", fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
+    map.Problem("road", "world.unknown_road",
+                fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
     return std::nullopt;
   }
   const network::RoadSpec& spec = designs[*road].spec;
@@ -195,7 +198,7 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
   }
   const network::Lane* found = spec.sections[0].Find(lane);
   if (found == nullptr || lane == 0) {
-    map.Problem("lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
+    map.Problem("lane", "world.unknown_lane", fmt::format("road '{}' has no lane {}", spec.id, lane));
     return std::nullopt;
   }
   if (!network::IsDrivable(found->type)) {
@@ -208,7 +211,8 @@ std::optional<StartPlace> FindStart(const StartSpec& wish, const Map& map, const
   const double s = wish.s_m.value_or(against ? spec.length_m - std::min(kFromStart_m, 0.5 * spec.length_m)
                                              : std::min(kFromStart_m, 0.5 * spec.length_m));
   if (s > spec.length_m) {
-    map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
+    map.Problem("s_m", "config.out_of_range",
+                fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s, spec.length_m));
     return std::nullopt;
   }
   const auto at = [&](double station) -> std::optional<StartPlace> {
@@ -279,7 +283,7 @@ std::vector<network::Laid> DistributeLaid(const std::vector<RoadDesign>& designs
       const bool whole = length > bump.piece.to_s_m - bump.piece.from_s_m - 1e-6;
       if (whole && goes_on) continue;
       designs[i].map.Problem(
-          "bumps",
+          "bumps", "world.road_does_not_fit",
           fmt::format(
               "the bump from s = {:g} to {:g} m reaches into a junction{}", bump.piece.from_s_m, bump.piece.to_s_m,
               whole

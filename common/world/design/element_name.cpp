@@ -18,7 +18,8 @@ ElementName ReadElementName(const config::Map& item) {
   std::vector<std::string> keys = item.Keys();
   std::erase(keys, "from");
   const std::string found = keys.empty() ? "" : keys.front();
-  item.Problem(found, fmt::format("'{}' is no element of an axis{}", found, base::DidYouMean(found, kinds)));
+  item.Problem(found, "config.unknown_name",
+               fmt::format("'{}' is no element of an axis{}", found, base::DidYouMean(found, kinds)));
   return {keys.empty() ? "" : base::NearestName(found, kinds), found};
 }
 

@@ -34,11 +34,14 @@ Stand ReadStand(const Map& item, double length_m) {
     stand.s_m = item.Number("s_m", {0.0, length_m});
     return stand;
   }
-  if (item.Has("s_m")) item.Problem("s_m", "what is repeated has 'from_s_m', 'every_m' and 'to_s_m' instead of 's_m'");
+  if (item.Has("s_m"))
+    item.Problem("s_m", "config.conflicting_keys",
+                 "what is repeated has 'from_s_m', 'every_m' and 'to_s_m' instead of 's_m'");
   stand.every_m = item.Number("every_m", {kNearest_m, 1e6});
   stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
   stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
-  if (stand.to_s_m < stand.from_s_m) item.Problem("to_s_m", "'to_s_m' must not lie before 'from_s_m'");
+  if (stand.to_s_m < stand.from_s_m)
+    item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must not lie before 'from_s_m'");
   return stand;
 }
 
@@ -83,12 +86,14 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
   const SignKind* kind = FindSign(name);
   if (kind == nullptr) {
     if (item.Has("type"))
-      item.Problem("type", fmt::format("there is no sign '{}'{}", name, base::DidYouMean(name, names)));
+      item.Problem("type", "config.unknown_name",
+                   fmt::format("there is no sign '{}'{}", name, base::DidYouMean(name, names)));
     kind = &SignKinds().front();
   }
   std::optional<double> value;
   if (kind->with_value || item.Has("value")) value = item.Number("value", {0.0, 1000.0});
-  if (!kind->with_value && value) item.Problem("value", fmt::format("the sign '{}' shows no value", name));
+  if (!kind->with_value && value)
+    item.Problem("value", "config.conflicting_keys", fmt::format("the sign '{}' shows no value", name));
   const Stand stand = ReadStand(item, length_m);
   const std::string facing = item.Choice("for", {"along", "against", "both"}, "along");
   const bool right_side = (facing != "against") != context.left_hand;
@@ -99,7 +104,7 @@ void ReadSign(const Map& item, const Context& context, double length_m, network:
     warnings.push_back(
         fmt::format("{}: the sign '{}' names no town: its 'text' is what stands on it", item.Place("type"), name));
   if (stand.repeated && stand.every_m >= kNearest_m && (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
-    return item.Problem("every_m", "more than 100 000 signs; fewer were expected");
+    return item.Problem("every_m", "config.out_of_range", "more than 100 000 signs; fewer were expected");
   const Beside beside(item, spec, -0.3, right_side);
   const std::vector<double> stations = StationsOf(stand);
   if (height < kOverhead_m)
@@ -163,14 +168,14 @@ void ReadObject(const Map& item, double length_m, network::RoadSpec& spec, std::
     stand.from_s_m = stand.s_m = item.Number("from_s_m", {0.0, length_m}, 0.0);
     stand.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
     sound = stand.to_s_m > stand.from_s_m;
-    if (!sound) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+    if (!sound) item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     stand.repeated = true;
   } else {
     stand = ReadStand(item, length_m);
     sound = !stand.repeated || (stand.to_s_m >= stand.from_s_m && stand.every_m > 0.0);
     if (sound && stand.repeated && stand.every_m >= kNearest_m &&
         (stand.to_s_m - stand.from_s_m) / stand.every_m > kMaxInRow)
-      return item.Problem("every_m", "more than 100 000 objects; fewer were expected");
+      return item.Problem("every_m", "config.out_of_range", "more than 100 000 objects; fewer were expected");
   }
   const Beside beside(item, spec, continuous ? -0.5 : 4.0, true);
   object.s_m = stand.s_m;
@@ -202,13 +207,15 @@ void ReadStructures(const Map& road, const char* key, bool bridge, double length
     structure.type = bridge ? "concrete" : "standard";
     structure.s_m = item.Number("from_s_m", {0.0, length_m});
     structure.length_m = item.Number("to_s_m", {0.0, length_m}) - structure.s_m;
-    if (!(structure.length_m > 0.0)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+    if (!(structure.length_m > 0.0))
+      item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     for (const network::Structure& other : spec.structures) {
       const double from = std::max(structure.s_m, other.s_m),
                    to = std::min(structure.s_m + structure.length_m, other.s_m + other.length_m);
       if (other.bridge != bridge && from < to)
-        item.Problem("from_s_m", fmt::format("from s = {} to {} m there is a {} already", from, to,
-                                             other.bridge ? "bridge" : "tunnel"));
+        item.Problem(
+            "from_s_m", "config.duplicate_name",
+            fmt::format("from s = {} to {} m there is a {} already", from, to, other.bridge ? "bridge" : "tunnel"));
     }
     spec.structures.push_back(std::move(structure));
   }
@@ -220,9 +227,9 @@ void ReadSurfaces(const Map& road, double length_m, network::RoadSpec& spec) {
     const Map item = list.At(i);
     const double from = item.Number("from_s_m", {0.0, length_m}, 0.0),
                  to = item.Number("to_s_m", {0.0, length_m}, length_m);
-    if (!(to > from)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+    if (!(to > from)) item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
     if (item.Has("crg") == item.Has("iso_8608")) {
-      item.Problem(item.Has("crg") ? "crg" : "",
+      item.Problem(item.Has("crg") ? "crg" : "", "config.conflicting_keys",
                    "a surface is either measured ('crg': a file) or made ('iso_8608': a class from A to H)");
     }
     if (item.Has("crg")) {

@@ -98,7 +98,7 @@ class Builder {
   void Crowded(const Gap& gap, std::size_t road, double left_m) {
     const JunctionSpec& junction = junctions_[gap.junction];
     junction.map.Problem(
-        "roads",
+        "roads", "config.out_of_range",
         fmt::format("junction '{}' reaches from s = {:.1f} m to {:.1f} m of road '{}': {:.1f} m are left before the "
                     "road's end or its next junction; at least {} m were expected",
                     junction.id, gap.from_s_m, gap.to_s_m, designs_[road].spec.id, left_m, kShortest_m));

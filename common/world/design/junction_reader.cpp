@@ -32,10 +32,11 @@ std::optional<Meeting> ReadMeeting(const Map& item, const std::vector<RoadDesign
     ids.push_back(designs[i].spec.id);
     if (designs[i].spec.id == id) meeting.road = i, found = true;
   }
-  if (!found) item.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
+  if (!found)
+    item.Problem("road", "world.unknown_road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
   const double length = found && !roads.empty() ? roads[meeting.road].length_m() : 1e7;
   if (item.Has("end") == item.Has("s_m")) {
-    item.Problem(item.Has("end") ? "end" : "",
+    item.Problem(item.Has("end") ? "end" : "", "config.conflicting_keys",
                  "a road either passes a junction ('s_m') or has an 'end' there (start or end)");
   }
   if (item.Has("end")) {
@@ -59,7 +60,7 @@ void ReadLights(const Map& item, const std::vector<RoadDesign>& designs, Junctio
   bool all_known = true;  // or the one that is green in no phase may be the misspelt one
   for (const std::string& name : names) {
     if (std::find(roads.begin(), roads.end(), name) != roads.end()) continue;
-    map.Problem("phases",
+    map.Problem("phases", "config.unknown_name",
                 fmt::format("no road '{}' meets junction '{}'{}", name, junction.id, base::DidYouMean(name, roads)));
     all_known = false;
   }
@@ -93,7 +94,7 @@ void CheckMeets(const JunctionSpec& junction, const std::vector<network::Road>& 
     const double apart = (there.p_W - at.p_W).norm();
     if (apart > kMeets_m) {
       items.Problem(
-          i,
+          i, "config.out_of_range",
           fmt::format(
               "road '{}' is {:.2f} m away from road '{}' there, at ({:.2f}, {:.2f}) and ({:.2f}, {:.2f}); at most {} m "
               "was expected",
@@ -102,7 +103,7 @@ void CheckMeets(const JunctionSpec& junction, const std::vector<network::Road>& 
     }
     const double sine = std::fabs(geometry::Cross(at.tangent_W, there.tangent_W));
     if (sine < std::sin(kFlattest_rad)) {
-      items.Problem(i,
+      items.Problem(i, "config.out_of_range",
                     fmt::format("road '{}' meets road '{}' at an angle of {:.1f} degrees; at least {:.1f} was expected "
                                 "(slip roads, forks and merges are what OpenDRIVE files and traffic maps have)",
                                 roads[other.road].id(), roads[first.road].id(), std::asin(sine) * 57.29577951308232,
@@ -123,7 +124,8 @@ std::vector<JunctionSpec> ReadJunctions(const Map& file, const std::vector<RoadD
     junction.id = item.Text("id");
     junction.name = item.Text("name", junction.id);
     for (const JunctionSpec& other : junctions) {
-      if (other.id == junction.id) item.Problem("id", fmt::format("there is a junction '{}' already", junction.id));
+      if (other.id == junction.id)
+        item.Problem("id", "config.duplicate_name", fmt::format("there is a junction '{}' already", junction.id));
     }
     if (junction.id.find('/') != std::string::npos)
       item.Problem("id", "a junction's id holds no '/': the ways through it are named with it");
@@ -144,7 +146,7 @@ std::vector<JunctionSpec> ReadJunctions(const Map& file, const std::vector<RoadD
     junction.radius_m = item.Number("radius_m", {1.0, 100.0}, 8.0);
     junction.fit_m = item.Number("fit_m", {1.0, 1000.0}, 60.0);
     if (meetings.size() < 2)
-      item.Problem("roads", "a junction has two roads or more");
+      item.Problem("roads", "config.too_few", "a junction has two roads or more");
     else if (all_found && !roads.empty())
       CheckMeets(junction, roads);
     junctions.push_back(std::move(junction));
@@ -186,7 +188,8 @@ void FitHeights(const std::vector<JunctionSpec>& junctions, std::vector<RoadDesi
             "road '{}' changes its height by {:.2f} m within {:.1f} m to meet road '{}': up to {:.0f} % steep", spec.id,
             z.value - there.value, fit, roads[first.road].id(), 100.0 * steepest);
         if (steepest > kSteepestFit)
-          junction.map.Problem("roads", fmt::format("{}; at most {:.0f} % was expected", told, 100.0 * kSteepestFit));
+          junction.map.Problem("roads", "config.out_of_range",
+                               fmt::format("{}; at most {:.0f} % was expected", told, 100.0 * kSteepestFit));
         else
           warnings.push_back(fmt::format("{}: {}", junction.map.Place("roads"), told));
       }

@@ -42,19 +42,20 @@ LaidPiece ReadPiece(const Map& item, double length_m, const network::RoadSpec& s
   LaidPiece piece;
   piece.from_s_m = item.Number("from_s_m", {0.0, length_m});
   piece.to_s_m = item.Number("to_s_m", {0.0, length_m});
-  if (!(piece.to_s_m > piece.from_s_m)) item.Problem("to_s_m", "'to_s_m' must lie behind 'from_s_m'");
+  if (!(piece.to_s_m > piece.from_s_m))
+    item.Problem("to_s_m", "config.wrong_order", "'to_s_m' must lie behind 'from_s_m'");
   const auto [right, left] = Driven(spec, piece.from_s_m);
   piece.right_t_m = item.Number("from_t_m", {-200.0, 200.0}, right);
   piece.left_t_m = item.Number("to_t_m", {-200.0, 200.0}, left);
   if (!(piece.left_t_m > piece.right_t_m))
-    item.Problem("to_t_m", "'to_t_m' must be above 'from_t_m': t grows to the left");
+    item.Problem("to_t_m", "config.wrong_order", "'to_t_m' must be above 'from_t_m': t grows to the left");
   const int outer_right = -static_cast<int>(spec.sections[0].right.size()),
             outer_left = static_cast<int>(spec.sections[0].left.size());
   for (const double part : {0.0, 0.5, 1.0}) {
     const double s = piece.from_s_m + part * (piece.to_s_m - piece.from_s_m);
     const double low = EdgeOf(spec, outer_right).Value(s), high = EdgeOf(spec, outer_left).Value(s);
     if (piece.right_t_m >= low - kLaidRounding_m && piece.left_t_m <= high + kLaidRounding_m) continue;
-    item.Problem(piece.right_t_m < low - kLaidRounding_m ? "from_t_m" : "to_t_m",
+    item.Problem(piece.right_t_m < low - kLaidRounding_m ? "from_t_m" : "to_t_m", "config.out_of_range",
                  fmt::format("at s = {:.1f} m the road reaches from t = {:.2f} to {:.2f} m only", s, low, high));
     break;
   }
@@ -105,7 +106,8 @@ geometry::CubicTable ThroughKnots(const std::vector<Knot>& knots, bool straight)
 geometry::CubicTable ReadHeights(const Map& item, const LaidPiece& piece) {
   const double from = piece.from_s_m, length = piece.to_s_m - from;
   if (item.Has("heights") == item.Has("height_m")) {
-    item.Problem(item.Has("heights") ? "heights" : "", "a bump has either one 'height_m' or a list of 'heights'");
+    item.Problem(item.Has("heights") ? "heights" : "", "config.conflicting_keys",
+                 "a bump has either one 'height_m' or a list of 'heights'");
     return Constant(0.0);
   }
   if (item.Has("height_m")) {
@@ -134,7 +136,7 @@ network::Bump ReadBump(const Map& item, double length_m, network::RoadSpec& spec
   bump.piece = ReadPiece(item, length_m, spec);
   bump.side_m = item.Number("side_m", {0.01, 50.0}, kSide_m);
   if (2.0 * bump.side_m > bump.piece.left_t_m - bump.piece.right_t_m)
-    item.Problem("side_m", "the bump is narrower than twice its 'side_m'");
+    item.Problem("side_m", "config.wrong_order", "the bump is narrower than twice its 'side_m'");
   bump.height = bump.piece.to_s_m > bump.piece.from_s_m ? ReadHeights(item, bump.piece) : Constant(0.0);
   AddObject("speedBump", bump.piece, spec);
   return bump;

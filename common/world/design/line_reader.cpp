@@ -31,7 +31,7 @@ geometry::CubicTable MiddleOf(const Map& item, const network::RoadSpec& spec) {
   if (!item.Has("lane")) return Sum(ReadTable(item, "t_m", "ts", "t_m", {-200.0, 200.0}, 0.0), Constant(offset));
   const int lane = static_cast<int>(item.Integer("lane", -30, 30));
   if (lane != 0 && spec.sections[0].Find(lane) == nullptr) {
-    item.Problem("lane", fmt::format("the road has no lane {}", lane));
+    item.Problem("lane", "world.unknown_lane", fmt::format("the road has no lane {}", lane));
     return Constant(0.0);
   }
   return Sum(EdgeOf(spec, lane), Constant(offset));
@@ -57,7 +57,7 @@ void ReadLine(const Map& item, bool of_template, double length_m, network::RoadS
   line.to_s_m = item.Number("to_s_m", {0.0, length_m}, length_m);
   line.colour = item.Choice("colour", {"white", "yellow", "blue", "red", "orange"}, "white");
   if (!(line.from_s_m < line.to_s_m))
-    item.Problem("to_s_m", "a line must end after its beginning: 'to_s_m' above 'from_s_m'");
+    item.Problem("to_s_m", "config.wrong_order", "a line must end after its beginning: 'to_s_m' above 'from_s_m'");
   bool dashed_left = kind.dashed_left, dashed_right = kind.dashed_right;
   if (name == "mixed") {
     dashed_left = item.Choice("left", {"continuous", "dashed"}, "continuous") == "dashed";

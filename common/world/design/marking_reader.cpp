@@ -40,7 +40,7 @@ std::vector<const network::Lane*> MarkedLanes(const Map& item, const network::Ro
   if (item.Has("lane")) {
     const auto id = static_cast<int>(item.Integer("lane", -30, 30));
     const network::Lane* lane = id == 0 ? nullptr : section.Find(id);
-    if (lane == nullptr) item.Problem("lane", fmt::format("the road has no lane {}", id));
+    if (lane == nullptr) item.Problem("lane", "world.unknown_lane", fmt::format("the road has no lane {}", id));
     return lane == nullptr ? std::vector<const network::Lane*>() : std::vector{lane};
   }
   std::vector<const network::Lane*> lanes;
@@ -88,7 +88,8 @@ void ReadCrossing(const Map& item, double s_m, double road_m, network::RoadSpec&
 void ReadStopLine(const Map& item, double s_m, double road_m, network::RoadSpec& spec) {
   const double thickness = item.Number("length_m", {0.1, 2.0}, kStopLine_m);
   const int direction = item.Choice("for", {"along", "against"}, "along") == "along" ? 1 : -1;
-  if (item.Has("for") && item.Has("lane")) item.Problem("for", "a stop line has either a 'lane' or 'for' whom it is");
+  if (item.Has("for") && item.Has("lane"))
+    item.Problem("for", "config.conflicting_keys", "a stop line has either a 'lane' or 'for' whom it is");
   for (const network::Lane* lane : MarkedLanes(item, spec)) {
     if (!item.Has("lane") && lane->direction == -direction) continue;
     Edges edges = LaneEdges(spec, *lane, s_m);
@@ -111,10 +112,11 @@ void ReadArrow(const Map& item, double s_m, network::RoadSpec& spec) {
   for (std::size_t i = 0; i < said.size(); ++i) {
     const std::string word = said.Text(i);
     if (word != "straight" && word != "left" && word != "right")
-      said.Problem(i, fmt::format("'{}' is no way that an arrow points; left, straight or right was expected", word));
+      said.Problem(i, "config.unknown_name",
+                   fmt::format("'{}' is no way that an arrow points; left, straight or right was expected", word));
   }
   if (item.Has("ways") && said.size() == 0)
-    item.Problem("ways", "an arrow points somewhere; left, straight or right was expected");
+    item.Problem("ways", "config.too_few", "an arrow points somewhere; left, straight or right was expected");
   const double length = item.Number("length_m", {1.0, 20.0}, 5.0);
   if (!item.Has("lane")) return;
   for (const network::Lane* lane : MarkedLanes(item, spec)) {

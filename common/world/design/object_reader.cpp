@@ -49,7 +49,7 @@ ObjectReading ReadObjectItself(const config::Map& item, std::string id) {
   if (const auto model = item.OptionalPath("model")) {
     std::error_code problem;
     if (!std::filesystem::is_regular_file(*model, problem))
-      item.Problem("model", fmt::format("there is no model file '{}'", model->string()));
+      item.Problem("model", "file.not_found", fmt::format("there is no model file '{}'", model->string()));
     object.name = std::filesystem::absolute(*model).string();  // not to be looked for from where the program stands
   }
   object.length_m = item.Number("length_m", {0.0, 1000.0}, kind->length_m);

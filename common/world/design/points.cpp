@@ -117,12 +117,14 @@ Points ReadList(const config::Map& map, bool& has_z) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> numbers = list.Numbers(i);
     if (numbers.size() != 2 && numbers.size() != 3) {
-      list.Problem(i, fmt::format("a point has {} numbers; [x, y] or [x, y, z] in m was expected", numbers.size()));
+      list.Problem(i, "config.wrong_length",
+                   fmt::format("a point has {} numbers; [x, y] or [x, y, z] in m was expected", numbers.size()));
       continue;
     }
     has_z = has_z && numbers.size() == 3;
     points.emplace_back(numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0);
-    if (!(points.back().cwiseAbs().maxCoeff() < 1e8)) list.Problem(i, "a coordinate is beyond 1e8 m");
+    if (!(points.back().cwiseAbs().maxCoeff() < 1e8))
+      list.Problem(i, "config.out_of_range", "a coordinate is beyond 1e8 m");
     if (points.size() > 1 && !((points.back() - points[points.size() - 2]).head<2>().norm() > 1e-3)) {
       list.Problem(i, "the point stands over the one before");
     }
@@ -136,17 +138,18 @@ void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisRea
   Points points;
   bool has_z = false;
   if (map.Has("file") == map.Has("list"))
-    map.Problem(map.Has("file") ? "file" : "", "'points' needs either a 'file' or a 'list'");
+    map.Problem(map.Has("file") ? "file" : "", "config.conflicting_keys", "'points' needs either a 'file' or a 'list'");
   if (map.Has("file")) {
     const auto path = map.Path("file");
     const auto text = base::ReadText(path);
-    if (!text) return map.Problem("file", text.error().Text());
+    if (!text) return map.Problem("file", text.error().id, text.error().Text());
     const auto line = geometry::ReadPolyline(text.value(), path.string());
-    if (!line) return map.Problem("file", line.error().Text());
+    if (!line) return map.Problem("file", line.error().id, line.error().Text());
     points = line.value().points_W;
     has_z = line.value().has_z;
     for (const Eigen::Vector3d& p : points) {
-      if (!(p.cwiseAbs().maxCoeff() < 1e8)) return map.Problem("file", "a coordinate is beyond 1e8 m");
+      if (!(p.cwiseAbs().maxCoeff() < 1e8))
+        return map.Problem("file", "config.out_of_range", "a coordinate is beyond 1e8 m");
     }
   } else if (map.Has("list")) {
     points = ReadList(map, has_z);
@@ -161,13 +164,14 @@ void ReadPoints(const config::Map& map, const terrain::GroundMove& move, AxisRea
   }
   const bool smooth = map.Flag("smooth", true);
   const double within = map.Number("within_m", {0.001, 10.0}, 0.05);
-  if (points.size() < 2) return map.Problem("", "two points or more were expected");
+  if (points.size() < 2) return map.Problem("", "config.too_few", "two points or more were expected");
   for (std::size_t i = 2; i < points.size(); ++i) {
     const Eigen::Vector2d before = (points[i - 1] - points[i - 2]).head<2>(),
                           after = (points[i] - points[i - 1]).head<2>();
     if (before.normalized().dot(after.normalized()) < -0.9) {
       return map.Problem(
-          "", fmt::format("the line turns back at point {} ({:.3f}, {:.3f})", i, points[i - 1].x(), points[i - 1].y()));
+          "", "world.road_does_not_fit",
+          fmt::format("the line turns back at point {} ({:.3f}, {:.3f})", i, points[i - 1].x(), points[i - 1].y()));
     }
   }
   if (smooth)

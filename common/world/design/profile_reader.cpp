@@ -29,7 +29,7 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     const geometry::GradePoint point{item.Number("s_m", kStation_m), item.Number("z_m", kHeight_m),
                                      item.Number("parabola_m", config::Range::NotNegative(), 0.0)};
     if (i > 0 && point.s_m <= grades.back().s_m)
-      item.Problem("s_m", "the points of 'vertical' must come in ascending 's_m'");
+      item.Problem("s_m", "config.wrong_order", "the points of 'vertical' must come in ascending 's_m'");
     if ((i == 0 || i + 1 == points.size()) && point.parabola_m > 0.0) {
       item.Problem("parabola_m",
                    "the first and the last point of 'vertical' have no parabola: no two grades meet there");
@@ -37,7 +37,7 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     grades.push_back(point);
   }
   if (road.Has("vertical") && points.size() == 0)
-    road.Problem("vertical", "'vertical' has no points; at least one was expected");
+    road.Problem("vertical", "config.too_few", "'vertical' has no points; at least one was expected");
   for (std::size_t i = 1; i < grades.size(); ++i) {
     const geometry::GradePoint& before = grades[i - 1];
     const geometry::GradePoint& here = grades[i];
@@ -45,12 +45,14 @@ std::vector<geometry::GradePoint> ReadGrades(const Map& road) {
     if (!(between > 0.0)) continue;  // told above
     const double grade = (here.z_m - before.z_m) / between;
     if (!(std::fabs(grade) <= kSteepestGrade)) {
-      points.Problem(i, fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected",
-                                    grade, kSteepestGrade));
+      points.Problem(i, "config.out_of_range",
+                     fmt::format("the grade before this point of 'vertical' is {:.3g}; at most {} was expected", grade,
+                                 kSteepestGrade));
     }
     if (0.5 * (before.parabola_m + here.parabola_m) > between) {
-      points.Problem(i, fmt::format("the parabolas of {} m and {} m overlap: their points are only {} m apart",
-                                    before.parabola_m, here.parabola_m, between));
+      points.Problem(i, "config.wrong_order",
+                     fmt::format("the parabolas of {} m and {} m overlap: their points are only {} m apart",
+                                 before.parabola_m, here.parabola_m, between));
     }
   }
   return grades;

@@ -130,7 +130,7 @@ void CheckFits(std::size_t index, const RoadDesign& design, const network::Road&
                                      std::pair(&middle_W, "middle")}) {
       if (!left_terrain && !IsOnStructure(road.spec(), sample.s_m) && !terrain_is_at(edge->x(), edge->y())) {
         left_terrain = true;
-        design.map.Problem(key,
+        design.map.Problem(key, "world.outside_of_terrain",
                            fmt::format("road '{}' leaves the terrain at s = {:.0f} m: its {} lies at ({:.1f}, {:.1f})",
                                        design.spec.id, sample.s_m, name, edge->x(), edge->y()));
       }
@@ -138,9 +138,10 @@ void CheckFits(std::size_t index, const RoadDesign& design, const network::Road&
       const auto other_s_m = stretches.Hold(i, *edge);
       if (!other_s_m) continue;
       met_itself = true;
-      design.map.Problem(key, fmt::format("road '{}' comes too near to itself: its {} at s = {:.0f} m lies on the road "
-                                          "at s = {:.0f} m; move the axis, or let one of them pass on a bridge",
-                                          design.spec.id, name, sample.s_m, *other_s_m));
+      design.map.Problem(key, "world.road_does_not_fit",
+                         fmt::format("road '{}' comes too near to itself: its {} at s = {:.0f} m lies on the road "
+                                     "at s = {:.0f} m; move the axis, or let one of them pass on a bridge",
+                                     design.spec.id, name, sample.s_m, *other_s_m));
     }
   }
 }

@@ -33,7 +33,8 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
                                   std::vector<geometry::PlanElement>& elements) {
   if (!road.Has("place")) return std::nullopt;
   const Map place = road.Child("place");
-  if (road.Has("start")) road.Problem("place", "a road has either a 'start' or a 'place' on another road");
+  if (road.Has("start"))
+    road.Problem("place", "config.conflicting_keys", "a road has either a 'start' or a 'place' on another road");
   const std::string id = place.Text("road");
   const double s = place.Number("s_m", {0.0, 1e7}),
                turn = place.Number("turn_deg", {-360.0, 360.0}) * geometry::kPi / 180.0;
@@ -53,7 +54,8 @@ std::optional<double> ReadPlacing(const Map& road, const std::vector<RoadDesign>
     Place(elements, own_s, at.p_W, at.heading_rad + turn);
     return other.spec.elevation.Value(s);
   }
-  place.Problem("road", fmt::format("there is no road '{}' before this one{}", id, base::DidYouMean(id, ids)));
+  place.Problem("road", "world.unknown_road",
+                fmt::format("there is no road '{}' before this one{}", id, base::DidYouMean(id, ids)));
   return std::nullopt;
 }
 
@@ -81,7 +83,8 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   if (spec.id.find('/') != std::string::npos)
     map.Problem("id", "a road's id holds no '/': the parts between junctions are named with it");
   for (const RoadDesign& other : before) {
-    if (other.spec.id == spec.id) map.Problem("id", fmt::format("there is a road '{}' already", spec.id));
+    if (other.spec.id == spec.id)
+      map.Problem("id", "config.duplicate_name", fmt::format("there is a road '{}' already", spec.id));
   }
   AxisReading axis = ReadAxis(map, context.move);
   context.warnings.insert(context.warnings.end(), axis.warnings.begin(), axis.warnings.end());
@@ -91,7 +94,9 @@ RoadDesign ReadRoad(const Map& map, Context& context, const std::vector<RoadDesi
   spec.length_m = length;
   (void)config::RejectConflictingKeys(map, "vertical", "z_m");
   if (map.Has("vertical")) {
-    if (axis.elevation) map.Problem("vertical", "the points of this road have heights; without them 'vertical' counts");
+    if (axis.elevation)
+      map.Problem("vertical", "config.conflicting_keys",
+                  "the points of this road have heights; without them 'vertical' counts");
     std::vector<geometry::GradePoint> grades = ReadGrades(map);
     bool ascending = !grades.empty();
     for (std::size_t i = 1; i < grades.size(); ++i) {
@@ -146,7 +151,7 @@ void CheckBends(const RoadDesign& design, const network::Road& road) {
           std::ceil(100.0 * radius * std::tan(0.5 * turn) * std::tan(0.25 * turn)) / 100.0);
     }
     design.map.Problem(
-        points ? "points" : "axis",
+        points ? "points" : "axis", "world.road_does_not_fit",
         fmt::format(
             "the edge of road '{}' {:.2f} m to the {} folds at s = {:.0f} m: the bend there has a radius of {:.6g} m{}",
             design.spec.id, std::fabs(inner), k > 0.0 ? "left" : "right", s, 1.0 / std::fabs(k), help));

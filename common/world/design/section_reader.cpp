@@ -36,7 +36,8 @@ Falls ReadFalls(const Keys& keys) {
   const Map& map = keys.With("crossfalls").Has("crossfalls") ? keys.With("crossfalls") : keys.With("crossfall");
   if (map.Has("crossfalls")) {
     const auto left = ReadKnots(map, "crossfalls", "left", kFall), right = ReadKnots(map, "crossfalls", "right", kFall);
-    if (left.empty()) map.Problem("crossfalls", "'crossfalls' has no points; at least one was expected");
+    if (left.empty())
+      map.Problem("crossfalls", "config.too_few", "'crossfalls' has no points; at least one was expected");
     return {Eased(left), Eased(right)};
   }
   const Map crossfall = map.OptionalChild("crossfall");
@@ -95,9 +96,9 @@ Sides ReadLanes(const Keys& keys, const Context& context, const Falls& falls) {
     if (id == 0)
       item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
     if (!sides.emplace(id, ReadLane(item, id, context, falls)).second)
-      item.Problem("id", fmt::format("lane {} stands twice", id));
+      item.Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", id));
   }
-  if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "a road needs at least one lane");
+  if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "config.too_few", "a road needs at least one lane");
   for (const auto& [id, strip] : sides) {
     const int inner = id > 0 ? id - 1 : id + 1;
     if (id != 0 && inner != 0 && !sides.contains(inner)) {
@@ -163,14 +164,16 @@ Keys FindKeys(const Map& road, const Context& context) {
                                             "offset_m", "offsets",   "slopes",     "lines"};
     for (const std::string& key : other.Keys()) {
       if (std::find(known.begin(), known.end(), key) == known.end()) {
-        other.Problem(key, fmt::format("'{}' is no key of a template{}", key, base::DidYouMean(key, known)));
+        other.Problem(key, "config.unknown_name",
+                      fmt::format("'{}' is no key of a template{}", key, base::DidYouMean(key, known)));
       }
     }
     return {section, other};
   }
   std::vector<std::string> names;
   for (const auto& [known, map] : context.templates) names.push_back(known);
-  section.Problem("template", fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
+  section.Problem("template", "config.unknown_name",
+                  fmt::format("there is no template '{}'{}", name, base::DidYouMean(name, names)));
   constexpr std::string_view kUsual = "rural";
   return {
       section,

@@ -30,7 +30,7 @@ std::vector<Vector2d> ReadAlong(const Map& item) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> p = list.Numbers(i);
     if (p.size() != 2 || !(std::fabs(p[0]) <= kPlace_m.high) || !(std::fabs(p[1]) <= kPlace_m.high)) {
-      list.Problem(i, "a point of 'along' is [x, y], in metres, each at most 1e8");
+      list.Problem(i, "config.out_of_range", "a point of 'along' is [x, y], in metres, each at most 1e8");
       return {};
     }
     const Vector2d point(p[0], p[1]);
@@ -41,7 +41,8 @@ std::vector<Vector2d> ReadAlong(const Map& item) {
     points.push_back(point);
   }
   if (points.size() < 2)
-    item.Problem("along", fmt::format("'along' has {} points; two or more were expected", points.size()));
+    item.Problem("along", "config.too_few",
+                 fmt::format("'along' has {} points; two or more were expected", points.size()));
   return points;
 }
 
@@ -55,7 +56,8 @@ double PolylineLength(const std::vector<Vector2d>& line) {
 void StandInARow(const Map& item, const std::vector<Vector2d>& line, std::size_t object, network::Standing& standing) {
   const double every = item.Number("every_m", {0.1, 1e6}), turn = Radians(item.Number("rotation_deg", kTurn_deg, 0.0));
   const double last = std::floor(PolylineLength(line) / every + 1e-9);
-  if (last >= kMaxInRow) return item.Problem("every_m", "more than 100 000 in a row; fewer were expected");
+  if (last >= kMaxInRow)
+    return item.Problem("every_m", "config.out_of_range", "more than 100 000 in a row; fewer were expected");
   std::size_t piece = 1;
   double before = 0.0;  // the piece's first point, along the line
   for (double i = 0.0; i <= last; i += 1.0) {
@@ -77,7 +79,9 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
   standing.objects.push_back(std::move(object));
   if (continuous || item.Has("along")) {
     for (const char* key : {"x_m", "y_m", "heading_deg"}) {
-      if (item.Has(key)) item.Problem(key, fmt::format("what stands 'along' a line has no '{}' of its own", key));
+      if (item.Has(key))
+        item.Problem(key, "config.conflicting_keys",
+                     fmt::format("what stands 'along' a line has no '{}' of its own", key));
     }
     std::vector<Vector2d> line = ReadAlong(item);
     if (line.size() < 2) return;
@@ -87,15 +91,17 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
     }
     for (const Vector2d& p : line) {
       if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
-        return item.Problem("along", fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
+        return item.Problem("along", "world.outside_of_terrain",
+                            fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
     }
     if (!continuous)
       StandInARow(item, line, index, standing);
     else if (item.Has("every_m"))
-      item.Problem("every_m", "what goes on has no 'every_m'");
+      item.Problem("every_m", "config.conflicting_keys", "what goes on has no 'every_m'");
     else if (PolylineLength(line) > kLongest_m)
-      item.Problem("along", fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", PolylineLength(line),
-                                        kLongest_m));
+      item.Problem(
+          "along", "config.out_of_range",
+          fmt::format("'along' is {:.0f} m long; at most {:.0f} m was expected", PolylineLength(line), kLongest_m));
     else
       standing.runs.push_back({index, std::move(line)});
   } else {
@@ -109,7 +115,7 @@ void ReadThing(const Map& item, const TerrainIsAt& terrain_is_at, const terrain:
   for (std::size_t i = first; i < standing.things.size(); ++i) {
     const Vector2d& p = standing.things[i].at_W;
     if (terrain_is_at && !terrain_is_at(p.x(), p.y()))
-      return item.Problem(item.Has("along") ? "along" : "x_m",
+      return item.Problem(item.Has("along") ? "along" : "x_m", "world.outside_of_terrain",
                           fmt::format("there is no terrain at ({:g}, {:g})", p.x(), p.y()));
   }
 }

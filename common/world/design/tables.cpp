@@ -89,7 +89,8 @@ std::vector<Knot> ReadKnots(const config::Map& map, std::string_view list_key, s
     const config::Map item = list.At(i);
     const Knot knot{item.Number("s_m", {0.0, 1e8}), item.Number(value_key, range)};
     if (!knots.empty() && !(knot.s_m > knots.back().s_m)) {
-      item.Problem("s_m", fmt::format("the points of '{}' must come in ascending 's_m'", list_key));
+      item.Problem("s_m", "config.wrong_order",
+                   fmt::format("the points of '{}' must come in ascending 's_m'", list_key));
       continue;
     }
     knots.push_back(knot);
@@ -101,9 +102,11 @@ CubicTable ReadTable(const config::Map& map, std::string_view key, std::string_v
                      std::string_view value_key, config::Range range, std::optional<double> default_value) {
   if (map.Has(list_key)) {
     if (map.Has(key))
-      map.Problem(key, fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
+      map.Problem(key, "config.conflicting_keys",
+                  fmt::format("'{}' and '{}' say the same; one of them was expected", key, list_key));
     const auto knots = ReadKnots(map, list_key, value_key, range);
-    if (knots.empty()) map.Problem(list_key, fmt::format("'{}' has no points; at least one was expected", list_key));
+    if (knots.empty())
+      map.Problem(list_key, "config.too_few", fmt::format("'{}' has no points; at least one was expected", list_key));
     return Eased(knots);
   }
   return Constant(default_value ? map.Number(key, range, *default_value) : map.Number(key, range));

@@ -136,7 +136,8 @@ base::Status CheckLights(const Graph& graph, const Zones& zones) {
     for (const LightPlace& light : LightsOf(graph, track)) {
       const network::Controller& controller = graph.network().controllers()[light.controller];
       if (controller.times->green_s > 0.0) continue;
-      return base::WrongInput("the light " + Named(graph, light) + " is never green; a time of green was expected",
+      return base::WrongInput("world.wrong_signals",
+                              "the light " + Named(graph, light) + " is never green; a time of green was expected",
                               where(controller.place));
     }
   }
@@ -145,7 +146,7 @@ base::Status CheckLights(const Graph& graph, const Zones& zones) {
   // At the later of the two: it is green although the other one is.
   const std::string& place =
       graph.network().controllers()[std::max(together->controllers[0], together->controllers[1])].place;
-  return base::WrongInput(together->sentence, where(place));
+  return base::WrongInput("world.wrong_signals", together->sentence, where(place));
 }
 
 }  // namespace rodeira::lanes

@@ -48,7 +48,7 @@ LightPlan ReadLightPlan(const config::Map& map) {
   plan.all_red_s = map.Number("all_red_s", {0.0, 60.0}, plan.all_red_s);
   plan.red_amber_s = map.Number("red_amber_s", {0.0, 10.0}, plan.red_amber_s);
   if (plan.red_amber_s > plan.amber_s + plan.all_red_s)
-    map.Problem("red_amber_s", "'red_amber_s' is longer than 'amber_s' and 'all_red_s' together");
+    map.Problem("red_amber_s", "config.wrong_order", "'red_amber_s' is longer than 'amber_s' and 'all_red_s' together");
   const config::List phases = map.Items("phases");
   for (std::size_t i = 0; i < phases.size(); ++i) {
     const config::Map item = phases.At(i);
@@ -59,11 +59,12 @@ LightPlan ReadLightPlan(const config::Map& map) {
     for (std::size_t k = 0; k < green.size(); ++k) {
       phase.green.push_back(green.Text(k));
       if (std::count(phase.green.begin(), phase.green.end(), phase.green.back()) > 1)
-        green.Problem(k, fmt::format("'{}' is named twice", phase.green.back()));
+        green.Problem(k, "config.duplicate_name", fmt::format("'{}' is named twice", phase.green.back()));
     }
     plan.phases.push_back(std::move(phase));
   }
-  if (plan.phases.empty() && map.Has("phases")) map.Problem("phases", "there is no phase; one or more were expected");
+  if (plan.phases.empty() && map.Has("phases"))
+    map.Problem("phases", "config.too_few", "there is no phase; one or more were expected");
   for (const std::string& name : plan.Names()) {
     if (Begins(plan, name) > 1)
       map.Problem(

@@ -27,6 +27,7 @@ bool IsTooMuch(std::size_t unpacked, std::size_t packed) {
 
 base::Error TooMuch(const std::string& what, std::size_t unpacked, std::size_t packed, const fs::path& path) {
   return base::WrongInput(
+      "opendrive.archive_too_large",
       unpacked > kMaxUnpackedBytes
           ? fmt::format("{} unpacks to more than {} MiB; that is too much for a road network", what,
                         kMaxUnpackedBytes >> 20)
@@ -94,7 +95,8 @@ bool IsZip(std::string_view bytes) { return bytes.starts_with("PK\x03\x04") || b
 
 base::Result<std::string> Gunzip(std::string_view bytes, const fs::path& path) {
   z_stream stream{};
-  if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK) return base::Failed("zlib cannot be started", path.string());
+  if (inflateInit2(&stream, 16 + MAX_WBITS) != Z_OK)
+    return base::Failed("file.cannot_read", "zlib cannot be started", path.string());
   const std::unique_ptr<z_stream, int (*)(z_streamp)> ended(&stream, &inflateEnd);
   std::array<char, 1 << 16> buffer;
   std::string text;
@@ -111,7 +113,8 @@ base::Result<std::string> Gunzip(std::string_view bytes, const fs::path& path) {
     stream.avail_out = static_cast<uInt>(buffer.size());
     const int status = inflate(&stream, Z_NO_FLUSH);
     if (status != Z_OK && status != Z_STREAM_END)
-      return base::WrongInput(status == Z_BUF_ERROR ? "the gzip data is cut short"
+      return base::WrongInput("opendrive.wrong_archive",
+                              status == Z_BUF_ERROR ? "the gzip data is cut short"
                                                     : fmt::format("the gzip data is damaged: {}",
                                                                   stream.msg == nullptr ? "zlib" : stream.msg),
                               path.string());
@@ -131,7 +134,9 @@ base::Result<std::shared_ptr<const Archive>> Archive::Open(std::string bytes, co
   archive->path_ = path;
   std::string_view view = archive->bytes_;
   const Unzip zip = OpenZip(view);
-  const auto damaged = [&] { return base::WrongInput("the ZIP archive is damaged or cut short", path.string()); };
+  const auto damaged = [&] {
+    return base::WrongInput("opendrive.wrong_archive", "the ZIP archive is damaged or cut short", path.string());
+  };
   if (zip == nullptr) return damaged();
   std::size_t count = 0;
   for (int more = unzGoToFirstFile(zip.get()); more != UNZ_END_OF_LIST_OF_FILE; more = unzGoToNextFile(zip.get())) {
@@ -141,15 +146,18 @@ base::Result<std::shared_ptr<const Archive>> Archive::Open(std::string bytes, co
         unzGetCurrentFileInfo64(zip.get(), &info, text.data(), text.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK)
       return damaged();
     if (++count > kMaxFiles)
-      return base::WrongInput(fmt::format("the archive holds more than {} files", kMaxFiles), path.string());
+      return base::WrongInput("opendrive.archive_too_large",
+                              fmt::format("the archive holds more than {} files", kMaxFiles), path.string());
     std::string name = text.data();
     std::replace(name.begin(), name.end(), '\\', '/');
     if (LeadsOut(name))
-      return base::WrongInput(fmt::format("the path of '{}' leaves the archive; paths inside it were expected", name),
+      return base::WrongInput("opendrive.wrong_archive",
+                              fmt::format("the path of '{}' leaves the archive; paths inside it were expected", name),
                               path.string());
     if (name.empty() || name.ends_with('/') || IsOfFinder(name)) continue;
     if ((info.flag & kIsEncrypted) != 0)
-      return base::WrongInput(fmt::format("'{}' in the archive is encrypted; unpack it first", name), path.string());
+      return base::WrongInput("opendrive.wrong_archive",
+                              fmt::format("'{}' in the archive is encrypted; unpack it first", name), path.string());
     archive->names_.push_back(fs::path(name).lexically_normal().generic_string());
     archive->stored_.emplace_back(text.data());
   }
@@ -165,7 +173,8 @@ base::Result<std::string> Archive::Read(const std::string& name) const {
   std::string_view view = bytes_;
   const Unzip zip = OpenZip(view);
   const auto damaged = [&] {
-    return base::WrongInput(fmt::format("'{}' in the archive is damaged or packed in an unknown way", name),
+    return base::WrongInput("opendrive.wrong_archive",
+                            fmt::format("'{}' in the archive is damaged or packed in an unknown way", name),
                             path_.string());
   };
   if (found == names_.end() || zip == nullptr) return damaged();

@@ -55,7 +55,8 @@ base::Result<std::string> Convert(std::string_view bytes, const std::string& fro
                                   const std::filesystem::path& path) {
   const iconv_t converter = ::iconv_open("UTF-8", from.c_str());
   if (converter == reinterpret_cast<iconv_t>(-1))
-    return base::WrongInput(fmt::format("the encoding '{}' is unknown; UTF-8 was expected", from),
+    return base::WrongInput("opendrive.wrong_encoding",
+                            fmt::format("the encoding '{}' is unknown; UTF-8 was expected", from),
                             path.string() + ":1");
   std::string text;
   std::array<char, 1 << 14> buffer;
@@ -112,22 +113,25 @@ base::Status LooksLikeXml(const std::string& text, const std::filesystem::path& 
   if (begin.starts_with("\xef\xbb\xbf")) begin.remove_prefix(3);
   begin.remove_prefix(std::min(begin.size(), begin.find_first_not_of(kBlank)));
   if (begin.empty() || begin.find_first_not_of("\0 \t\r\n"sv) == std::string_view::npos)
-    return base::WrongInput("the file is empty; an OpenDRIVE file (XML) was expected", path.string());
+    return base::WrongInput("file.empty", "the file is empty; an OpenDRIVE file (XML) was expected", path.string());
   const std::string start = Lower(begin.substr(0, 64));
   if (start.starts_with("<!doctype html") || start.starts_with("<html"))
     return base::WrongInput(
+        "opendrive.not_xml",
         "this is a page of the web (HTML), not the file that it shows; OpenDRIVE was expected: download the file "
         "itself ('raw')",
         path.string());
   if (start.starts_with("version https://git-lfs"))
-    return base::WrongInput("this is a Git LFS pointer, not the file itself, which `git lfs pull` fetches",
+    return base::WrongInput("opendrive.not_xml",
+                            "this is a Git LFS pointer, not the file itself, which `git lfs pull` fetches",
                             path.string());
   if (!begin.starts_with('<')) {
     std::string found(begin.substr(0, 20));
     std::replace_if(
         found.begin(), found.end(), [](char c) { return static_cast<unsigned char>(c) < 32; }, ' ');
     const bool is_text = std::all_of(found.begin(), found.end(), [](char c) { return c >= ' ' && c <= '~'; });
-    return base::WrongInput(is_text ? fmt::format("this is no XML: it begins with '{}'; OpenDRIVE was expected", found)
+    return base::WrongInput("opendrive.not_xml",
+                            is_text ? fmt::format("this is no XML: it begins with '{}'; OpenDRIVE was expected", found)
                                     : "this is no XML: it begins with other bytes than '<'; OpenDRIVE was expected",
                             path.string());
   }

@@ -49,10 +49,12 @@ base::Result<std::string> RoadFileOf(const Archive& archive, const fs::path& pat
   if (roads.empty()) roads = std::move(others);
   if (roads.size() == 1) return roads.front();
   if (roads.empty())
-    return base::WrongInput(fmt::format("none of the archive's {} files is an OpenDRIVE file; one .xodr was expected",
+    return base::WrongInput("opendrive.wrong_archive",
+                            fmt::format("none of the archive's {} files is an OpenDRIVE file; one .xodr was expected",
                                         archive.names().size()),
                             path.string());
   return base::WrongInput(
+      "opendrive.wrong_archive",
       fmt::format("the archive holds {} OpenDRIVE files ('{}', '{}'{}); one was expected: unpack it "
                   "and name one",
                   roads.size(), roads[0], roads[1], roads.size() > 2 ? ", …" : ""),
@@ -62,7 +64,8 @@ base::Result<std::string> RoadFileOf(const Archive& archive, const fs::path& pat
 base::Result<Found> Unpack(std::string bytes, Place place, const fs::path& path) {
   for (int layer = 0; IsGzip(bytes) || IsZip(bytes); ++layer) {
     if (layer == kMaxPacked)
-      return base::WrongInput(fmt::format("the file is packed more than {} times", kMaxPacked), path.string());
+      return base::WrongInput("opendrive.wrong_archive",
+                              fmt::format("the file is packed more than {} times", kMaxPacked), path.string());
     if (IsGzip(bytes)) {
       auto unpacked = Gunzip(bytes, path);
       if (!unpacked) return unpacked.error();
@@ -101,18 +104,21 @@ bool LeavesArchive(const std::string& file, const Place& by) {
 base::Result<Found> Open(const std::string& file, const Place& by) {
   const std::string named = Named(file);
   if (fs::path(named).is_absolute() || (named.size() > 1 && named[1] == ':'))
-    return base::WrongInput("its path is absolute; one relative to this file was expected");
+    return base::WrongInput("opendrive.include_not_found",
+                            "its path is absolute; one relative to this file was expected");
   const fs::path path = (by.name.parent_path() / named).lexically_normal();
   if (by.archive != nullptr) {
-    if (!by.archive->Has(path.generic_string())) return base::WrongInput("the archive holds no such file");
+    if (!by.archive->Has(path.generic_string()))
+      return base::WrongInput("opendrive.wrong_archive", "the archive holds no such file");
     auto bytes = by.archive->Read(path.generic_string());
     if (!bytes) return bytes.error();
     return Unpack(std::move(bytes).value(), {path, by.archive}, path);
   }
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(fs::exists(path, problem) ? std::string("it is no plain file")
-                                                      : "there is no such file" + base::NearestFile(path));
+    return base::WrongInput("opendrive.include_not_found", fs::exists(path, problem)
+                                                               ? std::string("it is no plain file")
+                                                               : "there is no such file" + base::NearestFile(path));
   }
   auto bytes = base::ReadText(path, kMaxBytes);
   if (!bytes) return bytes.error();
@@ -186,7 +192,9 @@ class Includes {
   // Nothing where the file cannot be read, which is kept in unread_; wrong input where it would come to no end.
   base::Result<std::optional<std::string>> ContentOf(const std::string& file, const Place& by,
                                                      const std::string& parent) {
-    const auto refuse = [&](const std::string& message) { return base::WrongInput(message, path_.string()); };
+    const auto refuse = [&](const std::string& message) {
+      return base::WrongInput("opendrive.include_not_found", message, path_.string());
+    };
     if (LeavesArchive(file, by))
       return refuse(
           fmt::format("the path of '{}', which <include> of '{}' names, leaves the archive; one inside it was "

@@ -88,6 +88,7 @@ base::Result<Import> ReadOnce(const std::string& text, const std::filesystem::pa
   const Node root = source.root();
   if (root.name() != "OpenDRIVE") {
     return base::WrongInput(
+        "opendrive.not_opendrive",
         fmt::format("the outermost element is <{}>; <OpenDRIVE> was expected{}", root.name(), HowToImport(root.name())),
         fmt::format("{}:{}", path.string(), root.line()));
   }
@@ -190,7 +191,7 @@ base::Result<std::string> LoadText(const std::filesystem::path& path) {
 }
 
 base::Error ToError(const Finding& finding, const std::filesystem::path& path) {
-  return base::WrongInput(finding.Text(),
+  return base::WrongInput("opendrive.rule_broken", finding.Text(),
                           finding.line == 0 ? path.string() : fmt::format("{}:{}", path.string(), finding.line));
 }
 

@@ -106,7 +106,7 @@ base::Result<Import> ReadRepaired(FileText file, const std::filesystem::path& pa
     if (!edited.maps.empty()) read.repaired_text = std::move(text);
     return import;
   }
-  return base::WrongInput("the repair came to no end", path.string());
+  return base::WrongInput("opendrive.repair_failed", "the repair came to no end", path.string());
 }
 
 std::vector<Finding> OneEachKind(const std::vector<Finding>& findings) {

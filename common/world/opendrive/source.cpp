@@ -91,7 +91,7 @@ base::Result<std::unique_ptr<Source>> Source::Parse(std::string text, const std:
   const auto result = source->document_.load_buffer(source->text_.data(), source->text_.size(), pugi::parse_default,
                                                     pugi::encoding_utf8);
   if (!result) {
-    return base::WrongInput(fmt::format("this is no XML: {}", result.description()),
+    return base::WrongInput("opendrive.not_xml", fmt::format("this is no XML: {}", result.description()),
                             fmt::format("{}:{}", path.string(), source->LineAt(result.offset)));
   }
   return source;

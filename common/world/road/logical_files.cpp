@@ -114,6 +114,7 @@ std::vector<base::Error> LogicalProblems(const fs::path& folder) {
   const auto text = base::ReadText(folder / kLogicalManifest);
   if (!text)
     return {base::WrongInput(
+        "world.built_file_missing",
         fmt::format("there is no '{}'; a folder that `rodeira world build` wrote was expected", kLogicalManifest),
         folder.string())};
   std::vector<base::Error> problems;
@@ -121,23 +122,27 @@ std::vector<base::Error> LogicalProblems(const fs::path& folder) {
   std::string line;
   std::getline(lines, line);
   if (line != "rodeira: logical/1")
-    return {base::WrongInput(fmt::format("the first line is '{}'; 'rodeira: logical/1' was expected", line),
+    return {base::WrongInput("world.wrong_manifest",
+                             fmt::format("the first line is '{}'; 'rodeira: logical/1' was expected", line),
                              (folder / kLogicalManifest).string())};
   std::getline(lines, line);  // the content hash
   while (std::getline(lines, line)) {
     const std::size_t gap = line.find(' ');
     const fs::path name(gap == std::string::npos ? "" : line.substr(gap + 1));
     if (name.empty() || name.is_absolute()) {
-      problems.push_back(base::WrongInput(fmt::format("the line '{}' names no file with its hash", line),
+      problems.push_back(base::WrongInput("world.wrong_manifest",
+                                          fmt::format("the line '{}' names no file with its hash", line),
                                           (folder / kLogicalManifest).string()));
       continue;
     }
     const auto bytes = base::ReadBytes(folder / name);
     if (!bytes)
-      problems.push_back(base::WrongInput("this file of the built world is missing", (folder / name).string()));
+      problems.push_back(base::WrongInput("world.built_file_missing", "this file of the built world is missing",
+                                          (folder / name).string()));
     else if (base::Hex(base::Hash(bytes.value())) != line.substr(0, gap))
-      problems.push_back(
-          base::WrongInput("this file of the built world is not as it was written", (folder / name).string()));
+      problems.push_back(base::WrongInput("world.built_file_changed",
+                                          "this file of the built world is not as it was written",
+                                          (folder / name).string()));
   }
   return problems;
 }

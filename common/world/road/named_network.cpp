@@ -22,14 +22,17 @@ void PutStartOnNetwork(const Map& map, const design::StartSpec& wish, const netw
   std::uint32_t at = 0;
   for (; at < roads.size() && !wish.road.empty() && roads[at].id() != wish.road; ++at) ids.push_back(roads[at].id());
   if (at == roads.size())
-    return map.Problem("road", fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
+    return map.Problem("road", "world.unknown_road",
+                       fmt::format("there is no road '{}'{}", wish.road, base::DidYouMean(wish.road, ids)));
   const double s_m = wish.s_m.value_or(0.0);
   if (s_m > roads[at].length_m())
-    return map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s_m, roads[at].length_m()));
+    return map.Problem("s_m", "config.out_of_range",
+                       fmt::format("'start.s_m' is {}; the road is {:.3f} m long", s_m, roads[at].length_m()));
   const network::LaneKey key{at, static_cast<std::uint32_t>(roads[at].SectionIndex(s_m)), wish.lane.value_or(-1)};
   const network::Lane* lane = network.Find(key);
   if (lane == nullptr || !network::IsDrivable(lane->type))
-    return map.Problem("lane", fmt::format("road '{}' has no lane {} to drive on there", roads[at].id(), key.lane));
+    return map.Problem("lane", "world.unknown_lane",
+                       fmt::format("road '{}' has no lane {} to drive on there", roads[at].id(), key.lane));
   start = PoseOn(network, key, s_m);
 }
 
@@ -42,7 +45,7 @@ WorldReading ReadNamedNetwork(const config::File& file, const std::filesystem::p
   if (!reading.problems.empty()) return reading;
   auto spec = ReadNetworkWorld(network_file);
   if (!spec) {
-    reading.problems.push_back(base::WrongInput(spec.error().Text(), file.root().Child("network").Place("file")));
+    reading.problems.push_back(spec.error().In(file.root().Child("network").Place("file")));
     return reading;
   }
   const Map start = file.root().OptionalChild("start");

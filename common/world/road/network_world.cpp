@@ -120,7 +120,8 @@ std::optional<base::Error> WhatWorldsName(const std::filesystem::path& file) {
       : extension == ".csv" ? "a table of points, which a road of a world file names as 'points: {file: …}'"
                             : nullptr;
   if (what == nullptr) return std::nullopt;
-  return base::WrongInput(fmt::format("by its name this is {}; a world (.yaml, .xodr or .motors) was expected", what),
+  return base::WrongInput("world.unknown_kind",
+                          fmt::format("by its name this is {}; a world (.yaml, .xodr or .motors) was expected", what),
                           file.string());
 }
 
@@ -150,6 +151,7 @@ std::optional<base::Error> NothingToDrive(const network::Network& network, const
     types.emplace(network::LaneTypeName(type));
   }
   return base::WrongInput(
+      "world.no_lane",
       fmt::format("the network has no lane for driving: its lanes are of the types {}; driving was expected",
                   types.empty() ? "(none)" : fmt::format("{}", fmt::join(types, ", "))),
       file.string());

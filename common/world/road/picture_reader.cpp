@@ -29,8 +29,9 @@ void ReadRectangle(const Map& map, bool on_plane, const std::optional<terrain::P
   picture.south_m = number("south_m", own.south);
   picture.width_m = number("east_m", own.east) - picture.west_m;
   picture.height_m = number("north_m", own.north) - picture.south_m;
-  if (!(picture.width_m > 0.0)) map.Problem("east_m", "'east_m' must be greater than 'west_m'");
-  if (!(picture.height_m > 0.0)) map.Problem("north_m", "'north_m' must be greater than 'south_m'");
+  if (!(picture.width_m > 0.0)) map.Problem("east_m", "config.wrong_order", "'east_m' must be greater than 'west_m'");
+  if (!(picture.height_m > 0.0))
+    map.Problem("north_m", "config.wrong_order", "'north_m' must be greater than 'south_m'");
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ std::optional<LaidPicture> ReadGroundPicture(const Map& ground, std::vector<base
     if (looked)
       facts = std::move(looked).value();
     else
-      missing.push_back(base::WrongInput(looked.error().message, map.Place("file")));
+      missing.push_back(looked.error().WithContext(map.Place("file")));
   }
   if (map.Choice("kind", {"geotypical", "draped"}, "geotypical") == "draped") {
     ReadRectangle(map, ground.Has("kind"), facts.place, picture);

@@ -30,8 +30,9 @@ constexpr Range kFall = {-0.2, 0.2};
 double ReadCurvature(const Map& map, std::string_view key) {
   const double radius = map.Number(key);
   if (std::fabs(radius) >= kSmallestRadius_m && std::fabs(radius) <= 1e7) return 1.0 / radius;
-  map.Problem(key, fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
-                               radius, kSmallestRadius_m));
+  map.Problem(key, "config.out_of_range",
+              fmt::format("'{}' is {}; at least {} m to the left (positive) or right (negative) was expected", key,
+                          radius, kSmallestRadius_m));
   return 0.0;
 }
 
@@ -54,7 +55,7 @@ geometry::PlanPiece ReadPiece(const Map& item) {
     if (clothoid.Has("radius_start_m")) piece.curvature_start_1pm = ReadCurvature(clothoid, "radius_start_m");
     if (clothoid.Has("radius_end_m")) piece.curvature_end_1pm = ReadCurvature(clothoid, "radius_end_m");
     if (!clothoid.Has("radius_start_m") && !clothoid.Has("radius_end_m")) {
-      clothoid.Problem("length_m",
+      clothoid.Problem("length_m", "config.missing_key",
                        "a clothoid needs 'radius_start_m' or 'radius_end_m'; one left out is a straight end");
     }
   }
@@ -67,7 +68,8 @@ void ReadAxis(const Map& map, RoadSpec& road) {
   road.heading_rad = geometry::WrapAngle(start.Number("heading_deg", {-360.0, 360.0}, 0.0) * geometry::kPi / 180.0);
   const List axis = map.Items("axis");
   for (std::size_t i = 0; i < axis.size(); ++i) road.pieces.push_back(ReadPiece(axis.At(i)));
-  if (map.Has("axis") && axis.size() == 0) map.Problem("axis", "the axis has no elements; at least one was expected");
+  if (map.Has("axis") && axis.size() == 0)
+    map.Problem("axis", "config.too_few", "the axis has no elements; at least one was expected");
 }
 
 void ReadLanes(const Map& map, SectionSpec& section) {
@@ -84,10 +86,11 @@ void ReadLanes(const Map& map, SectionSpec& section) {
         item.Choice("direction", {"along", "against"}, lane.id < 0 ? "along" : "against") == "along" ? 1 : -1;
     if (lane.id == 0)
       item.Problem("id", "a lane's 'id' is 0; negative ones lie to the right of the axis, positive ones to the left");
-    if (!ids.insert(lane.id).second) item.Problem("id", fmt::format("lane {} stands twice", lane.id));
+    if (!ids.insert(lane.id).second)
+      item.Problem("id", "config.duplicate_name", fmt::format("lane {} stands twice", lane.id));
     section.lanes.push_back(lane);
   }
-  if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "a road needs at least one lane");
+  if (map.Has("lanes") && lanes.size() == 0) map.Problem("lanes", "config.too_few", "a road needs at least one lane");
   for (const int id : ids) {
     const int inner = id > 0 ? id - 1 : id + 1;
     if (id != 0 && inner != 0 && !ids.contains(inner))
@@ -138,7 +141,7 @@ void ReadMarks(const Map& map, double length_m, std::vector<Mark>& marks) {
       mark.gap_m = item.Number("gap_m", {0.1, 100.0});
     }
     if (!(mark.from_s_m < mark.to_s_m))
-      item.Problem("to_s_m", "a mark must end after its beginning: 'to_s_m' above 'from_s_m'");
+      item.Problem("to_s_m", "config.wrong_order", "a mark must end after its beginning: 'to_s_m' above 'from_s_m'");
     marks.push_back(mark);
   }
 }

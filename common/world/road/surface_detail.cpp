@@ -97,6 +97,7 @@ base::Result<SurfaceDetail::Stretch> SurfaceDetail::Place(const network::Road& r
   const std::vector<std::string> modes = {"attached", "attached0", "genuine", "global"};
   const auto wrong = [&](std::string_view what, const std::string& found, const std::vector<std::string>& known) {
     return base::WrongInput(
+        "surface.unknown_word",
         fmt::format("'{}' is no {} of a measured surface{}", found, what, base::DidYouMean(found, known)),
         fmt::format("road {}, s {:g}, '{}'", road.id(), crg.s_start_m, crg.file));
   };
@@ -138,7 +139,7 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
     for (std::size_t k = 0; k < spec.crg.size(); ++k) {
       const network::CrgSurface& crg = spec.crg[k];
       const auto placed = [&](const base::Error& error) {
-        return base::WrongInput(error.Text(), place_of ? place_of(network.roads()[i], k) : std::string());
+        return error.In(place_of ? place_of(network.roads()[i], k) : std::string());
       };
       const std::filesystem::path named = crg.file;
       const std::string path = (named.is_absolute() ? named : folder / named).string();
@@ -146,8 +147,7 @@ base::Result<SurfaceDetail> SurfaceDetail::Load(const network::Network& network,
       if (file == nullptr) {
         auto loaded = surface::LoadCrg(path);
         if (!loaded)
-          return placed(base::WrongInput(loaded.error().Text(),
-                                         fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
+          return placed(loaded.error().In(fmt::format("road {}, s {:g}", network.roads()[i].id(), crg.s_start_m)));
         file = loaded.value().surface;
       }
       auto stretch = Place(network.roads()[i], crg, file);

@@ -52,7 +52,8 @@ std::vector<base::Error> VisualProblems(const fs::path& folder, const std::strin
   if (!fs::is_regular_file(manifest, problem)) {
     if (!fs::exists(folder / kRoot, problem)) return {};
     return {
-        base::WrongInput(fmt::format("there is '{}' but no '{}', which names every file of what is seen with its hash",
+        base::WrongInput("world.built_file_missing",
+                         fmt::format("there is '{}' but no '{}', which names every file of what is seen with its hash",
                                      kRoot, kVisualManifest),
                          folder.string())};
   }
@@ -60,25 +61,29 @@ std::vector<base::Error> VisualProblems(const fs::path& folder, const std::strin
   const VisualContents contents = ReadVisualContents(manifest);
   if (contents.content_hash != content_hash) {
     problems.push_back(base::WrongInput(
+        "world.built_file_changed",
         fmt::format("it was written from a world whose content hash is '{}'; that of this folder's is '{}'",
                     contents.content_hash, content_hash),
         manifest.string()));
   }
   for (const std::string& line : contents.broken)
-    problems.push_back(
-        base::WrongInput(fmt::format("the line '{}' names no file with its hash", line), manifest.string()));
+    problems.push_back(base::WrongInput(
+        "world.wrong_manifest", fmt::format("the line '{}' names no file with its hash", line), manifest.string()));
   const bool root = std::any_of(contents.files.begin(), contents.files.end(),
                                 [](const auto& listed) { return listed.name == kRoot; });
   if (!root)
-    problems.push_back(
-        base::WrongInput(fmt::format("'{}', by which all others are found, is not named", kRoot), manifest.string()));
+    problems.push_back(base::WrongInput("world.built_file_missing",
+                                        fmt::format("'{}', by which all others are found, is not named", kRoot),
+                                        manifest.string()));
   for (const VisualContents::Listed& listed : contents.files) {
     const auto bytes = base::ReadText(folder / listed.name, 1u << 30);
     if (!bytes)
-      problems.push_back(base::WrongInput("this file of what is seen is missing", (folder / listed.name).string()));
+      problems.push_back(base::WrongInput("world.built_file_missing", "this file of what is seen is missing",
+                                          (folder / listed.name).string()));
     else if (base::Hash(bytes.value()) != listed.hash)
-      problems.push_back(
-          base::WrongInput("this file of what is seen is not as it was written", (folder / listed.name).string()));
+      problems.push_back(base::WrongInput("world.built_file_changed",
+                                          "this file of what is seen is not as it was written",
+                                          (folder / listed.name).string()));
   }
   return problems;
 }

@@ -110,16 +110,18 @@ base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem:
   const auto file = config::File::Load(world_yaml);
   if (!file) return file.error();
   if (!IsGenerated(world_yaml)) {
-    return base::WrongInput("there is nothing to build: a world whose 'terrain' says 'generate' was expected",
+    return base::WrongInput("world.nothing_to_build",
+                            "there is nothing to build: a world whose 'terrain' says 'generate' was expected",
                             world_yaml.string());
   }
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (!std::filesystem::is_directory(folder, problem))
-    return base::WrongInput("this is no folder, and none can be made", folder.string());
+    return base::WrongInput("file.not_folder", "this is no folder, and none can be made", folder.string());
   const auto target = folder / world_yaml.filename();
   if (std::filesystem::equivalent(target, world_yaml, problem)) {
-    return base::WrongInput("the world file itself would be overwritten; another folder was expected", folder.string());
+    return base::WrongInput("file.exists", "the world file itself would be overwritten; another folder was expected",
+                            folder.string());
   }
   auto elevation = target;
   elevation.replace_extension(".bt");
@@ -131,9 +133,11 @@ base::Result<std::string> BuildWorld(const World& wanted, const std::filesystem:
   if (const auto written = terrain::WriteBt(elevation, *wanted.grid()); !written) return written.error();
   const auto again = World::Parse(text, target);
   if (!again)
-    return base::Failed(fmt::format("the world built cannot be read: {}", again.error().Text()), world_yaml.string());
+    return base::Failed(again.error().id, fmt::format("the world built cannot be read: {}", again.error().Text()),
+                        world_yaml.string());
   if (again.value()->content_hash() != wanted.content_hash()) {
     return base::Failed(
+        "world.other_hash",
         "the world built is not the same world; write 'terrain:' as a block of its own at the top level",
         world_yaml.string());
   }

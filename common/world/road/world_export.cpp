@@ -274,9 +274,9 @@ std::string ControllerText(const network::Controller& controller) {
 }
 
 base::Result<std::string> Export(const World& world, const NameOf& name_of) {
-  if (world.open_drive()) return base::WrongInput("this world is an OpenDRIVE file already");
+  if (world.open_drive()) return base::WrongInput("world.cannot_export", "this world is an OpenDRIVE file already");
   if (world.network() == nullptr || world.network()->roads().empty())
-    return base::WrongInput("this world has no road; OpenDRIVE needs one");
+    return base::WrongInput("world.cannot_export", "this world has no road; OpenDRIVE needs one");
   const network::Network& network = *world.network();
   // Sections of strips came with OpenDRIVE 1.8.
   const bool strips = std::any_of(network.roads().begin(), network.roads().end(), [](const network::Road& road) {

@@ -23,9 +23,10 @@ bool BendsAreWide(const Road& road, const config::Map& map) {
       const double inner = curvature > 0.0 ? road.section().blend_left_m() : -road.section().blend_right_m();
       if (std::fabs(curvature) * inner <= kSharpest) continue;
       const auto axis = map.Items("axis");
-      axis.Problem(i, fmt::format("the bend of radius {:.6g} m is too sharp for lanes, shoulder, verge and blend of "
-                                  "together {:.6g} m on its inner side",
-                                  1.0 / std::fabs(curvature), inner));
+      axis.Problem(i, "config.out_of_range",
+                   fmt::format("the bend of radius {:.6g} m is too sharp for lanes, shoulder, verge and blend of "
+                               "together {:.6g} m on its inner side",
+                               1.0 / std::fabs(curvature), inner));
       return false;
     }
   }
@@ -68,7 +69,7 @@ void CheckRoadFits(const Road& road, const terrain::ElevationGrid* grid, const c
   for (const OutlinePoint& point : Outline(road)) {
     if (grid != nullptr && !left_terrain && !grid->At(point.p_W.x(), point.p_W.y()).inside) {
       left_terrain = true;
-      map.Problem("axis",
+      map.Problem("axis", "world.outside_of_terrain",
                   fmt::format("road '{}' with its blend leaves the terrain at s = {:.0f} m, near ({:.1f}, {:.1f})",
                               road.id(), point.s_m, point.p_W.x(), point.p_W.y()));
     }
@@ -76,7 +77,7 @@ void CheckRoadFits(const Road& road, const terrain::ElevationGrid* grid, const c
     if (!met_itself && foot.distance_m < point.distance_m - kNearerBy_m) {
       met_itself = true;
       map.Problem(
-          "axis",
+          "axis", "world.road_does_not_fit",
           fmt::format(
               "road '{}' comes too near to itself: the blend at s = {:.0f} m reaches what belongs to s = {:.0f} m; "
               "move the axis or narrow 'blend_m'",

@@ -36,8 +36,9 @@ constexpr const char* kVersion = "world/2";
 bool ReadVersion(const Map& root) {
   const std::string version = root.Text("rodeira");
   if (root.Has("rodeira") && version != kVersion && version != kFirstVersion) {
-    root.Problem("rodeira", fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version,
-                                        kVersion, kFirstVersion));
+    root.Problem("rodeira", "config.other_version",
+                 fmt::format("'rodeira' is '{}'; a world file of this program says '{}' or '{}'", version, kVersion,
+                             kFirstVersion));
   }
   return version == kVersion;
 }
@@ -55,12 +56,12 @@ HillsSpec ReadHills(const Map& map) {
   hills.flat_m = map.Number("flat_m", {0.1, 10'000.0}, 15.0);
   hills.full_m = map.Number("full_m", {0.2, 100'000.0}, 200.0);
   if (hills.full_m <= hills.flat_m)
-    map.Problem("full_m", "'full_m' must be greater than 'flat_m': the hills grow between them");
+    map.Problem("full_m", "config.wrong_order", "'full_m' must be greater than 'flat_m': the hills grow between them");
   hills.reach_m = map.Number("reach_m", {0.2, 1e6}, 3.0 * hills.full_m);
   hills.follow_structures = map.Flag("follow_structures", true);
   if (hills.reach_m < hills.full_m)
     map.Problem(
-        "reach_m",
+        "reach_m", "config.wrong_order",
         "'reach_m' must not be less than 'full_m': up to there the hills grow with the distance from the roads");
   const List relief = map.Items("relief");
   for (std::size_t i = 0; i < relief.size(); ++i) {
@@ -68,14 +69,15 @@ HillsSpec ReadHills(const Map& map) {
     hills.relief.push_back({layer.Number("wavelength_m", {1.0, 1e6}), layer.Number("amplitude_m", {0.0, 10'000.0})});
     const double nodes = hills.columns * hills.spacing_m / hills.relief.back().wavelength_m * hills.rows *
                          hills.spacing_m / hills.relief.back().wavelength_m;
-    if (nodes > 1e8) layer.Problem("wavelength_m", "the wavelength is too short for a terrain of this size");
+    if (nodes > 1e8)
+      layer.Problem("wavelength_m", "config.out_of_range", "the wavelength is too short for a terrain of this size");
   }
   if (map.Has("projection")) {
     auto wkt = terrain::ProjectionWkt(map.Text("projection"));
     if (wkt)
       hills.projection_wkt = std::move(wkt).value();
     else
-      map.Problem("projection", wkt.error().message);
+      map.Problem("projection", wkt.error().id, wkt.error().message);
   }
   return hills;
 }
@@ -115,12 +117,14 @@ void ReadStart(const Map& map, const std::vector<RoadSpec>& roads, StartPose& st
     ids.push_back(roads[i].id);
     if (roads[i].id == id) start.road = static_cast<int>(i);
   }
-  if (start.road < 0) return map.Problem("road", fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
+  if (start.road < 0)
+    return map.Problem("road", "world.unknown_road",
+                       fmt::format("there is no road '{}'{}", id, base::DidYouMean(id, ids)));
   start.lane = static_cast<int>(map.Integer("lane", -20, 20, -1));
   start.s_m = map.Number("s_m", Range::NotNegative(), 0.0);
   bool known = false;
   for (const Lane& lane : roads[static_cast<std::size_t>(start.road)].section.lanes) known |= lane.id == start.lane;
-  if (!known) map.Problem("lane", fmt::format("road '{}' has no lane {}", id, start.lane));
+  if (!known) map.Problem("lane", "world.unknown_lane", fmt::format("road '{}' has no lane {}", id, start.lane));
 }
 
 // The same of a file of version 2: what stands on a road is found with the roads.
@@ -162,6 +166,7 @@ Keys ReadKeys(const Map& root) {
     root.Problem(grounds == 0        ? ""
                  : keys.network_file ? "network"
                                      : "ground",
+                 "config.conflicting_keys",
                  "a world stands either on 'terrain' (an elevation file, or hills) or on 'ground' (a plane), or is the "
                  "'network' of an OpenDRIVE file");
   }
@@ -179,16 +184,18 @@ Keys ReadKeys(const Map& root) {
       keys.registration = terrain.Choice("registration", {"posts", "cells"}) == "cells" ? terrain::Registration::kCells
                                                                                         : terrain::Registration::kPosts;
       if (!keys.elevation_file)
-        terrain.Problem("registration", "'registration' says where the heights of a 'file' stand; there is none");
+        terrain.Problem("registration", "config.conflicting_keys",
+                        "'registration' says where the heights of a 'file' stand; there is none");
     }
     const Map hills = terrain.OptionalChild("generate");
     if (terrain.Has("generate")) keys.hills = ReadHills(hills);
     if (terrain.Has("generate") == terrain.Has("file"))
-      terrain.Problem("file", "'terrain' needs either 'file' or 'generate'");
+      terrain.Problem("file", "config.conflicting_keys", "'terrain' needs either 'file' or 'generate'");
   }
   if (keys.second && root.Has("weather"))
     (void)weather::ReadStanding(root.Child("weather"));  // a scenario's node asks for it (WeatherOf)
-  if (keys.network_file && !keys.second) root.Problem("network", "'network' needs 'rodeira: world/2'");
+  if (keys.network_file && !keys.second)
+    root.Problem("network", "config.missing_key", "'network' needs 'rodeira: world/2'");
   if (keys.second) {
     if (root.Has("start")) keys.start = ReadStartWish(root.Child("start"), keys.spec.start);
     return keys;
@@ -223,7 +230,8 @@ void PutStart(const Map& root, const std::vector<Road>& roads, const WorldSpec& 
     const Road& road = roads[static_cast<std::size_t>(start.road)];
     const Lane& lane = *road.section().FindLane(start.lane);
     if (start.s_m > road.length_m()) {
-      map.Problem("s_m", fmt::format("'start.s_m' is {}; the road is {:.3f} m long", start.s_m, road.length_m()));
+      map.Problem("s_m", "config.out_of_range",
+                  fmt::format("'start.s_m' is {}; the road is {:.3f} m long", start.s_m, road.length_m()));
     }
     const Eigen::Vector3d p = road.Position(start.s_m, lane.centre_t_m());
     start.x_m = p.x();
@@ -250,7 +258,7 @@ bool PutTerrain(Keys& keys, const Axis& axis, WorldReading& reading) {
   if (keys.elevation_file) {
     auto loaded = terrain::LoadGround(*keys.elevation_file, keys.registration);
     if (!loaded) {
-      reading.problems.push_back(base::WrongInput(loaded.error().Text(), keys.elevation_place));
+      reading.problems.push_back(loaded.error().In(keys.elevation_place));
       return false;
     }
     keys.spec.grid = loaded.value().grid;
@@ -323,7 +331,7 @@ WorldReading ReadSecond(const config::File& file, Keys keys) {
   if (design.network != nullptr) {
     auto detail = SurfaceDetail::Load(*design.network, file.path().parent_path(), design.laid);
     if (!detail) {
-      reading.problems.push_back(base::WrongInput(detail.error().Text(), file.path().string()));
+      reading.problems.push_back(detail.error().In(file.path().string()));
       return reading;
     }
     for (const std::string& wall : detail.value().Walls(*design.network))

@@ -172,6 +172,7 @@ base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_de
   const std::string projection = ProjectionOf(world);
   if (projection.empty())
     return base::WrongInput(
+        "world.no_projection",
         "the world does not say where on the earth it lies: its terrain has no projection, its roads have no "
         "geoReference",
         world.name());
@@ -180,6 +181,7 @@ base::Result<Eigen::Vector2d> PlaceOnMap(const World& world, double longitude_de
   const auto place = map.value().ToMap({longitude_deg, latitude_deg});
   if (!place)
     return base::WrongInput(
+        "world.off_the_projection",
         fmt::format("longitude {} and latitude {} are no place of the world's projection", longitude_deg, latitude_deg),
         world.name());
   return OffsetOf(world).FromMap(*place);

@@ -95,7 +95,7 @@ base::Result<std::string> Lifted(const network::Network& network, const std::str
   const auto ground = GroundOf(options.elevation, network);
   if (!ground) return ground.error();
   const auto heights = HeightsOf(network, ground.value());
-  if (!heights) return base::WrongInput(heights.error().message, options.elevation.string());
+  if (!heights) return heights.error().WithContext(options.elevation.string());
   std::string text = WithHeights(drive, heights.value());
   auto import = opendrive::Read(text, options.named);
   if (!import) return import.error();
@@ -125,8 +125,8 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_file(converted.value().drive.c_str());
     const pugi::xml_node drive = document.child("OpenDRIVE");
-    if (!parsed || !drive) return base::Failed("netconvert wrote no OpenDRIVE", said);
-    if (!drive.child("road")) return base::WrongInput("the network has no lane for driving", said);
+    if (!parsed || !drive) return base::Failed("sumo.netconvert_failed", "netconvert wrote no OpenDRIVE", said);
+    if (!drive.child("road")) return base::WrongInput("world.no_lane", "the network has no lane for driving", said);
     const RoadEdges edges = FindEdges(net.value(), drive);
     Written written;
     WriteHeader(drive, options.named.stem().string());
@@ -141,8 +141,8 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     if (!import) return import.error();
     if (!import.value().errors.empty()) return opendrive::ToError(import.value().errors.front(), options.named);
     if (import.value().network == nullptr || opendrive::ReachOf(*import.value().network).lanes_m == 0.0)
-      return base::WrongInput("the network has no lane for driving", said);
-    if (options.stop && options.stop()) return base::Failed("interrupted; nothing is written", said);
+      return base::WrongInput("world.no_lane", "the network has no lane for driving", said);
+    if (options.stop && options.stop()) return base::Failed("run.interrupted", "interrupted; nothing is written", said);
     const std::set<std::string> clash = ClashingLights(*import.value().network, written.lights.light_of);
     if (!clash.empty()) {
       dark.insert(clash.begin(), clash.end());
@@ -162,7 +162,7 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     imported.table = opendrive::Describe(import.value()) + Table(written);
     return imported;
   }
-  return base::Failed("the lights of the network come to no end", said);
+  return base::Failed("sumo.no_lights", "the lights of the network come to no end", said);
 }
 
 }  // namespace rodeira::sumo

@@ -50,6 +50,7 @@ base::Result<std::string> TypeFiles(const std::string& said) {
     std::error_code problem;
     if (!std::filesystem::is_regular_file(file, problem))
       return base::WrongInput(
+          "sumo.not_installed",
           fmt::format("netconvert's road types '{}' are missing; `apt install sumo-tools` installs them, another "
                       "folder of SUMO is named by SUMO_HOME",
                       file.string()),
@@ -124,7 +125,8 @@ base::Result<Converted> RunNetconvert(const std::filesystem::path& file, SourceK
                                       const std::function<bool()>& stop) {
   const auto program = base::FindInPath("netconvert");
   if (!program)
-    return base::WrongInput("SUMO's netconvert, which reads such files, is not in PATH; `apt install sumo` installs it",
+    return base::WrongInput("sumo.not_installed",
+                            "SUMO's netconvert, which reads such files, is not in PATH; `apt install sumo` installs it",
                             said);
   const Converted converted{folder / "it.net.xml", folder / "it.xodr"};
   base::ProgramRun run;
@@ -153,20 +155,23 @@ base::Result<Converted> RunNetconvert(const std::filesystem::path& file, SourceK
     end = base::RunProgram(run);
   }
   if (!end) return end.error();
-  if (end.value().stopped) return base::Failed("interrupted; nothing is written", said);
+  if (end.value().stopped) return base::Failed("run.interrupted", "interrupted; nothing is written", said);
   if (end.value().too_long)
-    return base::Failed(fmt::format("netconvert has not come to an end after {} min", kLimit.count() / 60), said);
+    return base::Failed("sumo.netconvert_failed",
+                        fmt::format("netconvert has not come to an end after {} min", kLimit.count() / 60), said);
   if (end.value().signal != 0)
     return base::Failed(
+        "sumo.netconvert_failed",
         fmt::format("netconvert crashed (signal {}, {})", end.value().signal, ::strsignal(end.value().signal)), said);
   if (end.value().status != 0) {
     const std::string error = FirstError(end.value().text);
     return base::WrongInput(
+        "sumo.netconvert_failed",
         "netconvert refuses it: " + (error.empty() ? fmt::format("exit status {}", end.value().status) : error), said);
   }
   std::error_code problem;
   if (!std::filesystem::exists(converted.net, problem) || !std::filesystem::exists(converted.drive, problem))
-    return base::WrongInput("netconvert finds no road in it", said);
+    return base::WrongInput("world.no_road", "netconvert finds no road in it", said);
   return converted;
 }
 

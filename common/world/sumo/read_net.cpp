@@ -112,9 +112,11 @@ bool IsSet(const std::string& letters, int to) {
 base::Result<Net> ReadNet(const std::filesystem::path& file) {
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_file(file.c_str());
-  if (!parsed) return base::WrongInput(fmt::format("this is not XML: {}", parsed.description()), file.string());
+  if (!parsed)
+    return base::WrongInput("sumo.not_a_network", fmt::format("this is not XML: {}", parsed.description()),
+                            file.string());
   const pugi::xml_node root = document.child("net");
-  if (!root) return base::WrongInput("the outermost element is not <net>", file.string());
+  if (!root) return base::WrongInput("sumo.not_a_network", "the outermost element is not <net>", file.string());
   Net net;
   std::map<std::string, std::string> goes_on;                   // inside a junction: a lane, and the lane that follows
   std::map<std::string, std::pair<std::string, int>> requests;  // a lane inside, its junction and request

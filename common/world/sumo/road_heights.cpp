@@ -74,7 +74,8 @@ class Heights {
     EaseGrades();
     RoadHeights heights;
     for (const network::Road& road : network_.roads()) heights[road.id()] = PiecesOf(road);
-    if (!unknown_.empty()) return base::WrongInput("the ground at road " + unknown_ + " is not known");
+    if (!unknown_.empty())
+      return base::WrongInput("terrain.does_not_fit", "the ground at road " + unknown_ + " is not known");
     return heights;
   }
 
@@ -210,7 +211,8 @@ base::Result<GroundHeight> GroundOf(const std::filesystem::path& elevation, cons
   const std::string &of_net = network.geo_reference(), &of_grid = grid->projection_wkt();
   if (of_net.empty() && of_grid.empty()) return GroundHeight(height);
   if (of_net.empty() || of_grid.empty())
-    return base::WrongInput(of_net.empty()
+    return base::WrongInput("terrain.does_not_fit",
+                            of_net.empty()
                                 ? "the roads do not say where on the earth they lie, and the elevation file does"
                                 : "the elevation file does not say where on the earth it lies (a .prj beside it does)",
                             elevation.string());

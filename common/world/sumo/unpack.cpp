@@ -53,7 +53,8 @@ base::Status CheckRoot(std::string_view head, SourceKind kind, const std::filesy
   if (root == RootOf(kind)) return {};
   const std::string found =
       root.empty() ? "there is no XML element" : fmt::format("the outermost element is <{}>", root.substr(0, 40));
-  return base::WrongInput(fmt::format("{}; <{}> was expected", found, RootOf(kind)), file.string());
+  return base::WrongInput("sumo.not_a_network", fmt::format("{}; <{}> was expected", found, RootOf(kind)),
+                          file.string());
 }
 
 struct Close {
@@ -70,8 +71,10 @@ base::Result<SourceKind> KindOf(const std::filesystem::path& file) {
   }
   if (EndsWith(name, ".osm.pbf"))
     return base::WrongInput(
+        "sumo.unknown_kind",
         "netconvert does not read .osm.pbf; `osmium cat FILE.osm.pbf -o FILE.osm` makes a .osm of it", file.string());
   return base::WrongInput(
+      "sumo.unknown_kind",
       "the name of a map of OpenStreetMap (.osm, .osm.gz) or a SUMO network (.net.xml, .net.xml.gz) was expected",
       file.string());
 }
@@ -79,9 +82,10 @@ base::Result<SourceKind> KindOf(const std::filesystem::path& file) {
 base::Status Unpack(const std::filesystem::path& file, SourceKind kind, const std::filesystem::path& copy) {
   std::error_code problem;
   const auto status = std::filesystem::status(file, problem);
-  if (!std::filesystem::exists(status)) return base::WrongInput(base::NoSuchFile(file), file.string());
+  if (!std::filesystem::exists(status))
+    return base::WrongInput("file.not_found", base::NoSuchFile(file), file.string());
   if (std::filesystem::is_directory(status))
-    return base::WrongInput("this is a folder, a file was expected", file.string());
+    return base::WrongInput("file.is_folder", "this is a folder, a file was expected", file.string());
   const std::unique_ptr<gzFile_s, Close> in(::gzopen(file.c_str(), "rb"));  // reads what is not packed, too
   if (!in) return base::OpenError("the file cannot be opened", errno, file.string());
   std::ofstream out(copy, std::ios::binary);
@@ -92,20 +96,25 @@ base::Status Unpack(const std::filesystem::path& file, SourceKind kind, const st
     int wrong = Z_OK;
     const char* message = ::gzerror(in.get(), &wrong);
     if (size < 0 || (wrong != Z_OK && wrong != Z_STREAM_END))
-      return base::WrongInput(fmt::format("the file cannot be unpacked: {}", message), file.string());
+      return base::WrongInput("file.cannot_read", fmt::format("the file cannot be unpacked: {}", message),
+                              file.string());
     if (size == 0) break;
     if (bytes == 0) {
       if (auto root = CheckRoot({buffer.data(), static_cast<std::size_t>(size)}, kind, file); !root) return root;
     }
     bytes += static_cast<std::uint64_t>(size);
     if (bytes > kMaxBytes)
-      return base::WrongInput(fmt::format("the file has more than {} bytes unpacked", kMaxBytes), file.string());
+      return base::WrongInput("file.too_large", fmt::format("the file has more than {} bytes unpacked", kMaxBytes),
+                              file.string());
     out.write(buffer.data(), size);
-    if (!out) return base::Failed(fmt::format("cannot be written: {}", std::strerror(errno)), copy.string());
+    if (!out)
+      return base::Failed("file.cannot_write", fmt::format("cannot be written: {}", std::strerror(errno)),
+                          copy.string());
   }
-  if (bytes == 0) return base::WrongInput("the file is empty", file.string());
+  if (bytes == 0) return base::WrongInput("file.empty", "the file is empty", file.string());
   out.close();
-  if (!out) return base::Failed(fmt::format("cannot be written: {}", std::strerror(errno)), copy.string());
+  if (!out)
+    return base::Failed("file.cannot_write", fmt::format("cannot be written: {}", std::strerror(errno)), copy.string());
   return {};
 }
 

@@ -50,7 +50,7 @@ class Builder {
   }
 
  private:
-  base::Error Wrong(std::string_view message) const { return base::WrongInput(message, name_); }
+  base::Error Wrong(std::string_view message) const { return base::WrongInput("surface.wrong_header", message, name_); }
 
   // A column, or the same number everywhere; times the scale.
   std::vector<double> RowValues(int column, double default_value, double scale) const {

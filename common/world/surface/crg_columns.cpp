@@ -73,7 +73,7 @@ class ColumnFinder {
   }
 
  private:
-  base::Error Wrong(std::string_view message) const { return base::WrongInput(message, name_); }
+  base::Error Wrong(std::string_view message) const { return base::WrongInput("surface.wrong_header", message, name_); }
 
   base::Status PlacedSections() {
     const std::vector<double>& v = found_.v_m;

@@ -38,7 +38,8 @@ base::Result<CrgFile> ParseCrg(std::span<const std::byte> bytes, const std::stri
   auto header = ReadCrgHeader(bytes, name);
   if (!header) return header.error();
   if (header.value().data_offset == 0) {
-    return base::WrongInput("the file holds no numbers of its own, only the name of another file", name);
+    return base::WrongInput("surface.wrong_reference",
+                            "the file holds no numbers of its own, only the name of another file", name);
   }
   return Finish(std::move(header).value(), bytes, name);
 }
@@ -53,14 +54,15 @@ base::Result<CrgFile> LoadCrg(const std::filesystem::path& path) {
   const std::filesystem::path other = path.parent_path() / header.value().other_file;
   const auto numbers = base::ReadBytes(other);
   if (!numbers) {
-    return base::WrongInput(
-        fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message),
-        path.string());
+    return numbers.error()
+        .WithMessage(fmt::format("$ROAD_CRG_FILE names '{}': {}", header.value().other_file, numbers.error().message))
+        .WithContext(path.string());
   }
   auto with_numbers = ReadCrgHeader(numbers.value(), other.string());
   if (!with_numbers) return with_numbers.error();
   if (with_numbers.value().data_offset == 0) {
-    return base::WrongInput("the file is named by another .crg and names a third one; one step is followed",
+    return base::WrongInput("surface.wrong_reference",
+                            "the file is named by another .crg and names a third one; one step is followed",
                             other.string());
   }
   if (header.value().options) with_numbers.value().options = header.value().options;

@@ -86,7 +86,7 @@ class HeaderReader {
   enum class Section { kNone, kUnknown, kComment, kRoad, kOptions, kModifiers, kFile, kChannels };
 
   base::Error Wrong(std::string_view message) const {
-    return base::WrongInput(message, fmt::format("{}:{}", name_, line_));
+    return base::WrongInput("surface.wrong_header", message, fmt::format("{}:{}", name_, line_));
   }
 
   // In the line that is read, from 1 on.
@@ -170,7 +170,7 @@ class HeaderReader {
       value = LeadingNumber(text, length);
       const std::string what = fmt::format("'{}' is '{}'; a number was expected", name, text.substr(0, 40));
       const std::size_t column = ColumnOf(text) + length;  // of what is wrong
-      if (!value) return base::WrongInput(what, fmt::format("{}:{}:{}", name_, line_, column));
+      if (!value) return base::WrongInput("surface.wrong_header", what, fmt::format("{}:{}:{}", name_, line_, column));
       Warn(fmt::format("column {}: {}; it is read as {}", column, what, *value));
     }
     if (*value < key->low || *value > key->high || (key->whole && *value != std::floor(*value))) {

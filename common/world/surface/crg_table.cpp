@@ -75,7 +75,7 @@ class TextNumbers {
 
  private:
   base::Error Wrong(std::string_view message) const {
-    return base::WrongInput(message, fmt::format("{}:{}", name_, line_ - 1));
+    return base::WrongInput("surface.wrong_numbers", message, fmt::format("{}:{}", name_, line_ - 1));
   }
 
   bool NextLine() {
@@ -113,6 +113,7 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
   const auto asked = RowsAsked(header.road);
   if (asked && *asked > static_cast<double>(there)) {
     return base::WrongInput(
+        "surface.wrong_rows",
         fmt::format("the file is cut short: {} rows of {} numbers are there, and the header asks for {}", there,
                     columns, *asked),
         name);
@@ -123,7 +124,8 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
     const std::byte* at = data.data() + i * size;
     table.values[i] = size == 4 ? BigEndian<float, std::uint32_t>(at) : BigEndian<double, std::uint64_t>(at);
     if (std::fabs(table.values[i]) > kLargest) {
-      return base::WrongInput(fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected",
+      return base::WrongInput("surface.wrong_numbers",
+                              fmt::format("the number in row {}, column {} is {}; at most 1e9 was expected",
                                           i / columns + 1, i % columns + 1, table.values[i]),
                               name);
     }
@@ -144,13 +146,16 @@ base::Result<CrgTable> ReadBinary(const CrgHeader& header, std::span<const std::
 
 base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std::byte> bytes, std::string_view name) {
   if (header.channels.empty()) {
-    return base::WrongInput("the header describes no column of numbers ($KD_DEFINITION, 'D:long section …,m')", name);
+    return base::WrongInput("surface.wrong_numbers",
+                            "the header describes no column of numbers ($KD_DEFINITION, 'D:long section …,m')", name);
   }
   if (header.format == CrgFormat::kNone) {
-    return base::WrongInput("the header does not say how the numbers are written ('#:KRBI', KDBI, LRFI or LDFI)", name);
+    return base::WrongInput("surface.wrong_numbers",
+                            "the header does not say how the numbers are written ('#:KRBI', KDBI, LRFI or LDFI)", name);
   }
   if (const auto asked = RowsAsked(header.road); asked && *asked < 2.0) {
     return base::WrongInput(
+        "surface.wrong_rows",
         fmt::format("the header goes from u = {} to {} every {} m; at least 2 rows were expected",
                     header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m),
         name);
@@ -161,12 +166,14 @@ base::Result<CrgTable> ReadCrgTable(const CrgHeader& header, std::span<const std
   const auto asked = RowsAsked(header.road);
   if (asked && *asked != static_cast<double>(table.value().rows)) {
     return base::WrongInput(
+        "surface.wrong_rows",
         fmt::format("{} rows of numbers were found; from u = {} to {} every {} m are {}", table.value().rows,
                     header.road.start_u_m.value_or(0.0), *header.road.end_u_m, *header.road.increment_m, *asked),
         name);
   }
   if (table.value().rows < 2) {
-    return base::WrongInput(fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows),
+    return base::WrongInput("surface.wrong_rows",
+                            fmt::format("{} rows of numbers were found; at least 2 were expected", table.value().rows),
                             name);
   }
   return table;

@@ -44,6 +44,7 @@ Four CosOfTurns(const Four& x) {
 base::Result<double> RoughnessOfClass(char letter) {
   if (letter < 'A' || letter > 'H') {
     return base::WrongInput(
+        "surface.unknown_roughness",
         fmt::format("'{}' is no class of roughness; 'A' (very good) to 'H' (very poor) were expected", letter));
   }
   double density = kClassA_m3;

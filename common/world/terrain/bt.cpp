@@ -54,22 +54,27 @@ void ParseLater(std::span<const std::byte> bytes, BtHeader& header) {
 
 base::Status Check(const BtHeader& header) {
   if (header.columns < 2 || header.rows < 2 || header.columns > kMaxEdgePosts || header.rows > kMaxEdgePosts) {
-    return base::WrongInput(fmt::format("the .bt header says {} columns and {} rows; 2 to {} of each were expected",
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            fmt::format("the .bt header says {} columns and {} rows; 2 to {} of each were expected",
                                         header.columns, header.rows, kMaxEdgePosts));
   }
   if (!(header.bytes_a_post == 4 || (header.bytes_a_post == 2 && !header.floating))) {
     return base::WrongInput(
+        "terrain.wrong_elevation_file",
         fmt::format("the .bt header says {} heights of {} bytes; integers of 2 or 4 bytes or floats of 4 were expected",
                     header.floating ? "float" : "integer", header.bytes_a_post));
   }
-  if (header.metres_a_unit < 0.0) return base::WrongInput("the .bt header's horizontal unit is none of 0 to 3");
+  if (header.metres_a_unit < 0.0)
+    return base::WrongInput("terrain.wrong_elevation_file", "the .bt header's horizontal unit is none of 0 to 3");
   if (!ExtentsHold(header.left, header.bottom, header.right, header.top, header.columns, header.rows)) {
     return base::WrongInput(
+        "terrain.wrong_elevation_file",
         fmt::format("the .bt header's extents enclose nothing: left {}, right {}, bottom {}, top {}", header.left,
                     header.right, header.bottom, header.top));
   }
   if (!std::isfinite(header.vertical_scale) || header.vertical_scale < 0.0) {
-    return base::WrongInput(fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected",
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            fmt::format("the .bt header's vertical scale is {}; a number greater than 0 was expected",
                                         header.vertical_scale));
   }
   return {};
@@ -92,6 +97,7 @@ bool LooksLikeBt(std::span<const std::byte> bytes) {
 base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   if (bytes.size() < kBtHeaderBytes) {
     return base::WrongInput(
+        "terrain.wrong_elevation_file",
         fmt::format("the file is cut short: {} bytes, and a .bt header alone is {}", bytes.size(), kBtHeaderBytes));
   }
   std::string magic(10, '\0');
@@ -101,6 +107,7 @@ base::Result<BtHeader> ParseBtHeader(std::span<const std::byte> bytes) {
   if (!known) {
     for (char& letter : magic) letter = letter >= ' ' && letter <= '~' ? letter : '?';
     return base::WrongInput(
+        "terrain.wrong_elevation_file",
         fmt::format("the file begins with '{}'; a .bt begins with 'binterr1.0' to 'binterr1.3'", magic));
   }
   header.version_tenths = 10 + (magic[9] - '0');

@@ -72,17 +72,18 @@ base::Result<FileStart> ReadStart(const fs::path& path) {
   };
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(fs::exists(path, problem)
+    return base::WrongInput("file.not_found",
+                            fs::exists(path, problem)
                                 ? std::string("this is no plain file; an elevation file was expected")
                                 : "there is no such elevation file" + base::NearestFile(path),
                             path.string());
   }
   auto head = read(path.string(), 2);
-  if (!head) return base::WrongInput("the elevation file cannot be opened", path.string());
+  if (!head) return base::WrongInput("file.cannot_open", "the elevation file cannot be opened", path.string());
   start.gzipped = head->size() == 2 && (*head)[0] == std::byte{0x1f} && (*head)[1] == std::byte{0x8b};
   start.gdal_name = (start.gzipped ? "/vsigzip/" : "") + fs::absolute(path).string();
   head = read(start.gdal_name, kBtHeaderBytes);
-  if (!head) return base::WrongInput("the elevation file cannot be unpacked", path.string());
+  if (!head) return base::WrongInput("file.cannot_read", "the elevation file cannot be unpacked", path.string());
   start.head = std::move(*head);
   return start;
 }
@@ -95,7 +96,8 @@ class UpgradedBt {
     GByte* bytes = nullptr;
     vsi_l_offset size = 0;
     if (VSIIngestFile(nullptr, start.gdal_name.c_str(), &bytes, &size, static_cast<GIntBig>(start.size)) == FALSE) {
-      return base::WrongInput(fmt::format("the elevation file cannot be read; {}", QuietGdal::Words()), path.string());
+      return base::WrongInput("file.cannot_read",
+                              fmt::format("the elevation file cannot be read; {}", QuietGdal::Words()), path.string());
     }
     const base::Bytes head = BtHeaderBytes(header);
     std::copy(head.begin(), head.end(), reinterpret_cast<std::byte*>(bytes));
@@ -127,7 +129,8 @@ ElevationGrid::Frame FrameWithin(int columns, int rows, double west, double sout
 base::Result<ElevationGrid::Frame> FrameOfBt(const BtHeader& header, GDALDataset& dataset, Registration registration,
                                              const fs::path& path) {
   if (dataset.GetRasterXSize() != header.columns || dataset.GetRasterYSize() != header.rows) {
-    return base::WrongInput("GDAL finds another number of heights than the .bt header says", path.string());
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            "GDAL finds another number of heights than the .bt header says", path.string());
   }
   // The header's extents are the outermost posts, unless told otherwise. GDAL always takes them for the edges of cells,
   // so its frame is not used.
@@ -141,19 +144,23 @@ base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registrat
                                                  const fs::path& path) {
   std::array<double, 6> g{};
   if (dataset.GetGeoTransform(g.data()) != CE_None) {
-    return base::WrongInput("the raster does not say where it lies (no georeference)", path.string());
+    return base::WrongInput("terrain.wrong_georeference", "the raster does not say where it lies (no georeference)",
+                            path.string());
   }
   const int columns = dataset.GetRasterXSize();
   const int rows = dataset.GetRasterYSize();
   if (g[2] != 0.0 || g[4] != 0.0 || !(g[1] > 0.0) || !(g[5] < 0.0)) {
-    return base::WrongInput("the raster is turned or mirrored; north up was expected (gdalwarp turns it)",
+    return base::WrongInput("terrain.wrong_georeference",
+                            "the raster is turned or mirrored; north up was expected (gdalwarp turns it)",
                             path.string());
   }
-  if (columns < 2 || rows < 2) return base::WrongInput("the raster has fewer than 2 columns or rows", path.string());
+  if (columns < 2 || rows < 2)
+    return base::WrongInput("terrain.wrong_georeference", "the raster has fewer than 2 columns or rows", path.string());
   const double west = g[0] * unit, north = g[3] * unit, east = (g[0] + columns * g[1]) * unit,
                south = (g[3] + rows * g[5]) * unit;
   if (!ExtentsHold(west, south, east, north, columns, rows)) {
     return base::WrongInput(
+        "terrain.wrong_georeference",
         fmt::format("the raster's edges enclose nothing: x {} to {}, y {} to {}", west, east, south, north),
         path.string());
   }
@@ -164,9 +171,10 @@ base::Result<ElevationGrid::Frame> FrameOfRaster(GDALDataset& dataset, Registrat
 base::Result<std::optional<BtHeader>> CheckedHeader(const FileStart& start, const fs::path& path) {
   if (!LooksLikeBt(start.head)) return std::optional<BtHeader>();
   const auto header = ParseBtHeader(start.head);
-  if (!header) return base::WrongInput(header.error().message, path.string());
+  if (!header) return header.error().WithContext(path.string());
   if (start.size < header.value().file_bytes()) {
-    return base::WrongInput(fmt::format("the file is cut short: {} bytes{}, and {} x {} heights of {} bytes need {}",
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            fmt::format("the file is cut short: {} bytes{}, and {} x {} heights of {} bytes need {}",
                                         start.size, start.gzipped ? " when unpacked" : "", header.value().columns,
                                         header.value().rows, header.value().bytes_a_post, header.value().file_bytes()),
                             path.string());
@@ -234,13 +242,15 @@ base::Result<LoadedGround> LoadGround(const fs::path& path, Registration registr
       name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, header ? bt.data() : others.data()));
   if (!dataset) {
     return base::WrongInput(
+        "terrain.unknown_kind",
         fmt::format("this is no elevation file that can be read (.bt, GeoTIFF, Arc/Info ASCII, …); {}",
                     QuietGdal::Words()),
         path.string());
   }
   if (static_cast<std::uint64_t>(dataset->GetRasterXSize()) * static_cast<std::uint64_t>(dataset->GetRasterYSize()) >
       kMaxGridPosts) {
-    return base::WrongInput(fmt::format("the grid has more than {} heights", kMaxGridPosts), path.string());
+    return base::WrongInput("terrain.too_large", fmt::format("the grid has more than {} heights", kMaxGridPosts),
+                            path.string());
   }
   auto projection = ReadProjection(path, start.value().gzipped, *dataset);
   if (!projection) return projection.error();
@@ -248,16 +258,18 @@ base::Result<LoadedGround> LoadGround(const fs::path& path, Registration registr
   if (header && header->metres_a_unit == 0.0 && projection.value().geographic_wkt.empty()) {
     // A zone that its header says beside degrees is none of its own.
     if (header->external_projection && !projection.value().wkt.empty())
-      return base::WrongInput("the .bt grid is in degrees, and its coordinate system in metres", path.string());
+      return base::WrongInput("terrain.wrong_georeference",
+                              "the .bt grid is in degrees, and its coordinate system in metres", path.string());
     projection.value().geographic_wkt = SRS_WKT_WGS84_LAT_LONG;
   } else if (header && header->metres_a_unit != 0.0 && !projection.value().geographic_wkt.empty()) {
-    return base::WrongInput("the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());
+    return base::WrongInput("terrain.wrong_georeference",
+                            "the .bt grid is in metres or feet, and its coordinate system in degrees", path.string());
   }
   const std::optional<Warping> off_scale = OffScale(*dataset, header, projection.value());
   std::optional<MapOrigin> origin;
   if (!projection.value().geographic_wkt.empty() || off_scale) {
     if (dataset->GetRasterCount() != 1)
-      return base::WrongInput(BandsSentence(dataset->GetRasterCount()), path.string());
+      return base::WrongInput("terrain.wrong_elevation_file", BandsSentence(dataset->GetRasterCount()), path.string());
     auto metric =
         WarpedToMetres(*dataset, off_scale ? projection.value().own_wkt : projection.value().geographic_wkt,
                        off_scale ? std::optional(off_scale->scale) : std::nullopt, header,

@@ -41,12 +41,14 @@ base::Result<HeightScale> HeightScaleOf(GDALRasterBand& band, const std::optiona
   if (header) return HeightScale{header->vertical_scale, 0.0};
   const auto unit = HeightUnit(band.GetUnitType());
   if (!unit) {
-    return base::WrongInput(fmt::format("the heights are in '{}'; metres or feet were expected", band.GetUnitType()),
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            fmt::format("the heights are in '{}'; metres or feet were expected", band.GetUnitType()),
                             path.string());
   }
   const HeightScale scale{*unit * band.GetScale(), *unit * band.GetOffset()};
   if (!std::isfinite(scale.scale) || !std::isfinite(scale.offset) || scale.scale == 0.0) {
-    return base::WrongInput(fmt::format("the heights' scale is {} and their offset {}; numbers were expected",
+    return base::WrongInput("terrain.wrong_elevation_file",
+                            fmt::format("the heights' scale is {} and their offset {}; numbers were expected",
                                         band.GetScale(), band.GetOffset()),
                             path.string());
   }
@@ -64,7 +66,7 @@ base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::op
   const int columns = dataset.GetRasterXSize();
   const int rows = dataset.GetRasterYSize();
   if (dataset.GetRasterCount() != 1) {
-    return base::WrongInput(BandsSentence(dataset.GetRasterCount()), path.string());
+    return base::WrongInput("terrain.wrong_elevation_file", BandsSentence(dataset.GetRasterCount()), path.string());
   }
   GDALRasterBand* band = dataset.GetRasterBand(1);
   const auto metres = HeightScaleOf(*band, header, path);
@@ -72,7 +74,8 @@ base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::op
   std::vector<float> by_row(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
   if (band->RasterIO(GF_Read, 0, 0, columns, rows, by_row.data(), columns, rows, GDT_Float32, 0, 0, nullptr) !=
       CE_None) {
-    return base::WrongInput(fmt::format("the heights cannot be read; {}", QuietGdal::Words()), path.string());
+    return base::WrongInput("file.cannot_read", fmt::format("the heights cannot be read; {}", QuietGdal::Words()),
+                            path.string());
   }
   int has_void = 0;
   const auto no_data = static_cast<float>(band->GetNoDataValue(&has_void));

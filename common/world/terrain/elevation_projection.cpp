@@ -23,6 +23,7 @@ base::Result<OGRSpatialReference> FromDefinition(std::string_view definition) {
       reference.SetFromUserInput(text.c_str(), OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS) == OGRERR_NONE;
   if (!fine) {
     return base::WrongInput(
+        "terrain.wrong_projection",
         fmt::format("'{}' is no coordinate system that PROJ knows; an EPSG code or WKT was expected",
                     text.substr(0, std::min<std::size_t>(60, text.find('\n')))));
   }
@@ -39,7 +40,8 @@ base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
     if (projection) projection.value().own_wkt = std::move(wkt);
     return projection;
   }
-  if (wkt.empty()) return base::WrongInput("the coordinate system cannot be written as WKT");
+  if (wkt.empty())
+    return base::WrongInput("terrain.wrong_projection", "the coordinate system cannot be written as WKT");
   Projection projection;
   projection.geographic_wkt = std::move(wkt);
   return projection;
@@ -49,12 +51,14 @@ base::Result<Projection> AnyProjection(const OGRSpatialReference& reference) {
 
 base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) {
   if (reference.IsGeographic() != 0) {
-    return base::WrongInput("the coordinate system is in degrees; a projection in metres was expected");
+    return base::WrongInput("terrain.wrong_projection",
+                            "the coordinate system is in degrees; a projection in metres was expected");
   }
   Projection projection;
   projection.metres_a_unit = reference.GetLinearUnits();
   if (!(projection.metres_a_unit > 1e-6 && projection.metres_a_unit < 1e6)) {
     return base::WrongInput(
+        "terrain.wrong_projection",
         fmt::format("the coordinate system's unit is {} m; metres or feet were expected", projection.metres_a_unit));
   }
   const std::unique_ptr<OGRSpatialReference> metric(reference.Clone());
@@ -65,7 +69,7 @@ base::Result<Projection> MetricProjection(const OGRSpatialReference& reference) 
   projection.wkt = text == nullptr ? "" : text;
   CPLFree(text);
   if (failed != OGRERR_NONE || projection.wkt.empty())
-    return base::WrongInput("the coordinate system cannot be written as WKT");
+    return base::WrongInput("terrain.wrong_projection", "the coordinate system cannot be written as WKT");
   return projection;
 }
 
@@ -81,15 +85,15 @@ base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool 
     const auto text = base::ReadText(beside, 1u << 20);
     if (!text) return text.error();
     const auto reference = FromDefinition(text.value());
-    if (!reference) return base::WrongInput(reference.error().message, beside.string());
+    if (!reference) return reference.error().WithContext(beside.string());
     auto projection = AnyProjection(reference.value());
-    if (!projection) return base::WrongInput(projection.error().message, beside.string());
+    if (!projection) return projection.error().WithContext(beside.string());
     return projection;
   }
   const OGRSpatialReference* reference = dataset.GetSpatialRef();
   if (reference == nullptr) return Projection();
   auto projection = AnyProjection(*reference);
-  if (!projection) return base::WrongInput(projection.error().message, path.string());
+  if (!projection) return projection.error().WithContext(path.string());
   return projection;
 }
 

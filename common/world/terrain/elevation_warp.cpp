@@ -52,12 +52,14 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   const std::string units = scale ? "in units of its map" : "in degrees";
   const auto refuse = [&] {
     return base::WrongInput(
+        "terrain.cannot_project",
         fmt::format("the heights, {}, cannot be brought into metres; {}", units, QuietGdal::Words()), path.string());
   };
   const int columns = raster.GetRasterXSize(), rows = raster.GetRasterYSize();
   std::array<double, 6> g{};
   if (raster.GetGeoTransform(g.data()) != CE_None)
-    return base::WrongInput("the raster does not say where it lies (no georeference)", path.string());
+    return base::WrongInput("terrain.wrong_georeference", "the raster does not say where it lies (no georeference)",
+                            path.string());
   if (bt) g = {bt->left, (bt->right - bt->left) / columns, 0.0, bt->top, 0.0, -(bt->top - bt->bottom) / rows};
   if (posts && columns > 1 && rows > 1 && g[2] == 0.0 && g[4] == 0.0) {
     const double step_x = g[1] * columns / (columns - 1), step_y = g[5] * rows / (rows - 1);
@@ -66,7 +68,8 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   const double longitude = scale ? scale->place.longitude_deg : g[0] + 0.5 * columns * g[1] + 0.5 * rows * g[2],
                latitude = scale ? scale->place.latitude_deg : g[3] + 0.5 * columns * g[4] + 0.5 * rows * g[5];
   if (!(std::fabs(latitude) <= 90.0 && std::fabs(longitude) <= 720.0)) {
-    return base::WrongInput(fmt::format("the middle of the grid, in degrees, lies at longitude {} and latitude {}; a "
+    return base::WrongInput("terrain.cannot_project",
+                            fmt::format("the middle of the grid, in degrees, lies at longitude {} and latitude {}; a "
                                         "place on the earth was expected",
                                         longitude, latitude),
                             path.string());
@@ -77,7 +80,8 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   const double width = (columns * std::fabs(g[1]) + rows * std::fabs(g[2])) *
                        (scale ? metres_x / (kDegree_m * std::cos(latitude * geometry::kPi / 180.0)) : 1.0);
   if (!(width <= kWidest_deg)) {
-    return base::WrongInput(fmt::format("the grid, {}, spans {:.6g} degrees of longitude; at most {} was "
+    return base::WrongInput("terrain.cannot_project",
+                            fmt::format("the grid, {}, spans {:.6g} degrees of longitude; at most {} was "
                                         "expected, which one map in metres holds (gdalwarp brings it into another one)",
                                         units, width, kWidest_deg),
                             path.string());
@@ -89,6 +93,7 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
                along_m = std::hypot(g[4], g[5]) * metres_y, cell_m = std::min(across_m, along_m);
   if (const double times = std::max(across_m, along_m) / cell_m; !(times <= kMaxTimes)) {
     return base::WrongInput(
+        "terrain.cannot_project",
         fmt::format("the cells, {}, are {:.4g} m x {:.4g} m on the ground: too long and thin for a map in "
                     "metres (gdalwarp brings them into one of cells as they should be)",
                     units, across_m, along_m),

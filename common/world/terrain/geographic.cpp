@@ -58,7 +58,8 @@ base::Result<Geographic> Geographic::Make(const std::string& definition) {
   const bool known = parts->to_earth != nullptr;
   // A system of longitudes and latitudes is no map.
   if (!known || !IsMap(parts->context, parts->to_earth)) {
-    return base::WrongInput(fmt::format("'{}' is no {}; a PROJ string, WKT or EPSG code of a projection was expected",
+    return base::WrongInput("terrain.wrong_projection",
+                            fmt::format("'{}' is no {}; a PROJ string, WKT or EPSG code of a projection was expected",
                                         definition.substr(0, std::min<std::size_t>(60, definition.find('\n'))),
                                         known ? "projection" : "coordinate system that PROJ knows"));
   }
@@ -88,7 +89,7 @@ base::Result<std::optional<std::string>> ProjString(const std::string& definitio
   proj_context_destroy(context);
   // PROJ goes on without its database, with another answer.
   for (const char* of_database : {"proj.db", "SQLite"})
-    if (said.find(of_database) != std::string::npos) return base::Failed(said);
+    if (said.find(of_database) != std::string::npos) return base::Failed("terrain.wrong_projection", said);
   constexpr std::string_view kType = " +type=crs";
   if (text && text->ends_with(kType)) text->resize(text->size() - kType.size());
   return text;

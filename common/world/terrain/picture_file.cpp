@@ -20,16 +20,19 @@ constexpr const char* kDrivers[] = {"JPEG", "PNG", "BMP", "GTiff", nullptr};
 base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    return base::WrongInput(fmt::format("there is no texture file '{}'{}", path.string(), base::NearestFile(path)));
+    return base::WrongInput("file.not_found",
+                            fmt::format("there is no texture file '{}'{}", path.string(), base::NearestFile(path)));
   }
   GDALDatasetUniquePtr dataset(GDALDataset::Open(fs::absolute(path).c_str(),
                                                  GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
   if (!dataset)
-    return base::WrongInput(fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(),
+    return base::WrongInput("terrain.wrong_picture",
+                            fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(),
                                         QuietGdal::Words()));
   const int width = dataset->GetRasterXSize(), height = dataset->GetRasterYSize();
   if (width < 1 || height < 1 || dataset->GetRasterCount() < 1 || width > kMaxPicture_px || height > kMaxPicture_px) {
-    return base::WrongInput(fmt::format("the picture '{}' has {} x {} pixels; at most {} a side were expected",
+    return base::WrongInput("terrain.wrong_picture",
+                            fmt::format("the picture '{}' has {} x {} pixels; at most {} a side were expected",
                                         path.string(), width, height, kMaxPicture_px));
   }
   return dataset;
@@ -87,8 +90,8 @@ base::Result<PictureFile> ReadPicture(const fs::path& path) {
   const bool coloured = dataset.GetRasterCount() >= 3;
   for (int colour = 0; colour < 3; ++colour) {
     if (!ReadBand(*dataset.GetRasterBand(coloured ? colour + 1 : 1), picture, static_cast<std::size_t>(colour))) {
-      return base::WrongInput(
-          fmt::format("the picture '{}' is cut short or broken; {}", path.string(), QuietGdal::Words()));
+      return base::WrongInput("terrain.wrong_picture", fmt::format("the picture '{}' is cut short or broken; {}",
+                                                                   path.string(), QuietGdal::Words()));
     }
   }
   const GDALColorTable* table = coloured ? nullptr : dataset.GetRasterBand(1)->GetColorTable();

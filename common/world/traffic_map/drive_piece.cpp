@@ -103,6 +103,7 @@ base::Result<std::vector<DrivePiece>> FitLane(const LaneShape& lane, double from
     if (!(off.Most() <= bounds.off_m) || LengthOff(piece) > bounds.length_m) {
       if (piece.length_m < kMinPiece_m)
         return base::WrongInput(
+            "map.too_sharp",
             fmt::format("it turns too sharply at {:.2f} m to be written as cubics of the distance", s));
       ends.push_back(0.5 * (s + ends.back()));
       continue;

@@ -34,12 +34,13 @@ void ReadCurves(const config::Map& all, Heights& heights) {
     if (z.size() == one.z_m.size()) {
       std::copy(z.begin(), z.end(), one.z_m.begin());
     } else {
-      all.Problem(key, fmt::format("curve {} has {} heights; 4 were expected, one a control point", key, z.size()));
+      all.Problem(key, "config.wrong_length",
+                  fmt::format("curve {} has {} heights; 4 were expected, one a control point", key, z.size()));
     }
     one.line = LineOf(all.Place(key));
     const auto at = std::lower_bound(heights.curves.begin(), heights.curves.end(), one.curve, Below);
     if (at != heights.curves.end() && at->curve == one.curve)
-      all.Problem(key, fmt::format("curve {} has heights already", one.curve));
+      all.Problem(key, "config.duplicate_name", fmt::format("curve {} has heights already", one.curve));
     heights.curves.insert(at, one);
   }
 }
@@ -66,7 +67,7 @@ void ReadFlows(const config::Map& all, Heights& heights) {
     const auto at = std::lower_bound(heights.flows.begin(), heights.flows.end(), flow.lane,
                                      [](const LaneFlow& f, std::int32_t lane) { return f.lane < lane; });
     if (at != heights.flows.end() && at->lane == flow.lane)
-      all.Problem(key, fmt::format("lane {} has a flow already", flow.lane));
+      all.Problem(key, "config.duplicate_name", fmt::format("lane {} has a flow already", flow.lane));
     heights.flows.insert(at, flow);
   }
 }

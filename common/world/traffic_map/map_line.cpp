@@ -52,7 +52,7 @@ class Fields {
   template <class Value>
   base::Result<Value> Answer(const Value& value) const {
     if (problem_.empty()) return value;
-    return base::WrongInput(problem_);
+    return base::WrongInput("map.wrong_line", problem_);
   }
 
  private:
@@ -76,7 +76,8 @@ LaneSide TakeSide(Fields& fields, std::string_view name) {
 }
 
 base::Error WrongCount(char letter, std::size_t found, std::string_view expected) {
-  return base::WrongInput(fmt::format("a line '{}' with {} fields; expected are {}", letter, found, expected));
+  return base::WrongInput("map.wrong_line",
+                          fmt::format("a line '{}' with {} fields; expected are {}", letter, found, expected));
 }
 
 std::string_view Truth(bool value) { return value ? "True" : "False"; }
@@ -101,7 +102,8 @@ template <>
 base::Result<Curve> ReadLine(std::string_view line) {
   Fields fields(line);
   if (fields.count() == 26)
-    return base::WrongInput("a line 'p' with 26 fields instead of 14: are the numbers written with a decimal comma?");
+    return base::WrongInput("map.wrong_line",
+                            "a line 'p' with 26 fields instead of 14: are the numbers written with a decimal comma?");
   if (fields.count() != 14)
     return WrongCount('p', fields.count(), "14: p, the curve's number, x, height, z of four points");
   Curve curve;

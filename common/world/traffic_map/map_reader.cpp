@@ -30,12 +30,15 @@ base::Status TakeLine(std::string_view text, std::size_t number, MapFile& map) {
   if (letter == "c") return Append(text, number, map.connections);
   if (letter == "s") {
     if (map.scale.number != 0)
-      return base::WrongInput(fmt::format("a second line 's'; the first is line {}", map.scale.number));
+      return base::WrongInput("map.wrong_line",
+                              fmt::format("a second line 's'; the first is line {}", map.scale.number));
     return Take(text, number, map.scale);
   }
   if (letter == "i")
-    return base::WrongInput("a line that begins with 'i' and goes on; 'i' alone was expected, then LF and the picture");
+    return base::WrongInput("map.wrong_line",
+                            "a line that begins with 'i' and goes on; 'i' alone was expected, then LF and the picture");
   return base::WrongInput(
+      "map.wrong_line",
       fmt::format("the line begins with '{}'; expected are p (curve), l (lane), c (connection), s (scale) "
                   "or i (picture), in small letters",
                   letter.substr(0, 40)));
@@ -48,22 +51,25 @@ base::Result<MapFile> ParseMap(std::string_view bytes, const std::string& name) 
   std::size_t at = 0;
   for (std::size_t number = 1;; ++number) {
     if (number > kMaxLines)
-      return base::WrongInput(fmt::format("more than {} lines stand before the picture", kMaxLines), name);
+      return base::WrongInput("map.too_large", fmt::format("more than {} lines stand before the picture", kMaxLines),
+                              name);
     const std::size_t length = bytes.substr(at, kLongestLine + 1).find('\n');
     if (length == std::string_view::npos) {
       if (bytes.size() - at > kLongestLine)
-        return base::WrongInput(fmt::format("the line has more than {} bytes", kLongestLine), At(name, number));
+        return base::WrongInput("map.too_large", fmt::format("the line has more than {} bytes", kLongestLine),
+                                At(name, number));
       return base::WrongInput(
+          "map.missing_line",
           fmt::format("the file ends at byte {} without a line 'i', behind which the picture stands", bytes.size()),
           name);
     }
     const std::string_view text = bytes.substr(at, length + 1);
     at += text.size();
     if (text == "i\n") break;
-    if (auto status = TakeLine(text, number, map); !status)
-      return base::WrongInput(status.error().message, At(name, number));
+    if (auto status = TakeLine(text, number, map); !status) return status.error().WithContext(At(name, number));
   }
-  if (map.scale.number == 0) return base::WrongInput("there is no line 's' with the picture's scale", name);
+  if (map.scale.number == 0)
+    return base::WrongInput("map.missing_line", "there is no line 's' with the picture's scale", name);
   map.picture = bytes.substr(at);
   return map;
 }

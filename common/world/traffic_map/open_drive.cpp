@@ -70,7 +70,8 @@ class Writer {
     for (const RoadPart& part : plan.parts) {
       const MapLane& lane = map_.lanes[part.lane];
       auto pieces = FitLane(lane.shape, part.from_m, part.to_m, bounds_, error_);
-      if (!pieces) return base::WrongInput(fmt::format("lane {}: {}", lane.id, pieces.error().message));
+      if (!pieces)
+        return pieces.error().WithMessage(fmt::format("lane {}: {}", lane.id, pieces.error().message)).WithContext("");
       if (part.from_m != 0.0 || s_m != 0.0) {
         for (DrivePiece& piece : pieces.value()) piece.s_m += s_m - part.from_m;
       }

@@ -26,14 +26,14 @@ base::Result<OpenDrive> WriteWorld(const LaneMap& map, const std::filesystem::pa
                                    const std::string& description) {
   const std::string name = path.stem().string();
   auto drive = ToOpenDrive(map, name);
-  if (!drive) return base::WrongInput(drive.error().message);
+  if (!drive) return drive.error().WithContext("");
   const bool alone = path.extension() == ".xodr";
   std::filesystem::path roads = path;
   roads.replace_extension(".xodr");
   std::error_code problem;
   if (!alone && std::filesystem::exists(roads, problem) && !std::filesystem::exists(path, problem))
-    return base::WrongInput("this file is there already and is not this world's; another name was expected",
-                            roads.string());
+    return base::WrongInput(
+        "file.exists", "this file is there already and is not this world's; another name was expected", roads.string());
   if (auto status = base::WriteWhole(roads, drive.value().xml); !status) return status.error();
   if (alone) return drive;
   const std::string world = fmt::format("rodeira: world/2\nname: {}\ndescription: {}\nnetwork: {{file: {}}}\n",

@@ -42,7 +42,8 @@ base::Result<Change> FindWeather(std::string_view name) {
   if (found != all.end()) return found->change;
   std::vector<std::string> names;
   for (const NamedWeather& weather : all) names.emplace_back(weather.name);
-  return base::WrongInput(fmt::format("'{}' is no weather{}", name.substr(0, 40), base::DidYouMean(name, names)));
+  return base::WrongInput("world.unknown_weather",
+                          fmt::format("'{}' is no weather{}", name.substr(0, 40), base::DidYouMean(name, names)));
 }
 
 }  // namespace rodeira::weather

@@ -91,8 +91,9 @@ WeatherPlan ReadWeather(const config::List& items) {
     change.at_s = map.Number("at_s", {0.0, kLongest_s}, 0.0);
     change.over_s = map.Number("over_s", {0.0, kLongest_s}, 0.0);
     if (!changes.empty() && change.at_s < changes.back().at_s) {
-      map.Problem("at_s", fmt::format("'at_s' is {} and follows {}; times that do not descend were expected",
-                                      change.at_s, changes.back().at_s));
+      map.Problem("at_s", "config.wrong_order",
+                  fmt::format("'at_s' is {} and follows {}; times that do not descend were expected", change.at_s,
+                              changes.back().at_s));
     }
     changes.push_back(change);
   }
