@@ -27,7 +27,8 @@ base::Bytes EncodeWith(std::size_t size, const void* message, void (*serialise)(
 
 base::Status DecodeWith(std::span<const std::byte> payload, void* message, void (*deserialise)(void*, Cdr&)) {
   if (payload.size() < 4 || payload[0] != std::byte{0} || payload[1] != std::byte{1}) {
-    return base::WrongInput(fmt::format("{} bytes were found that are no little-endian CDR", payload.size()));
+    return base::WrongInput("message.damaged",
+                            fmt::format("{} bytes were found that are no little-endian CDR", payload.size()));
   }
   FastBuffer buffer(reinterpret_cast<char*>(const_cast<std::byte*>(payload.data())), payload.size());
   Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
@@ -35,7 +36,8 @@ base::Status DecodeWith(std::span<const std::byte> payload, void* message, void 
     cdr.read_encapsulation();
     deserialise(message, cdr);
   } catch (const std::exception& problem) {
-    return base::WrongInput(fmt::format("the message of {} bytes cannot be read: {}", payload.size(), problem.what()));
+    return base::WrongInput("message.damaged",
+                            fmt::format("the message of {} bytes cannot be read: {}", payload.size(), problem.what()));
   }
   return {};
 }

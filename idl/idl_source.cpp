@@ -72,7 +72,7 @@ std::map<std::string, decode::TypePtr> ReadCompiled() {
   std::map<std::string, decode::TypePtr> types;
   const auto read = [](const fs::path& path) -> base::Result<std::string> {
     const auto found = std::ranges::find(CompiledFiles(), path.string(), &Registered::name);
-    if (found == CompiledFiles().end()) return base::WrongInput("not compiled in", path.string());
+    if (found == CompiledFiles().end()) return base::WrongInput("file.not_found", "not compiled in", path.string());
     return found->text;
   };
   for (const Registered& file : CompiledFiles()) {
@@ -122,21 +122,25 @@ class IdlJoiner {
       const std::string_view word = FirstWord(directive);
       if (word == "ifndef" || word == "define" || word == "endif" || word == "pragma") return {};
       return base::WrongInput(
+          "message.wrong_idl",
           fmt::format("'#{}' was found; of the preprocessor's lines only includes and include guards are read", word),
           place);
     }
-    if (included->empty()) return base::WrongInput("#include \"FILE\" was expected", place);
+    if (included->empty()) return base::WrongInput("message.wrong_idl", "#include \"FILE\" was expected", place);
     if (fs::path(*included).is_absolute())
-      return base::WrongInput(fmt::format("'{}' was found; a path relative to this file was expected", *included),
+      return base::WrongInput("message.wrong_idl",
+                              fmt::format("'{}' was found; a path relative to this file was expected", *included),
                               place);
     if (source_.files_.size() > kMaxIncludes)
-      return base::WrongInput(fmt::format("more than {} files are included", kMaxIncludes), place);
+      return base::WrongInput("message.too_many_includes", fmt::format("more than {} files are included", kMaxIncludes),
+                              place);
     const fs::path beside = path.parent_path() / *included;
     if (read_(beside).ok()) return Add(beside);
     for (const IdlText& own : IdlTexts()) {
       if (own.subject + ".idl" == *included) return AddOwn(own);
     }
     return base::WrongInput(
+        "file.not_found",
         fmt::format("cannot open '{}': no such file beside this one, nor in Rodeira's IDL", *included), place);
   }
   // Rodeira's texts hold the sample header; it stands in the joined text once.
@@ -185,7 +189,7 @@ base::Result<decode::TypePtr> IdlSource::Find(const std::string& name) const {
     return error;
   }
   auto type = types.value().Find(name);
-  if (!type) return base::WrongInput(type.error().message, files_.front());
+  if (!type) return type.error().WithContext(files_.front());
   return type;
 }
 

@@ -21,8 +21,8 @@ base::Status TopicTable::Add(AddedTopic topic) {
   }
   const auto difference = decode::FirstTypeDifference(*topic.parsed, *known->parsed);
   if (!difference) return {};
-  return base::WrongInput(
-      fmt::format("topic '{}' has another type than in the node before: {}", topic.topic, *difference));
+  return base::WrongInput("launch.other_types", fmt::format("topic '{}' has another type than in the node before: {}",
+                                                            topic.topic, *difference));
 }
 
 const AddedTopic* TopicTable::FindAdded(std::string_view topic) const {

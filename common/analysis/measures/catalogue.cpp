@@ -37,9 +37,10 @@ base::Result<const MeasureInfo*> FindMeasure(const std::string& name) {
     names.emplace_back(info.name);
   }
   const std::string nearest = base::NearestName(name, names);
-  return base::WrongInput(fmt::format(
-      "there is no measure '{}'{}", name,
-      nearest.empty() ? "; `rodeira measures --list` names them" : fmt::format("; did you mean '{}'?", nearest)));
+  return base::WrongInput("measure.unknown_measure",
+                          fmt::format("there is no measure '{}'{}", name,
+                                      nearest.empty() ? "; `rodeira measures --list` names them"
+                                                      : fmt::format("; did you mean '{}'?", nearest)));
 }
 
 std::string ListText() {

@@ -133,18 +133,21 @@ base::Status DriveChannels::ChooseSubject(const DriveQuery& query, const std::ve
     std::int64_t id = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
     if (error != std::errc() || end != digits.data() + digits.size() || id < 0)
-      return base::WrongInput(fmt::format("'{}' is no agent; 'agent:7' was expected", query.subject));
-    if (traffic_.empty()) return base::WrongInput("the recording has no traffic, so it has no agent");
+      return base::WrongInput("measure.wrong_subject",
+                              fmt::format("'{}' is no agent; 'agent:7' was expected", query.subject));
+    if (traffic_.empty())
+      return base::WrongInput("measure.wrong_subject", "the recording has no traffic, so it has no agent");
     agent_ = id;
     subject_ = fmt::format("agent:{}", id);
     return {};
   }
   if (vehicles.empty())
-    return base::WrongInput("the recording has no driven vehicle; an agent of its traffic is named 'agent:7'");
+    return base::WrongInput("measure.unknown_vehicle",
+                            "the recording has no driven vehicle; an agent of its traffic is named 'agent:7'");
   const auto found = query.subject.empty() ? vehicles.begin() : std::ranges::find(vehicles, query.subject);
   if (found == vehicles.end()) {
-    return base::WrongInput(
-        fmt::format("the recording has no vehicle '{}'{}", query.subject, base::DidYouMean(query.subject, vehicles)));
+    return base::WrongInput("measure.unknown_vehicle", fmt::format("the recording has no vehicle '{}'{}", query.subject,
+                                                                   base::DidYouMean(query.subject, vehicles)));
   }
   vehicle_ = found - vehicles.begin() + 1;
   subject_ = *found;
@@ -156,7 +159,8 @@ base::Status DriveChannels::Open(const record::McapReader& reader, const DriveQu
   if (!about) return about.error();
   const auto base_step = about.value() ? record::WholeNumber(about.value()->entries, "base_step_ns") : std::nullopt;
   if (!base_step || *base_step <= 0)
-    return base::WrongInput("this is no recording of Rodeira: its metadata 'rodeira' has no base_step_ns");
+    return base::WrongInput("recording.not_of_rodeira",
+                            "this is no recording of Rodeira: its metadata 'rodeira' has no base_step_ns");
   base_step_ns_ = *base_step;
   std::vector<std::string> vehicles;
   std::map<std::int64_t, std::int64_t> periods;  // of the vehicles, by number
@@ -172,7 +176,7 @@ base::Status DriveChannels::Open(const record::McapReader& reader, const DriveQu
     if (query.aliases != nullptr) type = query.aliases->Renamed(type.value());
     const std::int64_t period =
         std::max<std::int64_t>(1, record::WholeNumber(channel.metadata, "period_steps").value_or(1));
-    const auto named = [&topic](const base::Error& error) { return base::WrongInput(error.message, "topic " + topic); };
+    const auto named = [&topic](const base::Error& error) { return error.WithContext("topic " + topic); };
     if (topic == kVehicleTopic) {
       auto fields = MessageFields::Make(*type.value(), kVehicleNames);
       if (!fields) return named(fields.error());
@@ -242,7 +246,9 @@ base::Status DriveChannels::TakeTraffic(std::size_t k, const Numbers& numbers, c
     others.push_back({static_cast<std::int64_t>(a[kAgentId]), a[kAgentX], a[kAgentY], a[kAgentZ], a[kAgentSpeed],
                       a[kAgentLength], 0.5 * a[kAgentLength]});
   });
-  if (!whole) return base::WrongInput("a message of traffic_state ends early; `rodeira info` says what is damaged");
+  if (!whole)
+    return base::WrongInput("message.damaged",
+                            "a message of traffic_state ends early; `rodeira info` says what is damaged");
   builder.AddOthers(k, others, true);
   return {};
 }
@@ -277,7 +283,8 @@ base::Status DriveChannels::Take(const record::Message& message, DriveBuilder& b
     const auto k = SampleOf(message);
     if (!k) return {};
     if (!vehicle->second.fields.Read(message.data, values_))
-      return base::WrongInput("a message of vehicle_state ends early; `rodeira info` says what is damaged");
+      return base::WrongInput("message.damaged",
+                              "a message of vehicle_state ends early; `rodeira info` says what is damaged");
     TakeVehicle(*k, vehicle->second, builder);
   } else if (const auto traffic = traffic_.find(message.channel); traffic != traffic_.end()) {
     const auto k = SampleOf(message);
@@ -315,10 +322,12 @@ base::Result<DriveReading> ReadDrive(const record::McapReader& reader, const net
     if (auto status = channels.Take(*message.value(), builder, reading.events); !status) return status.error();
     constexpr std::uint64_t kMessages = 1 << 14;
     const double share = std::min(1.0, static_cast<double>(message.value()->log_time_ns) / last);
-    if (count % kMessages == 0 && query.progress && !query.progress(share)) return base::Failed("cancelled");
+    if (count % kMessages == 0 && query.progress && !query.progress(share))
+      return base::Failed("run.interrupted", "cancelled");
   }
   if (!builder.has_subject())
-    return base::WrongInput(fmt::format("the recording has no sample of {}", channels.subject()));
+    return base::WrongInput("recording.sample_missing",
+                            fmt::format("the recording has no sample of {}", channels.subject()));
   reading.drive = builder.Finish();
   reading.drive.subject = channels.subject();
   std::ranges::stable_sort(reading.events, {}, &DriveEvent::time_s);

@@ -60,12 +60,14 @@ base::Result<TimePoint> ParseTimePoint(std::string_view text) {
   if (const auto seconds = SecondsIn(text)) {
     point.kind = TimePoint::Kind::kSeconds;
     point.seconds = *seconds;
-    if (*seconds < 0.0) return base::WrongInput(fmt::format("'{}' is before the start", text));
+    if (*seconds < 0.0)
+      return base::WrongInput("measure.wrong_interval", fmt::format("'{}' is before the start", text));
     return point;
   }
   const bool mark = text.starts_with("mark:"), event = text.starts_with("event:");
   std::string_view name = mark || event ? text.substr(text.find(':') + 1) : std::string_view();
-  if (name.empty()) return base::WrongInput(fmt::format("'{}' is no point in time; {}", text, kPoints));
+  if (name.empty())
+    return base::WrongInput("measure.wrong_interval", fmt::format("'{}' is no point in time; {}", text, kPoints));
   point.kind = mark ? TimePoint::Kind::kMark : TimePoint::Kind::kEvent;
   if (const auto hash = name.rfind('#'); hash != std::string_view::npos && hash > 0) {
     const auto number = SecondsIn(name.substr(hash + 1));
@@ -86,21 +88,23 @@ base::Result<IntervalSpec> ParseInterval(std::string_view text) {
   const auto equals = text.find('='), dots = text.find("..");
   if (equals == std::string_view::npos || equals == 0 || dots == std::string_view::npos || dots < equals) {
     return base::WrongInput(
+        "measure.wrong_interval",
         fmt::format("'{}' is no interval; NAME=FROM..TO was expected, as task=mark:begin..+20", text));
   }
   IntervalSpec spec;
   spec.name = std::string(text.substr(0, equals));
   auto from = ParseTimePoint(text.substr(equals + 1, dots - equals - 1));
-  if (!from) return base::WrongInput(from.error().message, fmt::format("interval '{}'", spec.name));
+  if (!from) return from.error().WithContext(fmt::format("interval '{}'", spec.name));
   spec.from = std::move(from).value();
   const std::string_view to = text.substr(dots + 2);
   if (to.starts_with('+')) {
     spec.for_s = SecondsIn(to.substr(1));
     if (!spec.for_s)
-      return base::WrongInput(fmt::format("'{}' is no number of seconds", to), fmt::format("interval '{}'", spec.name));
+      return base::WrongInput("measure.wrong_interval", fmt::format("'{}' is no number of seconds", to),
+                              fmt::format("interval '{}'", spec.name));
   } else {
     auto end = ParseTimePoint(to);
-    if (!end) return base::WrongInput(end.error().message, fmt::format("interval '{}'", spec.name));
+    if (!end) return end.error().WithContext(fmt::format("interval '{}'", spec.name));
     spec.to = std::move(end).value();
   }
   if (auto status = CheckInterval(spec); !status) return status.error();
@@ -114,7 +118,8 @@ base::Status CheckInterval(const IntervalSpec& spec) {
                          : (times && spec.to.seconds <= spec.from.seconds) || spec.to.kind == TimePoint::Kind::kStart ||
                                spec.from.kind == TimePoint::Kind::kEnd;
   if (!empty) return {};
-  return base::WrongInput(fmt::format("interval '{}' is empty: its end must be later than its begin", spec.name));
+  return base::WrongInput("measure.wrong_interval",
+                          fmt::format("interval '{}' is empty: its end must be later than its begin", spec.name));
 }
 
 Interval FindInterval(const IntervalSpec& spec, std::span<const DriveEvent> events, double end_s) {

@@ -91,7 +91,8 @@ base::Result<MessageFields> MessageFields::Make(const decode::Type& type, const 
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto is_it = [i](const Step& step) { return step.slot == static_cast<int>(i); };
       if (std::ranges::none_of(steps, is_it))
-        return base::WrongInput(fmt::format("its type {} has no number '{}'", type.name, names[i]));
+        return base::WrongInput("message.unknown_field",
+                                fmt::format("its type {} has no number '{}'", type.name, names[i]));
     }
     return {};
   };
@@ -102,9 +103,11 @@ base::Result<MessageFields> MessageFields::Make(const decode::Type& type, const 
   }
   const decode::Type* rows = decode::FindMember(type, sequence);
   if (rows == nullptr || rows->kind != Kind::kSequence)
-    return base::WrongInput(fmt::format("its type {} has no sequence '{}'", type.name, sequence));
+    return base::WrongInput("message.unknown_field",
+                            fmt::format("its type {} has no sequence '{}'", type.name, sequence));
   if (!AddSteps(*rows->element, "", row_fields, {}, made.row_steps_))
     return base::WrongInput(
+        "message.unknown_field",
         fmt::format("the elements of '{}' of its type {} are not numbers alone", sequence, type.name));
   if (auto status = missing(row_fields, made.row_steps_); !status) return status.error();
   made.has_rows_ = true;

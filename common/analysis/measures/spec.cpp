@@ -29,16 +29,17 @@ void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
       if (point)
         into = std::move(point).value();
       else
-        item.Problem(key, point.error().message);
+        item.Problem(key, point.error().id, point.error().message);
     };
     read("from", interval.from);
     if (item.Has("for_s"))
       interval.for_s = item.Number("for_s", config::Range::Positive());
     else
       read("to", interval.to);
-    if (auto status = CheckInterval(interval); !status) item.Problem("name", status.error().message);
+    if (auto status = CheckInterval(interval); !status) item.Problem("name", status.error().id, status.error().message);
     const auto same = [&](const IntervalSpec& other) { return other.name == interval.name; };
-    if (std::ranges::any_of(spec.intervals, same)) item.Problem("name", "another interval has the same name");
+    if (std::ranges::any_of(spec.intervals, same))
+      item.Problem("name", "config.duplicate_name", "another interval has the same name");
     spec.intervals.push_back(std::move(interval));
   }
 }
@@ -50,7 +51,7 @@ void ReadMeasures(const config::Map& root, MeasuresSpec& spec) {
   for (std::size_t i = 0; i < list.size(); ++i) {
     const auto info = FindMeasure(list.Text(i));
     if (!info)
-      list.Problem(i, info.error().message);
+      list.Problem(i, info.error().id, info.error().message);
     else if (std::ranges::find(spec.measures, info.value()) == spec.measures.end())
       spec.measures.push_back(info.value());
   }
@@ -61,7 +62,7 @@ void ReadOptions(const config::Map& root, MeasuresSpec& spec) {
   for (const std::string& name : options.Keys()) {
     const auto info = FindMeasure(name);
     if (!info) {
-      options.Problem(name, info.error().message);
+      options.Problem(name, info.error().id, info.error().message);
       continue;
     }
     const config::Map own = options.Child(name);
@@ -97,8 +98,9 @@ base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
   std::vector<std::string> names;
   for (const IntervalSpec& interval : spec.intervals) names.push_back(interval.name);
   if (!spec.baseline.empty() && std::ranges::find(names, spec.baseline) == names.end()) {
-    root.Problem("baseline", fmt::format("there is no interval '{}'{}", spec.baseline,
-                                         names.empty() ? "" : base::DidYouMean(spec.baseline, names)));
+    root.Problem("baseline", "config.unknown_name",
+                 fmt::format("there is no interval '{}'{}", spec.baseline,
+                             names.empty() ? "" : base::DidYouMean(spec.baseline, names)));
   }
   if (auto status = file.value().Finish(); !status) return status.error();
   return spec;

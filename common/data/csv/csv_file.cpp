@@ -22,7 +22,8 @@ constexpr std::size_t kBufferBytes = 1u << 20;
 base::Result<CsvFile> CsvFile::Create(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file < 0)
-    return base::Failed(fmt::format("the table cannot be created: {}", std::strerror(errno)), path.string());
+    return base::Failed("table.cannot_write", fmt::format("the table cannot be created: {}", std::strerror(errno)),
+                        path.string());
   return CsvFile(file, path);
 }
 
@@ -45,7 +46,7 @@ base::Status CsvFile::WriteOut() {
     if (wrote < 0 && errno == EINTR) continue;
     if (wrote <= 0) {
       const char* why = std::strerror(wrote < 0 ? errno : ENOSPC);
-      return base::Failed(fmt::format("the table cannot be written: {}", why), path_.string());
+      return base::Failed("table.cannot_write", fmt::format("the table cannot be written: {}", why), path_.string());
     }
     left.remove_prefix(static_cast<std::size_t>(wrote));
   }
@@ -57,7 +58,8 @@ base::Status CsvFile::WriteOut() {
 base::Status CsvFile::Close() {
   if (auto status = WriteOut(); !status) return status;
   if (::close(std::exchange(file_, -1)) != 0 && errno != EINTR) {
-    return base::Failed(fmt::format("the table cannot be closed: {}", std::strerror(errno)), path_.string());
+    return base::Failed("table.cannot_write", fmt::format("the table cannot be closed: {}", std::strerror(errno)),
+                        path_.string());
   }
   return {};
 }

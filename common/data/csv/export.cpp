@@ -50,13 +50,14 @@ class Workplace {
   base::Status Begin() {
     std::error_code problem;
     if (fs::exists(fs::symlink_status(target_, problem))) {
-      return base::WrongInput("the folder for the tables is there already; another name was expected",
+      return base::WrongInput("file.exists", "the folder for the tables is there already; another name was expected",
                               target_.string());
     }
     const fs::path beside = target_.string() + fmt::format(".{}.part", ::getpid());
     if (target_.has_parent_path()) fs::create_directories(target_.parent_path(), problem);
     if (!fs::create_directory(beside, problem)) {
-      return base::Failed(fmt::format("the folder for the tables cannot be made: {}", problem.message()),
+      return base::Failed("table.cannot_write",
+                          fmt::format("the folder for the tables cannot be made: {}", problem.message()),
                           target_.string());
     }
     path_ = beside;
@@ -67,7 +68,7 @@ class Workplace {
     if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) != 0) {
       const std::string what =
           fmt::format("the folder for the tables cannot be put in its place: {}", std::strerror(errno));
-      return base::Failed(what, target_.string());
+      return base::Failed("table.cannot_write", what, target_.string());
     }
     path_.clear();
     base::SyncName(target_);
@@ -141,10 +142,10 @@ class Exporter {
       return {};
     }
     const auto recorded = decode::ReadType(schema->second.text, schema->second.name);
-    if (!recorded) return base::WrongInput(recorded.error().Text(), channel.topic);
+    if (!recorded) return recorded.error().In(channel.topic);
     const decode::TypePtr type = aliases_.Renamed(recorded.value());
     auto layout = LayoutOf(*type);
-    if (!layout) return base::WrongInput(layout.error().Text(), channel.topic);
+    if (!layout) return layout.error().In(channel.topic);
     for (std::string& name : ColumnsOf(layout.value())) columns_.insert(std::move(name));
     if (KeepColumns(selection_.columns, layout.value()) == 0 && !selection_.columns.empty()) return {};
     auto table = std::make_shared<Table>();
@@ -167,12 +168,14 @@ class Exporter {
       if (std::ranges::any_of(topics_, [&](const auto& topic) { return HasTopic({name}, topic); })) continue;
       std::vector<std::string> known;
       for (const std::string& topic : topics_) known.emplace_back(ShortTopic(topic));
-      return base::WrongInput(fmt::format("unknown topic '{}'{}", name, base::DidYouMean(name, known)), "--topics");
+      return base::WrongInput("table.unknown_topic",
+                              fmt::format("unknown topic '{}'{}", name, base::DidYouMean(name, known)), "--topics");
     }
     for (const std::string& name : selection_.columns) {
       if (std::ranges::any_of(columns_, [&](const auto& column) { return Names(name, column); })) continue;
       const std::vector<std::string> known(columns_.begin(), columns_.end());
-      return base::WrongInput(fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, known)), "--columns");
+      return base::WrongInput("table.unknown_column",
+                              fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, known)), "--columns");
     }
     return {};
   }
@@ -198,7 +201,7 @@ class Exporter {
       const bool keeps = thinning == thinned.end() || thinning->second.Keeps(message.value()->log_time_ns);
       if (auto status = keeps ? Put(*message.value()) : base::Status(); !status) return status;
       if (count % kMessagesBetweenProgress != 0 || GoesOn(count)) continue;
-      return base::Failed("the export was broken off; nothing is left of it");
+      return base::Failed("run.interrupted", "the export was broken off; nothing is left of it");
     }
   }
   bool GoesOn(std::uint64_t messages) const {
@@ -214,7 +217,7 @@ class Exporter {
     if (status || status.error().code == base::ErrorCode::kFailed) return status;
     std::string time;
     AppendSeconds(static_cast<std::int64_t>(message.log_time_ns), time);
-    return base::WrongInput(status.error().Text(), fmt::format("{} of '{}' at {} s", channel.topic, name, time));
+    return status.error().In(fmt::format("{} of '{}' at {} s", channel.topic, name, time));
   }
 
   void LeaveOut(const std::string& topic, const char* why) {

@@ -90,14 +90,16 @@ bool IsHeader(const Type& type) {
 }  // namespace
 
 base::Result<Layout> LayoutOf(const Type& type) {
-  if (type.kind != Kind::kStruct) return base::WrongInput("the type of a message is no structure");
+  if (type.kind != Kind::kStruct)
+    return base::WrongInput("table.not_a_structure", "the type of a message is no structure");
   Layout layout;
   layout.has_header = IsHeader(*type.members.front().type);
   std::vector<std::string> rows;
   FindRows(type, "", rows);
   if (rows.size() == 1) layout.rows = rows.front();
   if (!Builder(layout).Add(type, "", false) || layout.slots.size() > kMaxColumns) {
-    return base::WrongInput(fmt::format("'{}' would make a table of more than {} columns", type.name, kMaxColumns));
+    return base::WrongInput("table.too_many_columns",
+                            fmt::format("'{}' would make a table of more than {} columns", type.name, kMaxColumns));
   }
   return layout;
 }

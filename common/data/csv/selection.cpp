@@ -47,6 +47,7 @@ base::Result<record::Query> TimesOf(const Selection& selection) {
   const std::uint64_t end_ns = Nanoseconds(*selection.to_s);
   if (end_ns <= query.from_ns) {
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("{} s was found; a time after {} s was expected", *selection.to_s, selection.from_s.value_or(0.0)),
         "--to");
   }

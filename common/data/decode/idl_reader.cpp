@@ -335,7 +335,7 @@ class IdlParser {
     return Refuse(fmt::format("'{}' was found, {} was expected", Now().text, what));
   }
   bool Refuse(const std::string& what) {
-    error_ = base::WrongInput(what, fmt::format("{}:{}", result_.place_, Now().line));
+    error_ = base::WrongInput("message.wrong_idl", what, fmt::format("{}:{}", result_.place_, Now().line));
     return false;
   }
 
@@ -359,7 +359,8 @@ base::Result<TypePtr> IdlTypes::Find(const std::string& name) const {
   if (found != types_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [full, unused] : types_) known.push_back(full);
-  return base::WrongInput(fmt::format("the type '{}' is not in its IDL text{}", name, base::DidYouMean(name, known)),
+  return base::WrongInput("message.unknown_type",
+                          fmt::format("the type '{}' is not in its IDL text{}", name, base::DidYouMean(name, known)),
                           place_);
 }
 

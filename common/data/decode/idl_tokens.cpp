@@ -86,7 +86,7 @@ class Tokeniser {
     at_ = to;
   }
   bool Refuse(const std::string& what) {
-    error_ = base::WrongInput(what, fmt::format("{}:{}", place_, line_));
+    error_ = base::WrongInput("message.wrong_idl", what, fmt::format("{}:{}", place_, line_));
     return false;
   }
 

@@ -168,7 +168,7 @@ class Walker {
   }
   base::Error Fault(const std::string& what) const {
     const std::string path = path_.empty() ? "" : fmt::format(" ('{}')", Text(path_));
-    return base::WrongInput(fmt::format("byte {}{}: {}", kEncapsulation + at_, path, what));
+    return base::WrongInput("message.damaged", fmt::format("byte {}{}: {}", kEncapsulation + at_, path, what));
   }
 
   std::span<const std::byte> bytes_;  // behind the encapsulation
@@ -203,13 +203,14 @@ std::string Text(const Path& path) {
 base::Status Walk(const Type& type, std::span<const std::byte> payload, Visitor& visitor) {
   if (payload.size() < kEncapsulation) {
     return base::WrongInput(
+        "message.damaged",
         fmt::format("the message has {} bytes, the four of its encapsulation were expected", payload.size()));
   }
   const auto first = std::to_integer<unsigned>(payload[0]);
   const auto second = std::to_integer<unsigned>(payload[1]);
   if (first != 0 || second > 1) {
     constexpr const char* kText = "the encapsulation is {:02x} {:02x}, 00 00 or 00 01 (CDR version 1) was expected";
-    return base::WrongInput(fmt::format(kText, first, second));
+    return base::WrongInput("message.damaged", fmt::format(kText, first, second));
   }
   return Walker(payload.subspan(kEncapsulation), second == 0, visitor).Run(type);
 }

@@ -12,19 +12,21 @@ namespace {
 
 base::Result<base::Bytes> Uncompress(const ChunkHead& head, Rules rules) {
   if (head.uncompressed_bytes > kMaxRecordBytes) {
-    return base::WrongInput(fmt::format("its records are said to have {} bytes, at most {} were expected",
+    return base::WrongInput("recording.damaged",
+                            fmt::format("its records are said to have {} bytes, at most {} were expected",
                                         head.uncompressed_bytes, kMaxRecordBytes));
   }
   if (head.compression == "zstd") return ZstdDecompress(head.records, head.uncompressed_bytes);
   const bool lz4 = rules == Rules::kSpecification;
   if (lz4 && head.compression == "lz4") return Lz4Decompress(head.records, head.uncompressed_bytes);
   if (!head.compression.empty()) {
-    return base::WrongInput(fmt::format("its compression is '{:.16}', {} was expected", head.compression,
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("its compression is '{:.16}', {} was expected", head.compression,
                                         lz4 ? "none, 'zstd' or 'lz4'" : "none or 'zstd'"));
   }
   if (head.records.size() != head.uncompressed_bytes) {
-    return base::WrongInput(
-        fmt::format("it holds {} bytes, {} were expected", head.records.size(), head.uncompressed_bytes));
+    return base::WrongInput("recording.damaged", fmt::format("it holds {} bytes, {} were expected", head.records.size(),
+                                                             head.uncompressed_bytes));
   }
   return base::Bytes(head.records.begin(), head.records.end());
 }
@@ -34,7 +36,7 @@ base::Status List(Chunk& chunk, Definitions& found, Rules rules) {
   for (std::uint64_t offset = 0; offset < chunk.records.size();) {
     const auto record = RecordAt(chunk.records, offset);
     const auto fail = [&](const char* what) {
-      return base::WrongInput(fmt::format("{} at byte {} of its records", what, offset));
+      return base::WrongInput("recording.damaged", fmt::format("{} at byte {} of its records", what, offset));
     };
     if (!record) return fail("an incomplete record lies");
     if (record->opcode == Opcode::kMessage) {
@@ -66,13 +68,13 @@ base::Status CheckTimes(const Chunk& chunk) {
       std::minmax_element(chunk.entries.begin(), chunk.entries.end(),
                           [](const Chunk::Entry& a, const Chunk::Entry& b) { return a.log_time_ns < b.log_time_ns; });
   if (first->log_time_ns == chunk.head.first_log_time_ns && last->log_time_ns == chunk.head.last_log_time_ns) return {};
-  return base::WrongInput("its messages have other times than it says");
+  return base::WrongInput("recording.damaged", "its messages have other times than it says");
 }
 
 // A run of messages that lie outside of chunks.
 base::Result<Chunk> LoadRun(const Source& source, const ChunkInfo& info, Definitions& definitions, Rules rules) {
   if (info.offset > source.size() || info.record_bytes > source.size() - info.offset) {
-    return base::WrongInput("the file is shorter");
+    return base::WrongInput("recording.damaged", "the file is shorter");
   }
   auto records = source.Read(info.offset, info.record_bytes);
   if (!records) return records.error();
@@ -91,7 +93,7 @@ base::Result<Chunk> LoadChunkRecord(const Source& source, const ChunkInfo& info,
   auto record = ReadRecord(source, info.offset, info.offset + info.record_bytes);
   if (!record) return record.error();
   if (record.value().opcode != Opcode::kChunk || record.value().bytes.size() != info.record_bytes) {
-    return base::WrongInput("no chunk of that length lies there");
+    return base::WrongInput("recording.damaged", "no chunk of that length lies there");
   }
   return DecodeChunk(record.value().content(), definitions, rules);
 }
@@ -109,22 +111,22 @@ base::Status Definitions::Add(const Schema& schema) {
   if (schema.id == 0) return {};  // to be ignored, by the specification
   const auto [place, added] = schemas.emplace(schema.id, schema);
   if (added || place->second == schema) return {};
-  return base::WrongInput(fmt::format("schema {} is defined twice, differently", schema.id));
+  return base::WrongInput("recording.damaged", fmt::format("schema {} is defined twice, differently", schema.id));
 }
 
 base::Status Definitions::Add(const Channel& channel) {
   if (channel.schema != 0 && !schemas.contains(channel.schema)) {
-    return base::WrongInput(
-        fmt::format("channel {} names schema {}, which is not defined", channel.id, channel.schema));
+    return base::WrongInput("recording.damaged", fmt::format("channel {} names schema {}, which is not defined",
+                                                             channel.id, channel.schema));
   }
   const auto [place, added] = channels.emplace(channel.id, channel);
   if (added || place->second == channel) return {};
-  return base::WrongInput(fmt::format("channel {} is defined twice, differently", channel.id));
+  return base::WrongInput("recording.damaged", fmt::format("channel {} is defined twice, differently", channel.id));
 }
 
 base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, std::uint64_t end) {
   RODEIRA_ASSERT(offset <= end && end <= source.size());
-  if (end - offset < kHeadBytes) return base::WrongInput("the file ends within a record's head");
+  if (end - offset < kHeadBytes) return base::WrongInput("recording.damaged", "the file ends within a record's head");
   auto head = source.Read(offset, kHeadBytes);
   if (!head) return head.error();
   base::ByteReader in(head.value());
@@ -133,10 +135,12 @@ base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, 
   const auto length = in.Get<std::uint64_t>();
   const std::uint64_t room = end - offset - kHeadBytes;
   if (length > room) {
-    return base::WrongInput(fmt::format("a record of {} bytes begins there, {} are left", length, room));
+    return base::WrongInput("recording.damaged",
+                            fmt::format("a record of {} bytes begins there, {} are left", length, room));
   }
   if (length > kMaxRecordBytes) {
     return base::WrongInput(
+        "recording.damaged",
         fmt::format("a record of {} bytes begins there, at most {} were expected", length, kMaxRecordBytes));
   }
   auto bytes = source.Read(offset, kHeadBytes + length);
@@ -147,7 +151,7 @@ base::Result<FileRecord> ReadRecord(const Source& source, std::uint64_t offset, 
 
 base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions& definitions, Rules rules) {
   auto head = ParseChunk(content, rules);
-  if (!head) return base::WrongInput("its fields do not fit its length");
+  if (!head) return base::WrongInput("recording.damaged", "its fields do not fit its length");
   auto records = Uncompress(*head, rules);
   if (!records) return records.error();
   Chunk chunk;
@@ -156,7 +160,8 @@ base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions&
   chunk.head.records = {};
   const std::uint32_t crc = Crc32(chunk.records);
   if (chunk.head.crc != 0 && chunk.head.crc != crc) {
-    return base::WrongInput(fmt::format("its checksum is {:08x}, {:08x} was expected", crc, chunk.head.crc));
+    return base::WrongInput("recording.damaged",
+                            fmt::format("its checksum is {:08x}, {:08x} was expected", crc, chunk.head.crc));
   }
   Definitions found = definitions;
   if (auto status = List(chunk, found, rules); !status) return status.error();
@@ -167,7 +172,8 @@ base::Result<Chunk> DecodeChunk(std::span<const std::byte> content, Definitions&
 
 base::Result<Chunk> LoadChunk(const Source& source, const ChunkInfo& info, const Contents& contents) {
   const auto fail = [&](const std::string& why) {
-    return base::WrongInput(fmt::format("the {} with the messages from {} to {} is damaged: {}",
+    return base::WrongInput("recording.damaged",
+                            fmt::format("the {} with the messages from {} to {} is damaged: {}",
                                         info.unchunked ? "run outside of chunks" : "chunk",
                                         Seconds(info.first_log_time_ns), Seconds(info.last_log_time_ns), why),
                             fmt::format("{}: byte {}", source.name(), info.offset));

@@ -39,23 +39,30 @@ std::uint64_t ZstdCompressor::Append(std::span<const std::byte> bytes, base::Byt
 
 base::Result<base::Bytes> ZstdDecompress(std::span<const std::byte> frame, std::uint64_t size) {
   const unsigned long long declared = ZSTD_getFrameContentSize(frame.data(), frame.size());
-  if (declared == ZSTD_CONTENTSIZE_ERROR) return base::WrongInput("its zstd frame has no valid header");
+  if (declared == ZSTD_CONTENTSIZE_ERROR)
+    return base::WrongInput("recording.wrong_compression", "its zstd frame has no valid header");
   if (declared != ZSTD_CONTENTSIZE_UNKNOWN && declared != size) {
-    return base::WrongInput(fmt::format("its zstd frame holds {} bytes, {} were expected", declared, size));
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("its zstd frame holds {} bytes, {} were expected", declared, size));
   }
   if (size > (frame.size() / kMinBlockBytes + 1) * kMaxBlockBytes) {
-    return base::WrongInput(fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
   }
   base::Bytes bytes(size);
   const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
-  if (ZSTD_isError(got)) return base::WrongInput(fmt::format("zstd says '{}'", ZSTD_getErrorName(got)));
-  if (got != size) return base::WrongInput(fmt::format("it holds {} bytes, {} were expected", got, size));
+  if (ZSTD_isError(got))
+    return base::WrongInput("recording.wrong_compression", fmt::format("zstd says '{}'", ZSTD_getErrorName(got)));
+  if (got != size)
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("it holds {} bytes, {} were expected", got, size));
   return bytes;
 }
 
 base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::uint64_t size) {
   if (size / kMaxLz4Ratio > frame.size()) {
-    return base::WrongInput(fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
   }
   LZ4F_dctx* made = nullptr;
   RODEIRA_ASSERT(!LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)));
@@ -68,14 +75,19 @@ base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::u
     std::size_t in = frame.size() - read;
     std::size_t out = bytes.size() - written;
     expected = LZ4F_decompress(context.get(), bytes.data() + written, &out, frame.data() + read, &in, nullptr);
-    if (LZ4F_isError(expected)) return base::WrongInput(fmt::format("lz4 says '{}'", LZ4F_getErrorName(expected)));
+    if (LZ4F_isError(expected))
+      return base::WrongInput("recording.wrong_compression", fmt::format("lz4 says '{}'", LZ4F_getErrorName(expected)));
     read += in;
     written += out;
     if (in == 0 && out == 0) break;
   }
-  if (written > size) return base::WrongInput(fmt::format("it holds more than the {} bytes that were expected", size));
-  if (expected != 0) return base::WrongInput("its lz4 frame is incomplete");
-  if (written < size) return base::WrongInput(fmt::format("it holds {} bytes, {} were expected", written, size));
+  if (written > size)
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("it holds more than the {} bytes that were expected", size));
+  if (expected != 0) return base::WrongInput("recording.wrong_compression", "its lz4 frame is incomplete");
+  if (written < size)
+    return base::WrongInput("recording.wrong_compression",
+                            fmt::format("it holds {} bytes, {} were expected", written, size));
   bytes.pop_back();
   return bytes;
 }

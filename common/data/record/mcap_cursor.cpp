@@ -77,7 +77,8 @@ bool MessageCursor::Walk::NeedsNextChunk() const {
 base::Status MessageCursor::Walk::OpenNextChunk() {
   const ChunkInfo& info = *waiting_[next_chunk_++];
   if (!open_.empty() && info.uncompressed_bytes > shared_->settings.memory_bytes - open_bytes_) {
-    return base::Failed(fmt::format("the chunks that overlap at {} need more than {} bytes of memory",
+    return base::Failed("recording.too_much_memory",
+                        fmt::format("the chunks that overlap at {} need more than {} bytes of memory",
                                     Seconds(info.first_log_time_ns), shared_->settings.memory_bytes),
                         fmt::format("{}: byte {}", shared_->source->name(), info.offset));
   }

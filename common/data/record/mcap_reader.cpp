@@ -41,12 +41,12 @@ base::Result<FileRecord> ReadListed(const Source& source, std::uint64_t offset, 
                                     Opcode opcode) {
   const std::string where = fmt::format("{}: byte {}", source.name(), offset);
   if (offset > source.size() || record_bytes > source.size() - offset) {
-    return base::WrongInput("nothing lies there, the file is shorter", where);
+    return base::WrongInput("recording.damaged", "nothing lies there, the file is shorter", where);
   }
   auto record = ReadRecord(source, offset, offset + record_bytes);
-  if (!record) return base::WrongInput(record.error().message, where);
+  if (!record) return record.error().WithContext(where);
   if (record.value().opcode != opcode || record.value().bytes.size() != record_bytes) {
-    return base::WrongInput("what lies there is not what the summary says", where);
+    return base::WrongInput("recording.damaged", "what lies there is not what the summary says", where);
   }
   return record;
 }
@@ -106,7 +106,7 @@ base::Result<Metadata> McapReader::ReadMetadata(const MetadataInfo& info) const 
   if (!record) return record.error();
   auto metadata = ParseMetadata(record.value().content(), shared_->contents.rules);
   if (!metadata || metadata->name != info.name) {
-    return base::WrongInput(fmt::format("the metadata '{:.64}' are damaged", info.name),
+    return base::WrongInput("recording.damaged", fmt::format("the metadata '{:.64}' are damaged", info.name),
                             fmt::format("{}: byte {}", shared_->source->name(), info.offset));
   }
   return std::move(*metadata);
@@ -131,7 +131,7 @@ base::Result<Attachment> McapReader::ReadAttachment(const AttachmentInfo& info) 
   if (!attachment || attachment->name != info.name || attachment->media_type != info.media_type ||
       attachment->log_time_ns != info.log_time_ns || attachment->create_time_ns != info.create_time_ns ||
       attachment->data.size() != info.data_bytes) {
-    return base::WrongInput(fmt::format("the attachment '{:.64}' is damaged", info.name),
+    return base::WrongInput("recording.damaged", fmt::format("the attachment '{:.64}' is damaged", info.name),
                             fmt::format("{}: byte {}", shared_->source->name(), info.offset));
   }
   return std::move(*attachment);

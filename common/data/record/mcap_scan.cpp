@@ -113,12 +113,14 @@ bool Scanner::SkipLargeRecord() {
 
 Status Scanner::TakeMessage(const FileRecord& record) {
   if (rules() == Rules::kOwn) {
-    return WrongInput("a message outside of a chunk lies there, which this program does not write");
+    return WrongInput("recording.damaged",
+                      "a message outside of a chunk lies there, which this program does not write");
   }
   const auto message = ParseMessage(record.content());
-  if (!message) return WrongInput("a damaged message lies there");
+  if (!message) return WrongInput("recording.damaged", "a damaged message lies there");
   if (!scan_.contents.definitions.channels.contains(message->channel)) {
-    return WrongInput(fmt::format("a message of channel {} lies there, which is not defined", message->channel));
+    return WrongInput("recording.damaged",
+                      fmt::format("a message of channel {} lies there, which is not defined", message->channel));
   }
   if (!in_run_) {
     ChunkInfo run;
@@ -156,7 +158,7 @@ void Scanner::Count(ChannelId channel, std::uint64_t log_time_ns) {
 // An index holds nothing that the chunk does not: a wrong one is a finding, not a loss.
 Status Scanner::TakeIndex(const FileRecord& record) {
   if (after_skipped_chunk_) return {};
-  if (!after_chunk_) return WrongInput("a message index without its chunk lies there");
+  if (!after_chunk_) return WrongInput("recording.damaged", "a message index without its chunk lies there");
   ChunkInfo& chunk = scan_.contents.chunks.back();
   auto index = ParseMessageIndex(record.content(), rules());
   chunk.index_bytes += record.bytes.size();
@@ -191,7 +193,7 @@ void Scanner::CheckIndexesOfLastChunk() {
 
 Status Scanner::TakeDataEnd(const FileRecord& record) {
   const auto crc = ParseDataEnd(record.content(), rules());
-  if (!crc) return WrongInput("the mark of the data's end is damaged");
+  if (!crc) return WrongInput("recording.damaged", "the mark of the data's end is damaged");
   if (*crc != 0 && *crc != crc_ && crc_known_) {
     Lose(
         fmt::format("the checksum of all data is {:08x}, {:08x} was expected: something outside of the chunks "
@@ -208,7 +210,7 @@ Status Scanner::TakeFooter(const FileRecord& record) {
   const auto footer = ParseFooter(record.content());
   const bool is_end = source_.size() - at_ == kFooterBytes + kMagic.size();
   if (rules() == Rules::kOwn || !footer || !is_end || footer->summary_start != 0) {
-    return WrongInput("a footer lies there, before which the end of the data is not marked");
+    return WrongInput("recording.damaged", "a footer lies there, before which the end of the data is not marked");
   }
   scan_.ended = true;
   return {};
@@ -253,15 +255,17 @@ Status Scanner::TakeRecord(const FileRecord& record) {
       return TakeChunk(record);
     case Opcode::kSchema: {
       const auto schema = ParseSchema(record.content(), rules());
-      return schema ? scan_.contents.definitions.Add(*schema) : WrongInput("a damaged schema lies there");
+      return schema ? scan_.contents.definitions.Add(*schema)
+                    : WrongInput("recording.damaged", "a damaged schema lies there");
     }
     case Opcode::kChannel: {
       const auto channel = ParseChannel(record.content(), rules());
-      return channel ? scan_.contents.definitions.Add(*channel) : WrongInput("a damaged channel lies there");
+      return channel ? scan_.contents.definitions.Add(*channel)
+                     : WrongInput("recording.damaged", "a damaged channel lies there");
     }
     case Opcode::kAttachment: {
       const auto attachment = ParseAttachment(record.content(), rules());
-      if (!attachment) return WrongInput("a damaged attachment lies there");
+      if (!attachment) return WrongInput("recording.damaged", "a damaged attachment lies there");
       scan_.contents.attachments.push_back({attachment->name, attachment->media_type, attachment->log_time_ns,
                                             attachment->create_time_ns, attachment->data.size(), at_,
                                             record.bytes.size()});
@@ -269,7 +273,7 @@ Status Scanner::TakeRecord(const FileRecord& record) {
     }
     case Opcode::kMetadata: {
       const auto metadata = ParseMetadata(record.content(), rules());
-      if (!metadata) return WrongInput("damaged metadata lie there");
+      if (!metadata) return WrongInput("recording.damaged", "damaged metadata lie there");
       scan_.contents.metadata.push_back({metadata->name, at_, record.bytes.size()});
       return {};
     }
@@ -284,8 +288,8 @@ Status Scanner::TakeRecord(const FileRecord& record) {
         ++scan_.skipped;
         return {};
       }
-      return WrongInput(
-          fmt::format("a record of kind {} lies there, which does not belong there", static_cast<int>(record.opcode)));
+      return WrongInput("recording.damaged", fmt::format("a record of kind {} lies there, which does not belong there",
+                                                         static_cast<int>(record.opcode)));
   }
 }
 
@@ -302,7 +306,8 @@ base::Result<Scan> Scanner::Run() {
   auto first = ReadRecord(source_, kMagic.size(), source_.size());
   auto header = first ? ParseHeader(first.value().content()) : std::nullopt;
   if (!header || first.value().opcode != Opcode::kHeader) {
-    return WrongInput("nothing of this recording can be read: its header is cut short or damaged", source_.name());
+    return WrongInput("recording.damaged", "nothing of this recording can be read: its header is cut short or damaged",
+                      source_.name());
   }
   scan_.contents.rules = RulesOf(*header);
   scan_.contents.header = std::move(*header);
@@ -339,11 +344,13 @@ Status CheckMark(const Source& source) {
   if (mark.value().size() == kMagic.size() &&
       std::ranges::equal(std::span(mark.value()).first(kVersionAt), MagicBytes().first(kVersionAt))) {
     return WrongInput(
+        "recording.other_version",
         fmt::format("a recording of MCAP's version {} was found, version {} was expected",
                     std::string(1, static_cast<char>(mark.value()[kVersionAt])), static_cast<char>(kMagic[kVersionAt])),
         source.name());
   }
-  return WrongInput("this is no MCAP recording: it does not begin with MCAP's mark", source.name());
+  return WrongInput("recording.not_mcap", "this is no MCAP recording: it does not begin with MCAP's mark",
+                    source.name());
 }
 
 void AddNamed(const Contents& summary, Contents& scanned) {

@@ -22,28 +22,31 @@ struct Ending {
 
 base::Result<Ending> ReadEnding(const Source& source, Rules rules) {
   const std::uint64_t tail = kFooterBytes + kMagic.size();
-  if (source.size() < kMagic.size() + tail) return WrongInput("the recording was not closed: it has no footer");
+  if (source.size() < kMagic.size() + tail)
+    return WrongInput("recording.no_summary", "the recording was not closed: it has no footer");
   Ending ending;
   ending.footer_at = source.size() - tail;
   auto bytes = source.Read(ending.footer_at, tail);
   if (!bytes) return bytes.error();
   if (!std::ranges::equal(std::span(bytes.value()).last(kMagic.size()), MagicBytes())) {
-    return WrongInput("the recording was not closed: it does not end with MCAP's mark");
+    return WrongInput("recording.no_summary", "the recording was not closed: it does not end with MCAP's mark");
   }
   const auto record = RecordAt(bytes.value(), 0);
-  if (!record || record->opcode != Opcode::kFooter) return WrongInput("its footer is damaged");
+  if (!record || record->opcode != Opcode::kFooter) return WrongInput("recording.damaged", "its footer is damaged");
   const auto footer = ParseFooter(record->content);
-  if (!footer) return WrongInput("its footer is damaged");
+  if (!footer) return WrongInput("recording.damaged", "its footer is damaged");
   if (footer->summary_start == 0 && rules == Rules::kSpecification) {
     ending.has_summary = false;
     return ending;
   }
-  if (footer->summary_start == 0) return WrongInput("it was written without a summary");
+  if (footer->summary_start == 0) return WrongInput("recording.no_summary", "it was written without a summary");
   if (footer->summary_start < kMagic.size() + kDataEndBytes || footer->summary_start > ending.footer_at) {
     return WrongInput(
+        "recording.damaged",
         fmt::format("its footer says that the summary begins at byte {}, which cannot be", footer->summary_start));
   }
-  if (ending.footer_at - footer->summary_start > kMaxRecordBytes) return WrongInput("its summary is too large");
+  if (ending.footer_at - footer->summary_start > kMaxRecordBytes)
+    return WrongInput("recording.damaged", "its summary is too large");
   ending.footer = *footer;
   ending.data_end = footer->summary_start - kDataEndBytes;
   return ending;
@@ -64,8 +67,8 @@ base::Result<base::Bytes> ReadSection(const Source& source, const Ending& ending
   if (!bytes) return bytes.error();
   const std::uint32_t crc = Crc32(bytes.value());
   if (ending.footer.summary_crc != 0 && crc != ending.footer.summary_crc) {
-    return WrongInput(
-        fmt::format("its summary's checksum is {:08x}, {:08x} was expected", crc, ending.footer.summary_crc));
+    return WrongInput("recording.damaged", fmt::format("its summary's checksum is {:08x}, {:08x} was expected", crc,
+                                                       ending.footer.summary_crc));
   }
   bytes.value().resize(static_cast<std::size_t>(ending.footer_at - start));
   return bytes;
@@ -73,18 +76,18 @@ base::Result<base::Bytes> ReadSection(const Source& source, const Ending& ending
 
 template <class Record, class List>
 Status Append(std::optional<Record> record, List& list, const char* what) {
-  if (!record) return WrongInput(fmt::format("its summary holds a damaged {}", what));
+  if (!record) return WrongInput("recording.damaged", fmt::format("its summary holds a damaged {}", what));
   list.push_back(std::move(*record));
   return {};
 }
 
 Status Define(const std::optional<Schema>& record, Summary& summary) {
-  if (!record) return WrongInput("its summary holds a damaged schema");
+  if (!record) return WrongInput("recording.damaged", "its summary holds a damaged schema");
   return summary.contents.definitions.Add(*record);
 }
 
 Status Define(const std::optional<Channel>& record, Summary& summary) {
-  if (!record) return WrongInput("its summary holds a damaged channel");
+  if (!record) return WrongInput("recording.damaged", "its summary holds a damaged channel");
   Contents& contents = summary.contents;
   const bool has_schema = record->schema == 0 || contents.definitions.schemas.contains(record->schema);
   if (!has_schema && contents.rules == Rules::kSpecification) {
@@ -111,7 +114,7 @@ Status Take(const RecordView& record, Summary& summary) {
     case Opcode::kStatistics: {
       auto statistics = ParseStatistics(record.content, rules);
       if (!statistics || summary.has_statistics) {
-        return WrongInput("its summary's statistics are damaged or there twice");
+        return WrongInput("recording.damaged", "its summary's statistics are damaged or there twice");
       }
       contents.statistics = std::move(*statistics);
       summary.has_statistics = true;
@@ -121,7 +124,8 @@ Status Take(const RecordView& record, Summary& summary) {
       return {};
     default:
       if (IsSkipped(record.opcode, rules)) return {};
-      return WrongInput(fmt::format("its summary holds a record of kind {}", static_cast<int>(record.opcode)));
+      return WrongInput("recording.damaged",
+                        fmt::format("its summary holds a record of kind {}", static_cast<int>(record.opcode)));
   }
 }
 
@@ -132,7 +136,7 @@ Status TakeAll(const base::Bytes& section, Summary& summary) {
     if (schemas && !any_order) continue;
     for (std::uint64_t offset = 0; offset < section.size();) {
       const auto record = RecordAt(section, offset);
-      if (!record) return WrongInput("its summary holds an incomplete record");
+      if (!record) return WrongInput("recording.damaged", "its summary holds an incomplete record");
       if (!any_order || schemas == (record->opcode == Opcode::kSchema)) {
         if (auto status = Take(*record, summary); !status) return status;
       }
@@ -150,7 +154,8 @@ Status CheckPlaces(std::vector<Info>& infos, std::uint64_t begin, std::uint64_t 
   for (const Info& info : infos) {
     if (info.offset < free_from || info.offset > end || info.record_bytes < kHeadBytes ||
         info.record_bytes > end - info.offset || info.record_bytes > kMaxRecordBytes + kHeadBytes) {
-      return WrongInput(fmt::format("its summary names {} at byte {}, where none can be", what, info.offset));
+      return WrongInput("recording.damaged",
+                        fmt::format("its summary names {} at byte {}, where none can be", what, info.offset));
     }
     free_from = info.offset + info.record_bytes;
   }
@@ -168,7 +173,7 @@ Status CheckCounts(const Contents& contents) {
   if (messages != s.messages || !known || s.chunks != contents.chunks.size() ||
       s.attachments != contents.attachments.size() || s.metadata != contents.metadata.size() ||
       s.schemas != contents.definitions.schemas.size() || s.channels != contents.definitions.channels.size()) {
-    return WrongInput("its summary's statistics do not fit the rest of the summary");
+    return WrongInput("recording.damaged", "its summary's statistics do not fit the rest of the summary");
   }
   return {};
 }
@@ -230,16 +235,16 @@ base::Result<Summary> ReadSummary(const Source& source) {
   if (!marked) return marked.error();
   if (!marked.value()) {
     summary.shortage = "before its summary the end of the data is not marked";
-    if (contents.rules == Rules::kOwn) return WrongInput(summary.shortage);
+    if (contents.rules == Rules::kOwn) return WrongInput("recording.no_summary", summary.shortage);
   }
   const auto section = ReadSection(source, ending.value());
   if (!section) return section.error();
   if (auto status = TakeAll(section.value(), summary); !status) return status.error();
   const bool own = contents.rules == Rules::kOwn;
-  if (own && !summary.has_statistics) return WrongInput("its summary has no statistics");
+  if (own && !summary.has_statistics) return WrongInput("recording.no_summary", "its summary has no statistics");
 
   const std::uint64_t end = ending.value().data_end;
-  if (!parsed || begin > end) return WrongInput("its header is damaged");
+  if (!parsed || begin > end) return WrongInput("recording.damaged", "its header is damaged");
   contents.header = std::move(*parsed);
 
   if (auto status = CheckPlaces(contents.chunks, begin, end, "a chunk"); !status) return status.error();

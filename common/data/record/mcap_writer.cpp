@@ -21,20 +21,23 @@ constexpr std::uint64_t kMaxHeaderBytes = 64u << 10;
 Status CheckSettings(const WriterSettings& settings, const std::string& where) {
   if (settings.chunk_span_ns == 0 || settings.chunk_span_ns > kMaxSpanNs) {
     return base::WrongInput(
+        "recording.wrong_settings",
         fmt::format("chunk_span_ns is {}, 1 to {} (one second) was expected", settings.chunk_span_ns, kMaxSpanNs),
         where);
   }
   if (settings.chunk_bytes < kMinChunkBytes || settings.chunk_bytes > kMaxChunkBytes) {
     return base::WrongInput(
+        "recording.wrong_settings",
         fmt::format("chunk_bytes is {}, {} to {} was expected", settings.chunk_bytes, kMinChunkBytes, kMaxChunkBytes),
         where);
   }
   if (settings.zstd_level < -7 || settings.zstd_level > 19) {
-    return base::WrongInput(fmt::format("zstd_level is {}, -7 (fastest) to 19 was expected", settings.zstd_level),
+    return base::WrongInput("recording.wrong_settings",
+                            fmt::format("zstd_level is {}, -7 (fastest) to 19 was expected", settings.zstd_level),
                             where);
   }
   if (settings.profile.size() + settings.library.size() > kMaxHeaderBytes) {
-    return base::WrongInput("profile and library are too long", where);
+    return base::WrongInput("recording.wrong_settings", "profile and library are too long", where);
   }
   return {};
 }

@@ -268,7 +268,8 @@ base::Result<RepairReport> Repair(const std::filesystem::path& source, const std
   if (!opened) return opened.error();
   std::error_code problem;
   if (std::filesystem::exists(target, problem)) {
-    return base::WrongInput("the repaired recording cannot be created: a file of that name is there already",
+    return base::WrongInput("file.exists",
+                            "the repaired recording cannot be created: a file of that name is there already",
                             target.string());
   }
   const std::filesystem::path beside = target.string() + fmt::format(".{}.part", ::getpid());

@@ -22,9 +22,11 @@ namespace {
 
 base::Error CannotOpen(const std::filesystem::path& path, int error) {
   if (error == EEXIST)
-    return base::WrongInput("the recording cannot be created: a file of that name is there already", path.string());
+    return base::WrongInput("file.exists", "the recording cannot be created: a file of that name is there already",
+                            path.string());
   if (error == EWOULDBLOCK)
-    return base::WrongInput("the recording cannot be created: another process writes it at this moment", path.string());
+    return base::WrongInput("recording.in_use",
+                            "the recording cannot be created: another process writes it at this moment", path.string());
   return base::OpenError("the recording cannot be created", error, path.string());
 }
 
@@ -110,7 +112,8 @@ class FileSink final : public Sink {
   // errno of an earlier SyncSoon that failed; 0: none has.
   int SyncProblem() const { return sync_ ? sync_->error() : sync_problem_; }
   base::Error Problem(const char* what, int error) const {
-    return base::Failed(fmt::format("the recording cannot be {}: {}", what, std::strerror(error)), path_);
+    return base::Failed("recording.cannot_write",
+                        fmt::format("the recording cannot be {}: {}", what, std::strerror(error)), path_);
   }
 
   int file_;
@@ -159,7 +162,8 @@ base::Status MemorySink::Append(std::span<const std::byte> bytes) {
   const auto fits = bytes.first(static_cast<std::size_t>(std::min<std::uint64_t>(room, bytes.size())));
   into_->insert(into_->end(), fits.begin(), fits.end());
   if (fits.size() < bytes.size()) {
-    return base::Failed(fmt::format("the recording cannot be written: the room of {} bytes is full", capacity_),
+    return base::Failed("recording.cannot_write",
+                        fmt::format("the recording cannot be written: the room of {} bytes is full", capacity_),
                         name());
   }
   return {};

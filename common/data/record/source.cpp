@@ -27,10 +27,13 @@ class FileSource final : public Source {
       const ssize_t got = ::pread(file_, into.data(), into.size(), static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) {
-        return base::Failed(fmt::format("the file cannot be read at byte {}: {}", offset, std::strerror(errno)),
+        return base::Failed("file.cannot_read",
+                            fmt::format("the file cannot be read at byte {}: {}", offset, std::strerror(errno)),
                             name());
       }
-      if (got == 0) return base::Failed(fmt::format("the file became shorter than {} bytes meanwhile", size()), name());
+      if (got == 0)
+        return base::Failed("file.cannot_read", fmt::format("the file became shorter than {} bytes meanwhile", size()),
+                            name());
       offset += static_cast<std::uint64_t>(got);
       into = into.subspan(static_cast<std::size_t>(got));
     }
@@ -69,7 +72,7 @@ base::Result<std::unique_ptr<Source>> OpenFileSource(const std::filesystem::path
   struct stat status {};
   if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) {
     ::close(file);
-    return base::WrongInput("this is not a file, a recording was expected", path.string());
+    return base::WrongInput("file.not_regular", "this is not a file, a recording was expected", path.string());
   }
   return std::unique_ptr<Source>(
       std::make_unique<FileSource>(file, path.string(), static_cast<std::uint64_t>(status.st_size)));

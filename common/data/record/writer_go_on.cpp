@@ -74,7 +74,8 @@ base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::
     scan = std::move(scanned).value();
     const ChunkInfo* last = LastWhole(scan);
     if (const std::uint64_t end_ns = last == nullptr ? 0 : last->last_log_time_ns; end_ns < tail.least_end_ns) {
-      return base::Failed(fmt::format("the recording can be read up to {} only, though it held more than {}: it was "
+      return base::Failed("recording.damaged",
+                          fmt::format("the recording can be read up to {} only, though it held more than {}: it was "
                                       "damaged meanwhile{}{}; it is left as it is",
                                       Seconds(end_ns), Seconds(tail.least_end_ns), scan.findings.empty() ? "" : ", ",
                                       scan.findings.empty() ? "" : scan.findings.front()),
@@ -89,7 +90,8 @@ base::Result<std::optional<McapWriter>> McapWriter::GoOn(const std::filesystem::
   }
   Contents& contents = scan.contents;
   if (!CountsFromOne(contents.definitions.schemas) || !CountsFromOne(contents.definitions.channels)) {
-    return base::WrongInput("the recording was written by another program; nothing can be added to it", path.string());
+    return base::WrongInput("recording.of_another_program",
+                            "the recording was written by another program; nothing can be added to it", path.string());
   }
   const auto crc = ChecksumOf(*source, scan.good_bytes);
   if (!crc) return crc.error();

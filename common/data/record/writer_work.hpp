@@ -37,7 +37,9 @@ class McapWriter::Work {
   bool closed() const { return closed_; }
   const Statistics& statistics() const { return statistics_; }
   std::uint64_t written_bytes() const { return offset_; }
-  base::Error Refuse(std::string message) const { return base::WrongInput(std::move(message), sink_->name()); }
+  base::Error Refuse(std::string message) const {
+    return base::WrongInput("recording.wrong_message", std::move(message), sink_->name());
+  }
   const std::optional<base::Error>& failure() const { return failure_; }
 
  private:
