@@ -52,8 +52,10 @@ base::Status ClockGate::MayTakePart(lockstep::NodeIndex node, const NamedReport&
   if (world_ == 0) world_ = named.hello.world;
   expected_[node].world = world_;
   if (auto status = CheckHello(expected_[node], named.hello); !status) {
-    return base::WrongInput(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node,
-                                        named.hello.pid, named.hello.host, status.error().Text()));
+    return status.error()
+        .WithMessage(fmt::format("node '{}' (process {} on host {}) was refused: {}", named.node, named.hello.pid,
+                                 named.hello.host, status.error().Text()))
+        .WithContext("");
   }
   if (auto status = CheckOnce(node, named); !status) return status;
   return run_.clock.recovery().CheckState(named.report);
@@ -70,6 +72,7 @@ base::Status ClockGate::CheckOnce(lockstep::NodeIndex node, const NamedReport& n
   if (known.pid == 0 || known.incarnation < now.incarnation) known = now;
   if (known.incarnation != now.incarnation || (known.pid == now.pid && known.host == now.host)) return {};
   return base::WrongInput(
+      "run.duplicate_node",
       fmt::format("node '{}' takes part twice, as process {} on host {} and as process {} on host {}; end one of them",
                   named.node, known.pid, known.host, now.pid, now.host));
 }

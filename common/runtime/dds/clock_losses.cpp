@@ -74,18 +74,22 @@ void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) 
 base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
   const lockstep::NodeIndex node = run_.roster.Find(name);
   if (node == run_.roster.nodes().size()) {
-    return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())),
+    return base::WrongInput("launch.unknown_node",
+                            fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())),
                             "restart");
   }
   if (!run_.clock.recovery().restarts()) {
     return base::Failed(
+        "run.cannot_restart",
         "in this run nobody keeps what a node needs that is started again; a recorder and 'recovery: pause' or "
         "'restart' in its launch file do");
   }
   if (run_.launch.node(node).is_live())
-    return base::Failed(fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
+    return base::Failed("run.cannot_restart",
+                        fmt::format("node '{}' is driven by a person, whose input cannot be computed again", name));
   if (run_.clock.report(node).cannot_save)
-    return base::Failed(fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
+    return base::Failed("run.cannot_restart",
+                        fmt::format("node '{}' cannot save its state, so it cannot be started again", name));
   const std::string reason =
       fmt::format("node '{}' at about step {}: asked for by the operator", name, run_.clock.reached(node));
   run_.clock.ExpectRestart(node);

@@ -39,7 +39,8 @@ class FastWriter final : public Writer {
   base::Status Write(const base::Bytes& payload) override {
     RawSample sample;
     sample.to_send = &payload;
-    if (!writer_->write(&sample)) return base::Failed("Fast DDS does not take a sample", "topic " + topic_);
+    if (!writer_->write(&sample))
+      return base::Failed("dds.no_endpoint", "Fast DDS does not take a sample", "topic " + topic_);
     return {};
   }
 
@@ -133,7 +134,7 @@ class FastParticipant final : public Participant {
     qos.data_sharing().off();
   }
   static base::Error Refused(std::string_view topic) {
-    return base::Failed("Fast DDS makes no endpoint for this topic", "topic " + std::string(topic));
+    return base::Failed("dds.no_endpoint", "Fast DDS makes no endpoint for this topic", "topic " + std::string(topic));
   }
 
   fdds::Topic* TopicOf(std::string_view name) {
@@ -165,7 +166,8 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
   RODEIRA_ASSERT(SharedMutexesAreRobust());
   const launch::Discovery& discovery = settings.discovery;
   if (settings.serves_discovery && discovery.kind == launch::DiscoveryKind::kServer && !UdpPortIsFree(discovery.port)) {
-    return base::WrongInput(fmt::format("UDP port {} of the discovery server is in use by another program; end that "
+    return base::WrongInput("dds.port_in_use",
+                            fmt::format("UDP port {} of the discovery server is in use by another program; end that "
                                         "one, or name another 'discovery.port'",
                                         discovery.port),
                             fmt::format("run '{}'", settings.run));
@@ -178,9 +180,11 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
   auto* factory = fdds::DomainParticipantFactory::get_instance();
   auto* participant = factory->create_participant(settings.domain, ParticipantQos(settings));
   if (participant == nullptr) {
-    return base::Failed(fmt::format(
-        "Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)",
-        settings.domain, 7400 + 250 * settings.domain));
+    return base::Failed(
+        "dds.no_participant",
+        fmt::format(
+            "Fast DDS makes no participant in domain {} (is /dev/shm writable, are ports {} and following free?)",
+            settings.domain, 7400 + 250 * settings.domain));
   }
   if (auto status = is_shared ? ClaimOwnSegment() : base::Status(); !status) {
     factory->delete_participant(participant);
@@ -194,7 +198,7 @@ base::Result<std::unique_ptr<Participant>> Participant::Open(const DomainSetting
   auto* subscriber = participant->create_subscriber(subscriber_qos);
   if (publisher == nullptr || subscriber == nullptr) {
     factory->delete_participant(participant);
-    return base::Failed("Fast DDS makes no publisher and subscriber");
+    return base::Failed("dds.no_endpoint", "Fast DDS makes no publisher and subscriber");
   }
   return std::unique_ptr<Participant>(
       std::make_unique<FastParticipant>(participant, publisher, subscriber, settings.topics));

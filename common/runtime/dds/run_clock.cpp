@@ -115,6 +115,7 @@ class ClockProcess {
   }
   base::Status SecondClock() const {
     return base::WrongInput(
+        "run.already_running",
         fmt::format("run '{}' in domain {} has a clock already ({}); choose another --run or --domain", options_.run,
                     options_.domain, base::Hex(other_clock_)));
   }

@@ -115,13 +115,14 @@ class Follower {
     for (;;) {
       const Now now = Look();
       if (now.clock_id == 0) {
-        if (StopSignals() > 0) return Complain(base::Failed("stopped by a signal"));
+        if (StopSignals() > 0) return Complain(base::Failed("run.interrupted", "stopped by a signal"));
         Show([&] { Say("waiting for the clock of run '{}' in domain {}", OneLine(options_.run), options_.domain); });
         continue;
       }
       if (!met_) {
         if (now.grant.through >= 0) {
           return Complain(base::WrongInput(
+              "run.already_running",
               fmt::format("it is under way already, at step {}, without the processes of this command; "
                           "wait for its end or choose another --run",
                           now.grant.through),
@@ -137,9 +138,9 @@ class Follower {
       }
       if (aborted_at && WallClock::now() - *aborted_at > kClosingTime) return 1;
       if (!aborted_at && WallClock::now() - now.heard_at > kClockSilence) {
-        return Complain(
-            base::Failed(fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
-                                     std::chrono::duration<double>(kClockSilence).count())));
+        return Complain(base::Failed(
+            "run.clock_lost", fmt::format("the clock has said nothing for {:.1f} s: it was killed, stopped or cut off",
+                                          std::chrono::duration<double>(kClockSilence).count())));
       }
       TellFaults(now);
       TellIncarnations(now);

@@ -74,7 +74,7 @@ class ProcessContext final : public launch::NodeContext {
     while (!summary && !mailbox_.grant().abort && std::chrono::steady_clock::now() < until) woken.wait_for(lock, 20ms);
     lock.unlock();
     reader.value().reset();  // its callback uses what lies on this stack
-    if (!summary) return base::Failed("the road server says nothing of the world");
+    if (!summary) return base::Failed("run.no_answer", "the road server says nothing of the world");
     return *summary;
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override {
@@ -105,7 +105,7 @@ class ProcessContext final : public launch::NodeContext {
   bool is_restarted() const override { return incarnation_ > 0; }
   base::Result<lockstep::Step> LastRecordedStep() override {
     const auto grant = bus_.AwaitGrant(std::chrono::milliseconds(launch().watchdog().start_ms));
-    if (!grant) return base::Failed("the clock says nothing to a node that is started again");
+    if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
     return grant->safe;
   }
   std::function<void(lockstep::Step)> RecordedStepReporter() override {
@@ -129,14 +129,16 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
                            lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
   const auto grant = bus.AwaitGrant(limit);
-  if (!grant) return base::Failed("the clock says nothing to a node that is started again");
+  if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
   const lockstep::Beginning beginning =
       lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
   settings.sink_from = beginning.sink_from;
   if (beginning.snapshot > 0) {
     settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
-    if (!settings.resume) return base::Failed(fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
-    if (!settings.resume->has_state) return base::Failed("it cannot save its state, so it cannot be started again");
+    if (!settings.resume)
+      return base::Failed("run.cannot_restart", fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
+    if (!settings.resume->has_state)
+      return base::Failed("run.cannot_restart", "it cannot save its state, so it cannot be started again");
   }
   mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
   bus.Listen();
@@ -198,7 +200,8 @@ int RunNode(std::string_view kind, int argc, char** argv, const launch::NodeFact
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
     return base::PrintError(
-        program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
+        program, base::WrongInput("launch.unknown_node",
+                                  fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
                                               options.node, kind),
                                   options.launch_file));
   }

@@ -43,7 +43,8 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   const lockstep::NodeIndex index = roster.Find(options.node);
   if (index == roster.nodes().size() || roster.node(index).kind != kind) {
     return base::PrintError(
-        program, base::WrongInput(fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
+        program, base::WrongInput("launch.unknown_node",
+                                  fmt::format("--node {}: the launch file has no node of this name and of kind '{}'",
                                               options.node, kind),
                                   options.launch_file));
   }

@@ -23,7 +23,8 @@ constexpr std::uint64_t kKib = 1024;
 constexpr std::uint64_t kPortsKib = 3 * 128;
 
 base::Error NoRoom(const std::filesystem::path& folder, const std::string& why) {
-  return base::Failed(fmt::format("shared memory takes no more files: {}; sudo mount -o remount,size=512M {}, or "
+  return base::Failed("dds.shared_memory_full",
+                      fmt::format("shared memory takes no more files: {}; sudo mount -o remount,size=512M {}, or "
                                   "transport: udp",
                                   why, folder.string()),
                       folder.string());

@@ -45,7 +45,7 @@ SupervisorPipe::~SupervisorPipe() {
 
 base::Status SupervisorPipe::Listen(int descriptor, std::function<void()> on_line) {
   if (::pipe2(stop_, O_CLOEXEC) != 0)
-    return base::Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)));
+    return base::Failed("system.no_pipe", fmt::format("cannot create a pipe: {}", std::strerror(errno)));
   thread_ = std::thread([this, descriptor, on_line = std::move(on_line)] { Read(descriptor, on_line); });
   return {};
 }

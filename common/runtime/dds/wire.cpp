@@ -29,8 +29,8 @@ std::string HostName() {
 
 base::Status Compare(std::string_view what, base::Digest own, base::Digest other, std::string_view advice) {
   if (own == other) return {};
-  return base::WrongInput(
-      fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other), base::Hex(own), advice));
+  return base::WrongInput("dds.node_refused", fmt::format("its {} is {}, the clock's is {}; {}", what, base::Hex(other),
+                                                          base::Hex(own), advice));
 }
 
 // What an external node's program was compiled with counts, not what its manifest names today.
@@ -81,7 +81,8 @@ base::Digest GrantHash() {
   return kHash;
 }
 base::Error Unreadable(const base::Error& error) {
-  return base::WrongInput("a report cannot be read; is a node of another version?: " + error.Text());
+  return base::WrongInput("dds.wrong_message",
+                          "a report cannot be read; is a node of another version?: " + error.Text());
 }
 // The first member of grants and reports: the hash of their type.
 base::Digest FirstMember(const base::Bytes& payload) {
@@ -115,7 +116,7 @@ Hello OwnHello(const launch::Launch& launch, lockstep::NodeIndex node) {
 }
 
 base::Status CheckHello(const Hello& own, const Hello& other) {
-  if (own.protocol != other.protocol) return base::WrongInput(ProtocolDifference(own, other));
+  if (own.protocol != other.protocol) return base::WrongInput("dds.node_refused", ProtocolDifference(own, other));
   if (auto status =
           Compare("roster hash", own.roster, other.roster, "both need the same launch file and the same --set");
       !status)
@@ -174,18 +175,20 @@ base::Result<NamedReport> DecodeReport(const base::Bytes& payload) {
     const auto identity = idl::Decode<msg::NodeIdentity>(payload);
     if (!identity) return Unreadable(identity.error());
     const msg::NodeIdentity& who = identity.value();
-    return base::WrongInput(fmt::format(
-        "node '{}' (process {} on host {}) was refused: its type of topic {} differs from the clock's: its hash is {}, "
-        "the clock's is {}; all programs of a run need the same version of Rodeira",
-        who.node(), who.pid(), who.host(), idl::topics::kReport, base::Hex(who.report_hash()),
-        base::Hex(ReportHash())));
+    return base::WrongInput("dds.node_refused",
+                            fmt::format("node '{}' (process {} on host {}) was refused: its type of topic {} differs "
+                                        "from the clock's: its hash is {}, "
+                                        "the clock's is {}; all programs of a run need the same version of Rodeira",
+                                        who.node(), who.pid(), who.host(), idl::topics::kReport,
+                                        base::Hex(who.report_hash()), base::Hex(ReportHash())));
   }
   auto decoded = idl::Decode<msg::Report>(payload);
   if (!decoded) return Unreadable(decoded.error());
   msg::Report& in = decoded.value();
   if (in.phase() > static_cast<std::uint32_t>(lockstep::Phase::kAborted) ||
       in.waiting() > static_cast<std::uint32_t>(lockstep::Waiting::kOutput)) {
-    return base::WrongInput(fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
+    return base::WrongInput("dds.wrong_message",
+                            fmt::format("a report of phase {} and waiting {} was found", in.phase(), in.waiting()));
   }
   NamedReport out;
   out.node = in.identity().node();
@@ -243,7 +246,7 @@ base::Bytes EncodeGrant(const NumberedGrant& in) {
 
 base::Result<NumberedGrant> DecodeGrant(const base::Bytes& payload) {
   if (payload.size() >= 12 && FirstMember(payload) != GrantHash())
-    return base::WrongInput("a grant of another version was found");
+    return base::WrongInput("dds.wrong_message", "a grant of another version was found");
   auto decoded = idl::Decode<msg::Grant>(payload);
   if (!decoded) return decoded.error();
   msg::Grant& in = decoded.value();
@@ -302,12 +305,12 @@ base::Result<Opened> DecodeSampleBatch(const base::Bytes& payload) {
   for (std::size_t at = 0; at < all.size();) {
     std::uint32_t length = 0;
     if (all.size() - at < sizeof(length))
-      return base::WrongInput(fmt::format("a batch of {} bytes ends within a length", all.size()));
+      return base::WrongInput("dds.wrong_message", fmt::format("a batch of {} bytes ends within a length", all.size()));
     std::memcpy(&length, all.data() + at, sizeof(length));
     at += sizeof(length);
     if (length > all.size() - at)
-      return base::WrongInput(
-          fmt::format("a batch of {} bytes has {} left for a sample of {}", all.size(), all.size() - at, length));
+      return base::WrongInput("dds.wrong_message", fmt::format("a batch of {} bytes has {} left for a sample of {}",
+                                                               all.size(), all.size() - at, length));
     opened.samples.emplace_back(all.begin() + static_cast<std::ptrdiff_t>(at),
                                 all.begin() + static_cast<std::ptrdiff_t>(at + length));
     at += length;

@@ -37,6 +37,7 @@ base::Result<Command> ParseStep(std::string_view rest) {
   const auto [end, problem] = std::from_chars(rest.data(), rest.data() + rest.size(), command.steps);
   if (problem != std::errc{} || end != rest.data() + rest.size() || command.steps < 1 || command.steps > kMaxSteps) {
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("'{}' was found; a number of base steps from 1 to {} was expected", rest, kMaxSteps), "step");
   }
   return command;
@@ -44,9 +45,10 @@ base::Result<Command> ParseStep(std::string_view rest) {
 
 base::Result<Command> ParseMark(std::string_view rest) {
   Command command = Of(Kind::kMark);
-  if (rest.empty()) return base::WrongInput("a text was expected", "mark");
+  if (rest.empty()) return base::WrongInput("command.wrong_value", "a text was expected", "mark");
   if (rest.size() > kMaxText)
-    return base::WrongInput(fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMaxText),
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("{} bytes of text were found, at most {} were expected", rest.size(), kMaxText),
                             "mark");
   command.text = base::Printable(rest);
   return command;
@@ -66,13 +68,14 @@ base::Result<Command> ParseCommand(std::string_view line) {
   const std::string_view rest = Trim(line.substr(name.size()));
   const auto found = std::find(CommandNames().begin(), CommandNames().end(), name);
   if (found == CommandNames().end()) {
-    return base::WrongInput(fmt::format("unknown command '{}'{}", name, base::DidYouMean(name, CommandNames())));
+    return base::WrongInput("command.unknown_command",
+                            fmt::format("unknown command '{}'{}", name, base::DidYouMean(name, CommandNames())));
   }
   if (name == "step") return ParseStep(rest);
   if (name == "mark") return ParseMark(rest);
   if (name == "restart") {
     Command command = Of(Kind::kRestart);
-    if (rest.empty()) return base::WrongInput("the name of a node was expected", "restart");
+    if (rest.empty()) return base::WrongInput("command.wrong_value", "the name of a node was expected", "restart");
     command.text = rest;
     return command;
   }
@@ -83,7 +86,9 @@ base::Result<Command> ParseCommand(std::string_view line) {
     command.pace = pace.value();
     return command;
   }
-  if (!rest.empty()) return base::WrongInput(fmt::format("'{}' was found behind it; nothing was expected", rest), name);
+  if (!rest.empty())
+    return base::WrongInput("command.wrong_value", fmt::format("'{}' was found behind it; nothing was expected", rest),
+                            name);
   static const std::map<std::string, Kind> kBare{
       {"state", Kind::kState},   {"pause", Kind::kPause},   {"resume", Kind::kResume}, {"stop", Kind::kStop},
       {"toggle", Kind::kToggle}, {"faster", Kind::kFaster}, {"slower", Kind::kSlower}};

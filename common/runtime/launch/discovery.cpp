@@ -61,7 +61,8 @@ Discovery ReadDiscovery(const config::Map& map) {
       if (!IsAddress(address)) addresses.Problem(i, fmt::format("address '{}' was found; {}", address, kExpected));
     }
     if (discovery.addresses.empty() && map.Has("addresses")) {
-      map.Problem("addresses", "'addresses' is empty; the address of each PC of the run was expected");
+      map.Problem("addresses", "config.too_few",
+                  "'addresses' is empty; the address of each PC of the run was expected");
     }
     discovery.participants = ReadParticipants(map);
   }

@@ -149,7 +149,7 @@ base::Result<std::vector<NamedFile>> FilesOf(const Launch& launch) {
 }
 
 base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::path& folder) {
-  if (files.empty()) return base::WrongInput("there is no launch file");
+  if (files.empty()) return base::WrongInput("recording.file_missing", "there is no launch file");
   const fs::path root = folder.lexically_normal();
   const fs::path home = HomeIn(root);
   const base::Bytes launch_file = Led(files);
@@ -158,12 +158,13 @@ base::Result<fs::path> LayOut(const std::vector<NamedFile>& files, const fs::pat
     const fs::path target = (home / name).lexically_normal();
     const fs::path within = target.lexically_relative(root);
     if (file.name.empty() || name.is_absolute() || within.empty() || *within.begin() == "..") {
-      return base::WrongInput(fmt::format("the name '{}' leads out of the recorded files", file.name));
+      return base::WrongInput("recording.wrong_file_name",
+                              fmt::format("the name '{}' leads out of the recorded files", file.name));
     }
     std::error_code problem;
     fs::create_directories(target.parent_path(), problem);
     if (problem)
-      return base::Failed(fmt::format("the folder cannot be made: {}", problem.message()),
+      return base::Failed("file.cannot_make_folder", fmt::format("the folder cannot be made: {}", problem.message()),
                           target.parent_path().string());
     if (auto status = base::WriteWhole(target, &file == &files.front() ? launch_file : file.bytes); !status)
       return status.error();

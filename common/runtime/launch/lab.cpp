@@ -48,7 +48,7 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   (void)root.Choice("rodeira", {"lab/1"});
   lab.run_ = root.Text("run", "lab");
   if (lab.run_.empty())
-    root.Problem("run", "'run' is empty; a name was expected by which the processes of all PCs meet");
+    root.Problem("run", "config.too_few", "'run' is empty; a name was expected by which the processes of all PCs meet");
   lab.domain_ = static_cast<std::uint32_t>(root.Integer("domain", 0, 232));
 
   const config::Map hosts = root.Child("hosts");
@@ -56,12 +56,13 @@ base::Result<Lab> Lab::Read(const config::File& file) {
     const LabHost host{name, ReadAddress(hosts.Child(name), "address")};
     const auto same = std::ranges::find(lab.hosts_, host.address, &LabHost::address);
     if (same != lab.hosts_.end()) {
-      hosts.Problem(name, fmt::format("hosts '{}' and '{}' have the same address {}", same->name, name, host.address));
+      hosts.Problem(name, "config.duplicate_name",
+                    fmt::format("hosts '{}' and '{}' have the same address {}", same->name, name, host.address));
     }
     lab.hosts_.push_back(host);
   }
   if (lab.hosts_.empty() && root.Has("hosts")) {
-    root.Problem("hosts", "'hosts' is empty; at least one PC with its address was expected");
+    root.Problem("hosts", "config.too_few", "'hosts' is empty; at least one PC with its address was expected");
   }
   if (!lab.hosts_.empty()) lab.clock_ = root.Choice("clock", lab.Names(), lab.hosts_.front().name);
 
@@ -73,7 +74,7 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   const config::Map discovery = root.OptionalChild("discovery");
   lab.discovery_ = ReadDiscoveryKind(discovery);
   if (lab.discovery_ != DiscoveryKind::kMulticast && lab.transport_ != Transport::kUdp) {
-    root.Problem("discovery",
+    root.Problem("discovery", "config.conflicting_keys",
                  fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(lab.discovery_)));
   }
   if (lab.discovery_ == DiscoveryKind::kPeers) lab.participants_ = ReadParticipants(discovery);
@@ -93,7 +94,8 @@ std::vector<std::string> Lab::Names() const {
 base::Result<LabHost> Lab::Host(const std::string& name) const {
   const auto found = std::ranges::find(hosts_, name, &LabHost::name);
   if (found == hosts_.end()) {
-    return base::WrongInput(fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())),
+    return base::WrongInput("launch.unknown_host",
+                            fmt::format("there is no host '{}'{}", name, base::DidYouMean(name, Names())),
                             path_.string());
   }
   return *found;
@@ -104,14 +106,16 @@ base::Result<LabScreen> Lab::Screen(const std::string& name) const {
   if (found != screens_.end()) return *found;
   std::vector<std::string> names;
   for (const LabScreen& screen : screens_) names.push_back(screen.name);
-  return base::WrongInput(fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)),
+  return base::WrongInput("launch.unknown_screen",
+                          fmt::format("there is no screen '{}'{}", name, base::DidYouMean(name, names)),
                           path_.string());
 }
 
 base::Status Lab::Fits(const Launch& launch) const {
   for (const LaunchNode& node : launch.nodes()) {
     if (node.host.empty() || Host(node.host).ok()) continue;
-    return base::WrongInput(fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host,
+    return base::WrongInput("launch.unknown_host",
+                            fmt::format("node '{}' belongs to host '{}', which is not in {}{}", node.name, node.host,
                                         path_.string(), base::DidYouMean(node.host, Names())),
                             node.config->Place("host"));
   }

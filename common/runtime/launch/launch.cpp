@@ -31,8 +31,9 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
   const double steps = seconds * 1e9 / static_cast<double>(base_step_ns);
   const double whole = std::round(steps);
   if (std::fabs(steps - whole) > 1e-6 * std::max(1.0, steps) || whole < 1.0) {
-    map.Problem(key, fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds,
-                                 static_cast<double>(base_step_ns) * 1e-9));
+    map.Problem(key, "config.out_of_range",
+                fmt::format("'{}' is {} s; a multiple of the base step ({} s) was expected", key, seconds,
+                            static_cast<double>(base_step_ns) * 1e-9));
     return 1;
   }
   return static_cast<Step>(whole);
@@ -146,14 +147,15 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSp
     } else {
       out.sources = Publishers(specs, port.topic, spec.name);
       if (!port.many && out.sources.size() > 1) {
-        map.Problem("kind",
+        map.Problem("kind", "launch.not_wired",
                     fmt::format("node '{}' takes '{}' from one node, but {} publish it ({}); say which under 'inputs'",
                                 spec.name, key, out.sources.size(), fmt::join(out.sources, ", ")));
       }
     }
     if (!port.many && out.sources.size() > 1) out.sources.resize(1);
     if (port.required && out.sources.empty()) {
-      map.Problem("kind", fmt::format("node '{}' needs '{}', but no node publishes it", spec.name, key));
+      map.Problem("kind", "launch.not_wired",
+                  fmt::format("node '{}' needs '{}', but no node publishes it", spec.name, key));
     }
     if (!out.sources.empty()) spec.inputs.push_back(std::move(out));
   }
@@ -203,7 +205,8 @@ base::Status Launch::CheckRecovery() const {
     return {};
   for (const LaunchNode& node : nodes_) {
     if (node.recovery != lockstep::Policy::kRestart || node.kind->outputs.empty()) continue;
-    return base::WrongInput(fmt::format("node '{}' can be started again only where there is a recorder, but there is "
+    return base::WrongInput("launch.no_recorder",
+                            fmt::format("node '{}' can be started again only where there is a recorder, but there is "
                                         "none (with --no-record: --set recovery=stop)",
                                         node.name),
                             path().string());
@@ -244,7 +247,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.transport_ = ReadTransport(root);
   launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
   if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport() != Transport::kUdp) {
-    root.Problem("discovery",
+    root.Problem("discovery", "config.conflicting_keys",
                  fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
   }
   launch.pace_ = root.Text("pace", "");
@@ -290,9 +293,10 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   }
   for (std::size_t n = 0; n < specs.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, specs, specs[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
-  if (specs.empty()) return base::WrongInput("'nodes' is empty; at least one node was expected", nodes.Place());
+  if (specs.empty())
+    return base::WrongInput("launch.no_nodes", "'nodes' is empty; at least one node was expected", nodes.Place());
   auto roster = lockstep::Roster::Create(base_step_ns, window, specs);
-  if (!roster) return base::WrongInput(roster.error().Text(), launch.path().string());
+  if (!roster) return roster.error().In(launch.path().string());
   launch.roster_ = std::make_shared<const lockstep::Roster>(std::move(roster).value());
   return launch;
 }

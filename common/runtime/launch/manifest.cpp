@@ -67,7 +67,7 @@ class Reader {
     const std::string topic = map.Text("topic");
     auto& outputs = manifest_.kind.outputs;
     if (std::ranges::find(outputs, topic) != outputs.end())
-      return map.Problem("topic", fmt::format("output '{}' is there twice", topic));
+      return map.Problem("topic", "config.duplicate_name", fmt::format("output '{}' is there twice", topic));
     outputs.push_back(topic);
     const idl::TopicInfo* own = idl::FindTopic(topic);
     if (own != nullptr && IsPort(*own)) {
@@ -89,7 +89,8 @@ class Reader {
                       topic));
     }
     const std::string type = map.Text("type");
-    if (!map.Has("idl")) return map.Problem("topic", fmt::format("key 'idl' of output '{}' is missing", topic));
+    if (!map.Has("idl"))
+      return map.Problem("topic", "config.missing_key", fmt::format("key 'idl' of output '{}' is missing", topic));
     const std::filesystem::path path = map.Path("idl");
     if (!type.empty() && !topic.empty()) AddTopic(map, topic, type, path);
   }
@@ -118,14 +119,16 @@ class Reader {
     port.many = map.Flag("many", false);
     port.required = map.Flag("required", true);
     for (const KindPort& other : manifest_.kind.inputs) {
-      if (other.topic == port.topic) map.Problem("topic", fmt::format("input '{}' is there twice", port.topic));
+      if (other.topic == port.topic)
+        map.Problem("topic", "config.duplicate_name", fmt::format("input '{}' is there twice", port.topic));
     }
     manifest_.kind.inputs.push_back(std::move(port));
     manifest_.input_places.push_back(map.Place("topic"));
   }
   // What is wrong inside an IDL file is said with its place, all else with the manifest's.
   void Keep(const config::Map& map, std::string_view key, const std::filesystem::path& path, const base::Error& error) {
-    if (error.context == path.string()) return map.Problem(key, path.filename().string() + ": " + error.message);
+    if (error.context == path.string())
+      return map.Problem(key, error.id, path.filename().string() + ": " + error.message);
     if (!problem_) problem_ = error;
   }
 
@@ -147,7 +150,8 @@ base::Status CheckInputs(const Manifest& manifest, const idl::TopicTable& topics
     const std::string& topic = manifest.kind.inputs[i].topic;
     const std::vector<std::string> known = PortTopics(topics);
     if (std::ranges::find(known, topic) != known.end()) continue;
-    return base::WrongInput(fmt::format("no node can publish the topic '{}'{}", topic, base::DidYouMean(topic, known)),
+    return base::WrongInput("launch.unknown_topic",
+                            fmt::format("no node can publish the topic '{}'{}", topic, base::DidYouMean(topic, known)),
                             manifest.input_places[i]);
   }
   return {};

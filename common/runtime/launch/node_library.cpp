@@ -64,6 +64,7 @@ base::Status CheckCompiledTypes(const NodeContext& context) {
     const auto difference = decode::FirstTypeDifference(*compiled, *added->parsed);
     if (!difference) continue;
     return base::WrongInput(
+        "launch.other_types",
         fmt::format("its type of topic {} differs from the manifest's: {}; build it again, from the "
                     "IDL that its manifest names",
                     topic, *difference));
@@ -88,6 +89,7 @@ base::Result<std::unique_ptr<lockstep::Node>> AsManifestSays(const NodeKind& kin
   if (!kind.can_save) return std::unique_ptr<lockstep::Node>(std::make_unique<NodeWithoutState>(std::move(node)));
   if (kind.name != kExternalKind || node->can_save()) return node;
   return base::WrongInput(
+      "launch.node_without_state",
       "its manifest lets it save its state, but the program cannot; can_save: false was expected in the manifest");
 }
 

@@ -12,7 +12,8 @@ base::Result<double> ParsePace(const std::string& text, std::string_view place) 
   double pace = 0.0;
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), pace);
   if (problem != std::errc{} || end != text.data() + text.size() || !std::isfinite(pace) || pace <= 0.0) {
-    return base::WrongInput("'" + text + "' was found; max, real or a positive number was expected", place);
+    return base::WrongInput("launch.wrong_pace",
+                            "'" + text + "' was found; max, real or a positive number was expected", place);
   }
   return pace;
 }

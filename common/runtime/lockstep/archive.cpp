@@ -7,11 +7,11 @@ namespace rodeira::lockstep {
 
 base::Status Archive::Add(const Sample& sample) {
   if (sample.source() >= samples_.size())
-    return base::WrongInput(fmt::format("a sample of source number {} was found", sample.source()));
+    return base::WrongInput("run.wrong_sample", fmt::format("a sample of source number {} was found", sample.source()));
   if (sample.valid() < roster_.OldestNeeded(sample.source(), resume_)) return {};
   const auto [kept, is_new] = samples_[sample.source()].try_emplace(sample.valid(), sample);
   if (is_new || SameContent(kept->second, sample)) return {};
-  return base::WrongInput(fmt::format("two different samples are valid at step {}", sample.valid()),
+  return base::WrongInput("run.two_samples", fmt::format("two different samples are valid at step {}", sample.valid()),
                           roster_.SourceName(sample.source()));
 }
 

@@ -26,12 +26,13 @@ Clock::Clock(const Roster& roster, std::optional<Step> last_step, Step first_ste
 base::Status Clock::Take(const Report& report) {
   if (report.node >= roster_.nodes().size()) {
     return base::WrongInput(
+        "run.wrong_report",
         fmt::format("a report of node number {} was refused: the roster has {} nodes", report.node, reports_.size()));
   }
   const RosterNode& spec = roster_.node(report.node);
   Report& known = reports_[report.node];
   const auto refuse = [&](std::string why) {
-    return base::WrongInput(std::move(why), fmt::format("report of node '{}'", spec.name));
+    return base::WrongInput("run.wrong_report", std::move(why), fmt::format("report of node '{}'", spec.name));
   };
   if (report.incarnation < incarnation(report.node)) {
     return refuse(

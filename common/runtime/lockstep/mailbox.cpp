@@ -61,6 +61,7 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   const std::string_view topic = roster_.source(sample.source()).topic;
   if (step < 0 || step % track->period != 0) {
     return base::WrongInput(
+        "run.wrong_sample",
         fmt::format("a sample valid at {} was found, multiples of the period {} were expected", step, track->period),
         fmt::format("{} (topic {})", roster_.SourceName(sample.source()), topic));
   }
@@ -68,13 +69,14 @@ base::Status Mailbox::Keep(Sample sample, bool& wake) {
   const auto at = static_cast<std::size_t>((step - track->first) / track->period);
   if (const Step farthest = Farthest(*track); step > farthest) {
     return base::WrongInput(
+        "run.wrong_sample",
         fmt::format("a sample valid at {} was found; steps from {} to {} were expected", step, track->first, farthest),
         roster_.SourceName(sample.source()));
   }
   if (at >= track->slots.size()) track->slots.resize(at + 1);
   if (track->slots[at]) {
     if (SameContent(*track->slots[at], sample)) return {};
-    return base::WrongInput(fmt::format("two different samples are valid at step {}", step),
+    return base::WrongInput("run.two_samples", fmt::format("two different samples are valid at step {}", step),
                             roster_.SourceName(sample.source()));
   }
   track->slots[at] = std::move(sample);

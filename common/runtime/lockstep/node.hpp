@@ -59,7 +59,8 @@ class Node {
   /// @param published the newest sample of each output of the original node
   /// @return wrong input unless the node supports this
   virtual base::Status InitialiseFrom([[maybe_unused]] const std::vector<Sample>& published) {
-    return base::WrongInput("its state does not fit what was changed, and it cannot begin from what was published");
+    return base::WrongInput("run.cannot_restore",
+                            "its state does not fit what was changed, and it cannot begin from what was published");
   }
 
   /// Ends a sink: delivers the samples after its last activation. Close files here.

@@ -42,6 +42,7 @@ base::Status Recovery::CheckState(const Report& report) const {
   if (!report.cannot_save || policies_[report.node] != Policy::kRestart) return {};
   const std::string& name = roster_.node(report.node).name;
   return base::WrongInput(
+      "launch.node_without_state",
       fmt::format("node '{}' cannot save its state, so it cannot be started again; 'stop' or 'pause' was expected as "
                   "nodes.{}.recovery",
                   name, name));

@@ -13,18 +13,21 @@ namespace {
 
 base::Status CheckNode(const NodeSpec& spec) {
   const std::string where = fmt::format("node '{}'", spec.name);
-  if (spec.name.empty()) return base::WrongInput("a node has no name");
+  if (spec.name.empty()) return base::WrongInput("launch.node_without_name", "a node has no name");
   if (spec.role == Role::kService && (!spec.outputs.empty() || !spec.inputs.empty())) {
-    return base::WrongInput("a service has neither inputs nor outputs in the lockstep", where);
+    return base::WrongInput("launch.wrong_wire", "a service has neither inputs nor outputs in the lockstep", where);
   }
   if (spec.period < 1)
-    return base::WrongInput(fmt::format("period {} was found, at least 1 step was expected", spec.period), where);
+    return base::WrongInput("launch.wrong_period",
+                            fmt::format("period {} was found, at least 1 step was expected", spec.period), where);
   if (spec.delay != 0 && (spec.delay < spec.period || spec.delay % spec.period != 0)) {
     return base::WrongInput(
+        "launch.wrong_period",
         fmt::format("delay {} was found, a multiple of the period {} was expected", spec.delay, spec.period), where);
   }
   if (spec.snapshot_every < 0 || spec.snapshot_every % spec.period != 0) {
-    return base::WrongInput(fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected",
+    return base::WrongInput("launch.wrong_period",
+                            fmt::format("snapshots each {} steps were found, a multiple of the period {} was expected",
                                         spec.snapshot_every, spec.period),
                             where);
   }
@@ -57,15 +60,18 @@ base::Digest HashOf(std::int64_t base_step_ns, Step window, const std::vector<Ro
 
 base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, const std::vector<NodeSpec>& specs) {
   if (base_step_ns < 1)
-    return base::WrongInput(fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
-  if (window < 1) return base::WrongInput(fmt::format("window {} was found, at least 1 step was expected", window));
+    return base::WrongInput("launch.wrong_period",
+                            fmt::format("base step {} ns was found, at least 1 ns was expected", base_step_ns));
+  if (window < 1)
+    return base::WrongInput("launch.wrong_period",
+                            fmt::format("window {} was found, at least 1 step was expected", window));
   Roster roster;
   roster.base_step_ns_ = base_step_ns;
   roster.window_ = window;
   for (const NodeSpec& spec : specs) {
     if (auto status = CheckNode(spec); !status) return status.error();
     if (roster.Find(spec.name) != roster.nodes_.size())
-      return base::WrongInput(fmt::format("two nodes are named '{}'", spec.name));
+      return base::WrongInput("launch.duplicate_node", fmt::format("two nodes are named '{}'", spec.name));
     RosterNode node{spec.name,        spec.kind, spec.role, spec.period, spec.delay == 0 ? spec.period : spec.delay,
                     spec.deadline_ms, {},        {},        {}};
     for (const std::string& topic : spec.outputs) {
@@ -87,11 +93,13 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
         const NodeIndex from = roster.Find(name);
         const std::string where = fmt::format("node '{}', input '{}'", specs[n].name, spec.topic);
         if (from == roster.nodes_.size()) {
-          return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
+          return base::WrongInput("launch.unknown_node",
+                                  fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
                                   where);
         }
         if (spec.topic == kSnapshotTopic && roster.nodes_[from].snapshots) {
-          if (!roster.nodes_[n].is_sink()) return base::WrongInput("only a sink can be wired to snapshots", where);
+          if (!roster.nodes_[n].is_sink())
+            return base::WrongInput("launch.wrong_wire", "only a sink can be wired to snapshots", where);
           port.sources.push_back(*roster.nodes_[from].snapshots);
           continue;
         }
@@ -99,17 +107,18 @@ base::Result<Roster> Roster::Create(std::int64_t base_step_ns, Step window, cons
         const auto found = std::find_if(outputs.begin(), outputs.end(),
                                         [&](SourceIndex s) { return roster.sources_[s].topic == spec.topic; });
         if (found == outputs.end())
-          return base::WrongInput(fmt::format("node '{}' does not publish this topic", name), where);
+          return base::WrongInput("launch.not_published", fmt::format("node '{}' does not publish this topic", name),
+                                  where);
         port.sources.push_back(*found);
       }
       std::sort(port.sources.begin(), port.sources.end());
       for (const Port& other : roster.nodes_[n].inputs) {
         if (other.topic == port.topic)
-          return base::WrongInput("the topic is wired to two inputs",
+          return base::WrongInput("launch.wrong_wire", "the topic is wired to two inputs",
                                   fmt::format("node '{}', input '{}'", specs[n].name, spec.topic));
       }
       if (std::adjacent_find(port.sources.begin(), port.sources.end()) != port.sources.end()) {
-        return base::WrongInput("a source is wired twice",
+        return base::WrongInput("launch.wrong_wire", "a source is wired twice",
                                 fmt::format("node '{}', input '{}'", specs[n].name, spec.topic));
       }
       roster.nodes_[n].inputs.push_back(std::move(port));

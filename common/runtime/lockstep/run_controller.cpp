@@ -86,7 +86,7 @@ void RunController::GoOn(std::int64_t begin_ns, bool paused, const Wall& now) {
 
 base::Result<std::string> RunController::Do(const Command& command, const Wall& now) {
   using Kind = Command::Kind;
-  if (clock_.grant().abort) return base::Failed("the run has failed: " + clock_.grant().reason);
+  if (clock_.grant().abort) return base::Failed("run.failed", "the run has failed: " + clock_.grant().reason);
   if (command.kind == Kind::kStop && !clock_.grant().final) {
     Stop(now);
     if (clock_.grant().abort) return std::string("stopped before the first step");
@@ -95,9 +95,10 @@ base::Result<std::string> RunController::Do(const Command& command, const Wall& 
   if (!begun_) {
     std::string missing;
     for (const std::string& name : clock_.Missing(Phase::kReady)) missing += (missing.empty() ? "" : ", ") + name;
-    return base::Failed("the run has not begun; it waits for " + (missing.empty() ? "nobody" : missing));
+    return base::Failed("run.not_running",
+                        "the run has not begun; it waits for " + (missing.empty() ? "nobody" : missing));
   }
-  if (clock_.grant().final) return base::Failed("the run is ending at " + Here());
+  if (clock_.grant().final) return base::Failed("run.not_running", "the run is ending at " + Here());
   switch (command.kind) {
     case Kind::kPause:
       Pause(now);
@@ -129,7 +130,7 @@ base::Result<std::string> RunController::Do(const Command& command, const Wall& 
       return fmt::format("marked {} as remark {}", Here(), number);
     }
     case Kind::kRestart:
-      return base::Failed("nothing can be started again here");
+      return base::Failed("run.cannot_restart", "nothing can be started again here");
     case Kind::kState:
     case Kind::kStop:
       break;

@@ -62,7 +62,8 @@ Runner::Outcome Runner::Begin() {
     const Snapshot& snapshot = *settings_.resume;
     if (snapshot.has_state) {
       if (!node_.can_save())
-        return Fail(base::WrongInput("its snapshot holds a state, which this node can neither save nor take"));
+        return Fail(base::WrongInput("run.cannot_restore",
+                                     "its snapshot holds a state, which this node can neither save nor take"));
       base::StateReader in(snapshot.state);
       node_.Restore(in);
       if (auto status = in.Finish(); !status) return Fail(status.error());

@@ -48,6 +48,7 @@ base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
   const std::string magic = in.GetString();
   if (magic != kWithState && magic != kWithoutState) {
     return base::WrongInput(
+        "snapshot.other_version",
         fmt::format("this is no snapshot of this version: '{}' was expected at its start", kWithState));
   }
   Snapshot snapshot;
@@ -62,14 +63,14 @@ base::Result<Snapshot> Snapshot::Decode(std::span<const std::byte> bytes) {
   for (std::uint32_t i = 0; i < count && in.ok(); ++i) {
     const auto payload = in.GetRaw(in.Get<std::uint64_t>());
     if (!in.ok() || !SampleHeader::HasHeader(payload))
-      return base::WrongInput("the snapshot holds a sample without a header");
+      return base::WrongInput("snapshot.damaged", "the snapshot holds a sample without a header");
     snapshot.samples.push_back(
         {SampleHeader::Read(payload), std::make_shared<const base::Bytes>(payload.begin(), payload.end())});
   }
-  if (!in.ok()) return base::WrongInput("the snapshot is cut short");
+  if (!in.ok()) return base::WrongInput("snapshot.damaged", "the snapshot is cut short");
   if (!snapshot.has_state && !snapshot.state.empty())
-    return base::WrongInput("the snapshot says that it has no state, and holds one");
-  if (in.remaining() != 0) return base::WrongInput("bytes are left over behind the snapshot");
+    return base::WrongInput("snapshot.damaged", "the snapshot says that it has no state, and holds one");
+  if (in.remaining() != 0) return base::WrongInput("snapshot.damaged", "bytes are left over behind the snapshot");
   return snapshot;
 }
 
@@ -92,10 +93,10 @@ Sample Snapshot::ToSample(const Roster& roster, std::uint32_t incarnation) const
 
 base::Result<Snapshot> Snapshot::FromSample(std::span<const std::byte> payload) {
   if (payload.size() < kContentAt + sizeof(std::uint32_t))
-    return base::WrongInput(fmt::format("a snapshot of {} bytes was found", payload.size()));
+    return base::WrongInput("snapshot.damaged", fmt::format("a snapshot of {} bytes was found", payload.size()));
   base::ByteReader in(payload.subspan(kContentAt));
   const auto size = in.Get<std::uint32_t>();
-  if (size > in.remaining()) return base::WrongInput("the snapshot is cut short");
+  if (size > in.remaining()) return base::WrongInput("snapshot.damaged", "the snapshot is cut short");
   return Decode(in.GetRaw(size));
 }
 

@@ -60,7 +60,8 @@ void Comparison::Take(const Sample& computed) {
   if (problem_) return;
   if (!recorded && run_.roster().source(source).topic == lockstep::kSnapshotTopic) {
     problem_ =
-        base::WrongInput(fmt::format("the snapshot of node '{}' at step {} is missing",
+        base::WrongInput("recording.snapshot_missing",
+                         fmt::format("the snapshot of node '{}' at step {} is missing",
                                      run_.roster().node(run_.roster().source(source).node).name, computed.valid()),
                          run_.path().string());
     return;

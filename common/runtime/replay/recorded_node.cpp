@@ -37,6 +37,7 @@ class RecordedNode final : public lockstep::Node {
       }
       if (last_[i].empty()) {
         return base::WrongInput(
+            "recording.sample_missing",
             fmt::format("no sample of {} valid at step {} is recorded", run_.roster().SourceName(outputs_[i]), valid),
             run_.path().string());
       }

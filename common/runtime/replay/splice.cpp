@@ -176,7 +176,8 @@ class Splicer {
 
   bool stopped() const { return stop_requested_ && stop_requested_(); }
   base::Error Stopped() const {
-    return base::Failed("interrupted while the branch was written; there is no new file", parent_.path().string());
+    return base::Failed("run.interrupted", "interrupted while the branch was written; there is no new file",
+                        parent_.path().string());
   }
 
   struct Logged {
@@ -205,7 +206,7 @@ base::Status Splice(const RecordedRun& parent, const fs::path& branch, lockstep:
                     const fs::path& target, const std::function<bool()>& stop_requested) {
   std::error_code problem;
   if (fs::exists(target, problem))
-    return base::WrongInput("the file exists; a recording is never overwritten", target.string());
+    return base::WrongInput("file.exists", "the file exists; a recording is never overwritten", target.string());
   const auto reader = record::McapReader::Open(branch);
   if (!reader) return reader.error();
   const fs::path part = target.string() + fmt::format(".{}.part", ::getpid());
