@@ -199,7 +199,8 @@ BicycleEquilibrium::Unknowns BicycleEquilibrium::Balance(Unknowns unknowns) {
 base::Status BicycleEquilibrium::Find(ground::Ground& ground) {
   const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+    return base::WrongInput("vehicle.cannot_be_placed",
+                            fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
                                         initial_.x_m, initial_.y_m, initial_.heading_rad, what));
   };
   if (!start.inside) return refusal("that is outside of the world");
@@ -262,7 +263,8 @@ void BicycleEquilibrium::SetInMotion() {
 }
 
 base::Status BicycleModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
-  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial))
+    return base::WrongInput("vehicle.wrong_start", "the car's initial place or speed is not a finite number");
   BicycleModel trial(settings());
   BicycleEquilibrium equilibrium(trial, initial);
   if (const base::Status status = equilibrium.Find(ground); !status) return status;

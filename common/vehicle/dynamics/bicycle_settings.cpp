@@ -22,7 +22,7 @@ BodySettings ReadBody(const Map& map) {
   body.air_density_kgpm3 = map.Number("air_density_kgpm3", {0.0, 3.0}, body.air_density_kgpm3);
   if (body.cg_to_front_axle_m >= body.wheelbase_m) {
     map.Problem(
-        "cg_to_front_axle_m",
+        "cg_to_front_axle_m", "config.wrong_order",
         "'body.cg_to_front_axle_m' is not below 'body.wheelbase_m'; the centre of gravity must lie between the axles");
   }
   return body;

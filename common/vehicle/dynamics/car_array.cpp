@@ -10,7 +10,8 @@ namespace rodeira::dynamics {
 
 base::Result<std::uint32_t> CarArray::AddKind(const BicycleSettings& settings) {
   if (settings.wheel.enveloping != Enveloping::kNone)
-    return base::WrongInput("'wheel.enveloping' is 'ring'; 'none' was expected of a car among many");
+    return base::WrongInput("vehicle.wrong_model",
+                            "'wheel.enveloping' is 'ring'; 'none' was expected of a car among many");
   chassis_.push_back(std::make_shared<const BicycleChassis>(settings));
   return static_cast<std::uint32_t>(chassis_.size() - 1);
 }

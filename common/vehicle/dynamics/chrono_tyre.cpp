@@ -90,7 +90,8 @@ TmeasySettings Guessed(double payload_N, double pressure_share, bool truck) {
 std::array<double, 2> NumberPair(const Map& map, const char* key, Range range) {
   const std::vector<double> values = map.Numbers(key, range);
   if (values.size() == 2) return {values[0], values[1]};
-  if (map.Has(key)) map.Problem(key, fmt::format("'{}' holds {} numbers; 2 were expected", key, values.size()));
+  if (map.Has(key))
+    map.Problem(key, "config.wrong_length", fmt::format("'{}' holds {} numbers; 2 were expected", key, values.size()));
   return {range.low, range.low};
 }
 
@@ -110,9 +111,9 @@ TmeasyDirection ReadDirection(const Map& map, char axis) {
   d.slip_slide = NumberPair(map, slide.c_str(), kSlip);
   for (std::size_t i = 0; i < 2; ++i) {
     if (d.slip_slide[i] <= d.slip_max[i] && map.Has(slide))
-      map.Problem(slide, fmt::format("'{}' is not above the slip at the maximum", slide));
+      map.Problem(slide, "config.wrong_order", fmt::format("'{}' is not above the slip at the maximum", slide));
     if (d.sliding_N[i] > d.maximum_N[i])
-      map.Problem(key("Sliding F? Load [N]"), "the sliding force is above the maximum");
+      map.Problem(key("Sliding F? Load [N]"), "config.wrong_order", "the sliding force is above the maximum");
   }
   return d;
 }
@@ -177,6 +178,7 @@ base::Result<ChronoTyre> ReadChronoTyre(std::string_view text, std::string_view 
   const std::string kind = root.Text("Template", "");
   if (kind != "FialaTire" && kind != "TMeasyTire") {
     return base::WrongInput(
+        "tyre.wrong_model",
         fmt::format("\"Template\" is '{}'; 'FialaTire' or 'TMeasyTire' was expected, or a tyre property file (.tir)",
                     kind),
         root.Has("Template") ? root.Place("Template") : std::string(name));

@@ -39,7 +39,8 @@ base::Result<double> FialaUnitFactor(const TirText& tir, std::string_view name, 
     for (const FialaUnit& unit : units) {
       if (UpperCase(entry.value) == unit.name) return unit.in_si;
     }
-    return base::WrongInput(fmt::format("{} is given in '{}'; '{}' was expected", quantity, entry.value, units[0].name),
+    return base::WrongInput("tyre.wrong_value",
+                            fmt::format("{} is given in '{}'; '{}' was expected", quantity, entry.value, units[0].name),
                             FialaPlace(name, entry));
   }
   return 1.0;
@@ -50,15 +51,17 @@ base::Result<double> FialaNumber(const TirText& tir, std::string_view name, std:
   for (const TirEntry& entry : tir.entries) {
     if (entry.key != key) continue;
     if (found != nullptr)
-      return base::WrongInput(fmt::format("'{}' stands in line {} already", key, found->line), FialaPlace(name, entry));
+      return base::WrongInput("tyre.duplicate_key", fmt::format("'{}' stands in line {} already", key, found->line),
+                              FialaPlace(name, entry));
     found = &entry;
   }
   if (found == nullptr || found->value.empty())
-    return base::WrongInput(fmt::format("a Fiala tyre with '{}' was expected, and there is none", key),
+    return base::WrongInput("tyre.missing_key",
+                            fmt::format("a Fiala tyre with '{}' was expected, and there is none", key),
                             std::string(name));
   const auto number = TirNumber(found->value);
   if (!number)
-    return base::WrongInput(fmt::format("'{}' is '{}'; a number was expected", key, found->value),
+    return base::WrongInput("tyre.wrong_value", fmt::format("'{}' is '{}'; a number was expected", key, found->value),
                             FialaPlace(name, *found));
   return *number;
 }
@@ -92,7 +95,7 @@ base::Result<FialaSettings> ReadFialaTir(const TirText& tir, std::string_view na
   const std::string problem = FialaProblem(fiala);
   if (problem.empty()) return fiala;
   const TirEntry* entry = tir.Find(problem.substr(1, problem.find('\'', 1) - 1));
-  return base::WrongInput(problem, entry == nullptr ? std::string(name) : FialaPlace(name, *entry));
+  return base::WrongInput("tyre.wrong_line", problem, entry == nullptr ? std::string(name) : FialaPlace(name, *entry));
 }
 
 }  // namespace rodeira::dynamics

@@ -39,7 +39,8 @@ base::Status FmuModel::Build() {
   for (const auto& [name, value] : settings_.parameters) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const auto place = settings_.parameter_places.find(name);
-    return base::WrongInput(fmt::format("the FMU has no parameter '{}'{}", name, base::DidYouMean(name, known)),
+    return base::WrongInput("fmu.unknown_parameter",
+                            fmt::format("the FMU has no parameter '{}'{}", name, base::DidYouMean(name, known)),
                             place == settings_.parameter_places.end() ? settings_.fmu.string() : place->second);
   }
   return {};
@@ -73,7 +74,8 @@ base::Result<double> FmuModel::Get(const FmuVariables::Variable& variable, doubl
   const auto value = instance_->Get(*variable.own);
   if (!value) return value.error();
   if (!std::isfinite(value.value())) {
-    return base::Failed(fmt::format("its output '{}' is not a finite number at {:.6g} s", variable.own->name, time_s_),
+    return base::Failed("fmu.wrong_output",
+                        fmt::format("its output '{}' is not a finite number at {:.6g} s", variable.own->name, time_s_),
                         settings_.fmu.string());
   }
   return variable.ToOurs(value.value());
@@ -135,7 +137,8 @@ base::Status FmuModel::SetControls(const Controls& c) {
 base::Status FmuModel::SetStart(const InitialCondition& initial) {
   const FmuVariables& v = variables_;
   const auto refusal = [&](const char* name) {
-    return base::WrongInput(fmt::format("the FMU cannot begin in motion: it has no variable '{}'", name),
+    return base::WrongInput("fmu.missing_variable",
+                            fmt::format("the FMU cannot begin in motion: it has no variable '{}'", name),
                             settings_.fmu.string());
   };
   if (!v.start_speed && initial.speed_mps != 0.0) return refusal("start_speed_mps");
@@ -159,7 +162,8 @@ base::Status FmuModel::SetStart(const InitialCondition& initial) {
 
 base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& ground) {
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+    return base::WrongInput("vehicle.cannot_be_placed",
+                            fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
                                         initial.x_m, initial.y_m, initial.heading_rad, what));
   };
   const ground::GroundPoint start = ground.At(initial.x_m, initial.y_m, initial.z_hint_m);
@@ -187,7 +191,8 @@ base::Status FmuModel::Begin(const InitialCondition& initial, ground::Ground& gr
 }
 
 base::Status FmuModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
-  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial))
+    return base::WrongInput("vehicle.wrong_start", "the car's initial place or speed is not a finite number");
   // Where the new start fails, the car goes on as it was; an FMU that allows one instance cannot.
   auto instance = unit_->description().only_once ? nullptr : std::move(instance_);
   const auto wheels = wheels_;
@@ -227,6 +232,7 @@ base::Status FmuModel::Publish(const Controls& controls, double dt_s) {
     const Eigen::Quaterniond q(w, x, y, z);
     if (status && !(q.norm() > 0.5 && q.norm() < 2.0))
       status = base::Failed(
+          "fmu.wrong_output",
           fmt::format("its quaternion has the length {:.6g} at {:.6g} s; 1 was expected", q.norm(), time_s_),
           settings_.fmu.string());
     s.q_WB = q.norm() > 0.0 ? q.normalized() : s.q_WB;

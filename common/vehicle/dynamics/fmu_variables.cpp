@@ -27,7 +27,7 @@ struct Finder {
   Way missing_way = Way::kInput;
 
   void Complain(const std::string& what, const std::string& place) {
-    if (status) status = base::WrongInput(what, place);
+    if (status) status = base::WrongInput("fmu.wrong_variable", what, place);
   }
   // The line of `names` that maps it, or that of the FMU's description.
   std::string PlaceFor(const std::string& name, const fmi::Variable* variable) const {

@@ -35,7 +35,8 @@ Eigen::Isometry3d Standing(const InitialCondition& initial, double z_m, const Ei
 }
 
 base::Error Refusal(const InitialCondition& initial, const std::string& what) {
-  return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+  return base::WrongInput("vehicle.cannot_be_placed",
+                          fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
                                       initial.x_m, initial.y_m, initial.heading_rad, what));
 }
 
@@ -283,7 +284,8 @@ void MultibodyModel::Turn(const Eigen::Vector3d& about_W, const Eigen::Vector3d&
 }
 
 base::Status MultibodyModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
-  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial))
+    return base::WrongInput("vehicle.wrong_start", "the car's initial place or speed is not a finite number");
   base::StateWriter before;
   Save(before);
   system_->set_time_s(0.0);

@@ -24,18 +24,18 @@ MultibodyWheelSettings ReadHungWheel(const Map& map, const DrawingReader& reader
   if (const auto carrier = reader.Body(map, "carrier")) {
     wheel.carrier = *carrier;
     if (!reader.drawing().bodies[static_cast<std::size_t>(*carrier)].turns)
-      map.Problem("carrier", "a wheel's carrier must be a general body");
+      map.Problem("carrier", "config.wrong_kind", "a wheel's carrier must be a general body");
   }
   if (const auto centre = reader.Entity(map, "centre", map.Text("centre"), false)) {
     wheel.centre = *centre;
     if (entities[static_cast<std::size_t>(*centre)].kind != EntityKind::kPoint)
-      map.Problem("centre", "a wheel's centre must be a point");
+      map.Problem("centre", "config.wrong_kind", "a wheel's centre must be a point");
   }
   if (const auto axle = reader.Entity(map, "axle", map.Text("axle"), false)) {
     wheel.axle = *axle;
     const auto& entity = entities[static_cast<std::size_t>(*axle)];
     if (entity.kind != EntityKind::kVector || entity.at.y() < 0.8)
-      map.Problem("axle", "a wheel's axle must be a vector that is drawn to the left");
+      map.Problem("axle", "config.wrong_kind", "a wheel's axle must be a vector that is drawn to the left");
   }
   if (const auto suspension = reader.LoadNamed(map, "suspension")) wheel.suspension = *suspension;
   if (const auto travel = reader.Entity(map, "travel", map.Text("travel"), true)) wheel.travel = *travel;
@@ -92,7 +92,7 @@ MultibodySettings ReadMultibody(const Map& root) {
   if (const auto chassis = reader.Body(body, "chassis")) {
     car.chassis = *chassis;
     if (!reader.drawing().bodies[static_cast<std::size_t>(*chassis)].turns)
-      body.Problem("chassis", "the chassis must be a general body");
+      body.Problem("chassis", "config.wrong_kind", "the chassis must be a general body");
   }
   car.drag_area_m2 = body.Number("drag_area_m2", Range::NotNegative());
   car.air_density_kgpm3 = body.Number("air_density_kgpm3", {0.0, 3.0}, car.air_density_kgpm3);

@@ -207,7 +207,8 @@ OdeEquilibrium::Vector OdeEquilibrium::Balance(Vector unknowns) {
 base::Status OdeEquilibrium::Find(ground::Ground& ground) {
   const ground::GroundPoint start = ground.At(initial_.x_m, initial_.y_m, initial_.z_hint_m);
   const auto refusal = [&](const std::string& what) {
-    return base::WrongInput(fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
+    return base::WrongInput("vehicle.cannot_be_placed",
+                            fmt::format("the car cannot be placed at x {:.3f} m, y {:.3f} m, heading {:.4f} rad: {}",
                                         initial_.x_m, initial_.y_m, initial_.heading_rad, what));
   };
   if (!start.inside) return refusal("that is outside of the world");
@@ -274,7 +275,8 @@ void OdeEquilibrium::SetInMotion() {
 }
 
 base::Status OdeModel::Initialise(const InitialCondition& initial, ground::Ground& ground) {
-  if (!IsFinite(initial)) return base::WrongInput("the car's initial place or speed is not a finite number");
+  if (!IsFinite(initial))
+    return base::WrongInput("vehicle.wrong_start", "the car's initial place or speed is not a finite number");
   const Motion before = now_;
   const Contacts contacts_before = contacts_;
   now_ = Motion();

@@ -66,14 +66,15 @@ OdeSettings ReadOde(const config::Map& root) {
     return ode;
   const OdeChassis chassis = ChassisOf(ode);
   if (!(chassis.mass_kg > 0.0)) {
-    map.Problem("wheel_mass_kg", "four times 'ode.wheel_mass_kg' is not below 'body.mass_kg', the whole car's");
+    map.Problem("wheel_mass_kg", "config.wrong_order",
+                "four times 'ode.wheel_mass_kg' is not below 'body.mass_kg', the whole car's");
   } else if (!(chassis.inertia_kgm2.minCoeff() > 0.0)) {
     map.Problem(
         "wheel_mass_kg",
         "the wheels alone have more inertia about the car's centre of gravity than 'body' says of the whole car");
   }
   if (ode.clearance_m >= ode.car.dimensions.height_m)
-    map.Problem("clearance_m", "'ode.clearance_m' is not below 'dimensions.height_m'");
+    map.Problem("clearance_m", "config.wrong_order", "'ode.clearance_m' is not below 'dimensions.height_m'");
   return ode;
 }
 

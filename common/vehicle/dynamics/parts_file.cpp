@@ -34,18 +34,20 @@ std::vector<TorqueSample> ReadCurve(const Map& map) {
     const std::vector<double> pair = items.Numbers(i);
     if (pair.size() != 2) {
       items.Problem(
-          i, fmt::format("item {} of 'engine.{}' holds {} numbers; [rpm, Nm] was expected", i + 1, kKey, pair.size()));
+          i, "config.wrong_length",
+          fmt::format("item {} of 'engine.{}' holds {} numbers; [rpm, Nm] was expected", i + 1, kKey, pair.size()));
       continue;
     }
     if (pair[0] <= 0.0 || (!samples.empty() && pair[0] * kRadpsPerRpm <= samples.back().speed_radps)) {
-      items.Problem(
-          i, fmt::format("item {} of 'engine.{}' is at {} rpm; speeds over 0 in ascending order were expected", i + 1,
-                         kKey, pair[0]));
+      items.Problem(i, "config.wrong_order",
+                    fmt::format("item {} of 'engine.{}' is at {} rpm; speeds over 0 in ascending order were expected",
+                                i + 1, kKey, pair[0]));
       continue;
     }
     samples.push_back({pair[0] * kRadpsPerRpm, pair[1]});
   }
-  if (items.size() == 1) items.Problem(0, fmt::format("'engine.{}' has one sample; at least two were expected", kKey));
+  if (items.size() == 1)
+    items.Problem(0, "config.too_few", fmt::format("'engine.{}' has one sample; at least two were expected", kKey));
   return samples;
 }
 
@@ -67,9 +69,9 @@ EngineSettings ReadEngine(const Map& map) {
   if (map.Has("throttle_fuel_lph"))
     engine.throttle_fuel_kgps = map.Number("throttle_fuel_lph", {0.1, 1000.0}) * kPetrol_kgpl / 3600.0;
   if (engine.stall_radps >= engine.idle_radps)
-    map.Problem("stall_rpm", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
+    map.Problem("stall_rpm", "config.wrong_order", "'engine.stall_rpm' is not below 'engine.idle_rpm'");
   if (engine.resume_radps >= engine.cut_radps)
-    map.Problem("resume_rpm", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
+    map.Problem("resume_rpm", "config.wrong_order", "'engine.resume_rpm' is not below 'engine.cut_rpm'");
   return engine;
 }
 
@@ -78,10 +80,11 @@ ClutchSettings ReadClutch(const Map& map) { return {map.Number("capacity_Nm", Ra
 GearboxSettings ReadGearbox(const Map& map) {
   GearboxSettings gearbox;
   gearbox.forward = map.Numbers("forward", Range::Positive());
-  if (gearbox.forward.empty()) map.Problem("forward", "'gearbox.forward' is empty; at least one ratio was expected");
+  if (gearbox.forward.empty())
+    map.Problem("forward", "config.too_few", "'gearbox.forward' is empty; at least one ratio was expected");
   for (std::size_t i = 1; i < gearbox.forward.size(); ++i) {
     if (gearbox.forward[i] >= gearbox.forward[i - 1])
-      map.Problem("forward", "'gearbox.forward' does not fall from gear to gear");
+      map.Problem("forward", "config.wrong_order", "'gearbox.forward' does not fall from gear to gear");
   }
   gearbox.reverse = map.Number("reverse", Range::Positive());
   gearbox.final_drive = map.Number("final_drive", Range::Positive());
@@ -114,7 +117,7 @@ AutomaticSettings ReadAutomatic(const Map& map) {
   automatic.bite_radps = Rpm(map, "bite_rpm", automatic.bite_radps);
   automatic.closed_radps = Rpm(map, "closed_rpm", automatic.closed_radps);
   if (automatic.closed_radps <= automatic.bite_radps)
-    map.Problem("closed_rpm", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
+    map.Problem("closed_rpm", "config.wrong_order", "'automatic.closed_rpm' is not above 'automatic.bite_rpm'");
   return automatic;
 }
 
@@ -125,9 +128,9 @@ SlipCurve ReadSlipCurve(const Map& map) {
   curve.asymptote_slip = map.Number("asymptote_slip", {0.005, 10.0});
   curve.asymptote_value = map.Number("asymptote_value", {0.0, 5.0});
   if (curve.asymptote_slip <= curve.extremum_slip)
-    map.Problem("asymptote_slip", "'asymptote_slip' is not above 'extremum_slip'");
+    map.Problem("asymptote_slip", "config.wrong_order", "'asymptote_slip' is not above 'extremum_slip'");
   if (curve.asymptote_value > curve.extremum_value)
-    map.Problem("asymptote_value", "'asymptote_value' is above 'extremum_value', the largest");
+    map.Problem("asymptote_value", "config.wrong_order", "'asymptote_value' is above 'extremum_value', the largest");
   return curve;
 }
 
@@ -186,7 +189,8 @@ TyreSettings ReadTyre(const Map& map) {
   if (map.Has("slip_curve")) {
     for (const char* other : {"tir", "magic_formula"}) {
       if (map.Has(other))
-        map.Problem(other, fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
+        map.Problem(other, "config.conflicting_keys",
+                    fmt::format("'{}' stands beside 'slip_curve'; one of the two was expected", other));
     }
     const Map curve = map.Child("slip_curve");
     tyre.slip_curve =
@@ -197,14 +201,15 @@ TyreSettings ReadTyre(const Map& map) {
   if (const auto tir = map.OptionalPath("tir")) {
     auto file = LoadTyreFile(*tir);
     if (!file) {
-      map.Problem("tir", file.error().Text());
+      map.Problem("tir", file.error().id, file.error().Text());
     } else {
       tyre.formula = file.value().formula;
       tyre.model = file.value().model;
       if (tyre.model && map.Has("magic_formula"))
-        map.Problem("magic_formula", fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
-                                                 "such coefficients",
-                                                 file.value().kind));
+        map.Problem("magic_formula", "config.conflicting_keys",
+                    fmt::format("'magic_formula' stands beside a tyre of the model {}, which has no "
+                                "such coefficients",
+                                file.value().kind));
     }
   }
   const Map coefficients = map.Has("tir") ? map.OptionalChild("magic_formula") : map.Child("magic_formula");

@@ -79,11 +79,12 @@ class TirReader {
 
  private:
   base::Error Wrong(std::string_view message, int line) const {
-    return base::WrongInput(message, fmt::format("{}:{}", name_, line));
+    return base::WrongInput("tyre.wrong_line", message, fmt::format("{}:{}", name_, line));
   }
   base::Error Wrong(std::string_view message, const std::string& key) const {
     const auto found = lines_.find(key);
-    return found == lines_.end() ? base::WrongInput(message, std::string(name_)) : Wrong(message, found->second);
+    return found == lines_.end() ? base::WrongInput("tyre.wrong_line", message, std::string(name_))
+                                 : Wrong(message, found->second);
   }
   void Warn(std::string sentence) { file_.warnings.push_back(std::move(sentence)); }
 
@@ -185,7 +186,8 @@ class TirReader {
   base::Status CheckNeeded() {
     for (const std::string_view key : kNeeded) {
       if (lines_.contains(key)) continue;
-      return base::WrongInput(fmt::format("a tyre property file with '{}' was expected, and there is none", key),
+      return base::WrongInput("tyre.missing_key",
+                              fmt::format("a tyre property file with '{}' was expected, and there is none", key),
                               std::string(name_));
     }
     for (const char* key : {"FNOMIN", "FZMAX", "NOMPRES", "INFLPRES", "LFZO"}) {
@@ -310,6 +312,7 @@ base::Result<MagicFormulaSettings> ParseTir(std::string_view text, std::string_v
   if (!version) return version.error();
   if (version.value().model != TirVersion::Model::kMagicFormula)
     return base::WrongInput(
+        "tyre.wrong_model",
         fmt::format("this is a tyre of the model {}; one of the Magic Formula was expected", version.value().name),
         std::string(name));
   auto file = ReadTir(tir, version.value(), name);

@@ -38,7 +38,8 @@ struct VersionReader {
   std::string_view name;
 
   base::Error Wrong(std::string_view message, const TirEntry* entry) const {
-    return base::WrongInput(message, entry == nullptr ? std::string(name) : fmt::format("{}:{}", name, entry->line));
+    return base::WrongInput("tyre.wrong_model", message,
+                            entry == nullptr ? std::string(name) : fmt::format("{}:{}", name, entry->line));
   }
 
   base::Error Motorcycle(const TirEntry* entry) const {

@@ -39,7 +39,8 @@ class LibraryModel final : public VehicleModel {
   base::Status Initialise(const InitialCondition& initial, ground::Ground& ground) override {
     if (auto status = model_->Initialise(initial, ground); !status) return status;
     if (!IsSound(model_->state()))
-      return base::Failed("the model's state after Initialise is not finite, or its attitude has no unit length");
+      return base::Failed("vehicle.not_finite",
+                          "the model's state after Initialise is not finite, or its attitude has no unit length");
     shown_ = model_->state();
     return {};
   }
@@ -64,9 +65,9 @@ class LibraryModel final : public VehicleModel {
   std::vector<double> Outputs() const override { return model_->Outputs(); }
   base::Status problem() const override {
     if (auto status = model_->problem(); !status || !is_lost_) return status;
-    return base::Failed(fmt::format(
-        "the model's state is not finite, or its attitude has no unit length; its last position was ({:.3f}, {:.3f}) m",
-        shown_.p_WB_W.x(), shown_.p_WB_W.y()));
+    return base::Failed("vehicle.not_finite", fmt::format("the model's state is not finite, or its attitude has no "
+                                                          "unit length; its last position was ({:.3f}, {:.3f}) m",
+                                                          shown_.p_WB_W.x(), shown_.p_WB_W.y()));
   }
 
  private:
@@ -85,7 +86,7 @@ std::unique_ptr<VehicleModel> MakeFromLibrary(const config::Map& root) {
   const auto entry =
       base::LoadSharedObject(path, {kVehicleBuildEntry, kVehicleMakeEntry, "RODEIRA_VEHICLE"}, VehicleBuild());
   if (!entry) {
-    root.Problem("library", entry.error().Text());
+    root.Problem("library", entry.error().id, entry.error().Text());
     return nullptr;
   }
   std::unique_ptr<VehicleModel> model;
@@ -108,6 +109,7 @@ base::Status CheckLibraryModel(VehicleModel& model, const config::Map& root) {
   for (const auto& [name, value] : positive) {
     if (std::isfinite(value) && value > 0.0) continue;
     return base::WrongInput(
+        "vehicle.wrong_dimension",
         fmt::format("the model's dimension {} is {}; a finite number over 0 was expected", name, value),
         root.Place("library"));
   }

@@ -88,6 +88,7 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
   if (!wanted.empty() && wanted != own) {
     if (named)
       return base::WrongInput(
+          "vehicle.wrong_model",
           fmt::format("'model' is '{}'; '{}' was expected of a file that another one names for it", own, wanted),
           root.Place("model"));
     const auto other = models.find(std::string(wanted));
@@ -95,6 +96,7 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
       std::vector<std::string> known{own};
       for (const auto& [name, where] : models) known.push_back(name);
       return base::WrongInput(
+          "vehicle.wrong_model",
           fmt::format("this car is wanted as model '{}'{}", wanted, base::DidYouMean(wanted, known)), path.string());
     }
     return Load(other->second, wanted, true, more);
@@ -112,7 +114,7 @@ base::Result<std::unique_ptr<VehicleModel>> Load(const std::filesystem::path& pa
     }
     return model;
   }
-  return base::WrongInput("'model' is not known", root.Place("model"));
+  return base::WrongInput("vehicle.wrong_model", "'model' is not known", root.Place("model"));
 }
 
 }  // namespace

@@ -48,9 +48,11 @@ bool Write(unzFile archive, const fs::path& to, std::uint64_t& left) {
 
 base::Result<base::TemporaryFolder> Unpack(const fs::path& path) {
   std::error_code problem;
-  if (!fs::is_regular_file(path, problem)) return base::WrongInput("there is no such file", path.string());
+  if (!fs::is_regular_file(path, problem))
+    return base::WrongInput("file.not_found", "there is no such file", path.string());
   const std::unique_ptr<void, Closer> archive(unzOpen64(path.c_str()));
-  if (archive == nullptr) return base::WrongInput("this is no FMU: a ZIP archive was expected", path.string());
+  if (archive == nullptr)
+    return base::WrongInput("fmu.not_an_fmu", "this is no FMU: a ZIP archive was expected", path.string());
   auto folder = base::TemporaryFolder::Make("fmu");
   if (!folder) return folder;
   std::uint64_t left = kMaxBytes;
@@ -60,16 +62,18 @@ base::Result<base::TemporaryFolder> Unpack(const fs::path& path) {
     unz_file_info64 info{};
     if (more != UNZ_OK ||
         unzGetCurrentFileInfo64(archive.get(), &info, text.data(), text.size() - 1, nullptr, 0, nullptr, 0) != UNZ_OK) {
-      return base::WrongInput("the archive is damaged", path.string());
+      return base::WrongInput("fmu.damaged_archive", "the archive is damaged", path.string());
     }
     const fs::path name(text.data());
     if (LeadsOut(name))
-      return base::WrongInput(fmt::format("the archive's '{}' leads out of its folder", text.data()), path.string());
+      return base::WrongInput("fmu.damaged_archive",
+                              fmt::format("the archive's '{}' leads out of its folder", text.data()), path.string());
     const fs::path to = folder.value().path() / name;
     fs::create_directories(name.has_filename() ? to.parent_path() : to, problem);
     if (!name.has_filename()) continue;
     if (!Write(archive.get(), to, left))
-      return base::WrongInput(fmt::format("the archive's '{}' is damaged or too large", text.data()), path.string());
+      return base::WrongInput("fmu.damaged_archive",
+                              fmt::format("the archive's '{}' is damaged or too large", text.data()), path.string());
   }
   return folder;
 }

@@ -72,26 +72,32 @@ const Variable* Description::Find(std::string_view name) const {
 base::Result<Description> ReadDescription(const std::filesystem::path& file, const std::string& context) {
   std::error_code problem;
   if (!std::filesystem::is_regular_file(file, problem))
-    return base::WrongInput("this is no FMU: it holds no modelDescription.xml", context);
+    return base::WrongInput("fmu.not_an_fmu", "this is no FMU: it holds no modelDescription.xml", context);
   const auto text = base::ReadText(file);
-  if (!text) return base::WrongInput(text.error().message, context);
+  if (!text) return text.error().WithContext(context);
   const Lines lines(text.value());
   pugi::xml_document document;
   const pugi::xml_parse_result parsed = document.load_buffer(text.value().data(), text.value().size());
   if (!parsed)
-    return base::WrongInput(fmt::format("its modelDescription.xml is no XML: {}", parsed.description()), context);
+    return base::WrongInput("fmu.wrong_description",
+                            fmt::format("its modelDescription.xml is no XML: {}", parsed.description()), context);
   const pugi::xml_node root = document.child("fmiModelDescription");
-  if (!root) return base::WrongInput("its modelDescription.xml holds no 'fmiModelDescription'", context);
+  if (!root)
+    return base::WrongInput("fmu.wrong_description", "its modelDescription.xml holds no 'fmiModelDescription'",
+                            context);
   const auto place = [&](const pugi::xml_node& node) { return PlaceOf(context, lines.Of(node)); };
   const std::string version = root.attribute("fmiVersion").as_string();
   if (version != "2.0")
-    return base::WrongInput(fmt::format("this FMU is of FMI version '{}'; 2.0 was expected", version), place(root));
+    return base::WrongInput("fmu.other_version",
+                            fmt::format("this FMU is of FMI version '{}'; 2.0 was expected", version), place(root));
   const pugi::xml_node simulation = root.child("CoSimulation");
   if (!simulation)
     return base::WrongInput(
+        "fmu.not_co_simulation",
         "this FMU offers no co-simulation (only model exchange); an FMU for co-simulation was expected", place(root));
   if (simulation.attribute("needsExecutionTool").as_bool()) {
     return base::WrongInput(
+        "fmu.not_co_simulation",
         "this FMU needs its maker's program to run ('needsExecutionTool'); one that runs by itself was expected",
         place(simulation));
   }
@@ -103,6 +109,7 @@ base::Result<Description> ReadDescription(const std::filesystem::path& file, con
   description.can_serialize_state = simulation.attribute("canSerializeFMUstate").as_bool();
   if (description.identifier.empty() || description.identifier.find('/') != std::string::npos) {
     return base::WrongInput(
+        "fmu.wrong_description",
         fmt::format("its 'modelIdentifier' is '{}'; the name of its binary was expected", description.identifier),
         context);
   }

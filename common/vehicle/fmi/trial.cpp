@@ -27,7 +27,8 @@ base::Status RunTheTrial(const std::filesystem::path& folder, const std::string&
   run.is_own_group = true;  // Ctrl-C is for the run
   const auto ended = base::RunProgram(run);
   if (!ended) {
-    return base::Failed(fmt::format("{}: the program tries an FMU before it is used", ended.error().Text()), file);
+    return base::Failed(ended.error().id,
+                        fmt::format("{}: the program tries an FMU before it is used", ended.error().Text()), file);
   }
   const base::ProgramEnd& end_of_trial = ended.value();
   const std::string& said = end_of_trial.text;
@@ -35,7 +36,8 @@ base::Status RunTheTrial(const std::filesystem::path& folder, const std::string&
     const auto end = said.find_last_of('\n');
     const auto begin = end == std::string::npos || end == 0 ? std::string::npos : said.find_last_of('\n', end - 1);
     const std::string call = end == std::string::npos ? "its start" : said.substr(begin + 1, end - begin - 1);
-    return base::WrongInput(fmt::format("its binary {} in {}, when it is tried in a process of its own", what, call),
+    return base::WrongInput("fmu.trial_failed",
+                            fmt::format("its binary {} in {}, when it is tried in a process of its own", what, call),
                             file);
   };
   if (end_of_trial.too_long) return refusal(fmt::format("does not come back within {} s", limits.wall.count()));
@@ -46,7 +48,7 @@ base::Status RunTheTrial(const std::filesystem::path& folder, const std::string&
   if (!said.ends_with("\n\n")) return refusal(fmt::format("ends the process (status {})", end_of_trial.status));
   if (const auto at = said.find(kRefused); at != std::string::npos) {
     const std::size_t begin = at + kRefused.size();
-    return base::WrongInput(said.substr(begin, said.find('\n', begin) - begin), file);
+    return base::WrongInput("fmu.trial_failed", said.substr(begin, said.find('\n', begin) - begin), file);
   }
   return {};
 }

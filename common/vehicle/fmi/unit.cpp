@@ -137,13 +137,15 @@ class LoadedInstance final : public Instance {
       return {};
     }
     return base::WrongInput(
+        "fmu.no_instance",
         fmt::format("fmi2Instantiate: the FMU makes no instance of itself{}", said_.empty() ? "" : ": " + said_),
         file_);
   }
 
   base::Status Reset() override {
     if (f_.reset == nullptr)
-      return base::WrongInput("its binary has no function 'fmi2Reset', and the FMU allows one instance a process",
+      return base::WrongInput("fmu.one_instance_a_process",
+                              "its binary has no function 'fmi2Reset', and the FMU allows one instance a process",
                               file_);
     runs_ = false;
     return Call("fmi2Reset", [&] { return f_.reset(component_); });
@@ -226,7 +228,8 @@ class LoadedInstance final : public Instance {
   template <class Function>
   base::Status Call(const char* name, const Function& function, const Variable* variable = nullptr) {
     if (dead_)
-      return base::Failed(fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
+      return base::Failed("fmu.call_failed",
+                          fmt::format("{}: not called, the FMU has ended with a fatal error before", name), file_);
     const fmi2Status status = [&] {
       const base::ForeignCall call(name, owner_.c_str());
       return function();
@@ -234,7 +237,8 @@ class LoadedInstance final : public Instance {
     if (status == fmi2OK || status == fmi2Warning) return {};
     failed_ = true;
     dead_ = status == fmi2Fatal;
-    return base::Failed(fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'",
+    return base::Failed("fmu.call_failed",
+                        fmt::format("{}{}: {}{}", name, variable == nullptr ? "" : " of '" + variable->name + "'",
                                     Word(status), said_.empty() ? "" : ": " + said_),
                         file_);
   }
@@ -282,6 +286,7 @@ class LoadedUnit final : public Unit {
     std::error_code problem;
     if (!fs::is_regular_file(binary, problem)) {
       return base::WrongInput(
+          "fmu.no_binary",
           fmt::format("this FMU has no binaries/linux64/{}.so; the platforms that it has binaries for: {}",
                       description_.identifier, Platforms(path_)),
           file_);
@@ -291,7 +296,7 @@ class LoadedUnit final : public Unit {
       library_ = ::dlopen(binary.c_str(), RTLD_NOW | RTLD_LOCAL);
     }
     if (library_ == nullptr)
-      return base::WrongInput(fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
+      return base::WrongInput("fmu.wrong_binary", fmt::format("its binary cannot be loaded: {}", ::dlerror()), file_);
     Find("fmi2Instantiate", f_.instantiate);
     Find("fmi2FreeInstance", f_.free_instance);
     Find("fmi2SetupExperiment", f_.setup_experiment);
@@ -315,7 +320,8 @@ class LoadedUnit final : public Unit {
       Find("fmi2DeSerializeFMUstate", f_.deserialize);
     }
     if (missing_.empty()) return {};
-    return base::WrongInput(fmt::format("its binary has no function '{}', which FMI 2.0 asks of it", missing_), file_);
+    return base::WrongInput("fmu.wrong_binary",
+                            fmt::format("its binary has no function '{}', which FMI 2.0 asks of it", missing_), file_);
   }
 
   const Description& description() const override { return description_; }
@@ -327,6 +333,7 @@ class LoadedUnit final : public Unit {
   base::Result<std::unique_ptr<Instance>> Instantiate(const std::string& name) override {
     if (description_.only_once && OnlyOnce::IsTaken(description_.guid)) {
       return base::WrongInput(
+          "fmu.one_instance_a_process",
           "a process may have one instance of this FMU only (canBeInstantiatedOnlyOncePerProcess), and this process "
           "has "
           "one already; vehicles with it were expected in processes of their own, without --in-process",

@@ -9,7 +9,8 @@ namespace {
 DeviceAccess g_access;
 
 base::Error NoAccess() {
-  return base::WrongInput("this program reads no wheels or game pads: it was built without SDL2 (RODEIRA_VIEW=OFF)");
+  return base::WrongInput("device.not_built_in",
+                          "this program reads no wheels or game pads: it was built without SDL2 (RODEIRA_VIEW=OFF)");
 }
 
 }  // namespace

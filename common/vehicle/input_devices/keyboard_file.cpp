@@ -41,12 +41,13 @@ void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
       const std::string name = names.Text(i);
       const auto key = KeyOf(name);
       if (!key) {
-        names.Problem(i, fmt::format("there is no key '{}'{}", name, base::DidYouMean(name, KeyNames())));
+        names.Problem(i, "config.unknown_name",
+                      fmt::format("there is no key '{}'{}", name, base::DidYouMean(name, KeyNames())));
       } else if (const WindowKey* window = FindWindowKey(*key)) {
         names.Problem(i, fmt::format("'{}' cannot drive: the window keeps it ({})", name, window->does));
       } else if (const auto other = taken.find(*key); other != taken.end()) {
         constexpr const char* kTaken = "'{}' is taken for '{}' already; a key that does nothing else was expected";
-        names.Problem(i, fmt::format(kTaken, name, other->second));
+        names.Problem(i, "config.duplicate_name", fmt::format(kTaken, name, other->second));
       } else {
         taken[*key] = kActionKeys[action];
         settings.keys[action].push_back(*key);
@@ -56,7 +57,8 @@ void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
   for (const Action needed : {Action::kSteerLeft, Action::kSteerRight, Action::kThrottle, Action::kBrake}) {
     const auto at = static_cast<std::size_t>(needed);
     if (!settings.keys[at].empty() || map.Has(kActionKeys[at])) continue;
-    map.Problem(kActionKeys[at], fmt::format("'keys.{}' is missing; a list of keys was expected", kActionKeys[at]));
+    map.Problem(kActionKeys[at], "config.missing_key",
+                fmt::format("'keys.{}' is missing; a list of keys was expected", kActionKeys[at]));
   }
 }
 

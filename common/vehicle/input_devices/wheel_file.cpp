@@ -38,7 +38,8 @@ std::size_t ReadDevice(const config::Map& map, const std::vector<DeviceUse>& dev
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) {
     if (map.Has("device"))
-      map.Problem("device", fmt::format("there is no device '{}'{}", name, base::DidYouMean(name, names)));
+      map.Problem("device", "config.unknown_name",
+                  fmt::format("there is no device '{}'{}", name, base::DidYouMean(name, names)));
     return 0;
   }
   return static_cast<std::size_t>(found - names.begin());
@@ -59,10 +60,10 @@ AxisUse ReadAxis(const config::Map& map, const std::vector<DeviceUse>& devices, 
   if (use.max <= use.min) {
     constexpr const char* kOrder =
         "'max' is {} and 'min' {}; a larger 'max' was expected ('inverted: true' turns an axis round)";
-    map.Problem("max", fmt::format(kOrder, use.max, use.min));
+    map.Problem("max", "config.wrong_order", fmt::format(kOrder, use.max, use.min));
   } else if (two_sided && (use.centre <= use.min || use.centre >= use.max)) {
     constexpr const char* kBetween = "'centre' is {}; a number between 'min' ({}) and 'max' ({}) was expected";
-    map.Problem("centre", fmt::format(kBetween, use.centre, use.min, use.max));
+    map.Problem("centre", "config.wrong_order", fmt::format(kBetween, use.centre, use.min, use.max));
   }
   return use;
 }
@@ -118,7 +119,7 @@ WheelSettings ReadWheel(const config::Map& root) {
   s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   s.devices = ReadDevices(root.Child("devices"));
   if (root.Has("devices") && s.devices.empty())
-    root.Problem("devices", "'devices' names none; at least one device with its GUID was expected");
+    root.Problem("devices", "config.too_few", "'devices' names none; at least one device with its GUID was expected");
   const config::Map steering = root.Child("steering");
   s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
   s.axes[0] = ReadAxis(steering, s.devices, true);
@@ -127,7 +128,7 @@ WheelSettings ReadWheel(const config::Map& root) {
     if (root.Has(kAxisNames[axis])) s.axes[axis] = ReadAxis(root.Child(kAxisNames[axis]), s.devices, pedals);
   }
   if (s.AxisOf(WheelAxis::kPedals) && (s.AxisOf(WheelAxis::kThrottle) || s.AxisOf(WheelAxis::kBrake))) {
-    root.Problem("pedals",
+    root.Problem("pedals", "config.conflicting_keys",
                  "'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
   }
   const config::Map buttons = root.OptionalChild("buttons");

@@ -108,7 +108,7 @@ std::vector<MassTerm> MassTerms(const Frame& frame, const Eigen::Matrix4d& j) {
 }
 
 base::Error Refuse(const BodyDrawing& body, const std::string& what) {
-  return base::WrongInput(fmt::format("body '{}' {}", body.name, what), body.place);
+  return base::WrongInput("mechanism.wrong_body", fmt::format("body '{}' {}", body.name, what), body.place);
 }
 
 base::Status CheckMass(const BodyDrawing& body, const Vector3d& line_origin, const Vector3d& line,

@@ -48,7 +48,8 @@ void DrawingReader::ReadAngles(const Map& root) {
     row.w = *to;
     const Vector3d u = Drawn(*of), v = Drawn(*from), w = Drawn(*to);
     if (std::hypot(u.dot(v), u.dot(w)) < kShort) {
-      map.Problem("of", "the direction has no part in the plane of 'from' and 'to': its angle is not defined");
+      map.Problem("of", "mechanism.no_length",
+                  "the direction has no part in the plane of 'from' and 'to': its angle is not defined");
       continue;
     }
     row.scale = 1.0 / std::hypot(u.dot(v), u.dot(w));
@@ -78,7 +79,7 @@ void DrawingReader::ReadDistances(const Map& root) {
       row.w = *along;
       const double size = Drawn(*along).norm();
       if (size < kShort) {
-        map.Problem("along", "the direction has no length");
+        map.Problem("along", "mechanism.no_length", "the direction has no length");
         continue;
       }
       row.scale = 1.0 / size;
@@ -86,7 +87,7 @@ void DrawingReader::ReadDistances(const Map& root) {
     } else {
       row.kind = RowKind::kSquare;
       if (at < kShort) {
-        map.Problem("points",
+        map.Problem("points", "mechanism.no_length",
                     "the points coincide: their distance has no derivative there; 'along' a direction it has");
         continue;
       }
@@ -145,7 +146,8 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     row.v = row.w = Sum((*points)[1], (*points)[0], -1.0);
     const double length = map.Has("length_m") ? map.Number("length_m", {kShort, 1e6}) : Drawn(row.v).norm();
     if (!(length >= kShort))
-      return map.Problem("points", "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
+      return map.Problem("points", "mechanism.no_length",
+                         "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
     row.value = length * length;
     row.scale = 0.5 / length;
     return drawing_.rows.push_back(row);
@@ -155,7 +157,7 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     const auto b = Direction(map, "b");
     if (!a || !b) return;
     const double sizes = Drawn(*a).norm() * Drawn(*b).norm();
-    if (!(sizes > kShort * kShort)) return map.Problem("a", "a direction has no length");
+    if (!(sizes > kShort * kShort)) return map.Problem("a", "mechanism.no_length", "a direction has no length");
     row.v = *a;
     row.w = *b;
     row.value = kind == "perpendicular"
@@ -170,7 +172,8 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     const auto c = Direction(map, "c");
     if (!a || !b || !c) return;
     const double sizes = Drawn(*a).norm() * Drawn(*b).norm() * Drawn(*c).norm();
-    if (!(sizes > kShort * kShort * kShort)) return map.Problem("a", "a direction has no length");
+    if (!(sizes > kShort * kShort * kShort))
+      return map.Problem("a", "mechanism.no_length", "a direction has no length");
     row.kind = RowKind::kTriple;
     row.u = *a;
     row.v = *b;

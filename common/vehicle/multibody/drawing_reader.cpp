@@ -44,21 +44,24 @@ DrawingReader::DrawingReader(const Map& root) {
   ReadConstraints(root);
   ReadForces(root);
   if (drawing_.entities.size() > kMaxEntities) {
-    root.Problem("points", fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
-                                       drawing_.entities.size(), kMaxEntities));
+    root.Problem("points", "config.wrong_length",
+                 fmt::format("the mechanism has {} points, vectors and coordinates; at most {} were expected",
+                             drawing_.entities.size(), kMaxEntities));
   }
 }
 
 Vector3d DrawingReader::ThreeNumbers(const Map& map, std::string_view key, double most) {
   const std::vector<double> numbers = map.Numbers(key, {-most, most});
   if (numbers.size() == 3) return {numbers[0], numbers[1], numbers[2]};
-  if (map.Has(key)) map.Problem(key, fmt::format("'{}' holds {} numbers; three were expected", key, numbers.size()));
+  if (map.Has(key))
+    map.Problem(key, "config.wrong_length",
+                fmt::format("'{}' holds {} numbers; three were expected", key, numbers.size()));
   return Vector3d::Zero();
 }
 
 bool DrawingReader::IsNew(const Map& map, const std::string& name) {
   if (!entities_.contains(name) && !markers_.contains(name)) return true;
-  map.Problem(name, fmt::format("the name '{}' stands for something else already", name));
+  map.Problem(name, "config.duplicate_name", fmt::format("the name '{}' stands for something else already", name));
   return false;
 }
 
@@ -102,7 +105,7 @@ void DrawingReader::ReadVectors(const Map& root) {
     const bool fixed = map.Flag("fixed", false);
     const double size = direction.norm();
     if (map.Has("direction") && !(size > 1e-9)) {
-      map.Problem("direction", "'direction' has no length; a direction was expected");
+      map.Problem("direction", "mechanism.no_length", "'direction' has no length; a direction was expected");
       continue;
     }
     if (!IsNew(vectors, name) || !(size > 0.0)) continue;
@@ -135,14 +138,15 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
       const std::string entity = list.Text(i);
       const auto found = entities_.find(entity);
       if (found == entities_.end() || drawing_.entities[static_cast<std::size_t>(found->second)].kind != wanted) {
-        list.Problem(i, fmt::format("'{}' is no {}{}", entity, wanted == EntityKind::kPoint ? "point" : "vector",
-                                    base::DidYouMean(entity, NamesOf(wanted == EntityKind::kPoint,
-                                                                     wanted == EntityKind::kVector, false))));
+        list.Problem(i, "config.unknown_name",
+                     fmt::format("'{}' is no {}{}", entity, wanted == EntityKind::kPoint ? "point" : "vector",
+                                 base::DidYouMean(entity, NamesOf(wanted == EntityKind::kPoint,
+                                                                  wanted == EntityKind::kVector, false))));
         good = false;
         continue;
       }
       if (std::find(into.begin(), into.end(), found->second) != into.end()) {
-        list.Problem(i, fmt::format("'{}' stands twice", entity));
+        list.Problem(i, "config.duplicate_name", fmt::format("'{}' stands twice", entity));
         good = false;
         continue;
       }
@@ -152,7 +156,7 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   read("points", EntityKind::kPoint, body.points);
   read("vectors", EntityKind::kVector, body.vectors);
   if (good && body.points.empty()) {
-    bodies.Problem(name, fmt::format("body '{}' has no point; at least one was expected", name));
+    bodies.Problem(name, "config.too_few", fmt::format("body '{}' has no point; at least one was expected", name));
     good = false;
   }
   body.mass_kg = map.Number("mass_kg", {0.0, 1e9});
@@ -161,8 +165,9 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   for (const int point : body.points) centre += at(point) / static_cast<double>(body.points.size());
   const bool line = body.kind == BodyKind::kRod || body.kind == BodyKind::kParticle;
   if (line && body.points.size() > (body.kind == BodyKind::kRod ? 2u : 1u)) {
-    map.Problem("points", fmt::format("a {} has {} points; {} expected", kind, body.points.size(),
-                                      body.kind == BodyKind::kRod ? "two were" : "one was"));
+    map.Problem("points", "config.wrong_length",
+                fmt::format("a {} has {} points; {} expected", kind, body.points.size(),
+                            body.kind == BodyKind::kRod ? "two were" : "one was"));
     good = false;
   }
   body.centre_m = line && !map.Has("centre_m") ? centre : ThreeNumbers(map, "centre_m", kMaxLength_m);
@@ -179,7 +184,7 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
     const std::vector<double> i = map.Numbers("inertia_kgm2", {-1e12, 1e12});
     if (map.Has("inertia_kgm2") && i.size() != 6 && i.size() != 3) {
       map.Problem(
-          "inertia_kgm2",
+          "inertia_kgm2", "config.wrong_length",
           fmt::format(
               "'inertia_kgm2' holds {} numbers; three (xx, yy, zz) or six (xx, yy, zz, xy, xz, yz) were expected",
               i.size()));
@@ -190,7 +195,7 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   }
   if (!good) return;
   auto parts = MakeBody(body, at_, names_);
-  if (!parts) return bodies.Problem(name, parts.error().message);
+  if (!parts) return bodies.Problem(name, parts.error().id, parts.error().message);
   drawing_.body_names.push_back(name);
   drawing_.bodies.push_back(std::move(parts).value());
 }
@@ -225,8 +230,9 @@ std::optional<int> DrawingReader::Entity(const Map& map, std::string_view key, c
   const auto found = entities_.find(name);
   if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].is_scalar() == scalar)
     return found->second;
-  map.Problem(key, fmt::format("'{}' is no {}{}", name, scalar ? "angle or distance" : "point or vector",
-                               base::DidYouMean(name, NamesOf(!scalar, !scalar, scalar))));
+  map.Problem(key, "config.unknown_name",
+              fmt::format("'{}' is no {}{}", name, scalar ? "angle or distance" : "point or vector",
+                          base::DidYouMean(name, NamesOf(!scalar, !scalar, scalar))));
   return std::nullopt;
 }
 
@@ -236,7 +242,8 @@ std::optional<Form> DrawingReader::Point(const Map& map, std::string_view key, c
   const auto found = entities_.find(name);
   if (found != entities_.end() && drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kPoint)
     return Single(found->second);
-  map.Problem(key, fmt::format("'{}' is no point{}", name, base::DidYouMean(name, NamesOf(true, false, false))));
+  map.Problem(key, "config.unknown_name",
+              fmt::format("'{}' is no point{}", name, base::DidYouMean(name, NamesOf(true, false, false))));
   return std::nullopt;
 }
 
@@ -246,7 +253,8 @@ std::optional<int> DrawingReader::Body(const Map& map, std::string_view key) con
     if (drawing_.body_names[i] == name) return static_cast<int>(i);
   }
   if (map.Has(key))
-    map.Problem(key, fmt::format("'{}' is no body{}", name, base::DidYouMean(name, drawing_.body_names)));
+    map.Problem(key, "config.unknown_name",
+                fmt::format("'{}' is no body{}", name, base::DidYouMean(name, drawing_.body_names)));
   return std::nullopt;
 }
 
@@ -257,14 +265,16 @@ std::optional<int> DrawingReader::LoadNamed(const Map& map, std::string_view key
     names.push_back(drawing_.loads[i].name);
     if (names.back() == name) return static_cast<int>(i);
   }
-  if (map.Has(key)) map.Problem(key, fmt::format("'{}' is no force{}", name, base::DidYouMean(name, names)));
+  if (map.Has(key))
+    map.Problem(key, "config.unknown_name", fmt::format("'{}' is no force{}", name, base::DidYouMean(name, names)));
   return std::nullopt;
 }
 
 std::optional<std::array<Form, 2>> DrawingReader::TwoPoints(const Map& map, std::string_view key) const {
   const List list = map.Items(key);
   if (list.size() != 2) {
-    if (map.Has(key)) map.Problem(key, fmt::format("'{}' names {} points; two were expected", key, list.size()));
+    if (map.Has(key))
+      map.Problem(key, "config.wrong_length", fmt::format("'{}' names {} points; two were expected", key, list.size()));
     return std::nullopt;
   }
   const auto first = Point(map, key, list.Text(0));
@@ -281,12 +291,14 @@ std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view ke
     if (found != entities_.end() &&
         drawing_.entities[static_cast<std::size_t>(found->second)].kind == EntityKind::kVector)
       return Single(found->second);
-    map.Problem(key, fmt::format("'{}' is no vector{}", name, base::DidYouMean(name, NamesOf(false, true, false))));
+    map.Problem(key, "config.unknown_name",
+                fmt::format("'{}' is no vector{}", name, base::DidYouMean(name, NamesOf(false, true, false))));
     return std::nullopt;
   }
   if (list.size() != 2) {
     if (map.Has(key))
-      map.Problem(key, fmt::format("'{}' has {} names; [VECTOR] or [POINT, POINT] was expected", key, list.size()));
+      map.Problem(key, "config.wrong_length",
+                  fmt::format("'{}' has {} names; [VECTOR] or [POINT, POINT] was expected", key, list.size()));
     return std::nullopt;
   }
   const auto points = TwoPoints(map, key);

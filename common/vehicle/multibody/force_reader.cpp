@@ -18,25 +18,27 @@ constexpr double kStiffest = 1e12;
 
 Curve ReadCurve(const Map& map, std::string_view curve_key, std::string_view slope_key) {
   if (map.Has(curve_key) && map.Has(slope_key))
-    map.Problem(curve_key, fmt::format("'{}' and '{}' say the same; one of them was expected", curve_key, slope_key));
+    map.Problem(curve_key, "config.conflicting_keys",
+                fmt::format("'{}' and '{}' say the same; one of them was expected", curve_key, slope_key));
   const double slope = map.Number(slope_key, {0.0, kStiffest}, 0.0);
   const List list = map.OptionalItems(curve_key);
   std::vector<Curve::Sample> samples;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::vector<double> pair = list.Numbers(i);
     if (pair.size() != 2) {
-      list.Problem(i,
+      list.Problem(i, "config.wrong_length",
                    fmt::format("item {} of '{}' holds {} numbers; two were expected", i + 1, curve_key, pair.size()));
     } else if (!samples.empty() && !(pair[0] > samples.back().x)) {
-      list.Problem(i,
+      list.Problem(i, "config.wrong_order",
                    fmt::format("item {} of '{}' is at {}; ascending numbers were expected", i + 1, curve_key, pair[0]));
     } else if (!(std::fabs(pair[0]) < kStiffest && std::fabs(pair[1]) < kStiffest)) {
-      list.Problem(i, fmt::format("item {} of '{}' is no reasonable number", i + 1, curve_key));
+      list.Problem(i, "config.out_of_range", fmt::format("item {} of '{}' is no reasonable number", i + 1, curve_key));
     } else {
       samples.push_back({pair[0], pair[1]});
     }
   }
-  if (samples.size() == 1) list.Problem(0, fmt::format("'{}' has one sample; at least two were expected", curve_key));
+  if (samples.size() == 1)
+    list.Problem(0, "config.too_few", fmt::format("'{}' has one sample; at least two were expected", curve_key));
   if (samples.size() >= 2) return Curve(samples);
   return slope > 0.0 ? Curve::Linear(slope) : Curve();
 }
@@ -65,7 +67,8 @@ SpringLaw ReadSpringLaw(const Map& map, const Keys& keys, double drawn) {
       law.low = stops[0];
       law.high = stops[1];
     } else {
-      map.Problem(keys.stops, fmt::format("'{}' expects two numbers, the lower one first", keys.stops));
+      map.Problem(keys.stops, "config.wrong_length",
+                  fmt::format("'{}' expects two numbers, the lower one first", keys.stops));
     }
     law.stop_stiffness = map.Number(keys.stop_stiffness, {0.0, kStiffest});
     law.stop_damping = map.Number(keys.stop_damping, {0.0, kStiffest}, 0.0);
@@ -123,7 +126,7 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
     const Law law = ReadLaw(map, "force_N");
     if (!point) return nullptr;
     if (!(direction.norm() > 1e-9)) {
-      if (map.Has("direction")) map.Problem("direction", "'direction' has no length");
+      if (map.Has("direction")) map.Problem("direction", "mechanism.no_length", "'direction' has no length");
       return nullptr;
     }
     return std::make_shared<GivenForce>(*point, direction.normalized(), law);
@@ -134,11 +137,11 @@ std::shared_ptr<Load> DrawingReader::ReadForce(const Map& map, const std::string
     const Law law = ReadLaw(map, "torque_Nm");
     if (!body) return nullptr;
     if (!drawing_.bodies[static_cast<std::size_t>(*body)].turns) {
-      map.Problem("body", "a torque can act on a general or planar body only");
+      map.Problem("body", "config.wrong_kind", "a torque can act on a general or planar body only");
       return nullptr;
     }
     if (!(axis.norm() > 1e-9)) {
-      if (map.Has("axis")) map.Problem("axis", "'axis' has no length");
+      if (map.Has("axis")) map.Problem("axis", "mechanism.no_length", "'axis' has no length");
       return nullptr;
     }
     return std::make_shared<GivenTorque>(drawing_.bodies[static_cast<std::size_t>(*body)].frame, axis.normalized(),
@@ -158,7 +161,8 @@ std::shared_ptr<Load> DrawingReader::ReadAntiRollBar(const Map& map) {
   const List list = map.Items("coordinates");
   if (list.size() != 2) {
     if (map.Has("coordinates"))
-      map.Problem("coordinates", fmt::format("'coordinates' names {}; two were expected", list.size()));
+      map.Problem("coordinates", "config.wrong_length",
+                  fmt::format("'coordinates' names {}; two were expected", list.size()));
     return nullptr;
   }
   const auto a = Entity(map, "coordinates", list.Text(0), true);
@@ -189,7 +193,7 @@ std::shared_ptr<Load> DrawingReader::ReadBushing(const Map& map) {
     map.Problem("stiffness_Npm", "a bushing's stiffness or damping is negative");
   const auto turns = [this](int body) { return drawing_.bodies[static_cast<std::size_t>(body)].turns; };
   if (first && !turns(*first)) {
-    map.Problem("first", "a bushing's first body must be a general or planar one");
+    map.Problem("first", "config.wrong_kind", "a bushing's first body must be a general or planar one");
     return nullptr;
   }
   if (map.Has("point")) {
@@ -204,7 +208,7 @@ std::shared_ptr<Load> DrawingReader::ReadBushing(const Map& map) {
   settings.turn_Nmsprad = map.Number("damping_Nmsprad", {0.0, kStiffest}, 0.0);
   if (!first || !second) return nullptr;
   if (!turns(*second)) {
-    map.Problem("second", "a bushing joins general or planar bodies, or one with a 'point'");
+    map.Problem("second", "config.wrong_kind", "a bushing joins general or planar bodies, or one with a 'point'");
     return nullptr;
   }
   return std::make_shared<Bushing>(drawing_.bodies[static_cast<std::size_t>(*first)].frame,

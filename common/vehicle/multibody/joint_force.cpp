@@ -24,6 +24,7 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   const std::string& name = drawing.body_names[static_cast<std::size_t>(body)];
   if (std::find(parts.entities.begin(), parts.entities.end(), point) == parts.entities.end()) {
     return base::WrongInput(
+        "mechanism.wrong_body",
         fmt::format("'{}' is no point of body '{}'", drawing.entities[static_cast<std::size_t>(point)].name, name));
   }
   const std::vector<double> all_free(system.q().size(), 1.0);  // a fixed point too is pulled at
@@ -37,8 +38,11 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   const auto unknown = [](const auto& each) { return each.second < 0; };
   if (std::any_of(force.rows_.begin(), force.rows_.end(), unknown) ||
       std::any_of(force.ties_.begin(), force.ties_.end(), unknown)) {
-    return base::WrongInput(fmt::format(
-        "body '{}' is kept rigid by another body that has its points too: their forces cannot be told apart", name));
+    return base::WrongInput(
+        "mechanism.forces_not_separable",
+        fmt::format(
+            "body '{}' is kept rigid by another body that has its points too: their forces cannot be told apart",
+            name));
   }
   return force;
 }

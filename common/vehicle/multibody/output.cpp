@@ -62,9 +62,10 @@ class OutputReader {
       if (!FindIndex(name, what, output)) return;
     } else if (what.size() != 1 || !FindOne(name, what[0], output)) {
       if (what.size() != 1)
-        outputs_.Problem(name, fmt::format("'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, "
-                                           "force NAME, joint BODY P.x or angle P Q was expected",
-                                           outputs_.Text(name)));
+        outputs_.Problem(name, "config.unknown_name",
+                         fmt::format("'{}' is no output; P.x, P.vx, P.ax, a coordinate, energy, reaction NAME, "
+                                     "force NAME, joint BODY P.x or angle P Q was expected",
+                                     outputs_.Text(name)));
       return;
     }
     found.push_back(output);
@@ -111,7 +112,8 @@ class OutputReader {
       return true;
     }
     outputs_.Problem(
-        name, fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
+        name, "config.unknown_name",
+        fmt::format("'{}' is no {}{}", wanted, force ? "force" : "constraint", base::DidYouMean(wanted, names)));
     return false;
   }
 
@@ -122,16 +124,16 @@ class OutputReader {
     const std::size_t component =
         at.size() > 2 && at[at.size() - 2] == '.' ? std::string("xyz").find(at.back()) : std::string::npos;
     if (which == names.end() || component == std::string::npos) {
-      outputs_.Problem(name, which == names.end()
-                                 ? fmt::format("'{}' is no body{}", body, base::DidYouMean(body, names))
-                                 : fmt::format("'{}' was found; a point and .x, .y or .z was expected", at));
+      outputs_.Problem(name, "config.unknown_name",
+                       which == names.end() ? fmt::format("'{}' is no body{}", body, base::DidYouMean(body, names))
+                                            : fmt::format("'{}' was found; a point and .x, .y or .z was expected", at));
       return false;
     }
     const auto point = reader_.Entity(outputs_, name, at.substr(0, at.size() - 2), false);
     if (!point) return false;
     auto joint = JointForce::Make(system_, static_cast<int>(which - names.begin()), *point);
     if (!joint) {
-      outputs_.Problem(name, joint.error().message);
+      outputs_.Problem(name, joint.error().id, joint.error().message);
       return false;
     }
     output.kind_ = Output::Kind::kJoint;

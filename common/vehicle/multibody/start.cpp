@@ -80,6 +80,7 @@ base::Status System::Assemble() {
       worst = i;
   }
   return base::WrongInput(
+      "mechanism.cannot_be_assembled",
       fmt::format(
           "the mechanism cannot be assembled: at the nearest position found, '{}' is still off by {:.3g} (m or rad)",
           constraints_.name(worst), std::fabs(values[static_cast<std::size_t>(worst)])),
@@ -113,6 +114,7 @@ base::Status System::CheckIndependence() const {
         rest -= basis.leftCols(known) * (basis.leftCols(known).transpose() * rest);
       if (!(rest.norm() > kDependent * size)) {
         return base::WrongInput(
+            "mechanism.redundant_constraint",
             fmt::format("constraint '{}' says nothing that the others do not say already at this position (it is "
                         "redundant, or the "
                         "position is singular); leave it out, move the position, or say 'redundant: true'",
@@ -147,6 +149,7 @@ base::Status System::CheckIndependence() const {
   const EntityDrawing& entity =
       drawing_.entities[static_cast<std::size_t>(columns[static_cast<std::size_t>(loose)] / 3)];
   return base::WrongInput(
+      "mechanism.no_mass",
       fmt::format("'{}' can move but has no mass: no body and no constraint gives it any", entity.name), entity.place);
 }
 
@@ -166,7 +169,8 @@ base::Status System::FindVelocities() {
     const auto found = std::find(columns.begin(), columns.end(), 3 * velocity.entity + velocity.component);
     if (found == columns.end()) {
       if (velocity.rate == 0.0) continue;
-      return base::WrongInput(fmt::format("'{}' is given a velocity but cannot move that way",
+      return base::WrongInput("mechanism.cannot_be_assembled",
+                              fmt::format("'{}' is given a velocity but cannot move that way",
                                           drawing_.entities[static_cast<std::size_t>(velocity.entity)].name),
                               velocity.place);
     }
@@ -178,7 +182,7 @@ base::Status System::FindVelocities() {
   Eigen::Index worst = 0;
   if (off.size() > 0 && off.cwiseAbs().maxCoeff(&worst) > 1e-9 * (1.0 + right.cwiseAbs().maxCoeff())) {
     const bool of_given = worst >= jacobian.rows();
-    return base::WrongInput("the initial velocities do not fit the constraints",
+    return base::WrongInput("mechanism.cannot_be_assembled", "the initial velocities do not fit the constraints",
                             of_given ? drawing_.velocities[static_cast<std::size_t>(worst - jacobian.rows())].place
                                      : constraints_.place(static_cast<int>(worst)));
   }
@@ -234,7 +238,8 @@ base::Status System::Start() {
   if (auto status = CheckIndependence(); !status) return status;
   if (auto status = FindVelocities(); !status) return status;
   if (!FindAccelerations())
-    return base::WrongInput("the mechanism's equations are singular at the initial position", drawing_.place);
+    return base::WrongInput("mechanism.singular", "the mechanism's equations are singular at the initial position",
+                            drawing_.place);
   return {};
 }
 

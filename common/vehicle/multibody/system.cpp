@@ -73,7 +73,8 @@ base::Status System::Compile() {
       rows.push_back(unit);
     }
   }
-  if (free_entities_.empty()) return base::WrongInput("nothing can move: every coordinate is fixed", drawing_.place);
+  if (free_entities_.empty())
+    return base::WrongInput("mechanism.nothing_moves", "nothing can move: every coordinate is fixed", drawing_.place);
   std::vector<Tie> ties;
   for (std::size_t b = 0; b < drawing_.bodies.size(); ++b) {
     const BodyParts& body = drawing_.bodies[b];
@@ -195,7 +196,7 @@ base::Status System::CompileMass() {
     const Block& block = constant_[static_cast<std::size_t>(matrix_.Find(entity, entity).block)];
     for (int c = 0; c < 3; ++c) largest = std::max(largest, block.At(c, c));
   }
-  if (!(largest > 0.0)) return base::WrongInput("nothing that can move has mass", drawing_.place);
+  if (!(largest > 0.0)) return base::WrongInput("mechanism.no_mass", "nothing that can move has mass", drawing_.place);
   weight_ = settings_.penalty * largest;
   for (const int entity : free_entities_) {
     Block& block = constant_[static_cast<std::size_t>(matrix_.Find(entity, entity).block)];

@@ -96,7 +96,7 @@ base::Result<std::unique_ptr<input_devices::GamePad>> StartGamePad() {
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // it drives whatever window has the keyboard
   SDL_SetMainReady();
   if (SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER) != 0)
-    return base::Failed(fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
+    return base::Failed("device.no_sdl", fmt::format("SDL cannot look at game pads: {}", SDL_GetError()));
   SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
   SDL_GameControllerEventState(SDL_IGNORE);
   auto made = std::make_unique<SdlGamePad>();

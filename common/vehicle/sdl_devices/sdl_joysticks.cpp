@@ -144,7 +144,7 @@ base::Result<std::unique_ptr<input_devices::Joysticks>> StartJoysticks() {
   SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // a wheel steers whatever window has the keyboard
   SDL_SetMainReady();
   if (SDL_InitSubSystem(SDL_INIT_JOYSTICK) != 0)
-    return base::Failed(fmt::format("SDL cannot look at joysticks: {}", SDL_GetError()));
+    return base::Failed("device.no_sdl", fmt::format("SDL cannot look at joysticks: {}", SDL_GetError()));
   SDL_JoystickEventState(SDL_IGNORE);  // they are read, not listened to
   return std::unique_ptr<input_devices::Joysticks>(std::make_unique<SdlJoysticks>());
 }
