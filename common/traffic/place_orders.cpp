@@ -52,10 +52,12 @@ base::Result<PlaceOrder> PlaceOrders::At(const TrafficModel& model, std::string_
   if (found == roads.end()) {
     std::vector<std::string> names;
     for (const network::Road& r : roads) names.push_back(r.id());
-    return base::WrongInput(fmt::format("there is no road '{}'{}", road, base::DidYouMean(std::string(road), names)));
+    return base::WrongInput("world.unknown_road",
+                            fmt::format("there is no road '{}'{}", road, base::DidYouMean(std::string(road), names)));
   }
   if (!(s_m >= 0.0 && s_m <= found->length_m()))
     return base::WrongInput(
+        "traffic.off_the_road",
         fmt::format("the station {} m is not on the road '{}', which is {:.2f} m long", s_m, road, found->length_m()));
   PlaceOrder order;
   order.road = static_cast<std::uint32_t>(found - roads.begin());

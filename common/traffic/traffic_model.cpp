@@ -28,8 +28,9 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings, s
   const auto network = NetworkOf(world);
   auto model = Make(settings, network, others, world);
   if (!model && network->roads().empty()) {
-    return base::WrongInput("the world '" + world->name() +
-                            "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
+    return base::WrongInput("world.no_lane",
+                            "the world '" + world->name() +
+                                "' has no lane to put traffic on; a world with a road, or 0 vehicles, was expected");
   }
   return model;
 }
@@ -55,7 +56,8 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings,
     const auto track = static_cast<std::uint32_t>(map->demand.flows()[i].track);
     if (!IsLongEnough(map->graph, track, longest_m)) {
       const FlowSettings& flow = settings.demand.flows[i];
-      return base::WrongInput(fmt::format("the lane '{}' and the ways on from it are shorter than a vehicle; at least "
+      return base::WrongInput("traffic.no_room",
+                              fmt::format("the lane '{}' and the ways on from it are shorter than a vehicle; at least "
                                           "{:.1f} m were expected",
                                           flow.lane, longest_m),
                               flow.place);
@@ -63,9 +65,10 @@ base::Result<TrafficModel> TrafficModel::Make(const TrafficSettings& settings,
     map->LetEnter(track);
   }
   if (settings.vehicles > 0 && map->entries.empty()) {
-    return base::WrongInput("the network '" + map->network->name() +
-                            "' has no lane to put traffic on; drivable lanes that are longer than a vehicle, or 0 "
-                            "vehicles, were expected");
+    return base::WrongInput("world.no_lane",
+                            "the network '" + map->network->name() +
+                                "' has no lane to put traffic on; drivable lanes that are longer than a vehicle, or 0 "
+                                "vehicles, were expected");
   }
   TrafficModel model(std::make_unique<Simulation>(TrafficData(settings, map)));
   Simulation& simulation = *model.simulation_;

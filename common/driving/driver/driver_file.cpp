@@ -37,7 +37,8 @@ AutopilotSettings ReadAutopilot(const config::Map& root) {
   a.steering.rate_radps = steering.Number("rate_radps", {0.5, 30.0}, a.steering.rate_radps);
   a.steering.smoothing_s = steering.Number("smoothing_s", {0.0, 1.0}, a.steering.smoothing_s);
   if (a.steering.preview_most_m < a.steering.preview_least_m) {
-    steering.Problem("preview_most_m", "'steering.preview_most_m' is below 'steering.preview_least_m'");
+    steering.Problem("preview_most_m", "config.wrong_order",
+                     "'steering.preview_most_m' is below 'steering.preview_least_m'");
   }
   return a;
 }

@@ -18,16 +18,17 @@ base::Result<WayAndLights> WayFromStart(const road::World& world, std::optional<
                                         const std::string& place) {
   const road::StartPose& start = world.start();
   if (world.network() == nullptr || world.network()->roads().empty())
-    return base::WrongInput("this world has no road to start on; the autopilot needs one", place);
+    return base::WrongInput("world.no_lane", "this world has no road to start on; the autopilot needs one", place);
   const network::Network& network = *world.network();
   const auto at = network.Locate(start.x_m, start.y_m);
   if (!at || at->distance_m > 0.0 || at->lane.lane == 0)
-    return base::WrongInput("this world has no lane to start on; the autopilot needs one", place);
+    return base::WrongInput("world.no_lane", "this world has no lane to start on; the autopilot needs one", place);
   network::LaneKey lane = at->lane;
   lane.lane = lane_wish.value_or(lane.lane);
   const network::Lane* found = network.Find(lane);
   if (found == nullptr || (lane.lane != at->lane.lane && !network::IsDrivable(found->type)))
     return base::WrongInput(
+        "world.unknown_lane",
         fmt::format("road '{}' has no lane {} to drive on", network.roads()[lane.road].id(), lane.lane), place);
   auto route = std::make_unique<RoutePath>(network, StraightOn(network, lane, kRoute_m));
   std::vector<LightLine> lines = LightLines(network, *route);

@@ -101,12 +101,14 @@ base::Result<double> AngleFor(dynamics::VehicleModel& car, double speed_mps, dou
     const auto steered = Steer(car, speed_mps, wheel_rad, 5.0, step_s);
     if (!steered) return steered.error();
     const double reached = steered.value().lateral_mps2;
-    if (!(reached > 0.05)) return base::Failed("the car does not turn with the steering wheel");
+    if (!(reached > 0.05))
+      return base::Failed("scenario.manoeuvre_failed", "the car does not turn with the steering wheel");
     if (std::fabs(reached - lateral_mps2) < 0.002 * lateral_mps2) return wheel_rad;
     wheel_rad *= std::clamp(lateral_mps2 / reached, 0.3, 3.0);
     if (wheel_rad > car.dimensions().steering_wheel_limit_rad) break;
   }
-  return base::Failed("no angle of the steering wheel leads to the wanted lateral acceleration");
+  return base::Failed("scenario.manoeuvre_failed",
+                      "no angle of the steering wheel leads to the wanted lateral acceleration");
 }
 
 }  // namespace
@@ -146,7 +148,8 @@ base::Result<Outcome> ConstantRadius(dynamics::VehicleModel& car, double step_s)
     steer.Add(lateral, s.steering_wheel_rad / t.dimensions().steering_ratio);
     roll.Add(lateral, s.roll_rad());
   }
-  if (!steer.IsKnown()) return base::Failed("the car does not stay on the circle up to 1 m/s²");
+  if (!steer.IsKnown())
+    return base::Failed("scenario.manoeuvre_failed", "the car does not stay on the circle up to 1 m/s²");
   Outcome outcome{t.table(), {}};
   outcome.figures.push_back(
       {"understeer gradient", steer.Slope() * base::kDegreesPerRadian * base::kGravity_mps2, "deg/g"});

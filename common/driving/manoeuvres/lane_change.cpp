@@ -85,7 +85,7 @@ base::Result<Outcome> LaneChange(dynamics::VehicleModel& car, double step_s) {
   double off_m = 0.0, lateral = 0.0, hands = 0.0, outside_m = -1.0, wheel_rad = 0.0;
   while (t.state().p_WB_W.x() < kRunUp_m + kEnds_m.back() + 30.0) {
     if (t.time_s() > kLongest_s || std::fabs(t.state().heading_rad()) > 1.5)
-      return base::Failed("the car is lost on its way through the lane change");
+      return base::Failed("scenario.manoeuvre_failed", "the car is lost on its way through the lane change");
     Controls controls;
     foot.Press(kSpeed_mps, t, controls);
     const double before = wheel_rad;

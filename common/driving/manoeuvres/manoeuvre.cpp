@@ -38,6 +38,7 @@ base::Result<const Manoeuvre*> FindManoeuvre(const std::string& name) {
     names.push_back(manoeuvre.name);
   }
   return base::WrongInput(
+      "scenario.unknown_manoeuvre",
       fmt::format("'{}' was found; {} was expected{}", name, fmt::join(names, ", "), base::DidYouMean(name, names)),
       "--manoeuvre");
 }

@@ -88,7 +88,8 @@ base::Result<Outcome> BrakeFrom(dynamics::VehicleModel& car, const ProvingGround
   const auto moves = [&t] { return t.state().v_WB_W.head<2>().norm() > kRest_mps; };
   double most_heading_rad = 0.0;
   while (moves() && most_heading_rad < kTurned_rad) {
-    if (t.time_s() > kLongest_s) return base::Failed("the car does not come to rest within two minutes");
+    if (t.time_s() > kLongest_s)
+      return base::Failed("scenario.manoeuvre_failed", "the car does not come to rest within two minutes");
     t.Step(controls);
     most_heading_rad = std::max(most_heading_rad, std::fabs(t.state().heading_rad()));
   }
@@ -139,7 +140,7 @@ base::Result<Outcome> Acceleration(dynamics::VehicleModel& car, double step_s) {
     outcome.figures.push_back({"top speed", top_kmh, "km/h"});
   else
     outcome.missing.push_back(fmt::format("top speed: the car still gains speed after {:.0f} s", t.time_s()));
-  if (top.fastest_mps() < 1.0) return base::Failed("the car does not get going");
+  if (top.fastest_mps() < 1.0) return base::Failed("scenario.manoeuvre_failed", "the car does not get going");
   return outcome;
 }
 
@@ -198,7 +199,7 @@ base::Result<Outcome> Bump(dynamics::VehicleModel& car, double step_s) {
     }
     if (std::fabs(vertical) > kCalm_mps2) moved_at_s = t.time_s();
   }
-  if (reached_s == 0.0) return base::Failed("the car does not come to the bump");
+  if (reached_s == 0.0) return base::Failed("scenario.manoeuvre_failed", "the car does not come to the bump");
   Outcome outcome{t.table(), {}};
   outcome.figures.push_back({"largest acceleration upward", up, "m/s²"});
   outcome.figures.push_back({"largest acceleration downward", down, "m/s²"});

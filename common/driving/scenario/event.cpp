@@ -69,13 +69,16 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
     const auto station =
         space == std::string_view::npos || space == 0 ? std::nullopt : NumberIn(place.substr(space + 1));
     if (!station || *station < 0.0) {
-      return base::WrongInput(fmt::format(
-          "'{}' is no place; a road and metres along it were expected, as in 'next at main 350'", place.substr(0, 60)));
+      return base::WrongInput(
+          "scenario.wrong_text",
+          fmt::format("'{}' is no place; a road and metres along it were expected, as in 'next at main 350'",
+                      place.substr(0, 60)));
     }
     choice.at = AgentChoice::At{std::string(place.substr(0, space)), *station};
   }
   if (whom == "next" && !choice.at)
-    return base::WrongInput("'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
+    return base::WrongInput("scenario.wrong_text",
+                            "'next' is whoever comes to a place first; one was expected, as in 'next at main 350'");
   if (whom == "all" || whom == "ahead" || whom == "next") {
     choice.kind = whom == "all"     ? AgentChoice::Kind::kAll
                   : whom == "ahead" ? AgentChoice::Kind::kAhead
@@ -84,8 +87,8 @@ base::Result<AgentChoice> ParseAgent(std::string_view text) {
   }
   const auto [end, problem] = std::from_chars(whom.data(), whom.data() + whom.size(), choice.id);
   if (problem != std::errc{} || end != whom.data() + whom.size() || choice.id >= kMaxAgents) {
-    return base::WrongInput("'" + std::string(whom.substr(0, 40)) +
-                            "' is no agent; its number, all or ahead was expected");
+    return base::WrongInput("scenario.wrong_text", "'" + std::string(whom.substr(0, 40)) +
+                                                       "' is no agent; its number, all or ahead was expected");
   }
   return choice;
 }
@@ -99,6 +102,7 @@ base::Result<AgentChoice> ParseAgentOnLane(std::string_view text) {
       NumberIn(lane.substr(colon + 1)))
     return choice;
   return base::WrongInput(
+      "scenario.wrong_text",
       fmt::format("'{}' is no agent on a lane; its number, ROAD:LANE and metres along the road were expected, as in "
                   "'20 at main:-1 350'",
                   text.substr(0, 60)));
@@ -121,6 +125,7 @@ base::Result<PlaceChoice> ParsePlace(std::string_view text) {
     }
   }
   return base::WrongInput(
+      "scenario.wrong_text",
       fmt::format("'{}' is no place; the name of a vehicle node and metres to the east and north were expected, as in "
                   "'ego 12.5 -3.25'",
                   text.substr(0, 60)));
@@ -140,9 +145,11 @@ base::Result<CrossingChoice> ParseCrossing(std::string_view text) {
   }
   const auto station = words.size() < 2 ? std::nullopt : NumberIn(words.back());
   if (!station || words.front().empty()) {
-    return base::WrongInput(fmt::format(
-        "'{}' is no crossing; a road, metres along it, and 'left' or 'right' were expected, as in 'main 120 left'",
-        text.substr(0, 60)));
+    return base::WrongInput(
+        "scenario.wrong_text",
+        fmt::format(
+            "'{}' is no crossing; a road, metres along it, and 'left' or 'right' were expected, as in 'main 120 left'",
+            text.substr(0, 60)));
   }
   crossing.s_m = *station;
   crossing.road = std::string(text.substr(0, static_cast<std::size_t>(words.back().data() - text.data()) - 1));
@@ -154,7 +161,8 @@ base::Status CheckEvent(const Event& event) {
   if (kind == nullptr) {
     std::vector<std::string> names;
     for (const EventKind& known : kKinds) names.emplace_back(known.name);
-    return base::WrongInput(fmt::format("there is no event '{}'{}", event.name, base::DidYouMean(event.name, names)));
+    return base::WrongInput("scenario.unknown_event",
+                            fmt::format("there is no event '{}'{}", event.name, base::DidYouMean(event.name, names)));
   }
   if (kind->argument == ArgumentKind::kAgent) {
     if (const auto agent = ParseAgent(event.argument); !agent) return agent.error();
@@ -168,11 +176,13 @@ base::Status CheckEvent(const Event& event) {
     if (const auto named = weather::FindWeather(event.argument); !named) return named.error();
   }
   if (kind->value == ValueKind::kSide && event.value != 1.0 && event.value != -1.0) {
-    return base::WrongInput(fmt::format("'{}' of '{}' is {}; 1 (left) or -1 (right) was expected", kind->value_key,
+    return base::WrongInput("scenario.wrong_value",
+                            fmt::format("'{}' of '{}' is {}; 1 (left) or -1 (right) was expected", kind->value_key,
                                         event.name, event.value));
   }
   if (kind->value_key.empty() || (event.value >= kind->low && event.value <= kind->high)) return {};
-  return base::WrongInput(fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name,
+  return base::WrongInput("scenario.wrong_value",
+                          fmt::format("'{}' of '{}' is {}; {} to {} was expected", kind->value_key, event.name,
                                       event.value, kind->low, kind->high));
 }
 

@@ -27,8 +27,9 @@ Request WeatherRequest(std::string_view weather, double over_s) {
 }
 
 base::Result<Event> EventOf(const Request& request) {
-  base::Result<Event> event = base::WrongInput(fmt::format("'{}' was asked for; {} or {} was expected",
-                                                           request.name.substr(0, 40), kPlaceRequest, kWeatherRequest));
+  base::Result<Event> event = base::WrongInput(
+      "scenario.unknown_request", fmt::format("'{}' was asked for; {} or {} was expected", request.name.substr(0, 40),
+                                              kPlaceRequest, kWeatherRequest));
   if (request.name == kPlaceRequest) event = PlaceEvent(request);
   if (request.name == kWeatherRequest) event = Event{std::string(kWeatherChange), request.argument, request.value};
   if (!event) return event.error();

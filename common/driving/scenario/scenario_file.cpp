@@ -34,15 +34,16 @@ std::optional<std::int64_t> ReadStep(const config::Map& map, const Timing& timin
     const auto below = static_cast<std::int64_t>(std::floor(periods)) * timing.period;
     constexpr const char* kNoMultiple =
         "'at_s' is {}; a multiple of the scenario's period of {} s was expected, {} or {}";
-    map.Problem("at_s", fmt::format(kNoMultiple, at_s, SecondsText(timing.period, timing), SecondsText(below, timing),
-                                    SecondsText(below + timing.period, timing)));
+    map.Problem("at_s", "config.out_of_range",
+                fmt::format(kNoMultiple, at_s, SecondsText(timing.period, timing), SecondsText(below, timing),
+                            SecondsText(below + timing.period, timing)));
     return std::nullopt;
   }
   const std::int64_t step = whole * timing.period;
   if (step < timing.delay) {
     constexpr const char* kTooEarly =
         "'at_s' is {}; the first time at which an event can act was expected, {} s, or a later one";
-    map.Problem("at_s", fmt::format(kTooEarly, at_s, SecondsText(timing.delay, timing)));
+    map.Problem("at_s", "config.out_of_range", fmt::format(kTooEarly, at_s, SecondsText(timing.delay, timing)));
     return std::nullopt;
   }
   return step;
@@ -73,7 +74,7 @@ Event ReadEvent(const config::Map& map) {
   // A value out of its range is said already.
   const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};
   if (const base::Status sound = CheckEvent(argument_only); told && !sound)
-    map.Problem(argument_key, sound.error().message);
+    map.Problem(argument_key, sound.error().id, sound.error().message);
   return event;
 }
 
@@ -90,7 +91,8 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
     const config::Map map = events.At(i);
     Event event = ReadEvent(map);
     if (map.Has("when")) {
-      if (map.Has("at_s")) map.Problem("at_s", "an event has 'at_s' and 'when'; one of them was expected");
+      if (map.Has("at_s"))
+        map.Problem("at_s", "config.conflicting_keys", "an event has 'at_s' and 'when'; one of them was expected");
       map.IgnoreKey("at_s");
       const config::Map when = map.Child("when");
       const double passes_m = when.Number("passes_m", {0.0, 1e6});
@@ -101,8 +103,9 @@ Scenario ReadScenario(const config::Map& root, const Timing& timing) {
     if (!step) continue;
     if (!scenario.scheduled.empty() && *step < scenario.scheduled.back().step) {
       constexpr const char* kDescends = "'at_s' is {} and follows {}; times that do not descend were expected";
-      map.Problem("at_s", fmt::format(kDescends, SecondsText(*step, timing),
-                                      SecondsText(scenario.scheduled.back().step, timing)));
+      map.Problem(
+          "at_s", "config.wrong_order",
+          fmt::format(kDescends, SecondsText(*step, timing), SecondsText(scenario.scheduled.back().step, timing)));
     }
     scenario.scheduled.push_back({*step, std::move(event), map.Place()});
   }

@@ -37,6 +37,7 @@ base::Status Spawning::CheckPlace(std::uint32_t id, std::uint32_t track, double 
   const lanes::Track& lane = in_.map.graph[track];
   const auto refused = [&](const char* what) {
     return base::WrongInput(
+        "traffic.no_room",
         fmt::format("a vehicle {:.1f} m long with its middle at {:.2f} m of lane '{}:{}' would stand {}; a place on "
                     "plain lane was expected",
                     in_.traits[id].length_m, lane.curve.StationAt(d_m),
@@ -60,14 +61,18 @@ base::Result<std::pair<std::uint32_t, double>> Spawning::PlaceToSpawn(std::uint3
                                                                       double s_m) const {
   if (id < in_.settings.vehicles || id >= out_.agents.size()) {
     if (in_.settings.scripted.empty())
-      return base::WrongInput(fmt::format(
-          "agent {} cannot appear: the traffic's settings have no 'scripted' vehicles, as in 'scripted: [car]'", id));
+      return base::WrongInput(
+          "traffic.not_scripted",
+          fmt::format(
+              "agent {} cannot appear: the traffic's settings have no 'scripted' vehicles, as in 'scripted: [car]'",
+              id));
     return base::WrongInput(
+        "traffic.not_scripted",
         fmt::format("agent {} cannot appear; one of the traffic's 'scripted' was expected, {} to {}", id,
                     in_.settings.vehicles, out_.agents.size() - 1));
   }
   const auto tracks = TracksOf(in_.map.graph, lane, "");
-  if (!tracks) return base::WrongInput(tracks.error().message);
+  if (!tracks) return tracks.error().WithContext("");
   double from = 1e18, to = -1e18;
   std::optional<std::uint32_t> there;
   for (const std::uint32_t track : tracks.value()) {
@@ -78,7 +83,8 @@ base::Result<std::pair<std::uint32_t, double>> Spawning::PlaceToSpawn(std::uint3
     if (!there && s_m >= low && s_m <= high) there = track;
   }
   if (!there)
-    return base::WrongInput(fmt::format("the station {} m is not on the lane '{}', which lies from {:.2f} to {:.2f} m",
+    return base::WrongInput("traffic.off_the_lane",
+                            fmt::format("the station {} m is not on the lane '{}', which lies from {:.2f} to {:.2f} m",
                                         s_m, lane, from, to));
   const double d = in_.map.graph[*there].curve.AtStation(s_m);
   if (const auto status = CheckPlace(id, *there, d); !status) return status.error();

@@ -32,12 +32,14 @@ base::Result<std::vector<double>> SharesOf(const lanes::Graph& graph, std::uint3
       break;
     }
     if (!leads)
-      return base::WrongInput(fmt::format("the lane '{}' does not go on into '{}'", turn.lane, way), turn.place);
+      return base::WrongInput("traffic.no_way", fmt::format("the lane '{}' does not go on into '{}'", turn.lane, way),
+                              turn.place);
   }
   double sum = 0.0;
   for (const double share : shares) sum += share;
   if (sum <= 0.0)
-    return base::WrongInput(fmt::format("no way on from the lane '{}' has a share above 0", turn.lane), turn.place);
+    return base::WrongInput("traffic.no_way",
+                            fmt::format("no way on from the lane '{}' has a share above 0", turn.lane), turn.place);
   double up_to = 0.0;
   for (double& share : shares) share = up_to += share / sum;
   return shares;
@@ -50,7 +52,8 @@ base::Result<std::int64_t> RouteNamed(const DemandSettings& settings, const Flow
     if (settings.routes[r].name == flow.route) return static_cast<std::int64_t>(r);
     known.push_back(settings.routes[r].name);
   }
-  return base::WrongInput(fmt::format("the route '{}' does not exist; one of 'routes' was expected{}", flow.route,
+  return base::WrongInput("traffic.unknown_route",
+                          fmt::format("the route '{}' does not exist; one of 'routes' was expected{}", flow.route,
                                       base::DidYouMean(flow.route, known)),
                           flow.place);
 }
@@ -78,12 +81,14 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     if (flow.route >= 0) {
       if (flow.track < 0)
         return base::WrongInput(
+            "traffic.no_lane_named",
             fmt::format("the flow of the route '{}' says no lane; one was expected where it comes", wish.route),
             wish.place);
       const Route& route = demand.route(flow.route);
       const auto track = static_cast<std::uint32_t>(flow.track);
       if (!route.Reaches(route.LegOn(0, track), track)) {
         return base::WrongInput(
+            "traffic.no_way",
             fmt::format("the route '{}' does not exist from the lane '{}': no way leads from there to '{}'", wish.route,
                         wish.lane, settings.routes[static_cast<std::size_t>(flow.route)].ways.front()),
             wish.place);
@@ -99,6 +104,7 @@ base::Result<Demand> Demand::Make(const lanes::Graph& graph, const lanes::EdgeMa
     const std::uint32_t last = tracks.value().back();
     if (const auto [before, is_first] = told.emplace(last, &turn); !is_first) {
       return base::WrongInput(
+          "traffic.duplicate_turns",
           fmt::format("the lane '{}' has turns already, as '{}'{}; one item a lane was expected", turn.lane,
                       before->second->lane, before->second->place.empty() ? "" : " in " + before->second->place),
           turn.place);

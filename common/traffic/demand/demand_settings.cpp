@@ -30,16 +30,18 @@ void CheckRates(const config::Map& map) {
   }
   if (found.size() == 1) return;
   for (const std::string& key : found) map.IgnoreKey(key);
-  if (found.size() > 1) return map.Problem(found[1], fmt::format("{} were found; {}", Listed(found), kOneRate));
+  if (found.size() > 1)
+    return map.Problem(found[1], "config.conflicting_keys", fmt::format("{} were found; {}", Listed(found), kOneRate));
   const std::vector<std::string> keys = map.Keys();
   for (const std::string& key : keys) {
     const std::string meant = base::NearestName(key, kRates);
     if (!meant.empty())
-      return map.Problem(key, fmt::format("'{}' was found; {}; did you mean '{}'?", key, kOneRate, meant));
+      return map.Problem(key, "config.conflicting_keys",
+                         fmt::format("'{}' was found; {}; did you mean '{}'?", key, kOneRate, meant));
   }
-  map.Problem("", keys.empty()
-                      ? kOneRate
-                      : fmt::format("{} {} found; {}", Listed(keys), keys.size() == 1 ? "was" : "were", kOneRate));
+  map.Problem("", "config.conflicting_keys",
+              keys.empty() ? kOneRate
+                           : fmt::format("{} {} found; {}", Listed(keys), keys.size() == 1 ? "was" : "were", kOneRate));
 }
 
 void ReadRate(const config::Map& map, FlowSettings& flow) {
@@ -56,7 +58,7 @@ void ReadRate(const config::Map& map, FlowSettings& flow) {
   }
   flow.per_h = map.Has("by_hour") ? map.Numbers("by_hour", {0.0, kMaxAnHour})
                                   : std::vector<double>{map.Number("vehicles_per_h", {0.0, kMaxAnHour}, 0.0)};
-  if (flow.per_h.empty()) map.Problem("by_hour", "a number for each hour was expected");
+  if (flow.per_h.empty()) map.Problem("by_hour", "config.too_few", "a number for each hour was expected");
   if (map.Choice("arrivals", {"poisson", "even"}, "poisson") == "even") flow.arrivals = Arrivals::kEven;
 }
 
@@ -68,7 +70,7 @@ FlowSettings ReadFlow(const config::Map& map) {
   ReadRate(map, flow);
   flow.from_s = map.Number("from_s", {0.0, kLongest_s}, flow.from_s);
   flow.to_s = map.Number("to_s", {0.0, kLongest_s}, flow.to_s);
-  if (flow.to_s < flow.from_s) map.Problem("to_s", "'to_s' is before 'from_s'");
+  if (flow.to_s < flow.from_s) map.Problem("to_s", "config.wrong_order", "'to_s' is before 'from_s'");
   if (map.Has("mix")) flow.mix = ReadMix(map.Child("mix"));
   return flow;
 }
@@ -82,7 +84,8 @@ DemandSettings ReadDemand(const config::Map& map) {
     const config::List ways = routes.Items(name);
     RouteSettings route{name, {}, routes.Place(name)};
     for (std::size_t i = 0; i < ways.size(); ++i) route.ways.push_back(ways.Text(i));
-    if (route.ways.empty()) routes.Problem(name, "a route without any road was found; a list of roads was expected");
+    if (route.ways.empty())
+      routes.Problem(name, "config.too_few", "a route without any road was found; a list of roads was expected");
     demand.routes.push_back(std::move(route));
   }
   const config::List flows = map.OptionalItems("flows");

@@ -46,7 +46,8 @@ base::Result<Route> Route::Make(const lanes::Graph& graph, const lanes::EdgeMark
       return route.Reaches(static_cast<std::uint32_t>(leg), track);
     });
     if (!any) {
-      return base::WrongInput(fmt::format("the route '{}' does not exist: no way leads from '{}' on to '{}'",
+      return base::WrongInput("traffic.no_way",
+                              fmt::format("the route '{}' does not exist: no way leads from '{}' on to '{}'",
                                           settings.name, settings.ways[leg - 1], settings.ways[leg]),
                               settings.place);
     }

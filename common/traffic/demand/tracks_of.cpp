@@ -28,7 +28,8 @@ base::Result<std::vector<std::uint32_t>> TracksOf(const lanes::Graph& graph, con
     known.push_back(of_lane ? fmt::format("{}:{}", id, key.lane) : id);
   }
   if (tracks.empty()) {
-    return base::WrongInput(fmt::format("'{}' was found; a drivable lane as ROAD:LANE, or a road, was expected{}", way,
+    return base::WrongInput("world.unknown_lane",
+                            fmt::format("'{}' was found; a drivable lane as ROAD:LANE, or a road, was expected{}", way,
                                         base::DidYouMean(way, known)),
                             place);
   }

@@ -36,8 +36,9 @@ VehicleMix ReadMix(const config::Map& map) {
   double sum = 0.0;
   for (std::size_t k = 0; k < mix.shares.size(); ++k) sum += mix.shares[k] = map.Number(kKindNames[k], {0.0, 1e6}, 0.0);
   if (sum <= 0.0) {
-    map.Problem("", fmt::format("no kind of vehicle has a share; at least one above 0 was expected, of {}",
-                                fmt::join(kKindNames, ", ")));
+    map.Problem("", "config.too_few",
+                fmt::format("no kind of vehicle has a share; at least one above 0 was expected, of {}",
+                            fmt::join(kKindNames, ", ")));
     return {};
   }
   for (double& share : mix.shares) share /= sum;

@@ -191,9 +191,11 @@ double Crosswalks::AtMostForPeople(std::uint32_t id) const {
 base::Status Crosswalks::CheckSpawnPedestrian(std::string_view road, double s_m) const {
   if (!out_.people)
     return base::WrongInput(
+        "traffic.no_pedestrians",
         "the traffic has no people on foot; 'pedestrians' in its settings was expected (its 'per_hour' may be 0)");
-  return out_.people->Nearest(*in_.map.network, road, s_m) ? base::Status()
-                                                           : base::WrongInput(WithoutCrossing(*in_.map.network, road));
+  return out_.people->Nearest(*in_.map.network, road, s_m)
+             ? base::Status()
+             : base::WrongInput("traffic.no_crossing", WithoutCrossing(*in_.map.network, road));
 }
 
 base::Status Crosswalks::SpawnPedestrian(std::string_view road, double s_m, bool from_left) {

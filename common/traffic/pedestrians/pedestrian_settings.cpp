@@ -18,7 +18,7 @@ PedestrianSettings ReadPedestrians(const config::Map& map) {
   people.fastest_mps = map.Number("fastest_mps", {0.3, 3.0}, people.fastest_mps);
   if (people.fastest_mps < people.slowest_mps) {
     map.Problem(
-        map.Has("fastest_mps") ? "fastest_mps" : "slowest_mps",
+        map.Has("fastest_mps") ? "fastest_mps" : "slowest_mps", "config.wrong_order",
         fmt::format("'fastest_mps' is {}, below 'slowest_mps', which is {}", people.fastest_mps, people.slowest_mps));
   }
   const config::List list = map.OptionalItems("at");

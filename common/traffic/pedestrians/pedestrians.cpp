@@ -45,7 +45,8 @@ base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lan
   Pedestrians made(settings, seed);
   made.crossings_ = std::make_shared<const std::vector<lanes::FootCrossing>>(lanes::FindFootCrossings(graph, car));
   if (settings.per_h > 0.0 && made.crossings_->empty()) {
-    return base::WrongInput("the network '" + graph.network().name() +
+    return base::WrongInput("traffic.no_crossing",
+                            "the network '" + graph.network().name() +
                                 "' has no crossing for people on foot; one ('crossing' of a road's markings, "
                                 "OpenDRIVE's 'crosswalk' or signal 293), or no 'pedestrians', was expected",
                             settings.place);
@@ -59,7 +60,8 @@ base::Result<Pedestrians> Pedestrians::Make(const lanes::Graph& graph, const lan
   made.per_h_.assign(made.crossings().size(), settings.per_h);
   for (const CrossingFlow& flow : settings.at) {
     const auto crossing = made.Nearest(graph.network(), flow.road, flow.s_m);
-    if (!crossing) return base::WrongInput(WithoutCrossing(graph.network(), flow.road), flow.place);
+    if (!crossing)
+      return base::WrongInput("traffic.no_crossing", WithoutCrossing(graph.network(), flow.road), flow.place);
     made.per_h_[*crossing] = flow.per_h;
   }
   made.counts_.resize(made.crossings().size());

@@ -43,6 +43,7 @@ base::Result<Raster> MakeRaster(const lanes::Graph& graph, double pixel_m, const
                rows = std::floor((raster.north_m - bounds.south_m) / pixel_m) + 1.0;
   if (!(columns * rows <= kMaxPixels) || columns < 1.0 || rows < 1.0) {
     return base::WrongInput(
+        "traffic.raster_too_large",
         fmt::format("{:.0f} by {:.0f} pixels of {} m were found; at most 10^8 were expected (larger pixels make fewer)",
                     columns, rows, pixel_m),
         file);
@@ -92,12 +93,12 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
   constexpr std::array<const char*, 5> kBands = {"flow_vehph", "density_vehpkm", "speed_mps", "fuel_mlpkm", "free_mps"};
   GDALAllRegister();
   GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  if (driver == nullptr) return base::Failed("this GDAL cannot write GeoTIFF files", file);
+  if (driver == nullptr) return base::Failed("file.cannot_write", "this GDAL cannot write GeoTIFF files", file);
   CPLPushErrorHandler(CPLQuietErrorHandler);
   const std::unique_ptr<GDALDataset> set(
       driver->Create(file.c_str(), raster.columns, raster.rows, static_cast<int>(kBands.size()), GDT_Float32, nullptr));
   CPLPopErrorHandler();
-  if (set == nullptr) return base::Failed("the heat map cannot be written", file);
+  if (set == nullptr) return base::Failed("file.cannot_write", "the heat map cannot be written", file);
   std::array<double, 6> transform = {raster.west_m, raster.pixel_m, 0.0, raster.north_m, 0.0, -raster.pixel_m};
   bool good = set->SetGeoTransform(transform.data()) == CE_None;
   const double watched = std::max(statistics.watched_s(), 1e-9);
@@ -116,7 +117,7 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
     good = good && band.RasterIO(GF_Write, 0, 0, raster.columns, raster.rows, values.data(), raster.columns,
                                  raster.rows, GDT_Float32, 0, 0) == CE_None;
   }
-  if (!good) return base::Failed("the heat map could not be written to its end", file);
+  if (!good) return base::Failed("file.cannot_write", "the heat map could not be written to its end", file);
   return {};
 }
 

@@ -60,7 +60,7 @@ base::Status CheckLightsOfMap(const std::filesystem::path& path) {
   const auto network = traffic_map::ToNetwork(made.value(), path.string());
   if (!network) return network.error();
   const auto wrong = LightsTogether(made.value(), companion.value(), *network.value());
-  if (wrong) return base::WrongInput(wrong->Text(), wrong->Place(path.string()));
+  if (wrong) return base::WrongInput("traffic.wrong_signals", wrong->Text(), wrong->Place(path.string()));
   return {};
 }
 

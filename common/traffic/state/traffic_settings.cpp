@@ -16,9 +16,11 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.physics = map.Choice("physics", {"planar", "full"}, "planar") == "full" ? Physics::kFull : Physics::kPlanar;
   if (map.Choice("driver", {"standard", "motors"}, "standard") == "motors") {
     if (map.Has("physics") && t.physics == Physics::kPlanar)
-      map.Problem("physics", "the driver 'motors' holds pedals and steering wheel; 'physics: full' was expected");
+      map.Problem("physics", "config.conflicting_keys",
+                  "the driver 'motors' holds pedals and steering wheel; 'physics: full' was expected");
     if (map.Has("pedestrians"))
-      map.Problem("pedestrians", "the driver 'motors' sees nobody on foot; no 'pedestrians' were expected");
+      map.Problem("pedestrians", "config.conflicting_keys",
+                  "the driver 'motors' sees nobody on foot; no 'pedestrians' were expected");
     t.driver = DriverKind::kMotors;
     t.physics = Physics::kFull;
   }
@@ -26,7 +28,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.speed_factor_low = map.Number("speed_factor_low", {0.2, 2.0}, t.speed_factor_low);
   t.speed_factor_high = map.Number("speed_factor_high", {0.2, 2.0}, t.speed_factor_high);
   if (t.speed_factor_high < t.speed_factor_low) {
-    map.Problem(map.Has("speed_factor_high") ? "speed_factor_high" : "speed_factor_low",
+    map.Problem(map.Has("speed_factor_high") ? "speed_factor_high" : "speed_factor_low", "config.wrong_order",
                 fmt::format("'speed_factor_high' is {}, below 'speed_factor_low', which is {}", t.speed_factor_high,
                             t.speed_factor_low));
   }
@@ -48,7 +50,7 @@ TrafficSettings ReadTraffic(const config::Map& map, std::uint64_t seed) {
   t.smooth.emergency_mps3 =
       comfort.Number("emergency_jerk_mps3", {0.5, 1e6}, std::max(t.smooth.emergency_mps3, t.smooth.planned_mps3));
   if (t.smooth.emergency_mps3 < t.smooth.planned_mps3)
-    comfort.Problem("emergency_jerk_mps3", "'emergency_jerk_mps3' is below 'jerk_mps3'");
+    comfort.Problem("emergency_jerk_mps3", "config.wrong_order", "'emergency_jerk_mps3' is below 'jerk_mps3'");
   const config::Map enter = map.OptionalChild("entering");
   t.enters = enter.Choice("rule", {"safe", "free"}, "safe") == "free" ? EnterRule::kFree : EnterRule::kSafe;
   t.free_m = enter.Number("free_m", {0.5, 100.0}, t.free_m);
