@@ -57,10 +57,11 @@ base::Result<Dataset> OpenPicture(const std::string& name) {
   constexpr const char* kDrivers[] = {"PNG", "JPEG", "BMP", "GTiff", nullptr};
   Dataset set(GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kDrivers));
   if (set == nullptr || set->GetRasterCount() == 0)
-    return base::WrongInput(std::string("this is no picture; ") + kExpected);
+    return base::WrongInput("edit.not_a_picture", std::string("this is no picture; ") + kExpected);
   const int width = set->GetRasterXSize(), height = set->GetRasterYSize();
   if (width < 1 || height < 1 || width > kLargestPicture_px || height > kLargestPicture_px)
-    return base::WrongInput(fmt::format("the picture has {} by {} pixels; at most {} each way were expected", width,
+    return base::WrongInput("edit.picture_too_large",
+                            fmt::format("the picture has {} by {} pixels; at most {} each way were expected", width,
                                         height, kLargestPicture_px));
   return set;
 }
@@ -113,10 +114,12 @@ base::Status ReadAll(GDALDataset& set, Pixels& pixels, const std::function<bool(
       good = ReadRows(*set.GetRasterBand(coloured ? channel + 1 : 1), first, rows, pixels.width_px, into + channel,
                       row_bytes);
     if (!good)
-      return base::WrongInput(fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
+      return base::WrongInput("edit.not_a_picture",
+                              fmt::format("the picture cannot be read beyond line {} of {}", first, pixels.height_px));
     if (table != nullptr && !coloured)
       PaintByTable(*table, into, static_cast<std::size_t>(rows) * static_cast<std::size_t>(pixels.width_px));
-    if (!ready(first + rows)) return base::Failed("the picture was not read to its end: somebody stopped that");
+    if (!ready(first + rows))
+      return base::Failed("run.interrupted", "the picture was not read to its end: somebody stopped that");
   }
   return {};
 }
@@ -144,7 +147,8 @@ std::optional<Pyramid> ReadSmall(GDALDataset& set) {
 base::Result<std::string> ToPng(Pixels& pixels) {
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
   GDALDriver* png = GetGDALDriverManager()->GetDriverByName("PNG");
-  if (memory == nullptr || png == nullptr) return base::Failed("this GDAL cannot write PNG files");
+  if (memory == nullptr || png == nullptr)
+    return base::Failed("edit.cannot_write_picture", "this GDAL cannot write PNG files");
   const Dataset set(memory->Create("", pixels.width_px, pixels.height_px, 3, GDT_Byte, nullptr));
   const GSpacing row = 3 * static_cast<GSpacing>(pixels.width_px);
   bool good = set != nullptr;
@@ -158,7 +162,7 @@ base::Result<std::string> ToPng(Pixels& pixels) {
     good = Dataset(png->CreateCopy(file.name().c_str(), set.get(), FALSE, nullptr, nullptr, nullptr)) != nullptr;
   vsi_l_offset size = 0;
   const GByte* bytes = good ? VSIGetMemFileBuffer(file.name().c_str(), &size, FALSE) : nullptr;
-  if (bytes == nullptr) return base::Failed("the picture cannot be made into a PNG");
+  if (bytes == nullptr) return base::Failed("edit.cannot_write_picture", "the picture cannot be made into a PNG");
   VSIUnlink((file.name() + ".aux.xml").c_str());
   return std::string(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
 }
@@ -217,11 +221,11 @@ base::Result<std::string> ImportPicture(const std::filesystem::path& path) {
   auto bytes = base::ReadText(path, traffic_map::kMaxBytes / 2);
   if (!bytes) return bytes.error();
   auto pixels = DecodePicture(bytes.value());
-  if (!pixels) return base::WrongInput(pixels.error().message, path.string());
+  if (!pixels) return pixels.error().WithContext(path.string());
   if (traffic_map::ReadPictureInfo(bytes.value())) return bytes;
   const Quiet quiet;
   auto png = ToPng(pixels.value());
-  if (!png) return base::Failed(png.error().message, path.string());
+  if (!png) return base::Failed(png.error().id, png.error().message, path.string());
   return png;
 }
 

@@ -14,7 +14,7 @@ bool Fits(const Eigen::Vector2d& p) {
 }
 
 base::Error TooFar() {
-  return base::WrongInput("a point would lie farther out than 1 000 000 m, where no map reaches");
+  return base::WrongInput("edit.out_of_range", "a point would lie farther out than 1 000 000 m, where no map reaches");
 }
 
 // Nothing, or what is wrong with a lane's sides.
@@ -22,10 +22,11 @@ base::Status CheckSides(const Document& document, const traffic_map::LaneSide& l
                         const traffic_map::LaneSide& right) {
   for (const auto& [side, name] : {std::pair(left, "left"), std::pair(right, "right")}) {
     if (!Find(document.map.curves, side.curve))
-      return base::WrongInput(fmt::format("the {} curve {} does not exist", name, side.curve));
+      return base::WrongInput("edit.unknown_element", fmt::format("the {} curve {} does not exist", name, side.curve));
   }
   if (left.curve == right.curve)
-    return base::WrongInput(fmt::format("curve {} is on both sides; two curves were expected", left.curve));
+    return base::WrongInput("edit.wrong_connection",
+                            fmt::format("curve {} is on both sides; two curves were expected", left.curve));
   return {};
 }
 
@@ -54,7 +55,7 @@ base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& ha
   for (const Handle& handle : handles) {
     const auto at = Find(document.map.curves, handle.curve);
     if (!at || handle.index < 0 || handle.index > 3)
-      return base::WrongInput(fmt::format("curve {} does not exist", handle.curve));
+      return base::WrongInput("edit.unknown_element", fmt::format("curve {} does not exist", handle.curve));
     traffic_map::Curve& curve = moved.try_emplace(*at, document.map.curves[*at].value).first->second;
     traffic_map::ControlPoint& point = curve.points[static_cast<std::size_t>(handle.index)];
     const Eigen::Vector2d to = Eigen::Vector2d(static_cast<double>(point.x_m), static_cast<double>(point.y_m)) + by_W;
@@ -72,7 +73,7 @@ base::Result<Edit> MoveHandles(Document& document, const std::vector<Handle>& ha
 base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left, const traffic_map::LaneSide& right,
                            traffic_map::LaneMode mode) {
   if (auto status = CheckSides(document, left, right); !status)
-    return base::WrongInput("no lane was made: " + status.error().message);
+    return status.error().WithMessage("no lane was made: " + status.error().message).WithContext("");
   const traffic_map::Lane lane{NextNumber(document.map.lanes), left, right, mode};
   Recorder recorder(document);
   recorder.Add(lane);
@@ -81,9 +82,11 @@ base::Result<Edit> NewLane(Document& document, const traffic_map::LaneSide& left
 
 base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane) {
   const auto at = Find(document.map.lanes, lane.id);
-  if (!at) return base::WrongInput(fmt::format("lane {} does not exist", lane.id));
+  if (!at) return base::WrongInput("edit.unknown_element", fmt::format("lane {} does not exist", lane.id));
   if (auto status = CheckSides(document, lane.left, lane.right); !status)
-    return base::WrongInput(fmt::format("lane {} was not changed: {}", lane.id, status.error().message));
+    return status.error()
+        .WithMessage(fmt::format("lane {} was not changed: {}", lane.id, status.error().message))
+        .WithContext("");
   Recorder recorder(document);
   recorder.SetLane(*at, lane);
   return std::move(recorder).Finish(fmt::format("lane {} changed", lane.id));
@@ -92,12 +95,15 @@ base::Result<Edit> SetLane(Document& document, const traffic_map::Lane& lane) {
 base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int32_t to, bool stop) {
   for (const std::int32_t lane : {from, to}) {
     if (!Find(document.map.lanes, lane))
-      return base::WrongInput(fmt::format("no connection was made: lane {} does not exist", lane));
+      return base::WrongInput("edit.unknown_element",
+                              fmt::format("no connection was made: lane {} does not exist", lane));
   }
   if (from == to)
-    return base::WrongInput(fmt::format("no connection was made: it would lead from lane {} back into it", from));
+    return base::WrongInput("edit.wrong_connection",
+                            fmt::format("no connection was made: it would lead from lane {} back into it", from));
   if (Find(document.map.connections, from, to))
-    return base::WrongInput(fmt::format("no connection was made: lane {} is connected to lane {} already", from, to));
+    return base::WrongInput("edit.wrong_connection",
+                            fmt::format("no connection was made: lane {} is connected to lane {} already", from, to));
   Recorder recorder(document);
   recorder.Add(traffic_map::Connection{from, to, stop, {}});
   return std::move(recorder).Finish(fmt::format("connection {} to {} made", from, to));
@@ -105,7 +111,8 @@ base::Result<Edit> NewConnection(Document& document, std::int32_t from, std::int
 
 base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t to, bool stop) {
   const auto at = Find(document.map.connections, from, to);
-  if (!at) return base::WrongInput(fmt::format("lane {} is not connected to lane {}", from, to));
+  if (!at)
+    return base::WrongInput("edit.wrong_connection", fmt::format("lane {} is not connected to lane {}", from, to));
   traffic_map::Connection connection = document.map.connections[*at].value;
   connection.stop = stop;
   Recorder recorder(document);
@@ -115,7 +122,8 @@ base::Result<Edit> SetStop(Document& document, std::int32_t from, std::int32_t t
 
 base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale) {
   if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m)
-    return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+    return base::WrongInput("edit.out_of_range",
+                            fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   const bool none = bytes.empty();
   recorder.SetPicture(std::move(bytes));
@@ -125,7 +133,8 @@ base::Result<Edit> SetPicture(Document& document, std::string bytes, float scale
 
 base::Result<Edit> SetScale(Document& document, float scale) {
   if (!(scale >= 1e-6f) || scale > traffic_map::kFarthest_m)
-    return base::WrongInput(fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
+    return base::WrongInput("edit.out_of_range",
+                            fmt::format("the scale is {}; a number from 0.000001 to 1000000 was expected", scale));
   Recorder recorder(document);
   recorder.SetScale(scale);
   return std::move(recorder).Finish(fmt::format("background scale {}", scale));
@@ -135,9 +144,10 @@ base::Result<Edit> ScaleByDistance(Document& document, const Eigen::Vector2d& he
                                    double known_m) {
   const double measured_m = (here_W - there_W).norm();
   if (!(known_m > 0.0) || !std::isfinite(known_m))
-    return base::WrongInput(fmt::format("the known distance is {} m; one above 0 was expected", known_m));
+    return base::WrongInput("edit.out_of_range",
+                            fmt::format("the known distance is {} m; one above 0 was expected", known_m));
   if (!(measured_m > 1e-3))
-    return base::WrongInput("the two points coincide; two points of the background were expected");
+    return base::WrongInput("edit.too_short", "the two points coincide; two points of the background were expected");
   return SetScale(document,
                   static_cast<float>(static_cast<double>(document.map.scale.value.value) * known_m / measured_m));
 }

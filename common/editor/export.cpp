@@ -10,7 +10,7 @@ namespace rodeira::editor {
 
 base::Result<std::string> Export(const Document& document, const std::filesystem::path& path) {
   const auto lanes = traffic_map::MakeLaneMap(document.map, document.companion, "map");
-  if (!lanes) return base::WrongInput(lanes.error().message);
+  if (!lanes) return lanes.error().WithContext("");
   const auto drive = traffic_map::WriteWorld(lanes.value(), path, "drawn with rodeira edit");
   if (!drive) return drive.error();
   const bool alone = path.extension() == ".xodr";

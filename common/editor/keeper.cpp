@@ -40,13 +40,14 @@ base::Result<Keeper> Keeper::Make(const fs::path& folder) {
   for (int number = 0; number < 1000; ++number) {
     const fs::path own = folder / fmt::format("{}-{}", ::getpid(), number);
     if (!fs::create_directory(own, problem)) {
-      if (problem) return base::Failed("unsaved work cannot be kept: " + problem.message(), own.string());
+      if (problem)
+        return base::Failed("edit.cannot_keep_work", "unsaved work cannot be kept: " + problem.message(), own.string());
       continue;  // a process with our number left it
     }
     const int lock = Lock(own);
     if (lock >= 0) return Keeper(folder, own, lock);
   }
-  return base::Failed("unsaved work cannot be kept: no folder can be made", folder.string());
+  return base::Failed("edit.cannot_keep_work", "unsaved work cannot be kept: no folder can be made", folder.string());
 }
 
 Keeper::Keeper(Keeper&& other) noexcept

@@ -40,13 +40,14 @@ bool Meet(const Ends& from, const Ends& to) {
 
 base::Result<Edit> LaneAlong(Document& document, const Points& middle_W, const LaneLook& look) {
   if (!(look.width_m >= kNarrowest_m && look.width_m <= kWidest_m))
-    return base::WrongInput(
-        fmt::format("the lane is {} m wide; {} to {} was expected", look.width_m, kNarrowest_m, kWidest_m));
+    return base::WrongInput("edit.out_of_range", fmt::format("the lane is {} m wide; {} to {} was expected",
+                                                             look.width_m, kNarrowest_m, kWidest_m));
   const traffic_map::Cubic middle{middle_W};
   if (middle.PolygonLength() < 0.1)
-    return base::WrongInput("the lane has no length; a line of 0.1 m or more was expected");
+    return base::WrongInput("edit.too_short", "the lane has no length; a line of 0.1 m or more was expected");
   const std::int32_t first = NextNumber(document.map.curves);
-  if (first > INT32_MAX - 2) return base::WrongInput("there are no numbers left for two curves");
+  if (first > INT32_MAX - 2)
+    return base::WrongInput("edit.no_numbers_left", "there are no numbers left for two curves");
   const auto left = CurveOf(first, Beside(middle, 0.5 * look.width_m).p_W),
              right = CurveOf(first + 1, Beside(middle, -0.5 * look.width_m).p_W);
   if (!left) return left.error();
@@ -63,7 +64,9 @@ base::Result<Edit> LaneAlong(Document& document, const Points& middle_W, const L
 base::Result<Edit> LaneBeside(Document& document, std::int32_t number, bool on_left, bool same_way) {
   const auto at = Find(document.map.lanes, number);
   const auto borders = at ? BordersOf(document, document.map.lanes[*at].value) : std::nullopt;
-  if (!borders) return base::WrongInput(fmt::format("lane {} does not exist with both of its curves", number));
+  if (!borders)
+    return base::WrongInput("edit.unknown_element",
+                            fmt::format("lane {} does not exist with both of its curves", number));
   traffic_map::Lane old = document.map.lanes[*at].value;
   const double width_m = (borders->left.p_W[0] - borders->right.p_W[0]).norm();
   const traffic_map::Cubic& shared = on_left ? borders->left : borders->right;
@@ -150,9 +153,10 @@ base::Result<Edit> Connect(Document& document, const std::vector<std::pair<std::
   for (const auto& [from, to] : connections) {
     if (from == to || !Find(document.map.lanes, from) || !Find(document.map.lanes, to) ||
         Find(document.map.connections, from, to))
-      return base::WrongInput(fmt::format("lane {} cannot be connected to lane {}", from, to));
+      return base::WrongInput("edit.wrong_connection", fmt::format("lane {} cannot be connected to lane {}", from, to));
   }
-  if (connections.empty()) return base::WrongInput("no two lanes meet that are not connected yet");
+  if (connections.empty())
+    return base::WrongInput("edit.wrong_connection", "no two lanes meet that are not connected yet");
   Recorder recorder(document);
   for (const auto& [from, to] : connections) recorder.Add(traffic_map::Connection{from, to, false, {}});
   return std::move(recorder).Finish(

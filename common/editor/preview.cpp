@@ -17,7 +17,7 @@ constexpr std::uint64_t kStepsALook = 10;  // at queues
 
 base::Result<Preview> Preview::Start(const Document& document, const PreviewSettings& settings) {
   const auto lanes = traffic_map::MakeLaneMap(document.map, document.companion, "map");
-  if (!lanes) return base::WrongInput(lanes.error().message);
+  if (!lanes) return lanes.error().WithContext("");
   const auto network = traffic_map::ToNetwork(lanes.value(), "map");
   if (!network) return network.error();
   traffic::TrafficSettings how;

@@ -53,7 +53,7 @@ std::int32_t Sketch::Lane(const Pose& from, const Pose& to, double width_m, traf
 
 base::Result<Edit> Sketch::Finish(Document& document, std::string what) const {
   if (next_curve_ > kMaxNumber || next_lane_ > kMaxNumber)
-    return base::WrongInput("there are no numbers left for so many curves and lanes");
+    return base::WrongInput("edit.no_numbers_left", "there are no numbers left for so many curves and lanes");
   std::vector<traffic_map::Curve> curves;
   for (const auto& [number, points] : curves_) {
     const auto curve = CurveOf(number, points);

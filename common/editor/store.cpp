@@ -53,7 +53,8 @@ base::Result<LoadedCompanion> Save(const Document& document, const LoadedCompani
   if (!text.empty()) {
     // Nothing is written that could not be read again.
     const auto again = traffic_map::ParseHeights(text, beside);
-    if (!again) return fail(base::Failed("the companion file would not be readable: " + again.error().message));
+    if (!again)
+      return fail(base::Failed(again.error().id, "the companion file would not be readable: " + again.error().message));
     if (auto status = base::WriteWhole(new_beside, text); !status) return fail(status.error());
   }
   if (auto status = traffic_map::SaveMap(document.map, new_map); !status) return fail(status.error());

@@ -103,10 +103,10 @@ void DrawMerge(Sketch& sketch, const TemplatePlace& place) {
 
 base::Result<Edit> Place(Document& document, Template what, const TemplatePlace& place) {
   if (!(place.lane_m >= 2.5 && place.lane_m <= 5.0))
-    return base::WrongInput(fmt::format("lanes of {} m; 2.5 to 5 was expected", place.lane_m));
+    return base::WrongInput("edit.out_of_range", fmt::format("lanes of {} m; 2.5 to 5 was expected", place.lane_m));
   if (!(place.arm_m >= 20.0 && place.arm_m <= 500.0))
-    return base::WrongInput(fmt::format("arms of {} m; 20 to 500 was expected", place.arm_m));
-  if (!std::isfinite(place.heading_rad)) return base::WrongInput("the heading is no number");
+    return base::WrongInput("edit.out_of_range", fmt::format("arms of {} m; 20 to 500 was expected", place.arm_m));
+  if (!std::isfinite(place.heading_rad)) return base::WrongInput("edit.out_of_range", "the heading is no number");
   Sketch sketch(document);
   switch (what) {
     case Template::kCrossing:

@@ -43,19 +43,20 @@ base::Result<std::unique_ptr<Window>> Window::Open(const Settings& settings) {
   window->kind_ = settings.kind;
   const bool wanted = settings.kind == Kind::kWindow;
   if (wanted && !base::NamesDisplay())
-    return base::WrongInput("a window is wanted, but there is no display; set DISPLAY");
+    return base::WrongInput("view.no_display", "a window is wanted, but there is no display; set DISPLAY");
   SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // signals are the program's
   SDL_SetMainReady();
   if (SDL_VideoInit(wanted ? nullptr : "offscreen") != 0) {
-    return base::WrongInput(wanted ? std::string("a window is wanted, but no display answers (") + SDL_GetError() +
-                                         "); set DISPLAY"
-                                   : std::string("OpenGL without a display does not start (") + SDL_GetError() +
-                                         "); the packages libegl1 and libegl-mesa0 were expected");
+    return base::WrongInput(
+        wanted ? base::ErrorId("view.no_display") : base::ErrorId("view.no_opengl"),
+        wanted ? std::string("a window is wanted, but no display answers (") + SDL_GetError() + "); set DISPLAY"
+               : std::string("OpenGL without a display does not start (") + SDL_GetError() +
+                     "); the packages libegl1 and libegl-mesa0 were expected");
   }
   window->video_ = true;
   if (wanted && !IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + base::NamedDisplay() +
-                            "); another DISPLAY was expected");
+    return base::WrongInput("view.no_display", "a window is wanted, but no display answers (" + base::NamedDisplay() +
+                                                   "); another DISPLAY was expected");
   }
   if (auto status = window->Make(settings); !status) return status.error();
   return window;
@@ -69,8 +70,8 @@ base::Status Window::Make(const Settings& settings) {
                              settings.height_px, flags);
   if (window_ != nullptr) gl_ = SDL_GL_CreateContext(window_);
   if (gl_ == nullptr)
-    return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() +
-                            "); the package libgl1-mesa-dri was expected");
+    return base::WrongInput("view.no_opengl", std::string("no OpenGL context can be made (") + SDL_GetError() +
+                                                  "); the package libgl1-mesa-dri was expected");
   if (kind_ == Kind::kWindow && SDL_GL_SetSwapInterval(1) != 0) SDL_ClearError();
   const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
   renderer_ = renderer != nullptr ? renderer : "";
