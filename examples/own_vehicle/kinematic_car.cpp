@@ -50,14 +50,16 @@ class KinematicCar final : public dynamics::VehicleModel {
 
   // A model that refuses stays as it was: the new car is made beside the old one.
   base::Status Initialise(const dynamics::InitialCondition& initial, ground::Ground& ground) override {
-    if (!dynamics::IsFinite(initial)) return base::WrongInput("the initial place or speed is not a finite number");
+    if (!dynamics::IsFinite(initial))
+      return base::WrongInput("vehicle.wrong_start", "the initial place or speed is not a finite number");
     KinematicCar car(settings_);
     car.heading_rad_ = initial.heading_rad;
     car.speed_mps_ = initial.speed_mps;
     car.rear_W_ = Vector3d(initial.x_m, initial.y_m, initial.z_hint_m) - half_base_m() * car.Forward();
     car.AskForGround(ground);
     for (const dynamics::WheelGround& wheel : car.grounds_) {
-      if (!wheel.inside) return base::WrongInput("a wheel would stand outside of the world");
+      if (!wheel.inside)
+        return base::WrongInput("vehicle.cannot_be_placed", "a wheel would stand outside of the world");
     }
     car.SettleOnGround();
     car.Publish(dynamics::Controls(), 0.0, 0.0);

@@ -41,7 +41,8 @@ class EmptyNode final : public lockstep::Node {
   }
 
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
-    if (step.step == fail_at_) return base::Failed("told to fail here by its configuration (fail_at_step)");
+    if (step.step == fail_at_)
+      return base::Failed("node.told_to_fail", "told to fail here by its configuration (fail_at_step)");
     if (auto status = sudden_end_.At(step.step); !status) return status;
     if (step.step == hang_at_) base::Log(base::LogLevel::kWarning, "", "told to hang here");
     while (step.step == hang_at_) std::this_thread::sleep_for(std::chrono::seconds(1));
@@ -67,7 +68,7 @@ class EmptyNode final : public lockstep::Node {
   }
   bool can_save() const override { return saves_; }
   base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
-    if (published.empty()) return base::WrongInput("no published value was found");
+    if (published.empty()) return base::WrongInput("run.cannot_restore", "no published value was found");
     const auto pulse = idl::Decode<msg::Pulse>(*published.back().payload);
     if (!pulse) return pulse.error();
     value_ = pulse.value().value();

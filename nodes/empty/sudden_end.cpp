@@ -56,7 +56,7 @@ base::Status SuddenEnd::At(lockstep::Step step) const {
   if (cause_ == "exception") throw std::runtime_error("told to throw here by its configuration (end_by)");
   if (cause_ == "memory") RunOutOfMemory();
   RODEIRA_ASSERT(cause_ != "assertion");
-  return base::Failed("told to fail here by its configuration (end_by)");
+  return base::Failed("node.told_to_fail", "told to fail here by its configuration (end_by)");
 }
 
 bool SuddenEnd::IsFirst() const {

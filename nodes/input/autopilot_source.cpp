@@ -110,7 +110,8 @@ base::Result<std::unique_ptr<Source>> MakeAutopilotSource(const config::Map& con
   for (const lockstep::Port& port : context.spec().inputs)
     sees_the_car = sees_the_car || port.topic == topics::kVehicleState;
   if (!sees_the_car)
-    return base::WrongInput("the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it",
+    return base::WrongInput("launch.not_wired",
+                            "the autopilot needs the state of the car that it drives; wire 'vehicle_state' to it",
                             config.Place());
   const auto settings = driver::LoadDriver(driver_file);
   if (!settings) return settings.error();

@@ -103,6 +103,7 @@ base::Result<std::unique_ptr<Source>> MakeFoundSource(const config::Map& config,
     return MakeKeyboardSource(config, context);
   }
   return base::WrongInput(
+      "device.not_found",
       fmt::format("no 'wheel' is named, and none of the devices was set up (`rodeira input setup`) in {}; {}",
                   input_devices::WheelFolder().string(), input_devices::ListJoysticks(search.connected)),
       config.Place());

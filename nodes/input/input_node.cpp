@@ -51,7 +51,7 @@ class InputNode final : public lockstep::Node {
     return {};
   }
   base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
-    if (published.empty()) return base::WrongInput("no published controls were found");
+    if (published.empty()) return base::WrongInput("run.cannot_restore", "no published controls were found");
     const auto last = idl::Decode<msg::Controls>(*published.back().payload);
     if (!last) return last.error();
     source_->InitialiseFrom(FromMessage(last.value()), SignalsOf(last.value()));

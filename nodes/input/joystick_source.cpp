@@ -106,7 +106,8 @@ void ReplaceGuids(const config::Map& config, input_devices::WheelSettings& setti
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
-      devices.Problem(name, fmt::format("the wheel file has no device '{}'{}", name, base::DidYouMean(name, names)));
+      devices.Problem(name, "config.unknown_name",
+                      fmt::format("the wheel file has no device '{}'{}", name, base::DidYouMean(name, names)));
     } else if (!input_devices::IsGuid(guid)) {
       devices.Problem(
           name,
@@ -125,14 +126,16 @@ base::Status CheckDevices(const input_devices::WheelSettings& settings, const in
   for (std::size_t place = 0; place < settings.devices.size(); ++place) {
     const input_devices::DeviceUse& device = settings.devices[place];
     if (joysticks.reading(place).connected) continue;
-    return base::WrongInput(fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid,
+    return base::WrongInput("device.not_found",
+                            fmt::format("device '{}' with GUID {} is not there; {}", device.name, device.guid,
                                         input_devices::ListJoysticks(joysticks.Connected())),
                             device.place);
   }
   const auto check = [&](std::size_t place, std::size_t number, std::size_t count, const char* kind,
                          const std::string& where) -> base::Status {
     if (number < count) return {};
-    return base::WrongInput(fmt::format("{} {} of device '{}' was asked for; '{}' has {} (the first is 0)", kind,
+    return base::WrongInput("device.no_such_axis",
+                            fmt::format("{} {} of device '{}' was asked for; '{}' has {} (the first is 0)", kind,
                                         number, settings.devices[place].name, joysticks.name(place), count),
                             where);
   };

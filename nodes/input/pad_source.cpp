@@ -68,6 +68,7 @@ base::Result<std::unique_ptr<Source>> MakePadSource(const config::Map& config, l
   if (!joysticks) return joysticks.error();
   joysticks.value()->Update();
   return base::WrongInput(
+      "device.not_found",
       fmt::format("no game pad is there; {}", input_devices::ListJoysticks(joysticks.value()->Connected())),
       config.Place());
 }

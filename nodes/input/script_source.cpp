@@ -73,13 +73,15 @@ base::Result<std::vector<const Column*>> ReadHead(const std::string& line, const
     const auto found =
         std::find_if(Columns().begin(), Columns().end(), [&](const Column& column) { return column.name == name; });
     if (found == Columns().end())
-      return base::WrongInput(fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, ColumnNames())), where);
+      return base::WrongInput("table.unknown_column",
+                              fmt::format("unknown column '{}'{}", name, base::DidYouMean(name, ColumnNames())), where);
     if (std::find(columns.begin(), columns.end(), &*found) != columns.end())
-      return base::WrongInput(fmt::format("column '{}' stands twice", name), where);
+      return base::WrongInput("table.duplicate_column", fmt::format("column '{}' stands twice", name), where);
     columns.push_back(&*found);
   }
   if (columns.front()->name != "time_s")
-    return base::WrongInput(fmt::format("the first column is '{}'; 'time_s' was expected", columns.front()->name),
+    return base::WrongInput("table.wrong_row",
+                            fmt::format("the first column is '{}'; 'time_s' was expected", columns.front()->name),
                             where);
   return columns;
 }
@@ -89,7 +91,8 @@ base::Result<double> ReadCell(const Column& column, const std::string& cell, con
   const auto [end, problem] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   const bool number = problem == std::errc{} && end == cell.data() + cell.size();
   if (!number || !(value >= column.low && value <= column.high) || (column.whole && value != std::floor(value))) {
-    return base::WrongInput(fmt::format("'{}' is '{}'; {} number from {} to {} was expected", column.name,
+    return base::WrongInput("table.wrong_row",
+                            fmt::format("'{}' is '{}'; {} number from {} to {} was expected", column.name,
                                         cell.substr(0, 40), column.whole ? "a whole" : "a", column.low, column.high),
                             where);
   }
@@ -117,7 +120,8 @@ base::Result<Script> Script::Parse(std::string_view text, const std::filesystem:
     }
     const auto cells = Split(line);
     if (cells.size() != columns.size())
-      return base::WrongInput(fmt::format("{} values were found, {} were expected", cells.size(), columns.size()),
+      return base::WrongInput("table.wrong_row",
+                              fmt::format("{} values were found, {} were expected", cells.size(), columns.size()),
                               where);
     Row row;
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -128,13 +132,15 @@ base::Result<Script> Script::Parse(std::string_view text, const std::filesystem:
     }
     if (!script.rows_.empty() && row.time_s <= script.rows_.back().time_s) {
       return base::WrongInput(
+          "table.wrong_row",
           fmt::format("time_s {} follows {}; ascending times were expected", row.time_s, script.rows_.back().time_s),
           where);
     }
     script.rows_.push_back(row);
   }
   if (script.rows_.empty())
-    return base::WrongInput("the script has no row; a head line and at least one row were expected", name.string());
+    return base::WrongInput("table.wrong_row", "the script has no row; a head line and at least one row were expected",
+                            name.string());
   return script;
 }
 

@@ -89,7 +89,7 @@ class RecorderNode final : public lockstep::Node {
         return {};
       }
       if (!lockstep::SampleHeader::HasHeader(message.data))
-        return base::WrongInput("a sample without a header was found", file_.string());
+        return base::WrongInput("run.wrong_sample", "a sample without a header was found", file_.string());
       const lockstep::Sample sample{lockstep::SampleHeader::Read(message.data),
                                     std::make_shared<const base::Bytes>(message.data.begin(), message.data.end())};
       last_step_ = sample.valid();

@@ -39,7 +39,8 @@ class RoadService final : public launch::Service {
     auto request = idl::Decode<msg::GroundRequest>(bytes);
     if (!request) return request.error();
     const auto& asked = request.value().points();
-    if (asked.size() > kMaxPoints) return base::WrongInput("a request of more than a million points was found");
+    if (asked.size() > kMaxPoints)
+      return base::WrongInput("world.too_many_points", "a request of more than a million points was found");
     queries_.resize(asked.size());
     points_.resize(asked.size());
     for (std::size_t i = 0; i < asked.size(); ++i) queries_[i] = {asked[i].x_m(), asked[i].y_m(), asked[i].z_hint_m()};
@@ -77,7 +78,7 @@ launch::WorldSummary Summary(const road::World& world) {
 
 base::Result<std::unique_ptr<launch::Service>> MakeRoadService(launch::NodeContext& context) {
   if (context.launch().world().empty())
-    return base::WrongInput("key 'world' is missing; a road server needs a world file",
+    return base::WrongInput("launch.no_world", "key 'world' is missing; a road server needs a world file",
                             context.launch().path().string());
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();

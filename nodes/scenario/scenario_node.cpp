@@ -102,7 +102,8 @@ base::Status CheckVehicle(const scenario::Event& event, const std::vector<std::s
   const auto place = scenario::ParsePlace(event.argument);
   if (!place) return place.error();
   if (std::find(vehicles.begin(), vehicles.end(), place.value().vehicle) != vehicles.end()) return {};
-  return base::WrongInput(fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle,
+  return base::WrongInput("launch.not_wired",
+                          fmt::format("no vehicle '{}' is wired to this scenario{}", place.value().vehicle,
                                       base::DidYouMean(place.value().vehicle, vehicles)));
 }
 
@@ -264,10 +265,11 @@ base::Status CheckObeyed(const launch::NodeContext& context, const scenario::Sce
   const auto check = [&](const scenario::Event& event) -> base::Status {
     if (event.name == scenario::kVehiclePlace) {
       const base::Status known = CheckVehicle(event, vehicles);
-      return known ? known : base::WrongInput(known.error().message, file.string());
+      return known ? known : known.error().WithContext(file.string());
     }
     if (traffic || !event.name.starts_with("traffic.")) return {};
     return base::WrongInput(
+        "launch.not_wired",
         fmt::format("'{}' speaks to the traffic, but no node of kind 'traffic' is wired to this scenario", event.name),
         file.string());
   };
@@ -290,22 +292,26 @@ base::Result<std::vector<Gate>> MakeGates(const launch::NodeContext& context, co
   std::vector<Gate> gates;
   for (const scenario::ConditionalEvent& event : scenario.conditional) {
     if (!sees)
-      return base::WrongInput("'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario",
+      return base::WrongInput("launch.not_wired",
+                              "'passes_m' waits for the driver's car; wire 'vehicle_state' to the scenario",
                               event.place);
     auto road = std::find(names.begin(), names.end(), event.road);
     if (event.road.empty() && names.size() == 1) road = names.begin();
     if (event.road.empty() && names.size() > 1) {
       return base::WrongInput(
+          "scenario.no_road_named",
           fmt::format("'passes_m' is on no road that is named, and the world has {}; 'road' was expected beside it",
                       names.size()),
           event.place);
     }
     if (road == names.end())
-      return base::WrongInput(fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
+      return base::WrongInput("world.unknown_road",
+                              fmt::format("there is no road '{}'{}", event.road, base::DidYouMean(event.road, names)),
                               event.place);
     const Stations& found = roads[static_cast<std::size_t>(road - names.begin())];
     if (event.passes_m > found.length_m()) {
       return base::WrongInput(
+          "scenario.off_the_road",
           fmt::format("'passes_m' is {}; road '{}' is {:.1f} m long", event.passes_m, found.id(), found.length_m()),
           event.place);
     }
@@ -334,7 +340,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeScenarioNode(launch::NodeConte
   std::vector<Gate> gates;
   if (!scenario.value().conditional.empty()) {
     if (context.launch().world().empty())
-      return base::WrongInput("key 'world' is missing; 'passes_m' needs roads", context.launch().path().string());
+      return base::WrongInput("launch.no_world", "key 'world' is missing; 'passes_m' needs roads",
+                              context.launch().path().string());
     auto loaded = road::World::Load(context.launch().world());
     if (!loaded) return loaded.error();
     world = std::move(loaded).value();

@@ -17,7 +17,8 @@ namespace topics = idl::topics;
 
 base::Status CheckAgent(const traffic::TrafficModel& model, const scenario::AgentChoice& choice) {
   if (choice.kind == scenario::AgentChoice::Kind::kOne && choice.id >= model.vehicles()) {
-    return base::WrongInput(fmt::format("there is no agent {}; there are {}, from 0 on", choice.id, model.vehicles()));
+    return base::WrongInput("traffic.unknown_agent",
+                            fmt::format("there is no agent {}; there are {}, from 0 on", choice.id, model.vehicles()));
   }
   if (!choice.at) return {};
   const auto order = traffic::PlaceOrders::At(model, choice.at->road, choice.at->s_m);
@@ -27,7 +28,10 @@ base::Status CheckAgent(const traffic::TrafficModel& model, const scenario::Agen
 base::Status CheckOf(const traffic::TrafficModel& model, const scenario::Event& event, const std::string& place) {
   if (!event.name.starts_with("traffic.")) return {};
   const auto status = CheckAgainst(model, event);
-  return status ? status : base::WrongInput(fmt::format("'{}': {}", event.name, status.error().message), place);
+  return status ? status
+                : status.error()
+                      .WithMessage(fmt::format("'{}': {}", event.name, status.error().message))
+                      .WithContext(place);
 }
 
 }  // namespace
@@ -51,13 +55,15 @@ base::Status CheckAgainst(const traffic::TrafficModel& model, const scenario::Ev
     const auto choice = scenario::ParseAgentOnLane(event.argument);
     if (!choice) return choice.error();
     if (!(event.value >= 0.0))
-      return base::WrongInput(fmt::format("its speed is {}; at least 0 was expected", event.value));
+      return base::WrongInput("scenario.wrong_value",
+                              fmt::format("its speed is {}; at least 0 was expected", event.value));
     return model.CheckSpawn(choice.value().id, choice.value().at->road, choice.value().at->s_m);
   }
   const auto kind = OrderOf(event.name);
-  if (!kind) return base::WrongInput("the traffic does not know this event");
+  if (!kind) return base::WrongInput("scenario.unknown_event", "the traffic does not know this event");
   if (!traffic::IsSound(*kind, event.value))
-    return base::WrongInput(fmt::format("its value is {}; one that the traffic can obey was expected", event.value));
+    return base::WrongInput("scenario.wrong_value",
+                            fmt::format("its value is {}; one that the traffic can obey was expected", event.value));
   const auto choice = scenario::ParseAgent(event.argument);
   return choice ? CheckAgent(model, choice.value()) : choice.error();
 }

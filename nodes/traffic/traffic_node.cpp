@@ -190,7 +190,7 @@ class TrafficNode final : public lockstep::Node {
       if (!event.name().starts_with("traffic.")) continue;
       const std::string where = fmt::format("event '{}' at step {}", event.name(), sample.valid());
       if (auto status = CheckAgainst(model_, {event.name(), event.argument(), event.value()}); !status)
-        return base::WrongInput(status.error().message, where);
+        return status.error().WithContext(where);
       if (event.name() == scenario::kTrafficPedestrian) {
         if (auto status = Call(event.argument(), where); !status) return status;
         continue;
@@ -206,9 +206,9 @@ class TrafficNode final : public lockstep::Node {
   // That there is no room for it, or that it is there, is no mistake of the scenario's, but a person should know.
   base::Status Spawn(const std::string& argument, double speed_mps, const std::string& where) {
     const auto choice = scenario::ParseAgentOnLane(argument);
-    if (!choice) return base::WrongInput(choice.error().message, where);
+    if (!choice) return choice.error().WithContext(where);
     const auto told = model_.Spawn(choice.value().id, choice.value().at->road, choice.value().at->s_m, speed_mps);
-    if (!told) return base::WrongInput(told.error().message, where);
+    if (!told) return told.error().WithContext(where);
     if (told.value())
       told_to_appear_.emplace_back(choice.value().id, where);
     else
@@ -227,21 +227,21 @@ class TrafficNode final : public lockstep::Node {
   }
   base::Status Call(const std::string& argument, const std::string& where) {
     const auto crossing = scenario::ParseCrossing(argument);
-    if (!crossing) return base::WrongInput(crossing.error().message, where);
+    if (!crossing) return crossing.error().WithContext(where);
     const auto status = model_.SpawnPedestrian(crossing.value().road, crossing.value().s_m, crossing.value().from_left);
-    return status ? status : base::WrongInput(status.error().message, where);
+    return status ? status : status.error().WithContext(where);
   }
   // Those that an event speaks to, at once or when they come to a place.
   base::Status Tell(const std::string& argument, traffic::OrderKind kind, double value, const std::string& where) {
     const auto choice = scenario::ParseAgent(argument);
-    if (!choice) return base::WrongInput(choice.error().message, where);
+    if (!choice) return choice.error().WithContext(where);
     const std::vector<std::uint32_t> agents = Meant(choice.value(), where);
     if (!choice.value().at) {
       for (const std::uint32_t id : agents) traffic::Obey(model_, id, kind, value);
       return {};
     }
     auto order = traffic::PlaceOrders::At(model_, choice.value().at->road, choice.value().at->s_m);
-    if (!order) return base::WrongInput(order.error().message, where);
+    if (!order) return order.error().WithContext(where);
     order.value().kind = kind, order.value().value = value;
     using Whom = traffic::PlaceOrder::Whom;
     using Kind = scenario::AgentChoice::Kind;
@@ -318,7 +318,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
   const traffic::TrafficSettings settings = traffic::ReadTraffic(context.config(), context.seed());
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   if (context.launch().world().empty())
-    return base::WrongInput("key 'world' is missing; traffic needs roads", context.launch().path().string());
+    return base::WrongInput("launch.no_world", "key 'world' is missing; traffic needs roads",
+                            context.launch().path().string());
   auto world = road::World::Load(context.launch().world());
   if (!world) return world.error();
   context.set_world_hash(world.value()->content_hash());

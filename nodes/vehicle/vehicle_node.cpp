@@ -72,7 +72,8 @@ class VehicleNode final : public lockstep::Node {
   base::Status InitialiseFrom(const std::vector<lockstep::Sample>& published) override {
     const auto newest = std::find_if(published.rbegin(), published.rend(),
                                      [&](const lockstep::Sample& sample) { return sample.source() == state_source_; });
-    if (newest == published.rend()) return base::WrongInput("no published state of the car was found");
+    if (newest == published.rend())
+      return base::WrongInput("run.cannot_restore", "no published state of the car was found");
     const auto state = idl::Decode<msg::VehicleState>(*newest->payload);
     if (!state) return state.error();
     return model_->Initialise(dynamics::FromState(FromMessage(state.value())), ground_);
@@ -100,8 +101,7 @@ class VehicleNode final : public lockstep::Node {
         if (event.name() != scenario::kVehiclePlace) continue;
         const auto place = scenario::ParsePlace(event.argument());
         if (!place)
-          return base::WrongInput(place.error().message,
-                                  fmt::format("event '{}' at step {}", event.name(), sample.valid()));
+          return place.error().WithContext(fmt::format("event '{}' at step {}", event.name(), sample.valid()));
         if (place.value().vehicle == name_) Place(place.value(), event.value());
       }
     }
@@ -144,6 +144,7 @@ base::Result<std::shared_ptr<const road::World>> OwnWorld(const launch::NodeCont
         fmt::format("{} (without the world's files: '{}')", world.error().message, without));
   if (world.value()->content_hash() != summary.content_hash) {
     return base::WrongInput(
+        "world.other_hash",
         fmt::format(
             "the world's content hash is {} here and {} where the road server is; give both the same files, or '{}'",
             base::Hex(world.value()->content_hash()), base::Hex(summary.content_hash), without),

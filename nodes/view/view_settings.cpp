@@ -33,7 +33,7 @@ void ReadFollowed(const lockstep::Roster& roster, const lockstep::RosterNode& vi
   if (followed)
     settings.followed = followed.value();
   else
-    map.Problem("follow", followed.error().message);
+    map.Problem("follow", followed.error().id, followed.error().message);
 }
 
 void ReadPaints(const lockstep::Roster& roster, const lockstep::RosterNode& view, const config::Map& map,
@@ -43,9 +43,9 @@ void ReadPaints(const lockstep::Roster& roster, const lockstep::RosterNode& view
     const auto car = FindFollowed(roster, cars, name);
     const auto paint = PaintOf(map.Text(name));
     if (!car)
-      map.Problem(name, car.error().message);
+      map.Problem(name, car.error().id, car.error().message);
     else if (!paint)
-      map.Problem(name, paint.error().message);
+      map.Problem(name, paint.error().id, paint.error().message);
     else
       settings.paints[cars[car.value()]] = paint.value();
   }
@@ -55,11 +55,12 @@ void ReadScreen(const launch::Launch& launch, const config::Map& map, ViewSettin
   if (!map.Has("screen")) return;
   const std::string name = map.Text("screen");
   if (launch.lab().empty())
-    return map.Problem("screen", "'screen' names one of a laboratory, but the launch file names no 'lab'");
+    return map.Problem("screen", "config.conflicting_keys",
+                       "'screen' names one of a laboratory, but the launch file names no 'lab'");
   const auto lab = launch::Lab::Load(launch.lab());
-  if (!lab) return map.Problem("screen", lab.error().Text());
+  if (!lab) return map.Problem("screen", lab.error().id, lab.error().Text());
   const auto screen = lab.value().Screen(name);
-  if (!screen) return map.Problem("screen", screen.error().Text());
+  if (!screen) return map.Problem("screen", screen.error().id, screen.error().Text());
   std::vector<scene::ScreenPlane> planes;
   std::size_t which = 0;
   for (const launch::LabScreen& s : lab.value().screens()) {
@@ -78,7 +79,7 @@ void ReadFilm(const launch::NodeContext& context, const config::Map& frames, Vie
   if (steps)
     settings.frame_steps = std::move(steps).value();
   else
-    frames.Problem("fps", steps.error().message);
+    frames.Problem("fps", steps.error().id, steps.error().message);
 }
 
 void ReadTimes(const launch::NodeContext& context, const config::Map& frames, ViewSettings& settings) {
@@ -87,7 +88,7 @@ void ReadTimes(const launch::NodeContext& context, const config::Map& frames, Vi
     if (step)
       settings.frame_steps.push_back(step.value());
     else
-      frames.Problem("times_s", step.error().message);
+      frames.Problem("times_s", step.error().id, step.error().message);
   }
   std::sort(settings.frame_steps.begin(), settings.frame_steps.end());
   settings.frame_steps.erase(std::unique(settings.frame_steps.begin(), settings.frame_steps.end()),
@@ -155,7 +156,8 @@ void ReadMirrors(const config::Map& map, ViewSettings& settings) {
     if (const auto mirror = scene::MirrorOf(name))
       settings.mirrors[static_cast<std::size_t>(*mirror)] = true;
     else
-      names.Problem(i, fmt::format("'{}' is no mirror{}", name, base::DidYouMean(name, {"left", "inside", "right"})));
+      names.Problem(i, "config.unknown_name",
+                    fmt::format("'{}' is no mirror{}", name, base::DidYouMean(name, {"left", "inside", "right"})));
   }
 }
 
@@ -223,7 +225,8 @@ base::Result<ViewSettings> ReadViewSettings(const launch::NodeContext& context) 
       ReadTimes(context, frames, settings);
     settings.folder = frames.Path("folder");
     if (auto status = context.launch().file().Finish(); !status) return status.error();
-    if (auto status = PrepareFolder(settings.folder); !status) frames.Problem("folder", status.error().message);
+    if (auto status = PrepareFolder(settings.folder); !status)
+      frames.Problem("folder", status.error().id, status.error().message);
   }
   if (auto status = context.launch().file().Finish(); !status) return status.error();
   return settings;
@@ -243,8 +246,8 @@ base::Result<std::size_t> FindFollowed(const lockstep::Roster& roster, const std
   for (const lockstep::SourceIndex source : cars) names.push_back(roster.node(roster.source(source).node).name);
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  return base::WrongInput(
-      fmt::format("'{}' is no vehicle that this view is wired to{}", name, base::DidYouMean(name, names)));
+  return base::WrongInput("launch.not_wired", fmt::format("'{}' is no vehicle that this view is wired to{}", name,
+                                                          base::DidYouMean(name, names)));
 }
 
 base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std::vector<lockstep::SourceIndex>& cars,
@@ -253,12 +256,14 @@ base::Result<lockstep::Step> FrameStep(const lockstep::Roster& roster, const std
   const double steps = time_s / base_step_s;
   const auto step = static_cast<lockstep::Step>(std::llround(steps));
   if (std::fabs(steps - static_cast<double>(step)) > 1e-6 * std::max(1.0, steps)) {
-    return base::WrongInput(fmt::format("{} s is no multiple of the base step of {} s", time_s, base_step_s));
+    return base::WrongInput("view.wrong_film",
+                            fmt::format("{} s is no multiple of the base step of {} s", time_s, base_step_s));
   }
   for (const lockstep::SourceIndex source : cars) {
     const lockstep::Step period = roster.source(source).period;
     if (step % period == 0) continue;
-    return base::WrongInput(fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected",
+    return base::WrongInput("view.wrong_film",
+                            fmt::format("at {} s {} has no sample; a multiple of its period of {} s was expected",
                                         time_s, roster.SourceName(source), static_cast<double>(period) * base_step_s));
   }
   return step;
@@ -272,11 +277,12 @@ base::Result<std::vector<lockstep::Step>> FilmSteps(const lockstep::Roster& rost
   const double grid_s = static_cast<double>(grid * roster.base_step_ns()) * 1e-9;
   if (!(to_s >= from_s))
     return base::WrongInput(
+        "view.wrong_film",
         fmt::format("a film from {} s to {} s was found; an end behind its beginning was expected", from_s, to_s));
   if (!(fps > 0.0 && fps * grid_s <= 1.0 + 1e-9)) {
-    return base::WrongInput(fmt::format(
-        "{} pictures a second were found; more than 0 and at most {:g} were expected, as many as all cars have samples",
-        fps, 1.0 / grid_s));
+    return base::WrongInput("view.wrong_film", fmt::format("{} pictures a second were found; more than 0 and at most "
+                                                           "{:g} were expected, as many as all cars have samples",
+                                                           fps, 1.0 / grid_s));
   }
   std::vector<lockstep::Step> steps;
   for (std::int64_t k = 0;; ++k) {
@@ -290,13 +296,15 @@ base::Status PrepareFolder(const std::filesystem::path& folder) {
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (!std::filesystem::is_directory(folder)) {
-    return base::WrongInput(fmt::format("'{}' is no folder, and none can be made ({})", folder.string(),
+    return base::WrongInput("file.not_folder",
+                            fmt::format("'{}' is no folder, and none can be made ({})", folder.string(),
                                         problem ? problem.message() : "something else lies there"));
   }
   std::string attempt = (folder / ".rodeira-XXXXXX").string();
   const int file = ::mkstemp(attempt.data());
   if (file < 0)
-    return base::WrongInput(fmt::format("'{}' cannot be written to ({})", folder.string(),
+    return base::WrongInput("file.cannot_write",
+                            fmt::format("'{}' cannot be written to ({})", folder.string(),
                                         std::error_code(errno, std::generic_category()).message()));
   ::close(file);
   std::filesystem::remove(attempt, problem);

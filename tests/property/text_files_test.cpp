@@ -151,7 +151,7 @@ TEST(TextFiles, IdlOfExternalNodes) {
          const auto source = idl::IdlSource::Read("gaze.idl", [&](const fs::path& file) -> base::Result<std::string> {
            if (file == "gaze.idl") return text;
            if (file.filename() == "sample_header.idl") return header;
-           return base::WrongInput("no such file", file.string());
+           return base::WrongInput("file.not_found", "no such file", file.string());
          });
          if (!source) return source.error();
          const auto type = source.value().Find("lab::Gaze");

@@ -224,8 +224,7 @@ TEST(TrafficFiles, ScenariosChangedByStructure) {
             continue;
           }
           const auto told = model.Spawn(choice.id, choice.at->road, choice.at->s_m, event.value);
-          if (!told)
-            refused = base::WrongInput(told.error().message, event.name);  // the traffic node says which event, too
+          if (!told) refused = told.error().WithContext(event.name);  // the traffic node says which event, too
           appeared += told && told.value() ? 1 : 0;
         }
         Drive(model);

@@ -38,7 +38,8 @@ base::Result<scene::Colour> PaintOf(std::string_view text) {
     return scene::Colour::Of(rgb);
   std::vector<std::string> names;
   for (const auto& [name, colour] : kNamed) names.emplace_back(name);
-  return base::WrongInput(fmt::format("'{}' is no colour; a name or six hexadecimal digits were expected{}", text,
+  return base::WrongInput("view.wrong_colour",
+                          fmt::format("'{}' is no colour; a name or six hexadecimal digits were expected{}", text,
                                       base::DidYouMean(std::string(text), names)));
 }
 

@@ -7,7 +7,7 @@ namespace rodeira::nodes {
 
 base::Result<std::unique_ptr<FrameLog>> FrameLog::Open(const std::filesystem::path& file) {
   std::ofstream out(file);
-  if (!out) return base::WrongInput("the log of frames cannot be written", file.string());
+  if (!out) return base::WrongInput("file.cannot_write", "the log of frames cannot be written", file.string());
   out << "wall_s,simulated_s,x_m,y_m,z_m,eye_x_m,eye_y_m,eye_z_m\n";
   return std::unique_ptr<FrameLog>(new FrameLog(std::move(out)));
 }

@@ -20,7 +20,8 @@ base::Status WritePng(const std::filesystem::path& path, const Image& image) {
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(header);
   base::Bytes bytes(size);
   if (png_image_write_to_memory(&header, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {
-    return base::Failed(std::string("the picture cannot be made into a PNG file: ") + header.message, path.string());
+    return base::Failed("file.cannot_write",
+                        std::string("the picture cannot be made into a PNG file: ") + header.message, path.string());
   }
   bytes.resize(size);
   return base::WriteWhole(path, bytes);

@@ -56,18 +56,20 @@ base::Result<std::unique_ptr<Surface>> Surface::Open(SurfaceKind kind, int width
                                                      std::optional<Quality> quality) {
   std::unique_ptr<Surface> surface(new Surface());
   surface->kind_ = kind;
-  if (kind == SurfaceKind::kWindow && !base::NamesDisplay()) return base::WrongInput(kNoDisplay);
+  if (kind == SurfaceKind::kWindow && !base::NamesDisplay()) return base::WrongInput("view.no_display", kNoDisplay);
   if (!StartVideo(kind == SurfaceKind::kOffscreen ? "offscreen" : nullptr)) {
-    return base::WrongInput(std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
-                                                                     : "OpenGL without a display does not start (") +
-                            SDL_GetError() +
-                            (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'"
-                                                          : "); the packages libegl1 and libegl-mesa0 were expected"));
+    return base::WrongInput(
+        kind == SurfaceKind::kWindow ? base::ErrorId("view.no_display") : base::ErrorId("view.no_opengl"),
+        std::string(kind == SurfaceKind::kWindow ? "a window is wanted, but no display answers ("
+                                                 : "OpenGL without a display does not start (") +
+            SDL_GetError() +
+            (kind == SurfaceKind::kWindow ? "); set DISPLAY, or 'window: never'"
+                                          : "); the packages libegl1 and libegl-mesa0 were expected"));
   }
   surface->video_ = true;
   if (kind == SurfaceKind::kWindow && !window::IsDisplay(SDL_GetCurrentVideoDriver())) {
-    return base::WrongInput("a window is wanted, but no display answers (" + base::NamedDisplay() +
-                            "); another DISPLAY was expected, or 'window: never'");
+    return base::WrongInput("view.no_display", "a window is wanted, but no display answers (" + base::NamedDisplay() +
+                                                   "); another DISPLAY was expected, or 'window: never'");
   }
   if (auto status = surface->MakeWindow(width_px, height_px, title, resizable, display, quality); !status)
     return status.error();
@@ -110,8 +112,8 @@ base::Status Surface::MakeWindow(int width_px, int height_px, const std::string&
     made = make(TraitsOf(quality_).samples);
   }
   if (!made)
-    return base::WrongInput(std::string("no OpenGL context can be made (") + SDL_GetError() +
-                            "); the package libgl1-mesa-dri was expected");
+    return base::WrongInput("view.no_opengl", std::string("no OpenGL context can be made (") + SDL_GetError() +
+                                                  "); the package libgl1-mesa-dri was expected");
   if (kind_ == SurfaceKind::kWindow) holds_ = SDL_GL_SetSwapInterval(1) == 0;
   if (!holds_) SDL_ClearError();
   renderer_ = RendererName();

@@ -54,10 +54,11 @@ base::Result<std::unique_ptr<HeadsetEyes>> HeadsetEyes::Make(XrInstance instance
   std::uint32_t count = 0;
   if (XR_FAILED(xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, 2, &count, shapes.data())) ||
       count != 2) {
-    return base::WrongInput("the headset has not two eyes; other ones are not drawn for");
+    return base::WrongInput("view.no_headset", "the headset has not two eyes; other ones are not drawn for");
   }
   const std::int64_t format = FormatOf(session);
-  if (format == 0) return base::WrongInput("the headset's runtime takes no pictures of eight bits a colour");
+  if (format == 0)
+    return base::WrongInput("view.no_headset", "the headset's runtime takes no pictures of eight bits a colour");
   for (std::size_t i = 0; i < 2; ++i) {
     if (auto status = eyes->MakeEye(shapes[i], format, TraitsOf(quality).samples, eyes->eyes_[i]); !status)
       return status.error();
@@ -85,7 +86,7 @@ base::Status HeadsetEyes::MakeEye(const XrViewConfigurationView& shape, std::int
   eye.buffer = std::make_unique<EyeBuffer>(static_cast<int>(info.width), static_cast<int>(info.height), samples,
                                            static_cast<unsigned>(format));
   if (eye.textures.empty() || !eye.buffer->whole())
-    return base::WrongInput("the headset's pictures cannot be made in this OpenGL");
+    return base::WrongInput("view.no_headset", "the headset's pictures cannot be made in this OpenGL");
   return {};
 }
 
@@ -113,14 +114,14 @@ base::Result<std::optional<HeadsetEyes::Views>> HeadsetEyes::Draw(XrTime time, c
   for (auto& view : found) view.type = XR_TYPE_VIEW;
   std::uint32_t count = 0;
   if (XR_FAILED(xrLocateViews(session_, &when, &known, 2, &count, found.data())))
-    return base::Failed("the headset does not say where its eyes are");
+    return base::Failed("view.no_headset", "the headset does not say where its eyes are");
   constexpr XrViewStateFlags kWhole = XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
   if (count != 2 || (known.viewStateFlags & kWhole) != kWhole) return std::optional<Views>();
   Views views{};
   for (std::size_t i = 0; i < 2; ++i) {
     Eye& eye = eyes_[i];
     if (!DrawOne(eye, EyeOf(found[i].pose, found[i].fov), draw))
-      return base::Failed("the headset gives its pictures back no more");
+      return base::Failed("view.no_headset", "the headset gives its pictures back no more");
     const PictureTarget& size = eye.buffer->target();
     views[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW,
                 nullptr,

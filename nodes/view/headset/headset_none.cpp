@@ -4,7 +4,8 @@
 namespace rodeira::nodes {
 
 base::Result<std::unique_ptr<Headset>> Headset::Open(Quality) {
-  return base::WrongInput("this Rodeira was built without OpenXR (package libopenxr-dev, CMake's RODEIRA_OPENXR)");
+  return base::WrongInput("view.no_openxr",
+                          "this Rodeira was built without OpenXR (package libopenxr-dev, CMake's RODEIRA_OPENXR)");
 }
 
 }  // namespace rodeira::nodes

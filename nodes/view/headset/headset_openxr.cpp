@@ -26,6 +26,7 @@ base::Result<XrInstance> MakeInstance(const std::vector<const char*>& extensions
   std::uint32_t count = 0;
   if (XR_FAILED(xrEnumerateInstanceExtensionProperties(nullptr, 0, &count, nullptr))) {
     return base::WrongInput(
+        "view.no_openxr",
         "no OpenXR runtime answers on this PC; one that is running was expected (Monado, SteamVR), named by "
         "XR_RUNTIME_JSON or ~/.config/openxr/1/active_runtime.json");
   }
@@ -36,6 +37,7 @@ base::Result<XrInstance> MakeInstance(const std::vector<const char*>& extensions
     for (const XrExtensionProperties& one : offered) there = there || std::strcmp(one.extensionName, extension) == 0;
     if (!there)
       return base::WrongInput(
+          "view.no_openxr",
           fmt::format("this PC's OpenXR runtime does not offer {}, which the view's OpenGL needs here", extension));
   }
   auto info = Of<XrInstanceCreateInfo>(XR_TYPE_INSTANCE_CREATE_INFO);
@@ -47,8 +49,8 @@ base::Result<XrInstance> MakeInstance(const std::vector<const char*>& extensions
   XrInstance instance = XR_NULL_HANDLE;
   const XrResult made = xrCreateInstance(&info, &instance);
   if (XR_FAILED(made))
-    return base::WrongInput(
-        fmt::format("this PC's OpenXR runtime does not start ({})", Said(XR_NULL_HANDLE, "xrCreateInstance", made)));
+    return base::WrongInput("view.no_openxr", fmt::format("this PC's OpenXR runtime does not start ({})",
+                                                          Said(XR_NULL_HANDLE, "xrCreateInstance", made)));
   return instance;
 }
 
@@ -67,9 +69,11 @@ class OpenXrHeadset final : public Headset {
     XrSystemGetInfo wanted{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
     XrSystemId system = XR_NULL_SYSTEM_ID;
     if (const XrResult found = xrGetSystem(instance_, &wanted, &system); XR_FAILED(found)) {
-      return base::WrongInput(fmt::format(
-          "this PC's OpenXR runtime has no headset ({}); one that is plugged in and switched on was expected",
-          Said(instance_, "xrGetSystem", found)));
+      return base::WrongInput(
+          "view.no_headset",
+          fmt::format(
+              "this PC's OpenXR runtime has no headset ({}); one that is plugged in and switched on was expected",
+              Said(instance_, "xrGetSystem", found)));
     }
     auto properties = Of<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     if (XR_SUCCEEDED(xrGetSystemProperties(instance_, system, &properties)))
@@ -125,7 +129,8 @@ class OpenXrHeadset final : public Headset {
  private:
   base::Status Try(const char* function, XrResult result) const {
     if (XR_SUCCEEDED(result)) return {};
-    return base::WrongInput(fmt::format("the headset cannot be used ({})", Said(instance_, function, result)));
+    return base::WrongInput("view.no_headset",
+                            fmt::format("the headset cannot be used ({})", Said(instance_, function, result)));
   }
 
   bool Holds(const char* function, XrResult result) {
@@ -186,7 +191,8 @@ class OpenXrHeadset final : public Headset {
 
 base::Result<std::unique_ptr<Headset>> Headset::Open(Quality quality) {
   const auto binding = BindingOfCurrentContext();
-  if (!binding) return base::WrongInput("a headset needs OpenGL by GLX or EGL, and this view's is neither");
+  if (!binding)
+    return base::WrongInput("view.no_headset", "a headset needs OpenGL by GLX or EGL, and this view's is neither");
   auto instance = MakeInstance(binding->extensions);
   if (!instance) return instance.error();
   auto headset = std::make_unique<OpenXrHeadset>(instance.value());

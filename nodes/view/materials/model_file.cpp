@@ -20,7 +20,7 @@ base::Status ReadModel(const std::string& file) {
   const std::lock_guard lock(models_mutex);
   auto& node = known_models[file];
   if (!node) node = osgDB::readRefNodeFile(file);
-  if (!node) return base::WrongInput("OpenSceneGraph cannot read this model", file);
+  if (!node) return base::WrongInput("view.wrong_model_file", "OpenSceneGraph cannot read this model", file);
   return {};
 }
 

@@ -31,9 +31,11 @@ double HeadingOf(const scene::CarPose& car) {
 // The vehicle that a person's request is about.
 base::Result<const scene::CarPose*> CarOf(const scene::SceneSnapshot& moment, std::size_t followed,
                                           const CarNames& names) {
-  if (moment.cars.empty()) return base::WrongInput("nobody drives here: there is no car to be placed");
+  if (moment.cars.empty())
+    return base::WrongInput("view.cannot_place", "nobody drives here: there is no car to be placed");
   const scene::CarPose& car = moment.cars[followed < moment.cars.size() ? followed : 0];
-  if (!names.contains(car.id)) return base::WrongInput("a recording cannot be changed: the car stays where it was");
+  if (!names.contains(car.id))
+    return base::WrongInput("replay.cannot_change", "a recording cannot be changed: the car stays where it was");
   return &car;
 }
 
@@ -46,9 +48,9 @@ base::Result<scenario::Request> AskPlace(const road::World& world, const scene::
   const scene::CarPose& car = *found.value();
   const auto ground = world.MakeGround();
   const auto met = scene::GroundOn(*ground, ray);
-  if (!met) return base::WrongInput(kNoGround);
+  if (!met) return base::WrongInput("view.cannot_place", kNoGround);
   const scene::CarPlace place = scene::PlaceAt(world, *met, HeadingOf(car));
-  if (!HasGround(*ground, place, car)) return base::WrongInput(kNoGround);
+  if (!HasGround(*ground, place, car)) return base::WrongInput("view.cannot_place", kNoGround);
   return scenario::PlaceRequest({names.at(car.id), place.x_m, place.y_m, place.z_m},
                                 place.heading_rad * 180.0 / base::kPi);
 }

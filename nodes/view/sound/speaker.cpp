@@ -33,8 +33,9 @@ bool MayBeHeard() {
 }  // namespace
 
 base::Result<std::unique_ptr<Speaker>> Speaker::Open() {
-  if (!MayBeHeard()) return base::Failed("this PC has no sound card and no sound server");
-  if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0) return base::Failed(fmt::format("SDL has no sound: {}", SDL_GetError()));
+  if (!MayBeHeard()) return base::Failed("device.no_sound", "this PC has no sound card and no sound server");
+  if (SDL_InitSubSystem(SDL_INIT_AUDIO) != 0)
+    return base::Failed("device.no_sound", fmt::format("SDL has no sound: {}", SDL_GetError()));
   SDL_AudioSpec wanted{};
   wanted.freq = sound::kRate_Hz;
   wanted.format = AUDIO_F32SYS;
@@ -42,7 +43,8 @@ base::Result<std::unique_ptr<Speaker>> Speaker::Open() {
   wanted.samples = 512;
   std::unique_ptr<Speaker> speaker(new Speaker());
   speaker->device_ = SDL_OpenAudioDevice(nullptr, 0, &wanted, nullptr, 0);
-  if (speaker->device_ == 0) return base::Failed(fmt::format("the sound device cannot be opened: {}", SDL_GetError()));
+  if (speaker->device_ == 0)
+    return base::Failed("device.no_sound", fmt::format("the sound device cannot be opened: {}", SDL_GetError()));
   SDL_PauseAudioDevice(speaker->device_, 0);
   return speaker;
 }

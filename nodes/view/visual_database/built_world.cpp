@@ -134,12 +134,12 @@ base::Result<PagedWorld> ReadBuilt(const std::filesystem::path& folder, Material
   const osg::ref_ptr<osg::Node> read = osgDB::readRefNodeFile(file);
   PagedWorld built;
   built.root = read.valid() ? read->asGroup() : nullptr;
-  if (!built.root.valid()) return base::Failed("OpenSceneGraph cannot read this file", file);
+  if (!built.root.valid()) return base::Failed("view.wrong_database", "OpenSceneGraph cannot read this file", file);
   const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
   options->setReadFileCallback(new DressWhatIsRead(look, folder));
   FindTiles find(built.tiles);
   built.root->accept(find);
-  if (find.strange()) return base::Failed("this is no database of tiles", file);
+  if (find.strange()) return base::Failed("view.wrong_database", "this is no database of tiles", file);
   for (osg::PagedLOD* tile : built.tiles) {
     tile->setDatabasePath(folder.string() + "/");
     tile->setDatabaseOptions(options);

@@ -112,9 +112,11 @@ base::Result<std::string> Serialise(const osg::Node& node) {
   osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("osgb");
   if (writer == nullptr)
     return base::Failed(
+        "view.no_osg_plugin",
         "OpenSceneGraph's plugin for .osgb files is missing; the package libopenscenegraph161 was expected");
   std::ostringstream bytes;
-  if (!writer->writeNode(node, bytes).success()) return base::Failed("OpenSceneGraph cannot write .osgb files");
+  if (!writer->writeNode(node, bytes).success())
+    return base::Failed("view.no_osg_plugin", "OpenSceneGraph cannot write .osgb files");
   return bytes.str();
 }
 
@@ -198,7 +200,7 @@ base::Result<DatabaseReport> WriteDatabase(const road::World& world, const Datab
   std::error_code problem;
   fs::create_directories(options.folder / "tiles", problem);
   if (!fs::is_directory(options.folder / "tiles", problem))
-    return base::WrongInput("this is no folder, and none can be made", options.folder.string());
+    return base::WrongInput("file.not_folder", "this is no folder, and none can be made", options.folder.string());
   const Manifest before = ReadManifest(options.folder);
   const std::unique_ptr<DatabaseTiles> tiles = TilesOf(world, options.threads);
   const std::size_t count = tiles->count();

@@ -76,7 +76,7 @@ class Mortal final : public lockstep::Node {
   base::Status Step(const lockstep::StepInfo& step, const lockstep::Inbox& inbox, lockstep::Outbox& outbox) override {
     if (step.step < dies_at_) return whole_.Step(step, inbox, outbox);
     died_s_ = Now_s();
-    return base::Failed("the car is lost");
+    return base::Failed("vehicle.not_finite", "the car is lost");
   }
   void Save(base::StateWriter& out) const override { whole_.Save(out); }
   void Restore(base::StateReader& in) override { whole_.Restore(in); }

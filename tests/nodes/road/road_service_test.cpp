@@ -27,7 +27,7 @@ class Context final : public launch::NodeContext {
   using launch::NodeContext::NodeContext;
   ground::Ground& Ground() override { std::abort(); }  // its server does not ask for it
   base::Result<launch::WorldSummary> World() override {
-    return base::Failed("nobody asks the server for its own world", "");
+    return base::Failed("run.no_answer", "nobody asks the server for its own world", "");
   }
 };
 

@@ -19,7 +19,9 @@ class PlainContext final : public launch::NodeContext {
  public:
   using NodeContext::NodeContext;
   ground::Ground& Ground() override { return ground_; }
-  base::Result<launch::WorldSummary> World() override { return base::WrongInput("no road server here"); }
+  base::Result<launch::WorldSummary> World() override {
+    return base::WrongInput("run.no_answer", "no road server here");
+  }
 
  private:
   ground::PlaneGround ground_;

@@ -91,7 +91,7 @@ TEST_F(Reading, ARecordingsWindowIsThereBeforeItsWorldIs) {
 TEST_F(Reading, WhatIsWrongWithTheWorldIsTheAnswer) {
   const auto reader = [&]() -> base::Result<ReadWorld> {
     (void)LookAtTheBar();
-    return base::WrongInput("there is no such world");
+    return base::WrongInput("file.not_found", "there is no such world");
   };
   const auto render_thread = RenderThread::Open(settings_, reader);
   ASSERT_FALSE(render_thread.ok());
@@ -108,7 +108,7 @@ TEST(ReadingNothing, WithoutADisplay) {
   bool asked = false;
   const auto render_thread = RenderThread::Open(settings, [&]() -> base::Result<ReadWorld> {
     asked = true;
-    return base::WrongInput("read");
+    return base::WrongInput("file.cannot_read", "read");
   });
   EXPECT_FALSE(render_thread.ok());
   EXPECT_FALSE(asked);

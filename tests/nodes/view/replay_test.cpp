@@ -234,7 +234,7 @@ TEST(ReplayWindow, MarksThatCannotBeReadEndNothing) {
   };
   const auto take_marks = [&]() -> std::optional<base::Result<std::vector<ReplayMark>>> {
     if (asked != 1) return std::nullopt;
-    return base::Result<std::vector<ReplayMark>>(base::WrongInput("a mark is damaged"));
+    return base::Result<std::vector<ReplayMark>>(base::WrongInput("recording.damaged", "a mark is damaged"));
   };
   const auto status = window.value()->Watch(player, take_marks, moment_at, [&] { return ++asked > 4; });
   EXPECT_EQ(shown, 4);
@@ -257,7 +257,7 @@ TEST(ReplayWindow, StandsStillWhereTheFileIsDamaged) {
   player.Seek(5 * kS);
   std::vector<std::int64_t> shown;
   const auto moment_at = [&](std::int64_t time_ns) -> base::Result<scene::SceneSnapshot> {
-    if (time_ns >= 5 * kS && time_ns < 6 * kS) return base::WrongInput("5 s to 6 s are damaged");
+    if (time_ns >= 5 * kS && time_ns < 6 * kS) return base::WrongInput("recording.damaged", "5 s to 6 s are damaged");
     shown.push_back(time_ns);
     scene::SceneSnapshot moment;
     moment.time_ns = time_ns;

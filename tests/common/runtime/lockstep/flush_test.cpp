@@ -76,7 +76,7 @@ TEST_F(SettleTest, AStepIsProgressWhenItsWorkIsDone) {
 }
 
 TEST_F(SettleTest, WhatCannotBeWrittenEndsTheNode) {
-  node_.answer = base::Failed("the disk is full");
+  node_.answer = base::Failed("recording.cannot_write", "the disk is full");
   EXPECT_EQ(Go(), Runner::Outcome::kFailed);
   EXPECT_EQ(node_.seen.size(), 2u);
   EXPECT_EQ(runner_.report().progress, 0);

@@ -154,7 +154,7 @@ class Failing final : public Node {
     return {};
   }
   base::Status Step(const StepInfo& step, const Inbox&, Outbox& outbox) override {
-    if (step.step == 40) return base::Failed("the spring broke");
+    if (step.step == 40) return base::Failed("vehicle.not_finite", "the spring broke");
     outbox.Put("a", law::Payload(2));
     return {};
   }
