@@ -151,6 +151,7 @@ base::Result<std::string> ResolveInputFile(InputKind kind, const std::string& te
   std::vector<std::string> names;
   for (const InputFile& file : FindInputFiles(kind, folders)) names.push_back(file.name);
   return base::WrongInput(
+      "file.not_found",
       fmt::format("no such file, and no {} has this name{}", traits.words, base::DidYouMean(text, names)), text);
 }
 

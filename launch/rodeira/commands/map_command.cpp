@@ -63,6 +63,7 @@ int Convert(const MapOptions& options) {
     return base::PrintError(
         "rodeira",
         base::WrongInput(
+            "command.wrong_value",
             fmt::format("the file's name ends with '{}'; .svg, .xodr or, for a world, .yaml was expected", kind),
             options.out));
   }
@@ -76,9 +77,8 @@ int Convert(const MapOptions& options) {
   }
   const auto written = traffic_map::WriteWorld(made.value(), out, "made of " + from.filename().string());
   if (!written)
-    return base::PrintError("rodeira", written.error().context.empty()
-                                           ? base::WrongInput(written.error().message, options.file)
-                                           : written.error());
+    return base::PrintError(
+        "rodeira", written.error().context.empty() ? written.error().WithContext(options.file) : written.error());
   const auto companion = traffic_map::LoadHeightsOf(options.file);
   if (companion && !companion.value().flows.empty()) {
     fmt::print(stderr,

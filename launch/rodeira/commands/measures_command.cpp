@@ -64,7 +64,8 @@ base::Result<MeasuredRecording> ReadRecording(const std::string& file, const std
     world = std::move(loaded).value();
     const std::string hash = base::Hex(world->content_hash());
     if (!run.value().world_hash().empty() && run.value().world_hash() != hash) {
-      return base::WrongInput(fmt::format("the recording says world_hash {}, the embedded world has {}; lanes cannot "
+      return base::WrongInput("replay.other_world",
+                              fmt::format("the recording says world_hash {}, the embedded world has {}; lanes cannot "
                                           "be found with another world",
                                           run.value().world_hash(), hash),
                               file);
@@ -113,13 +114,15 @@ base::Result<measures::MeasuresSpec> SpecOf(const MeasuresOptions& options) {
     if (!interval) return interval.error().In("--intervals");
     names.push_back(interval.value().name);
     if (std::ranges::count(names, names.back()) > 1)
-      return base::WrongInput(fmt::format("two intervals are named '{}'", names.back()), "--intervals");
+      return base::WrongInput("measure.duplicate_interval", fmt::format("two intervals are named '{}'", names.back()),
+                              "--intervals");
     s.intervals.push_back(std::move(interval).value());
   }
   if (!options.baseline.empty()) s.baseline = options.baseline;
   const auto is_baseline = [&s](const measures::IntervalSpec& interval) { return interval.name == s.baseline; };
   if (!s.baseline.empty() && std::ranges::none_of(s.intervals, is_baseline))
-    return base::WrongInput(fmt::format("there is no interval '{}' for the baseline", s.baseline), "--baseline");
+    return base::WrongInput("measure.unknown_interval",
+                            fmt::format("there is no interval '{}' for the baseline", s.baseline), "--baseline");
   if (!options.subject.empty()) s.subject = options.subject;
   return spec;
 }
@@ -140,15 +143,17 @@ fs::path SidecarOf(const std::string& table) { return fs::path(table).replace_ex
 base::Status CheckOptions(const MeasuresOptions& options) {
   const std::string extension = fs::path(options.out).extension().string();
   if (!options.out.empty() && extension != ".csv" && extension != ".json")
-    return base::WrongInput("a table is written as .csv or .json", "-o " + options.out);
+    return base::WrongInput("command.wrong_value", "a table is written as .csv or .json", "-o " + options.out);
   std::error_code none;
   if (!options.out.empty() && !options.spec.empty() && fs::equivalent(SidecarOf(options.out), options.spec, none))
-    return base::WrongInput("the options beside this table would replace the measures file; another name was expected",
+    return base::WrongInput("command.wrong_value",
+                            "the options beside this table would replace the measures file; another name was expected",
                             "-o " + options.out);
   if (options.long_format && extension == ".json")
-    return base::WrongInput("a long table is written as .csv", "-o " + options.out);
+    return base::WrongInput("command.wrong_value", "a long table is written as .csv", "-o " + options.out);
   if (!options.series.empty() && options.recordings.size() != 1)
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("the time series of one recording are written; {} recordings are named", options.recordings.size()),
         "--series " + options.series);
   return {};
@@ -161,7 +166,9 @@ base::Status CheckNames(const measures::MeasuresSpec& spec, const std::vector<me
     const auto known = [&](const measures::MeasuresRow& row) { return is_its(row) && !row.interval.unknown; };
     if (std::ranges::any_of(rows, known)) continue;
     const auto row = std::ranges::find_if(rows, is_its);
-    if (row != rows.end()) return base::WrongInput(row->interval.reason, fmt::format("interval '{}'", interval.name));
+    if (row != rows.end())
+      return base::WrongInput("measure.wrong_interval", row->interval.reason,
+                              fmt::format("interval '{}'", interval.name));
   }
   return {};
 }
@@ -198,7 +205,8 @@ int Measures(const MeasuresOptions& options) {
   if (options.recordings.empty())
     return base::PrintError(
         "rodeira measures",
-        base::WrongInput("no recording is named; FILE.mcap, --list or --explain NAME was expected"));
+        base::WrongInput("command.missing_argument",
+                         "no recording is named; FILE.mcap, --list or --explain NAME was expected"));
   if (auto status = CheckOptions(options); !status) return base::PrintError("rodeira measures", status.error());
   const auto spec = SpecOf(options);
   if (!spec) return base::PrintError("rodeira measures", spec.error());

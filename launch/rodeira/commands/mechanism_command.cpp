@@ -50,7 +50,7 @@ int RunMechanismFile(const MechanismOptions& options) {
   if (shown) fmt::print(stderr, "\r     \r");
   if (!status) {
     if (status.error().code == base::ErrorCode::kWrongInput) return base::PrintError("rodeira", status.error());
-    return base::PrintError("rodeira", base::Failed(status.error().message, options.file));
+    return base::PrintError("rodeira", base::Failed(status.error().id, status.error().message, options.file));
   }
   if (!options.quiet) PrintMechanism(mechanism.value(), summary, wall_s);
   if (!options.csv.empty()) {

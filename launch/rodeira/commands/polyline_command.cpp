@@ -25,7 +25,8 @@ base::Result<Polyline> OffsetOf(const Polyline& line, const PolylineOptions& opt
   auto offset = geometry::Offset(line, options.left_m,
                                  options.keep_length ? geometry::Mitre::kKeepLength : geometry::Mitre::kKeepWidth);
   for (const geometry::OffsetFault& fault : offset.faults) {
-    const base::Error error = base::WrongInput(geometry::FaultText(fault, options.left_m), options.files[0]);
+    const base::Error error =
+        base::WrongInput("polyline.wrong_shape", geometry::FaultText(fault, options.left_m), options.files[0]);
     if (!options.despite_faults) return error;
     fmt::print(stderr, "rodeira: warning: {}\n", error.Text());
   }
@@ -37,7 +38,8 @@ base::Result<Polyline> Made(const std::vector<Polyline>& lines, const PolylineOp
   const Eigen::Vector3d first = line.points_W.front();
   const bool z_wanted =
       options.by_m.size() > 2 || (options.command == "scale" && options.about_m.size() > 2) || options.z_factor > 0.0;
-  if (z_wanted && !line.has_z) return base::WrongInput("the line has no heights (z_m) to be moved", options.files[0]);
+  if (z_wanted && !line.has_z)
+    return base::WrongInput("polyline.no_heights", "the line has no heights (z_m) to be moved", options.files[0]);
   if (options.command == "join")
     return geometry::Joined(lines, options.files, {options.within_m, options.bridge, options.turn});
   if (options.command == "translate") return geometry::Translated(line, Vector(options.by_m, Eigen::Vector3d::Zero()));

@@ -52,9 +52,11 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
   if (settings.driver == traffic::DriverKind::kMotors) {
     if (options.physics == "planar")
       return base::WrongInput(
+          "traffic.wrong_combination",
           "'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
     if (settings.pedestrians)
-      return base::WrongInput("the driver 'motors' sees nobody on foot; no 'pedestrians' were expected",
+      return base::WrongInput("traffic.wrong_combination",
+                              "the driver 'motors' sees nobody on foot; no 'pedestrians' were expected",
                               options.settings);
     settings.physics = traffic::Physics::kFull;
   }

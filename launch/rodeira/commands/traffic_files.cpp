@@ -27,7 +27,7 @@ base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::stri
   const auto longest =
       std::max_element(graph.tracks().begin(), graph.tracks().end(),
                        [](const lanes::Track& a, const lanes::Track& b) { return a.length_m() < b.length_m(); });
-  if (longest == graph.tracks().end()) return base::WrongInput("the map has no lane", "--diagram");
+  if (longest == graph.tracks().end()) return base::WrongInput("world.no_lane", "the map has no lane", "--diagram");
   if (wish.empty()) return static_cast<std::uint32_t>(longest - graph.tracks().begin());
   const auto colon = wish.rfind(':');
   int lane = 0;
@@ -42,6 +42,7 @@ base::Result<std::uint32_t> FindTrack(const lanes::Graph& graph, const std::stri
     known.push_back(fmt::format("{}:{}", id, key.lane));
   }
   return base::WrongInput(
+      "world.unknown_lane",
       fmt::format("'{}' was found; a drivable lane as ROAD:LANE was expected{}", wish, base::DidYouMean(wish, known)),
       "--lane");
 }
@@ -61,26 +62,33 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   TrafficFiles files(options);
   if (!(options.warm_s < options.duration_s))
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("{} s are left out of {} s; less was expected", options.warm_s, options.duration_s), "--warm");
   if (options.every_s > 0.0 && options.csv.empty())
     return base::WrongInput(
+        "command.missing_option",
         "a table every so many seconds was asked for, and no folder for it; --csv FOLDER was expected", "--every");
   if (options.every_s > 0.0 && options.every_s < options.step_s)
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("{} s were given; at least the step of {} s was expected", options.every_s, options.step_s),
         "--every");
   if (options.rows_every_s < options.step_s)
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("{} s were given; at least the step of {} s was expected", options.rows_every_s, options.step_s),
         "--rows-every");
   if (!options.heat.empty() && !EndsOn(options.heat, ".svg") && !EndsOn(options.heat, ".tif"))
-    return base::WrongInput(fmt::format("'{}' was found; a file on .svg or .tif was expected", options.heat), "--heat");
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("'{}' was found; a file on .svg or .tif was expected", options.heat), "--heat");
   if (options.pixel_m != 1.0 && !EndsOn(options.heat, ".tif"))
     return base::WrongInput(
+        "command.wrong_value",
         fmt::format("a pixel of {} m was given for '{}'; a file on .tif was expected", options.pixel_m, options.heat),
         "--pixel");
   if (!options.fcd.empty() && !EndsOn(options.fcd, ".xml"))
-    return base::WrongInput(fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
   if (!options.diagram.empty()) {
     const auto track = FindTrack(lanes::Graph(network), options.lane);
     if (!track) return track.error();
@@ -97,20 +105,22 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   if (!options.csv.empty()) {
     std::error_code problem;
     if (std::filesystem::exists(options.csv, problem) && !std::filesystem::is_directory(options.csv, problem))
-      return base::WrongInput("a file is there; a folder was expected", "--csv " + options.csv);
+      return base::WrongInput("file.not_folder", "a file is there; a folder was expected", "--csv " + options.csv);
     std::filesystem::create_directories(options.csv, problem);
     files.trajectories_.open(files.InFolder("trajectories.csv"));
-    if (problem || !files.trajectories_) return base::Failed("the folder cannot be written to", options.csv);
+    if (problem || !files.trajectories_)
+      return base::Failed("file.cannot_write", "the folder cannot be written to", options.csv);
     files.trajectories_ << "time_s,car,trip,x_m,y_m,z_m,heading_rad,speed_mps,acceleration_mps2,road,lane,"
                            "length_m,width_m,kind,lamps\n";
     files.signal_table_.emplace(lanes::Graph(network));
     files.signals_.open(files.InFolder("signals.csv"));
-    if (!files.signals_) return base::Failed("the file cannot be written", files.InFolder("signals.csv"));
+    if (!files.signals_)
+      return base::Failed("file.cannot_write", "the file cannot be written", files.InFolder("signals.csv"));
     files.signals_ << traffic::SignalTable::Header();
   }
   if (!options.fcd.empty()) {
     files.fcd_.open(options.fcd);
-    if (!files.fcd_) return base::Failed("the file cannot be written", options.fcd);
+    if (!files.fcd_) return base::Failed("file.cannot_write", "the file cannot be written", options.fcd);
     files.fcd_ << traffic::FloatingCarsBegin();
   }
   return files;
@@ -152,10 +162,13 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
   };
   if (trajectories_.is_open()) {
     trajectories_.close();
-    if (!trajectories_) return base::Failed("the table could not be written to its end", InFolder("trajectories.csv"));
+    if (!trajectories_)
+      return base::Failed("file.cannot_write", "the table could not be written to its end",
+                          InFolder("trajectories.csv"));
     written.push_back(InFolder("trajectories.csv"));
     signals_.close();
-    if (!signals_) return base::Failed("the table could not be written to its end", InFolder("signals.csv"));
+    if (!signals_)
+      return base::Failed("file.cannot_write", "the table could not be written to its end", InFolder("signals.csv"));
     written.push_back(InFolder("signals.csv"));
     if (auto status = text(InFolder("lanes.csv"), traffic::LaneTable(graph, *result.lanes)); !status)
       return status.error();
@@ -173,7 +186,7 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
   if (fcd_.is_open()) {
     fcd_ << traffic::FloatingCarsEnd();
     fcd_.close();
-    if (!fcd_) return base::Failed("the file could not be written to its end", options_.fcd);
+    if (!fcd_) return base::Failed("file.cannot_write", "the file could not be written to its end", options_.fcd);
     written.push_back(options_.fcd);
   }
   if (diagram_) {

@@ -138,6 +138,7 @@ base::Status CheckForces(const TyreSettings& tyre, double nominal_N, const std::
           const TyreForces f = SteadyForces(tyre, {kappa, alpha, camber}, share * nominal_N, 1.0);
           if (std::isfinite(f.longitudinal_N) && std::isfinite(f.lateral_N)) continue;
           return base::WrongInput(
+              "tyre.not_finite",
               fmt::format("the force is no finite number at slip {:g}, tangent of the slip angle {:g}, camber {:g} rad "
                           "and {:.0f} N",
                           kappa, alpha, camber, share * nominal_N),

@@ -32,12 +32,14 @@ base::Result<std::vector<const manoeuvres::Manoeuvre*>> Chosen(const VehicleOpti
   }
   if (chosen.size() > 1 && (!options.csv.empty() || !options.svg.empty())) {
     return base::WrongInput(
+        "command.wrong_combination",
         fmt::format("{} manoeuvres are to be driven; --out FOLDER writes them all, --csv and --svg are of one",
                     chosen.size()),
         options.csv.empty() ? "--svg" : "--csv");
   }
   if (!(options.step_s > 0.0 && options.step_s <= 0.1))
-    return base::WrongInput(fmt::format("{} s was found; over 0 and at most 0.1 s was expected", options.step_s),
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("{} s was found; over 0 and at most 0.1 s was expected", options.step_s),
                             "--step");
   return chosen;
 }

@@ -26,9 +26,11 @@ base::Result<RunOptions> RunOf(const ViewOptions& options) {
     if (!screen.empty()) screens.push_back(screen);
     if (chosen == nullptr && (options.screen.empty() || screen == options.screen)) chosen = &node;
   }
-  if (views.empty()) return base::WrongInput("no node of kind view was found; one was expected", options.launch_file);
+  if (views.empty())
+    return base::WrongInput("launch.no_view", "no node of kind view was found; one was expected", options.launch_file);
   if (chosen == nullptr)
     return base::WrongInput(
+        "launch.unknown_screen",
         fmt::format("no view looks through a screen '{}'{}", options.screen, base::DidYouMean(options.screen, screens)),
         options.launch_file);
   RunOptions run;
@@ -38,6 +40,7 @@ base::Result<RunOptions> RunOf(const ViewOptions& options) {
     run.host = chosen->host;
     if (options.headset)
       return base::WrongInput(
+          "command.wrong_combination",
           "--headset would make another run of this PC's part than of the others'; 'headset: true' at the view was "
           "expected",
           options.launch_file);

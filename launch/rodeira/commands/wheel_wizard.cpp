@@ -27,7 +27,8 @@ base::Result<std::unique_ptr<WheelWizard>> WheelWizard::Begin() {
   joysticks.value()->Update();
   auto connected = joysticks.value()->Connected();
   if (connected.empty())
-    return base::WrongInput("no wheel is connected, or none that you may read (`rodeira doctor` says which)");
+    return base::WrongInput("device.not_found",
+                            "no wheel is connected, or none that you may read (`rodeira doctor` says which)");
   return std::unique_ptr<WheelWizard>(new WheelWizard(std::move(joysticks).value(), std::move(connected)));
 }
 
@@ -47,7 +48,7 @@ base::Status WheelWizard::Step(double dt_s) {
   for (std::size_t place = 0; place < readings_.size(); ++place) readings_[place] = joysticks_->reading(place);
   if (std::none_of(readings_.begin(), readings_.end(),
                    [](const input_devices::DeviceReading& device) { return device.connected; })) {
-    return base::Failed("the wheel was unplugged; nothing was written");
+    return base::Failed("device.unplugged", "the wheel was unplugged; nothing was written");
   }
   const auto before = setup_.stage();
   setup_.Step(readings_, dt_s);
@@ -58,6 +59,7 @@ base::Status WheelWizard::Step(double dt_s) {
   }
   if (waited_s_ > kPatience_s)
     return base::Failed(
+        "device.no_answer",
         fmt::format("for {:.0f} s nothing that was asked for has happened; nothing was written", kPatience_s));
   return {};
 }

@@ -56,7 +56,8 @@ base::Result<geometry::Polyline> AxisOf(const AxisName& name, double step_m) {
       });
     }
   }
-  return base::WrongInput(fmt::format("there is no road '{}'{}", name.road, base::DidYouMean(name.road, ids)),
+  return base::WrongInput("world.unknown_road",
+                          fmt::format("there is no road '{}'{}", name.road, base::DidYouMean(name.road, ids)),
                           name.file);
 }
 

@@ -90,7 +90,8 @@ int CheckBuilt(const WorldOptions& options) {
 // What is asked of the files of a world, which a traffic map is not.
 base::Error NoWorldFile(const WorldOptions& options) {
   const std::string name = std::filesystem::path(options.world_file).stem().string();
-  return base::WrongInput(fmt::format("this is a traffic map; `rodeira map convert {} -o {}.yaml` makes a world file "
+  return base::WrongInput("world.unknown_kind",
+                          fmt::format("this is a traffic map; `rodeira map convert {} -o {}.yaml` makes a world file "
                                       "of it, -o {}.xodr an OpenDRIVE file",
                                       options.world_file, name, name),
                           options.world_file);
@@ -104,8 +105,9 @@ int CheckWorldFile(const WorldOptions& options) {
        {std::pair(options.strict, "--strict"), std::pair(options.verbose, "--verbose"),
         std::pair(options.no_repair, "--no-repair"), std::pair(!options.repair.empty(), "--repair")}) {
     if (given)
-      return base::PrintError("rodeira",
-                              base::WrongInput(fmt::format("'{}' is for OpenDRIVE files", name), options.world_file));
+      return base::PrintError(
+          "rodeira", base::WrongInput("command.wrong_combination", fmt::format("'{}' is for OpenDRIVE files", name),
+                                      options.world_file));
   }
   for (const std::string& warning : road::WorldWarnings(options.world_file))
     fmt::print(stderr, "rodeira: warning: {}\n", warning);
@@ -218,9 +220,8 @@ int WorldOf(const WorldOptions& options) {
   if (options.command == "export" && world) {
     const auto status = road::WriteOpenDrive(*world.value(), options.out);
     if (!status)
-      return base::PrintError("rodeira", status.error().context.empty()
-                                             ? base::WrongInput(status.error().message, options.world_file)
-                                             : status.error());
+      return base::PrintError(
+          "rodeira", status.error().context.empty() ? status.error().WithContext(options.world_file) : status.error());
     fmt::print("wrote {}\n", options.out);
     return 0;
   }
@@ -232,7 +233,8 @@ int WorldOf(const WorldOptions& options) {
     const std::string profile = road::PlotProfiles(*world.value());
     if (profile.empty())
       return base::PrintError(
-          "rodeira", base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+          "rodeira",
+          base::WrongInput("world.no_road", "the world has no road whose profile could be drawn", options.world_file));
     if (auto status = base::WriteWhole(options.profile, profile); !status)
       return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", options.profile);
@@ -256,7 +258,8 @@ int WorldOf(const WorldOptions& options) {
     const std::string svg = drawn(*world.value());
     if (svg.empty())
       return base::PrintError(
-          "rodeira", base::WrongInput("the world has no road whose profile could be drawn", options.world_file));
+          "rodeira",
+          base::WrongInput("world.no_road", "the world has no road whose profile could be drawn", options.world_file));
     if (auto status = base::WriteWhole(file, svg); !status) return base::PrintError("rodeira", status.error());
     fmt::print("wrote {}\n", file);
   }

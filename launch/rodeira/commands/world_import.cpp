@@ -56,7 +56,7 @@ std::string Quoted(const std::string& text) {
 base::Status NotThere(const std::filesystem::path& file) {
   std::error_code problem;
   if (!std::filesystem::exists(std::filesystem::symlink_status(file, problem))) return {};
-  return base::WrongInput("this file exists; another name was expected", file.string());
+  return base::WrongInput("file.exists", "this file exists; another name was expected", file.string());
 }
 
 base::Status WriteWorld(const std::string& drive, const std::filesystem::path& source,
@@ -75,7 +75,8 @@ base::Status Import(const WorldImportOptions& options) {
   const std::filesystem::path world = options.out;
   const std::string kind = world.extension();
   if (kind != ".xodr" && kind != ".yaml")
-    return base::WrongInput(fmt::format("the file's name ends with '{}'; .yaml or .xodr was expected", kind),
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("the file's name ends with '{}'; .yaml or .xodr was expected", kind),
                             options.out);
   const std::filesystem::path roads = std::filesystem::path(world).replace_extension(".xodr");
   for (const std::filesystem::path& file : {world, roads}) {

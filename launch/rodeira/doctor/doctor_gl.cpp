@@ -34,9 +34,11 @@ class Gl {
  public:
   base::Status Load(const std::string& library) {
     void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (handle == nullptr) return base::Failed(fmt::format("{} cannot be loaded ({})", library, ::dlerror()));
+    if (handle == nullptr)
+      return base::Failed("system.no_opengl", fmt::format("{} cannot be loaded ({})", library, ::dlerror()));
     get_ = reinterpret_cast<decltype(get_)>(::dlsym(handle, "eglGetProcAddress"));
-    if (get_ == nullptr) return base::Failed(fmt::format("{} is no EGL: it has no eglGetProcAddress", library));
+    if (get_ == nullptr)
+      return base::Failed("system.no_opengl", fmt::format("{} is no EGL: it has no eglGetProcAddress", library));
     return {};
   }
   // Calls a function by its name; a missing one is remembered and gives a zero.
@@ -80,7 +82,7 @@ std::vector<EGLDisplay> Displays(Gl& gl) {
 
 base::Status MakeContext(Gl& gl, EGLDisplay display) {
   const auto failed = [&](const char* what) {
-    return base::Failed(fmt::format("{} failed (0x{:x})", what, RODEIRA_GL(gl, eglGetError)));
+    return base::Failed("system.no_opengl", fmt::format("{} failed (0x{:x})", what, RODEIRA_GL(gl, eglGetError)));
   };
   EGLint major = 0;
   EGLint minor = 0;
@@ -127,7 +129,7 @@ base::Status UseShaders(Gl& gl) {
   gl.Call<PFNGLLINKPROGRAMPROC>("glLinkProgram", program);
   GLint linked = GL_FALSE;
   gl.Call<PFNGLGETPROGRAMIVPROC>("glGetProgramiv", program, GLenum{GL_LINK_STATUS}, &linked);
-  if (linked != GL_TRUE) return base::Failed("a shader of GLSL 1.20 cannot be compiled");
+  if (linked != GL_TRUE) return base::Failed("system.no_opengl", "a shader of GLSL 1.20 cannot be compiled");
   gl.Call<PFNGLUSEPROGRAMPROC>("glUseProgram", program);
   return {};
 }
@@ -149,9 +151,10 @@ base::Status Draw(Gl& gl) {
              static_cast<void*>(inside.data()));
   RODEIRA_GL(gl, glReadPixels, 3 * kSize / 4, 3 * kSize / 4, 1, 1, GLenum{GL_RGBA}, GLenum{GL_UNSIGNED_BYTE},
              static_cast<void*>(outside.data()));
-  if (!gl.missing().empty()) return base::Failed(fmt::format("OpenGL has no {}", gl.missing()));
+  if (!gl.missing().empty()) return base::Failed("system.no_opengl", fmt::format("OpenGL has no {}", gl.missing()));
   if (std::memcmp(inside.data(), "\0\xFF\0", 3) != 0 || std::memcmp(outside.data(), "\0\0\xFF", 3) != 0) {
     return base::Failed(
+        "system.no_opengl",
         fmt::format("a drawn pixel is ({}, {}, {}) where (0, 255, 0) was expected, and beside it ({}, {}, {}) instead "
                     "of (0, 0, 255)",
                     inside[0], inside[1], inside[2], outside[0], outside[1], outside[2]));

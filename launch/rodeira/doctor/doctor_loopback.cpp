@@ -115,12 +115,14 @@ base::Status RequestAnswer(End& end, std::uint64_t number, bool again, const Loo
     }
     while (const auto payload = end.queue.Pop(20ms)) {
       const auto reply = idl::Decode<msg::GroundReply>(*payload);
-      if (!reply) return base::Failed("an answer came that cannot be read: " + reply.error().Text());
+      if (!reply)
+        return base::Failed("system.no_loopback", "an answer came that cannot be read: " + reply.error().Text());
       if (reply.value().request_number() == number && reply.value().points().size() == kPoints) return {};
     }
   }
-  if (settings.cancelled()) return base::Failed("stopped by a signal");
+  if (settings.cancelled()) return base::Failed("run.interrupted", "stopped by a signal");
   return base::Failed(
+      "system.no_loopback",
       fmt::format("question {} of {} between two processes over {} in domain {} was not answered within {:g} s", number,
                   settings.round_trips, TransportName(settings.transport), settings.domain,
                   std::chrono::duration<double>(settings.patience).count()));
@@ -139,10 +141,10 @@ base::Status WaitUntilReady(Child& partner, const LoopBackSettings& settings) {
     if (said.find("ready\n") != std::string::npos) return {};
     if (size <= 0) break;
   }
-  if (settings.cancelled()) return base::Failed("stopped by a signal");
+  if (settings.cancelled()) return base::Failed("run.interrupted", "stopped by a signal");
   const std::string sentence = said.substr(0, said.find('\n'));
-  return base::Failed(fmt::format("the second process ({}) did not become ready{}{}", settings.program,
-                                  sentence.empty() ? "" : ": ", sentence));
+  return base::Failed("system.no_loopback", fmt::format("the second process ({}) did not become ready{}{}",
+                                                        settings.program, sentence.empty() ? "" : ": ", sentence));
 }
 
 base::Result<LoopBack> Measure(End& end, const LoopBackSettings& settings) {
@@ -165,7 +167,7 @@ base::Result<LoopBack> MeasureLoopBack(const LoopBackSettings& settings) {
   std::random_device device;
   const std::string run = fmt::format("doctor-{:08x}{:08x}", device(), device());
   const auto before = SharedMemoryFiles();
-  base::Result<LoopBack> measured = base::Failed("not measured");
+  base::Result<LoopBack> measured = base::Failed("system.no_loopback", "not measured");
   auto partner = Child::Start(
       "doctor",
       {settings.program, "doctor", "--answer", run, "--domain", std::to_string(settings.domain), "--transport",

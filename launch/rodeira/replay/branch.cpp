@@ -43,6 +43,7 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   const double dt_s = static_cast<double>(roster.base_step_ns()) * 1e-9;
   if (at < parent.branched_at()) {
     return base::WrongInput(
+        "replay.wrong_branch_time",
         fmt::format("--from {:.3f} s was found, but this recording left its parent at {:.3f} s; what lies before is "
                     "the parent's to branch from",
                     static_cast<double>(at) * dt_s, static_cast<double>(parent.branched_at()) * dt_s),
@@ -51,10 +52,12 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
   const bool has_snapshots = std::any_of(roster.nodes().begin(), roster.nodes().end(),
                                          [](const auto& node) { return node.snapshots.has_value(); });
   if (at == 0 && !has_snapshots)
-    return base::WrongInput("--from 0 was found; a run without snapshots has no states at its beginning",
+    return base::WrongInput("replay.wrong_branch_time",
+                            "--from 0 was found; a run without snapshots has no states at its beginning",
                             parent.path().string());
   if (at < 0 || at > parent.last_step()) {
-    return base::WrongInput(fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s",
+    return base::WrongInput("replay.wrong_branch_time",
+                            fmt::format("--from {:.3f} s was found, but the run ends at {:.3f} s",
                                         static_cast<double>(at) * dt_s, static_cast<double>(parent.last_step()) * dt_s),
                             parent.path().string());
   }
@@ -63,7 +66,8 @@ base::Status CheckStep(const replay::RecordedRun& parent, Step at) {
     if (node.role == lockstep::Role::kStepped && !node.is_sink()) common = std::lcm(common, node.period);
   }
   if (at % common != 0) {
-    return base::WrongInput(fmt::format("--from {:.3f} s was found; a branch begins where all nodes are activated, the "
+    return base::WrongInput("replay.wrong_branch_time",
+                            fmt::format("--from {:.3f} s was found; a branch begins where all nodes are activated, the "
                                         "nearest such time is {:.3f} s",
                                         static_cast<double>(at) * dt_s,
                                         static_cast<double>(lockstep::FloorTo(at + common / 2, common)) * dt_s),
@@ -78,6 +82,7 @@ base::Status CheckExternalNodes(const replay::RecordedRun& parent) {
     if (!parent.launch().node(n).is_external() || !parent.is_substituted(n) || parent.roster().node(n).is_sink())
       continue;
     return base::WrongInput(
+        "replay.no_library",
         fmt::format("node '{0}' is an external program, which a branch cannot run; its recorded samples do not answer "
                     "what changes in a branch; --library {0}=FILE.so names its shared object",
                     parent.roster().node(n).name),
@@ -173,7 +178,8 @@ base::Result<launch::Overrides> ChangesOf(const replay::RecordedRun& parent, con
   changes.emplace_back("nodes." + NodeOfKind(parent.launch(), "recorder") + ".config.file", "\"" + own.string() + "\"");
   if (!wish.with_view) return changes;
   const std::string view = NodeOfKind(parent.launch(), "view");
-  if (view.empty()) return base::WrongInput("a view is wanted, but the recorded launch file has none", wish.parent);
+  if (view.empty())
+    return base::WrongInput("replay.no_view", "a view is wanted, but the recorded launch file has none", wish.parent);
   changes.emplace_back("nodes." + view + ".config.window", "always");
   changes.emplace_back("nodes." + view + ".config.frames", "~");  // pictures of the parent's
   return changes;
@@ -189,6 +195,7 @@ base::Result<Step> LastStep(const replay::RecordedRun& changed, const BranchSpec
       static_cast<Step>(std::llround(*duration_s * 1e9 / static_cast<double>(changed.roster().base_step_ns())));
   if (last_step > wish.at) return last_step;
   return base::WrongInput(
+      "replay.wrong_branch_time",
       fmt::format("duration_s = {} was found; the branch begins at {:.3f} s", *duration_s,
                   static_cast<double>(wish.at) * static_cast<double>(changed.roster().base_step_ns()) * 1e-9),
       wish.parent);
@@ -269,10 +276,11 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
       !ran.ok && ran.last_step < wish.at && stopped();  // no node's fault: no step was driven yet
   if (!ran.ok && !stopped_at_once)
     return changed.value().Named(
-        base::Failed(fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
+        base::Failed("replay.node_failed", fmt::format("the branch ended at step {}: {}", ran.last_step, ran.fault)));
   // What a person has driven cannot be driven again: it is kept.
   if (stopped_at_once || (stopped() && outcome.live.empty())) {
-    return base::Failed(fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)),
+    return base::Failed("run.interrupted",
+                        fmt::format("interrupted at step {}; no branch was written", std::max(ran.last_step, wish.at)),
                         wish.parent);
   }
   outcome.last_step = ran.last_step;

@@ -26,16 +26,19 @@ using lockstep::Step;
 // `needs_graphics`: whether the branch draws, or reads a wheel or a game pad.
 base::Result<BranchSpec> WishOf(const ReplayOptions& options, bool& needs_graphics) {
   if (!options.from_s)
-    return base::WrongInput("--from is missing: where does the branch leave its parent?", "rodeira replay --branch");
+    return base::WrongInput("command.missing_option", "--from is missing: where does the branch leave its parent?",
+                            "rodeira replay --branch");
   if (options.record.empty())
-    return base::WrongInput("--record is missing: into which file?", "rodeira replay --branch");
+    return base::WrongInput("command.missing_option", "--record is missing: into which file?",
+                            "rodeira replay --branch");
   const auto parent = replay::RecordedRun::Open(options.file);
   if (!parent) return parent.error();
   const double steps_a_second = 1e9 / static_cast<double>(parent.value().roster().base_step_ns());
   const auto steps = [&](double seconds) { return static_cast<Step>(std::llround(seconds * steps_a_second)); };
   if (const double from = *options.from_s * steps_a_second;
       std::fabs(from - std::round(from)) > 1e-6 * std::max(1.0, from)) {
-    return base::WrongInput(fmt::format("--from {} s was found; a multiple of the base step of {} s was expected",
+    return base::WrongInput("replay.wrong_branch_time",
+                            fmt::format("--from {} s was found; a multiple of the base step of {} s was expected",
                                         *options.from_s, 1.0 / steps_a_second),
                             options.file);
   }

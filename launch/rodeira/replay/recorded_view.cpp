@@ -52,6 +52,7 @@ base::Status TakeSize(const std::string& text, nodes::ViewSettings& settings) {
                     settings.height_px >= 64 && settings.height_px <= 4320;
   if (good) return {};
   return base::WrongInput(
+      "command.wrong_value",
       fmt::format("'{}' was found; WIDTHxHEIGHT in pixels was expected, from 64x64 to 7680x4320", text), "--size");
 }
 
@@ -60,7 +61,8 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
     const auto camera = scene::CameraOf(*options.camera);
     if (!camera) {
       const auto names = scene::CameraNames();
-      return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.camera, fmt::join(names, ", "),
+      return base::WrongInput("command.wrong_value",
+                              fmt::format("'{}' was found; {} was expected{}", *options.camera, fmt::join(names, ", "),
                                           base::DidYouMean(*options.camera, {names.begin(), names.end()})),
                               "--camera");
     }
@@ -70,14 +72,15 @@ base::Status TakeWishes(const lockstep::Roster& roster, const WatchOptions& opti
     const auto names = nodes::QualityNames();
     seen.settings.quality = nodes::QualityOf(*options.quality);
     if (!seen.settings.quality) {
-      return base::WrongInput(fmt::format("'{}' was found; {} was expected{}", *options.quality, fmt::join(names, ", "),
+      return base::WrongInput("command.wrong_value",
+                              fmt::format("'{}' was found; {} was expected{}", *options.quality, fmt::join(names, ", "),
                                           base::DidYouMean(*options.quality, {names.begin(), names.end()})),
                               "--quality");
     }
   }
   if (options.follow) {
     const auto followed = nodes::FindFollowed(roster, seen.cars, *options.follow);
-    if (!followed) return base::WrongInput(followed.error().message, "--follow");
+    if (!followed) return followed.error().WithContext("--follow");
     seen.settings.followed = followed.value();
   }
   return options.size ? TakeSize(*options.size, seen.settings) : base::Status();
@@ -106,7 +109,7 @@ base::Status ForEachOf(const replay::RecordedRun& run, std::string_view topic, c
     if (!message) return message.error();
     if (!message.value()) return {};
     const auto said = idl::Decode<Message>(message.value()->data);
-    if (!said) return base::WrongInput(said.error().Text(), run.path().string());
+    if (!said) return said.error().In(run.path().string());
     take(said.value(), static_cast<std::int64_t>(message.value()->log_time_ns));
   }
   return {};
@@ -159,7 +162,8 @@ base::Result<Seen> LookAt(const replay::RecordedRun& run, const WatchOptions& op
     }
   }
   if (seen.sources.empty())
-    return base::WrongInput("the recording has neither a car nor traffic: there is nothing to see",
+    return base::WrongInput("replay.nothing_to_see",
+                            "the recording has neither a car nor traffic: there is nothing to see",
                             run.path().string());
   std::set<std::string_view> topics;
   for (const lockstep::SourceIndex source : seen.sources) topics.insert(roster.source(source).topic);

@@ -68,7 +68,8 @@ base::Result<launch::Overrides> LibrariesOf(const ReplayOptions& options) {
   }
   for (const auto& [node, file] : options.libraries) {
     if (std::ranges::find(known, node) == known.end()) {
-      return base::WrongInput(fmt::format("the recording has no external node '{}'{}", node,
+      return base::WrongInput("launch.unknown_node",
+                              fmt::format("the recording has no external node '{}'{}", node,
                                           known.empty() ? "" : base::DidYouMean(node, known)),
                               "--library");
     }
@@ -84,14 +85,16 @@ int Replay(const ReplayOptions& options) {
   if (wishes != 1) {
     return base::PrintError(
         "rodeira",
-        base::WrongInput(fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
+        base::WrongInput("command.wrong_combination",
+                         fmt::format("{} to do was named; --view, --frames, --verify or --branch was expected",
                                      wishes == 0 ? "nothing" : "more than one thing"),
                          "rodeira replay"));
   }
   if (const double from_s = options.from_s.value_or(0.0); !(from_s >= 0.0 && from_s <= kMost_s)) {
     return base::PrintError(
         "rodeira",
-        base::WrongInput(fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s),
+        base::WrongInput("replay.outside_of_run",
+                         fmt::format("--from {} s was found; a time from 0 s to the run's end was expected", from_s),
                          "rodeira replay"));
   }
   if (!options.changes.empty() || options.verify) {
@@ -101,12 +104,15 @@ int Replay(const ReplayOptions& options) {
   if (!options.changes.empty()) return MakeBranch(options);
   if (!options.record.empty())
     return base::PrintError(
-        "rodeira", base::WrongInput("--record is of a branch: nothing else makes a new recording", "rodeira replay"));
+        "rodeira", base::WrongInput("command.wrong_combination",
+                                    "--record is of a branch: nothing else makes a new recording", "rodeira replay"));
   if (options.pace)
-    return base::PrintError("rodeira",
-                            base::WrongInput("--pace is of a branch; --speed is --view's", "rodeira replay"));
+    return base::PrintError(
+        "rodeira",
+        base::WrongInput("command.wrong_combination", "--pace is of a branch; --speed is --view's", "rodeira replay"));
   if (!options.verify && !options.libraries.empty())
-    return base::PrintError("rodeira", base::WrongInput("--library is of --verify and --branch", "rodeira replay"));
+    return base::PrintError("rodeira", base::WrongInput("command.wrong_combination",
+                                                        "--library is of --verify and --branch", "rodeira replay"));
   if (!options.verify) return ShowRecording(options);
   const auto libraries = LibrariesOf(options);
   if (!libraries) return base::PrintError("rodeira", libraries.error());
@@ -117,6 +123,7 @@ int Replay(const ReplayOptions& options) {
   if (from > run.value().last_step()) {
     return base::PrintError(
         "rodeira", base::WrongInput(
+                       "replay.outside_of_run",
                        fmt::format("--from {} s was found, but the run ends at {:.3f} s", options.from_s.value_or(0.0),
                                    static_cast<double>(run.value().last_step()) * base_step_s),
                        options.file));

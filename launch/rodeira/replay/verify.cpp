@@ -39,12 +39,14 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
       wish.snapshot_at ? std::min(wish.from, std::max<lockstep::Step>(run.last_step() - ahead, 0)) : wish.from);
   if (!at) return at.error();
   if (wish.snapshot_at && *wish.snapshot_at == at.value() && at.value() + ahead > run.last_step()) {
-    return base::WrongInput(fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it",
+    return base::WrongInput("replay.no_sample_to_compare",
+                            fmt::format("the run ends at step {}; what its nodes publish ahead of step {} is not in it",
                                         run.last_step(), at.value()),
                             run.path().string());
   }
   if (wish.snapshot_at && *wish.snapshot_at < at.value()) {
     return base::WrongInput(
+        "replay.no_snapshot",
         fmt::format("the states of step {} are wanted, but the first snapshots of this run's own are at step {}",
                     *wish.snapshot_at, at.value()),
         run.path().string());
@@ -70,7 +72,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   });
   if (!nodes) return run.Named(nodes.error());
   if (!run.world_hash().empty() && run.world_hash() != base::Hex(nodes.value().world_hash())) {
-    return base::WrongInput(fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(),
+    return base::WrongInput("replay.other_world",
+                            fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(),
                                         base::Hex(nodes.value().world_hash())),
                             run.path().string());
   }
@@ -109,7 +112,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     settings.on_progress = [&](const lockstep::Clock& clock) { wish.on_progress(clock.slowest_progress()); };
   const lockstep::RunOutcome outcome = lockstep::RunThreaded(roster, nodes.value().nodes(), settings);
   if (interrupted() && !comparison.differs())
-    return base::Failed(fmt::format("interrupted at step {}", std::max(outcome.last_step, at.value())),
+    return base::Failed("run.interrupted",
+                        fmt::format("interrupted at step {}", std::max(outcome.last_step, at.value())),
                         run.path().string());
   comparison.Finish(std::min(outcome.last_step, run.last_step()));
   for (lockstep::NodeIndex n = 0; n < recomputed.snapshots.size(); ++n) {
@@ -118,7 +122,8 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
   }
   if (comparison.problem()) return *comparison.problem();
   if (!outcome.ok && !comparison.first())
-    return run.Named(base::Failed(fmt::format("the run could not be computed again: {}", outcome.fault)));
+    return run.Named(
+        base::Failed("replay.node_failed", fmt::format("the run could not be computed again: {}", outcome.fault)));
   verdict.last_step = outcome.last_step;
   verdict.samples = comparison.compared();
   verdict.snapshots = comparison.snapshots_compared();

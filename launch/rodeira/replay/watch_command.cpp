@@ -22,13 +22,15 @@ using lockstep::Step;
 base::Status CheckTime(const replay::RecordedRun& run, const char* option, double time_s) {
   const double last_s = static_cast<double>(run.last_step()) * static_cast<double>(run.roster().base_step_ns()) * 1e-9;
   if (time_s >= 0.0 && time_s <= last_s + 1e-9) return {};
-  return base::WrongInput(fmt::format("{} {} s was found, but the run goes from 0 to {:.3f} s", option, time_s, last_s),
+  return base::WrongInput("replay.outside_of_run",
+                          fmt::format("{} {} s was found, but the run goes from 0 to {:.3f} s", option, time_s, last_s),
                           run.path().string());
 }
 
 base::Status Watch(const WatchOptions& options) {
   if (!(options.speed >= scene::Player::kSlowest && options.speed <= scene::Player::kFastest)) {
-    return base::WrongInput(fmt::format("{} was found; {} to {} times real time was expected", options.speed,
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("{} was found; {} to {} times real time was expected", options.speed,
                                         scene::Player::kSlowest, scene::Player::kFastest),
                             "--speed");
   }
@@ -39,6 +41,7 @@ base::Status Watch(const WatchOptions& options) {
   if (!seen) return seen.error();
   if (!nodes::HasDisplay()) {
     return base::WrongInput(
+        "view.no_display",
         "a window is wanted, but no display answers; set DISPLAY, or let --frames FOLDER --at S write pictures without "
         "one",
         "--view");
@@ -67,7 +70,7 @@ base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run,
   for (const double time_s : at_s) {
     if (auto status = CheckTime(run, "--at", time_s); !status) return status.error();
     const auto step = nodes::FrameStep(run.roster(), cars, time_s);
-    if (!step) return base::WrongInput(step.error().message, "--at");
+    if (!step) return step.error().WithContext("--at");
     steps.push_back(step.value());
   }
   std::sort(steps.begin(), steps.end());
@@ -79,12 +82,13 @@ base::Result<std::vector<Step>> FrameSteps(const replay::RecordedRun& run,
 base::Result<std::vector<Step>> StepsOf(const replay::RecordedRun& run, const std::vector<lockstep::SourceIndex>& cars,
                                         const WatchOptions& options) {
   if (!options.at_s.empty()) return FrameSteps(run, cars, options.at_s);
-  if (!options.fps) return base::WrongInput("--at S or --fps N was expected beside it", "--frames");
+  if (!options.fps)
+    return base::WrongInput("command.missing_option", "--at S or --fps N was expected beside it", "--frames");
   if (auto status = CheckTime(run, "--from", options.from_s); !status) return status.error();
   const double last_s = static_cast<double>(run.last_step() * run.roster().base_step_ns()) * 1e-9;
   auto steps = nodes::FilmSteps(run.roster(), cars, *options.fps, options.from_s,
                                 std::min(last_s, options.from_s + options.for_s.value_or(last_s)));
-  if (!steps) return base::WrongInput(steps.error().message, "--fps");
+  if (!steps) return steps.error().WithContext("--fps");
   std::erase_if(steps.value(), [&](Step step) {
     return step > run.last_step();
   });  // the sample nearest to the run's end may lie behind it
@@ -102,8 +106,7 @@ base::Status WriteFrames(const WatchOptions& options) {
   settings.frame_steps = std::move(steps).value();
   settings.folder = options.frames;
   settings.window = nodes::WindowWish::kNever;
-  if (auto status = nodes::PrepareFolder(settings.folder); !status)
-    return base::WrongInput(status.error().message, "--frames");
+  if (auto status = nodes::PrepareFolder(settings.folder); !status) return status.error().WithContext("--frames");
   auto world = nodes::WorldOf(run.value().launch());
   if (!world) return run.value().Named(world.error());
   auto render_thread = nodes::RenderThread::Open(settings, std::move(world).value());

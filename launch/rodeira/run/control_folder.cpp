@@ -23,13 +23,15 @@ base::Result<std::filesystem::path> ControlFolder() {
                                            ? std::filesystem::path(runtime) / "rodeira"
                                            : std::filesystem::path(fmt::format("/tmp/rodeira-{}", ::getuid()));
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) {
-    return base::Failed(fmt::format("the folder of control sockets cannot be made: {}", std::strerror(errno)),
+    return base::Failed("run.no_control_socket",
+                        fmt::format("the folder of control sockets cannot be made: {}", std::strerror(errno)),
                         folder.string());
   }
   struct stat found {};
   if (::lstat(folder.c_str(), &found) != 0 || !S_ISDIR(found.st_mode) || found.st_uid != ::getuid() ||
       (found.st_mode & 077) != 0) {
-    return base::Failed("this is no folder that belongs to you alone; no control socket can be there", folder.string());
+    return base::Failed("run.no_control_socket",
+                        "this is no folder that belongs to you alone; no control socket can be there", folder.string());
   }
   return folder;
 }

@@ -31,13 +31,14 @@ void ControlServer::Connection::Say(const std::string& line) const {
 base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::filesystem::path& socket) {
   if (const int living = ConnectTo(socket); living >= 0) {
     ::close(living);
-    return base::Failed("a run of this name is controlled there already", socket.string());
+    return base::Failed("run.already_running", "a run of this name is controlled there already", socket.string());
   }
   // Bound beside its name and renamed when it listens: no client finds a socket that refuses.
   const std::string path = socket.string() + fmt::format(".{}", ::getpid());
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof(address.sun_path)) return base::Failed("the path is too long for a socket", path);
+  if (path.size() >= sizeof(address.sun_path))
+    return base::Failed("run.no_control_socket", "the path is too long for a socket", path);
   std::memcpy(address.sun_path, path.c_str(), path.size());
   ::unlink(path.c_str());
   const int file = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
@@ -46,7 +47,8 @@ base::Result<std::unique_ptr<ControlServer>> ControlServer::Open(const std::file
     const int error = errno;
     if (file >= 0) ::close(file);
     ::unlink(path.c_str());
-    return base::Failed(fmt::format("cannot create a control socket: {}", std::strerror(error)), socket.string());
+    return base::Failed("run.no_control_socket",
+                        fmt::format("cannot create a control socket: {}", std::strerror(error)), socket.string());
   }
   return std::unique_ptr<ControlServer>(new ControlServer(file, socket));
 }

@@ -31,13 +31,15 @@ base::Result<std::filesystem::path> FindRun(const std::string& run) {
     for (const auto& socket : living) {
       if (socket == wanted) return socket;
     }
-    return base::WrongInput(fmt::format("no run '{}' of yours is going on on this PC{}", run,
+    return base::WrongInput("run.unknown_run",
+                            fmt::format("no run '{}' of yours is going on on this PC{}", run,
                                         names.empty() ? "" : base::DidYouMean(run, names)),
                             "ctl --run");
   }
-  if (living.empty()) return base::WrongInput("no run of yours is going on on this PC", "ctl");
+  if (living.empty()) return base::WrongInput("run.unknown_run", "no run of yours is going on on this PC", "ctl");
   if (living.size() > 1)
     return base::WrongInput(
+        "command.missing_option",
         fmt::format("{} runs are going on: {}; choose one by --run NAME", living.size(), fmt::join(names, ", ")),
         "ctl");
   return living.front();
@@ -69,20 +71,23 @@ int Ctl(const CtlOptions& options) {
       line, [](unsigned char c) { return c < 0x20; }, ' ');  // a line is a command
   // Nonsense is refused whether there is a run or not.
   if (const auto command = launch::ParseCommand(line); !command)
-    return base::PrintError("rodeira", base::WrongInput(command.error().Text(), "ctl"));
+    return base::PrintError("rodeira", command.error().In("ctl"));
   const auto socket = FindRun(options.run);
   if (!socket) return base::PrintError("rodeira", socket.error());
   const std::string name = socket.value().stem().string();
   const int file = ConnectTo(socket.value());
-  if (file < 0) return base::PrintError("rodeira", base::Failed(fmt::format("run '{}' has just ended", name), "ctl"));
+  if (file < 0)
+    return base::PrintError("rodeira",
+                            base::Failed("run.no_answer", fmt::format("run '{}' has just ended", name), "ctl"));
   const std::string answer = SendCommand(file, line);
   ::close(file);
   const auto space = answer.find(' ');
   if (space == std::string::npos)
-    return base::PrintError("rodeira", base::Failed(fmt::format("run '{}' gives no answer", name), "ctl"));
+    return base::PrintError("rodeira",
+                            base::Failed("run.no_answer", fmt::format("run '{}' gives no answer", name), "ctl"));
   const std::string how = answer.substr(0, space), sentence = answer.substr(space + 1);
-  if (how == "wrong") return base::PrintError("rodeira", base::WrongInput(sentence, "ctl"));
-  if (how != "ok") return base::PrintError("rodeira", base::Failed(sentence, "ctl"));
+  if (how == "wrong") return base::PrintError("rodeira", base::WrongInput("run.refused", sentence, "ctl"));
+  if (how != "ok") return base::PrintError("rodeira", base::Failed("run.refused", sentence, "ctl"));
   fmt::print("{}\n", sentence);
   return 0;
 }

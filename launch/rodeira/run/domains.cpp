@@ -54,7 +54,8 @@ base::Result<DomainHold> DomainHold::FindFree(const std::string& run, const Doma
     if (with_ports.contains(domain)) continue;
     if (auto hold = Take(domain, place)) return std::move(*hold);
   }
-  return base::WrongInput(fmt::format("all DDS domains from 1 to {} are in use on this PC; end other runs, or name one "
+  return base::WrongInput("dds.no_free_domain",
+                          fmt::format("all DDS domains from 1 to {} are in use on this PC; end other runs, or name one "
                                       "by --domain",
                                       kDomains),
                           fmt::format("run '{}'", run));

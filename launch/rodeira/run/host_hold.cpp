@@ -20,7 +20,8 @@ base::Result<AbstractSocket> HoldHost(std::uint32_t domain, const std::string& r
   const std::string process =
       owner ? fmt::format("process {} of user {}", owner->process, UserName(owner->user)) : "another process";
   const std::string what = host.empty() ? "this run is" : fmt::format("host '{}' of this run is", host);
-  return base::WrongInput(fmt::format("{} started already on this PC, by {}; end that one first, or name another run "
+  return base::WrongInput("run.already_running",
+                          fmt::format("{} started already on this PC, by {}; end that one first, or name another run "
                                       "by --run",
                                       what, process),
                           fmt::format("run '{}' in domain {}", run, domain));

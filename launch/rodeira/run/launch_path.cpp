@@ -13,6 +13,7 @@ base::Result<std::string> LaunchPath(const std::string& file) {
   const fs::file_status status = fs::status(file, problem);
   if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
     return base::WrongInput(
+        "file.not_regular",
         "is not a regular file; every node reads the launch file, and relative paths in it are resolved against its "
         "folder; write it into a file first",
         file);

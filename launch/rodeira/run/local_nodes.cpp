@@ -24,7 +24,8 @@ class LocalContext final : public launch::NodeContext {
   bool has_local_ground() const override { return true; }
   base::Result<launch::WorldSummary> World() override {
     if (world_ == nullptr)
-      return base::WrongInput("the launch file has no node of kind 'road'", launch().path().string());
+      return base::WrongInput("launch.no_road_server", "the launch file has no node of kind 'road'",
+                              launch().path().string());
     return nodes::Summary(*world_);
   }
   std::unique_ptr<launch::LiveKeysSender> KeysSender() override { return keys_.MakeSender(); }
@@ -46,7 +47,8 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
   for (const launch::LaunchNode& node : launch.nodes()) {
     if (node.kind->name != "road") continue;
     if (launch.world().empty())
-      return base::WrongInput("key 'world' is missing; a road server needs a world file", launch.path().string());
+      return base::WrongInput("launch.no_world", "key 'world' is missing; a road server needs a world file",
+                              launch.path().string());
     return road::World::Load(launch.world());
   }
   return std::shared_ptr<const road::World>();
@@ -55,6 +57,7 @@ base::Result<std::shared_ptr<const road::World>> LoadWorld(const launch::Launch&
 base::Result<launch::NodeFactory> LibraryOf(const launch::LaunchNode& node) {
   if (!node.kind->library.empty()) return launch::LoadNodeLibrary(node.kind->library);
   return base::WrongInput(
+      "launch.not_in_process",
       fmt::format("its program {} is a process of its own; a run in one process needs its shared object, as 'library'",
                   node.kind->program));
 }
@@ -86,7 +89,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
     }
     launch::NodeFactory factory = FactoryOf(roster.node(n).kind);
     if (factory == nullptr && roster.node(n).kind == "view")
-      return base::WrongInput("this program has no view: it was built with RODEIRA_VIEW=OFF",
+      return base::WrongInput("launch.not_built_in", "this program has no view: it was built with RODEIRA_VIEW=OFF",
                               fmt::format("node '{}'", roster.node(n).name));
     if (launch.node(n).is_external()) {
       auto loaded = LibraryOf(launch.node(n));
@@ -94,7 +97,8 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       factory = std::move(loaded).value();
     }
     if (factory == nullptr)
-      return base::WrongInput(fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
+      return base::WrongInput("launch.not_in_process",
+                              fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
                               fmt::format("node '{}'", roster.node(n).name));
     auto node = factory(*made.contexts_.back());
     if (node.ok()) node = launch::AsManifestSays(*launch.node(n).kind, std::move(node).value());

@@ -25,7 +25,8 @@ base::Status MakeSureItIsDead(Child& child) {
     if (!child.ended()) ::usleep(1000);
   }
   return child.ended() ? base::Status()
-                       : base::Failed(fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
+                       : base::Failed("system.cannot_end_process",
+                                      fmt::format("process {} of '{}' cannot be ended", child.pid(), child.name()));
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace {
 constexpr const char* kStartPatience_s = "3600";
 
 base::Error BelongsToTheClock(const char* option, const launch::Lab& lab) {
-  return base::WrongInput(fmt::format("it belongs to the clock's host, '{}'; say it there", lab.clock()), option);
+  return base::WrongInput("command.wrong_combination",
+                          fmt::format("it belongs to the clock's host, '{}'; say it there", lab.clock()), option);
 }
 
 }  // namespace
@@ -25,16 +26,19 @@ base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions
   const std::string file = !options.lab.empty() ? options.lab : launch.lab().string();
   if (options.host.empty()) {
     if (options.lab.empty()) return placement;
-    return base::WrongInput(fmt::format("which PC is this? --host NAME was expected, of a host in {}", options.lab),
+    return base::WrongInput("command.missing_option",
+                            fmt::format("which PC is this? --host NAME was expected, of a host in {}", options.lab),
                             "--lab");
   }
   if (file.empty()) {
     return base::WrongInput(
+        "command.missing_option",
         "no laboratory file says where the hosts are; --lab FILE, or 'lab: FILE' in the launch file, was expected",
         "--host");
   }
   if (options.in_process)
-    return base::WrongInput("a run in one process has one host; --host was not expected", "--in-process");
+    return base::WrongInput("command.wrong_combination", "a run in one process has one host; --host was not expected",
+                            "--in-process");
   auto lab = launch::Lab::Load(file);
   if (!lab) return lab.error();
   const auto host = lab.value().Host(options.host);
@@ -44,6 +48,7 @@ base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions
   placement.host_ = host.value().name;
   if (!dds::IsOwnAddress(host.value().address)) {
     return base::WrongInput(
+        "launch.wrong_host",
         fmt::format("host '{}' has the address {}, which this PC does not have; is it another one of the hosts, "
                     "is its network up (ip address)?",
                     placement.host_, host.value().address),
@@ -54,6 +59,7 @@ base::Result<Placement> Placement::Find(const launch::Launch& launch, RunOptions
     if (!options.pace.empty()) return BelongsToTheClock("--pace", *placement.lab_);
     if (std::ranges::none_of(launch.nodes(), [&](const launch::LaunchNode& node) { return placement.Has(node); })) {
       return base::WrongInput(
+          "launch.host_without_nodes",
           fmt::format(
               "no node belongs to host '{0}'; say 'host: {0}' at a node, or --set nodes.NAME.host={0} on every PC",
               placement.host_),

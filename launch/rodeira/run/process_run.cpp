@@ -343,7 +343,8 @@ int RunProcesses(const RunOptions& options, const Placement& placement, const la
   // Its nodes would take the names of those of the first one.
   if (placement.has_clock() && IsRunning(options.run)) {
     return base::PrintError(
-        "rodeira", base::WrongInput(fmt::format("run '{}' is going on already on this PC; another --run was expected, "
+        "rodeira", base::WrongInput("run.already_running",
+                                    fmt::format("run '{}' is going on already on this PC; another --run was expected, "
                                                 "or `rodeira ctl stop --run {}` first",
                                                 options.run, options.run)));
   }

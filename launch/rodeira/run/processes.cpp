@@ -40,13 +40,15 @@ base::Result<Child> Child::Start(const std::string& name, const std::vector<std:
                                  PartLog* log) {
   Pipe to_child, from_child, errors;
   if ((with_pipes && !(to_child.Open() && from_child.Open())) || (log != nullptr && !errors.Open()))
-    return base::Failed(fmt::format("cannot create a pipe: {}", std::strerror(errno)), name);
+    return base::Failed("system.no_pipe", fmt::format("cannot create a pipe: {}", std::strerror(errno)), name);
   std::vector<char*> arguments;
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const pid_t parent = ::getpid();
   const pid_t pid = ::fork();
-  if (pid < 0) return base::Failed(fmt::format("cannot create a process: {}", std::strerror(errno)), name);
+  if (pid < 0)
+    return base::Failed("system.cannot_start_program", fmt::format("cannot create a process: {}", std::strerror(errno)),
+                        name);
   if (pid == 0) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);

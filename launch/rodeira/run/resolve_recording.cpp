@@ -45,7 +45,8 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
     if (options.no_record || !recorder.empty()) continue;
     if (!placement.Has(node)) {
       if (options.record.empty()) return {};
-      return base::WrongInput(fmt::format("the recorder '{}' runs on another host; say it there", node.name),
+      return base::WrongInput("command.wrong_combination",
+                              fmt::format("the recorder '{}' runs on another host; say it there", node.name),
                               "--record");
     }
     recorder = node.name;
@@ -64,15 +65,16 @@ base::Status ResolveRecording(const launch::Launch& launch, const Placement& pla
       const std::string what =
           fmt::format("the folder for recordings cannot be made: {}; name a file by --record, or say --no-record",
                       problem.message());
-      return base::Failed(what, base::UserDataFolder().string());
+      return base::Failed("file.cannot_make_folder", what, base::UserDataFolder().string());
     }
   }
   options.record = std::filesystem::absolute(options.record, problem).string();
   if (std::filesystem::exists(options.record, problem))
-    return base::WrongInput("the file exists; a recording is never overwritten", options.record);
+    return base::WrongInput("file.exists", "the file exists; a recording is never overwritten", options.record);
   if (recorder.empty()) {
     if (!placement.host().empty()) {
       return base::WrongInput(
+          "launch.no_recorder",
           "the launch file has no recorder; with several PCs it must have one, 'recorder: {kind: recorder}'",
           "--record");
     }

@@ -46,7 +46,8 @@ base::Status CheckNodePrograms(const launch::Launch& launch, const Placement& pl
     } else if (::access(program.c_str(), X_OK) == 0) {
       continue;
     }
-    return base::WrongInput(fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
+    return base::WrongInput("system.cannot_start_program",
+                            fmt::format("cannot start {}: {}; --set nodes.{}.kind=none leaves the node out", program,
                                         std::strerror(errno), node.name),
                             fmt::format("node '{}'", node.name));
   }
@@ -62,7 +63,8 @@ int Run(const RunOptions& given) {
     return 0;
   }
   if (options.launch_file.empty()) {
-    return base::PrintError("rodeira", base::WrongInput("a launch file or its name was expected; `rodeira run --list` "
+    return base::PrintError("rodeira", base::WrongInput("command.missing_argument",
+                                                        "a launch file or its name was expected; `rodeira run --list` "
                                                         "prints the known ones",
                                                         "run"));
   }

@@ -29,16 +29,20 @@ std::string RecorderOf(const launch::Launch& launch) {
 base::Status AddMeta(const launch::Launch& launch, const std::vector<std::string>& meta, launch::Overrides& overrides) {
   if (meta.empty()) return {};
   const std::string recorder = RecorderOf(launch);
-  if (recorder.empty()) return base::WrongInput("nothing is recorded, so there is nowhere to write it", "--meta");
+  if (recorder.empty())
+    return base::WrongInput("command.wrong_combination", "nothing is recorded, so there is nowhere to write it",
+                            "--meta");
   for (const std::string& pair : meta) {
     const auto equals = pair.find('=');
     const std::string key = pair.substr(0, equals);
     if (equals == std::string::npos || !IsName(key)) {
       return base::WrongInput(
+          "command.wrong_value",
           fmt::format("'{}' was found; KEY=VALUE was expected, the key of letters, digits, _ and -", pair), "--meta");
     }
     if (base::FirstNotUtf8(pair)) {
-      return base::WrongInput(fmt::format("'{}' is not UTF-8, which texts in a recording are", pair), "--meta");
+      return base::WrongInput("command.wrong_value",
+                              fmt::format("'{}' is not UTF-8, which texts in a recording are", pair), "--meta");
     }
     overrides.emplace_back("nodes." + recorder + ".config.meta." + key,
                            config::Quoted(std::string_view(pair).substr(equals + 1)));

@@ -35,7 +35,8 @@ base::Status UseUdp(const launch::Launch& launch, const std::string& reason, Run
   network.note = fmt::format("{}; the run uses UDP{} instead of shared memory", reason, is_kept ? "" : " on 127.0.0.1");
   const dds::NetworkNeed need{transport, is_kept ? launch.discovery().interface : "127.0.0.1", false};
   if (const auto problem = dds::NetworkProblem(need, dds::ReadNetworkState()))
-    return base::WrongInput(fmt::format("{}, and UDP cannot be used instead: {}", reason, *problem), "shared memory");
+    return base::WrongInput("dds.no_transport", fmt::format("{}, and UDP cannot be used instead: {}", reason, *problem),
+                            "shared memory");
   return {};
 }
 
@@ -75,7 +76,7 @@ std::uint32_t SegmentThatFits(std::uint64_t free_bytes, int processes) {
 base::Result<RunNetwork> RunNetwork::Prepare(const RunOptions& options, const Placement& placement,
                                              const launch::Launch& launch, const DomainPlace& place) {
   if (const auto problem = dds::NetworkProblem(dds::NeedOf(launch), dds::ReadNetworkState()))
-    return base::WrongInput(*problem, launch.path().string());
+    return base::WrongInput("dds.no_transport", *problem, launch.path().string());
   RemoveLeftOvers({}, place.folder);  // of dead runs: they count neither as ports nor as room
   RunNetwork network;
   if (options.domain) {
