@@ -28,15 +28,6 @@ class ErrorId {
   consteval ErrorId(const char* text) : text_(text) {  // NOLINT: implicit by design
     if (!IsId(text_)) throw "an error's id is scope.what_happened, its scope is one of kErrorScopes";
   }
-  /// Gives an id of a text that outlives it.
-  /// @param text a text that IsId accepts
-  /// @return the id; "error.unnamed" for any other text
-  static constexpr ErrorId FromId(std::string_view text) {
-    ErrorId id;
-    if (IsId(text)) id.text_ = text;
-    return id;
-  }
-
   /// Gives the id.
   /// @return "scope.what_happened"
   constexpr std::string_view text() const { return text_; }
@@ -44,6 +35,7 @@ class ErrorId {
   /// @return the part before the dot
   constexpr std::string_view scope() const { return text_.substr(0, text_.find('.')); }
   /// Compares two ids by their texts.
+  /// @return true for the same id
   constexpr bool operator==(const ErrorId&) const = default;
 
   /// Says whether a text has the form of an id and a known scope.

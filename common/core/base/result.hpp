@@ -4,12 +4,9 @@
 /// @file
 /// Errors as values.
 
-#include <concepts>
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -54,44 +51,22 @@ struct Error {
   Error WithMessage(std::string_view sentence) const { return Error{code, id, Printable(sentence), context}; }
 };
 
-// The first argument of an error: its id, or the message of an error without an id.
-class IdOrMessage {
- public:
-  template <std::size_t N>
-  consteval IdOrMessage(const char (&literal)[N])  // NOLINT: implicit by design
-      : text_(literal, N - 1), id_(ErrorId::FromId(text_)), is_id_(ErrorId::IsId(text_)) {}
-  constexpr IdOrMessage(ErrorId id) : id_(id), is_id_(true) {}  // NOLINT
-  template <class T>
-  requires(std::convertible_to<const T&, std::string_view> && !std::is_array_v<T>) IdOrMessage(const T& text)  // NOLINT
-      : text_(text) {}
-
-  Error Make(ErrorCode code, std::string_view second, std::string_view third) const {
-    return is_id_ ? Error{code, id_, Printable(second), Printable(third)}
-                  : Error{code, ErrorId(), Printable(text_), Printable(second)};
-  }
-
- private:
-  std::string_view text_;
-  ErrorId id_;
-  bool is_id_ = false;
-};
-
 /// Makes an error of code kWrongInput. Both texts become one printable line each, so they may contain parts of files
 /// and messages.
 /// @param id the kind of failure, such as "config.unknown_key"
 /// @param message one sentence: what was found, what was expected
 /// @param context the place (file:line, topic, step); may be empty
 /// @return the error
-inline Error WrongInput(IdOrMessage id, std::string_view message = {}, std::string_view context = {}) {
-  return id.Make(ErrorCode::kWrongInput, message, context);
+inline Error WrongInput(ErrorId id, std::string_view message, std::string_view context = {}) {
+  return Error{ErrorCode::kWrongInput, id, Printable(message), Printable(context)};
 }
 /// Makes an error of code kFailed. Both texts become one printable line each.
 /// @param id the kind of failure, such as "file.cannot_open"
 /// @param message one sentence: what was found, what was expected
 /// @param context the place (file, topic, step); may be empty
 /// @return the error
-inline Error Failed(IdOrMessage id, std::string_view message = {}, std::string_view context = {}) {
-  return id.Make(ErrorCode::kFailed, message, context);
+inline Error Failed(ErrorId id, std::string_view message, std::string_view context = {}) {
+  return Error{ErrorCode::kFailed, id, Printable(message), Printable(context)};
 }
 
 /// A value, or the Error that explains why there is none. Access to the absent one is an assertion failure.
