@@ -210,6 +210,30 @@ TEST(Printable, WhatATerminalWouldObeyBecomesVisible) {
   EXPECT_EQ(WrongInput("file.not_found", "'a\nb' was found", "file\n:3").Text(), "file\\n:3: 'a\\nb' was found");
 }
 
+// An id is a known scope, a dot, and lower-case words that are joined by '_'.
+TEST(ErrorId, HasOneForm) {
+  EXPECT_TRUE(ErrorId::IsId("config.unknown_key"));
+  EXPECT_TRUE(ErrorId::IsId("fmu.other_version2"));
+  for (const char* wrong : {"", "config", "config.", ".unknown_key", "house.unknown_key", "config.Unknown",
+                            "config._key", "config.key_", "config.a__b", "config.a b", "config.a.b"})
+    EXPECT_FALSE(ErrorId::IsId(wrong)) << wrong;
+  constexpr ErrorId id = "config.unknown_key";
+  EXPECT_EQ(id.text(), "config.unknown_key");
+  EXPECT_EQ(id.scope(), "config");
+}
+
+// An error that is told again at another place, or in other words, keeps its id and its exit status.
+TEST(Error, KeepsIdAndStatusWhenItIsToldAgain) {
+  const Error error = Failed("file.cannot_open", "cannot open", "a.yaml:3");
+  for (const Error& told : {error.WithContext("b.yaml"), error.In("node 'x'"), error.WithMessage("no file")}) {
+    EXPECT_EQ(told.id, ErrorId("file.cannot_open"));
+    EXPECT_EQ(told.exit_status(), 1);
+  }
+  EXPECT_EQ(error.WithContext("b.yaml").Text(), "b.yaml: cannot open");
+  EXPECT_EQ(error.In("node 'x'").Text(), "node 'x': a.yaml:3: cannot open");
+  EXPECT_EQ(error.WithMessage("no file").Text(), "a.yaml:3: no file");
+}
+
 TEST(Files, AMissingFileIsSaidWithTheNearestBesideIt) {
   auto folder = TemporaryFolder::Make("test");
   ASSERT_TRUE(folder.ok());
