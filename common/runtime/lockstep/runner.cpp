@@ -114,7 +114,10 @@ Runner::Outcome Runner::Begin() {
 }
 
 Runner::Outcome Runner::AwaitInputs(std::chrono::milliseconds limit) {
-  switch (mailbox_.WaitForInputs(begun_at_, limit)) {
+  // A recorder that begins again beyond the granted time is ready at once: the snapshots that are valid there are taken
+  // only in activations that are granted once all are ready.
+  const bool is_ahead = settings_.sink_from > 0 && !mailbox_.IsGranted(begun_at_);
+  switch (is_ahead ? Mailbox::Woken::kReady : mailbox_.WaitForInputs(begun_at_, limit)) {
     case Mailbox::Woken::kReady: {
       const std::lock_guard lock(report_mutex_);
       report_.progress = settled_ = next_;

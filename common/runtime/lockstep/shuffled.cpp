@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "common/core/base/random.hpp"
@@ -10,6 +11,7 @@
 #include "common/runtime/lockstep/in_process_parts.hpp"
 #include "common/runtime/lockstep/kept_samples.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
+#include "common/runtime/lockstep/planned_losses.hpp"
 #include "common/runtime/lockstep/sample_batches.hpp"
 
 namespace rodeira::lockstep {
@@ -20,10 +22,11 @@ constexpr std::size_t kMaxSampleBatch_bytes = 300;  // a few samples of a test's
 class ShuffledRun {
  public:
   ShuffledRun(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
-              std::uint64_t seed)
+              std::uint64_t seed, std::vector<PlannedLoss> losses)
       : roster_(roster),
         settings_(settings),
         seed_(seed),
+        losses_(std::move(losses)),
         clock_(roster, settings.last_step, settings.first_step, settings.deaths.policies),
         consumers_(ConsumersOf(roster)) {
     ReportServices(roster, clock_);
@@ -36,12 +39,14 @@ class ShuffledRun {
                                                                         *mailboxes_[n], RunnerSettings(settings, n)));
       over_.push_back(nodes[n] == nullptr);
     }
+    stopped_.resize(nodes.size());
   }
 
   RunOutcome Run() {
     std::size_t idle = 0;
     const std::size_t patience = 5000 * runners_.size();
     while (fault_.empty() && !AllOver()) {
+      LoseAsPlanned();
       if (settings_.deaths.share > 0.0 && base::RandomUniform({seed_, draws_++}) < settings_.deaths.share) KillOne();
       const bool deliver = !in_flight_.empty() && Draw(3) != 0;
       const bool moved = deliver ? DeliverOne() : AdvanceOne();
@@ -70,7 +75,8 @@ class ShuffledRun {
   struct ShuffleBus final : Bus {
     ShuffleBus(ShuffledRun& owner, NodeIndex n)
         : run(owner), node(n), kept(run.roster_, n), batches(run.roster_, n, kMaxSampleBatch_bytes) {
-      if (run.settings_.deaths.share > 0.0 && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
+      const bool may_be_lost = run.settings_.deaths.share > 0.0 || !run.losses_.empty();
+      if (may_be_lost && run.roster_.node(n).keeps_snapshots()) archive.emplace(run.roster_);
     }
     base::Status Publish(const Sample& sample) override {
       if (run.settings_.on_sample) run.settings_.on_sample(sample);
@@ -125,6 +131,12 @@ class ShuffledRun {
   bool DeliverOne() {
     const std::size_t at = Draw(in_flight_.size());
     const Message message = in_flight_[at];
+    if (message.kind != Message::Kind::kReport && stopped_[message.to]) {
+      stopped_[message.to]->held.push_back(message);
+      in_flight_[at] = in_flight_.back();
+      in_flight_.pop_back();
+      return false;
+    }
     if (Draw(8) != 0) {  // otherwise it stays in flight and arrives once more
       in_flight_[at] = in_flight_.back();
       in_flight_.pop_back();
@@ -182,7 +194,30 @@ class ShuffledRun {
       Replace(n, "was killed");
     }
   }
+  void LoseAsPlanned() {
+    ++turn_;
+    for (const PlannedLoss& loss : losses_) {
+      if (loss.turn == turn_) Lose(loss);
+    }
+    for (NodeIndex n = 0; n < stopped_.size(); ++n) {
+      if (stopped_[n] && turn_ >= stopped_[n]->until) Continue(n);
+    }
+  }
+  void Lose(const PlannedLoss& loss) {
+    const NodeIndex n = loss.node;
+    if (runners_[n] == nullptr || over_[n] || clock_.report(n).phase == Phase::kFinished) return;
+    if (loss.cause == LossCause::kKilled) return Replace(n, "was killed");
+    if (loss.cause == LossCause::kTerminated) return mailboxes_[n]->EndEarly({LifeEvent::kLost, "was told to end"});
+    if (!stopped_[n]) stopped_[n] = Stopped{turn_ + loss.lasts_turns, loss.is_found, {}};
+  }
+  void Continue(NodeIndex n) {
+    Stopped stopped = std::move(*stopped_[n]);
+    stopped_[n].reset();
+    if (stopped.is_found) return Replace(n, "was stopped");
+    for (Message& message : stopped.held) in_flight_.push_back(std::move(message));
+  }
   void Replace(NodeIndex n, const std::string& reason) {
+    stopped_[n].reset();
     const auto decision = clock_.HandleLoss(n);
     if (decision.policy != Policy::kRestart) {
       fault_ = decision.why.empty() ? fmt::format("node '{}' {}", roster_.node(n).name, reason) : decision.why;
@@ -226,7 +261,7 @@ class ShuffledRun {
 
   bool AdvanceOne() {
     const std::size_t n = Draw(runners_.size());
-    if (over_[n]) return false;
+    if (over_[n] || stopped_[n]) return false;
     if (runners_[n] == nullptr) return Raise(static_cast<NodeIndex>(n));
     const Runner::Outcome outcome = runners_[n]->Advance(std::chrono::milliseconds(0));
     if (outcome == Runner::Outcome::kBlocked) {
@@ -255,6 +290,8 @@ class ShuffledRun {
   const Roster& roster_;
   const InProcessSettings& settings_;
   std::uint64_t seed_;
+  const std::vector<PlannedLoss> losses_;
+  std::uint64_t turn_ = 0;
   std::uint64_t draws_ = 0;
   int deaths_ = 0;
   Clock clock_;
@@ -263,6 +300,13 @@ class ShuffledRun {
   std::vector<std::unique_ptr<ShuffleBus>> buses_;
   std::vector<std::unique_ptr<Runner>> runners_;
   std::vector<bool> over_;
+  // A node that is stopped: until when, whether it is lost then, and what has come for it.
+  struct Stopped {
+    std::uint64_t until = 0;
+    bool is_found = true;
+    std::vector<Message> held;
+  };
+  std::vector<std::optional<Stopped>> stopped_;
   std::vector<Message> in_flight_;
   std::string fault_;
 };
@@ -272,7 +316,25 @@ class ShuffledRun {
 RunOutcome RunShuffled(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
                        std::uint64_t seed) {
   RODEIRA_ASSERT(nodes.size() == roster.nodes().size());
-  return ShuffledRun(roster, nodes, settings, seed).Run();
+  return ShuffledRun(roster, nodes, settings, seed, {}).Run();
+}
+
+RunOutcome RunWithLosses(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
+                         std::uint64_t seed, const std::vector<PlannedLoss>& losses) {
+  RODEIRA_ASSERT(nodes.size() == roster.nodes().size());
+  return ShuffledRun(roster, nodes, settings, seed, losses).Run();
+}
+
+std::string TextOf(const std::vector<PlannedLoss>& losses) {
+  std::string text;
+  for (const PlannedLoss& loss : losses) {
+    const char* cause = loss.cause == LossCause::kKilled       ? "killed"
+                        : loss.cause == LossCause::kTerminated ? "told to end"
+                        : loss.is_found                        ? "stopped and found"
+                                                               : "stopped for a while";
+    text += fmt::format("{}node {} {} at turn {}", text.empty() ? "" : ", ", loss.node, cause, loss.turn);
+  }
+  return text;
 }
 
 }  // namespace rodeira::lockstep

@@ -11,80 +11,14 @@
 #include "common/runtime/lockstep/archive.hpp"
 #include "common/runtime/lockstep/wait_chain.hpp"
 #include "tests/common/runtime/lockstep/law.hpp"
+#include "tests/common/runtime/lockstep/recorded.hpp"
 
 namespace rodeira::lockstep {
 namespace {
 
-// What outlives a recorder, and what does not.
-struct Disk {
-  std::vector<Sample> file;
-  std::vector<Sample> unwritten;
-  std::uint64_t seed = 0;
-  Step safe() const { return file.empty() ? -1 : file.back().valid() - 1; }
-};
-
-// Writes in the order of (step, source), now and then what it has gathered, beginning behind what the file holds.
-class RecorderDouble final : public Node {
- public:
-  explicit RecorderDouble(Disk& disk) : disk_(disk) { disk_.unwritten.clear(); }
-  base::Status Initialise(Outbox&) override { return {}; }
-  base::Status Step(const StepInfo&, const Inbox& inbox, Outbox&) override {
-    Take(inbox);
-    return {};
-  }
-  base::Status Finish(const Inbox& rest, lockstep::Step, bool) override {
-    Take(rest);
-    Write();
-    return {};
-  }
-  void Save(base::StateWriter&) const override {}
-  void Restore(base::StateReader&) override {}
-
- private:
-  static auto KeyOf(const Sample& sample) { return std::pair(sample.valid(), sample.source()); }
-  void Take(const Inbox& inbox) {
-    std::vector<Sample> samples;
-    for (const auto& port : inbox.ports()) samples.insert(samples.end(), port.samples.begin(), port.samples.end());
-    std::ranges::sort(samples, {}, KeyOf);
-    for (const Sample& sample : samples) {
-      if (!disk_.file.empty() && KeyOf(sample) <= KeyOf(disk_.file.back())) continue;  // of an earlier incarnation
-      disk_.unwritten.push_back(sample);
-      if (base::RandomBits({disk_.seed, ++draws_}) % 300 == 0) Write();
-    }
-  }
-  void Write() {
-    disk_.file.insert(disk_.file.end(), disk_.unwritten.begin(), disk_.unwritten.end());
-    disk_.unwritten.clear();
-  }
-  Disk& disk_;
-  std::uint64_t draws_ = 0;
-};
-
-// A roster drawn from a seed, with a recorder that is wired to everything and snapshots.
-Roster RecordedRoster(std::uint64_t seed) {
-  law::Wishes wishes = law::RandomWishes(seed);
-  Step every = 1;
-  for (const NodeSpec& wish : wishes.nodes) {
-    if (!wish.outputs.empty()) every = std::lcm(every, wish.period);
-  }
-  NodeSpec recorder;
-  recorder.name = "recorder";
-  recorder.kind = "test";
-  recorder.period = 1 + static_cast<Step>(seed % 11);
-  PortSpec snapshots{std::string(kSnapshotTopic), PortKind::kEvent, {}};
-  PortSpec a{"a", PortKind::kEvent, {}}, b{"b", PortKind::kEvent, {}};
-  for (NodeSpec& wish : wishes.nodes) {
-    if (wish.outputs.empty()) continue;
-    wish.snapshot_every = every;
-    snapshots.sources.push_back(wish.name);
-    a.sources.push_back(wish.name);
-    if (wish.outputs.size() == 2) b.sources.push_back(wish.name);
-  }
-  recorder.inputs = {a, snapshots};
-  if (!b.sources.empty()) recorder.inputs.push_back(b);
-  wishes.nodes.push_back(recorder);
-  return Roster::Create(1'000'000, wishes.window, wishes.nodes).value();
-}
+using law::Disk;
+using law::RecordedRoster;
+using law::RecorderDouble;
 
 TEST(Recovery, DeathsAtAnyMomentChangeNoBitAndNoRecord) {
   int deaths = 0;

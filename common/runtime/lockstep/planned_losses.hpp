@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/runtime/lockstep/in_process.hpp"
+
+namespace rodeira::lockstep {
+
+// How a node is lost in RunShuffled: as by SIGKILL, by SIGTERM, or by SIGSTOP. A stopped node neither computes nor
+// receives. It goes on after `lasts_turns`, or the watchdog finds it then (`is_found`) and it is a loss like others.
+enum class LossCause { kKilled, kTerminated, kStopped };
+
+struct PlannedLoss {
+  std::uint64_t turn = 0;  // of the run's loop, which moves one node or message a turn
+  NodeIndex node = 0;
+  LossCause cause = LossCause::kKilled;
+  std::uint64_t lasts_turns = 0;  // of a node that is stopped
+  bool is_found = true;           // of a node that is stopped
+};
+
+// "node 2 killed at turn 120, …", for messages.
+std::string TextOf(const std::vector<PlannedLoss>& losses);
+
+// As RunShuffled, with these losses beside the drawn ones. A node that has finished is not lost any more.
+// settings.deaths has the policies, `remake` and `safe`, as for drawn losses.
+RunOutcome RunWithLosses(const Roster& roster, const std::vector<Node*>& nodes, const InProcessSettings& settings,
+                         std::uint64_t seed, const std::vector<PlannedLoss>& losses);
+
+}  // namespace rodeira::lockstep
