@@ -15,6 +15,7 @@ constexpr double kBendHalfLength_m = 0.25;  // the curvature is measured over tw
 constexpr double kUnsaid_mps = 50.0 / 3.6;  // where a network says no limit
 constexpr double kNoLimit_mps = 130.0 / 3.6;
 constexpr double kBeyond_m = 1e-6;
+constexpr std::size_t kBlock = 32;
 
 }  // namespace
 
@@ -39,6 +40,20 @@ RoutePath::RoutePath(const network::Network& network, std::vector<RouteLeg> legs
       nodes_.push_back({d, leg, station(i), MotionAt({leg, station(i)}).p_W});
     }
   }
+  MakeBoxes();
+}
+
+void RoutePath::MakeBoxes() {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Eigen::Vector3d& p_W = nodes_[i].p_W;
+    if (i % kBlock == 0) blocks_.push_back({p_W, p_W});
+    blocks_.back() = {blocks_.back().low_W.cwiseMin(p_W), blocks_.back().high_W.cwiseMax(p_W)};
+  }
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    if (i % kBlock == 0) groups_.push_back(blocks_[i]);
+    groups_.back() = {groups_.back().low_W.cwiseMin(blocks_[i].low_W),
+                      groups_.back().high_W.cwiseMax(blocks_[i].high_W)};
+  }
 }
 
 double RoutePath::Distance(std::size_t leg, double s_m) const {
@@ -53,8 +68,19 @@ double RoutePath::Distance(std::size_t leg, double s_m) const {
 }
 
 RoutePath::Spot RoutePath::SpotAt(double d_m) const {
-  const auto after =
-      std::upper_bound(nodes_.begin(), nodes_.end(), d_m, [](double d, const Node& node) { return d < node.d_m; });
+  return SpotBefore(
+      std::upper_bound(nodes_.begin(), nodes_.end(), d_m, [](double d, const Node& node) { return d < node.d_m; }),
+      d_m);
+}
+
+RoutePath::Spot RoutePath::SpotNear(std::size_t node, double d_m) const {
+  auto after = nodes_.begin() + static_cast<std::ptrdiff_t>(node);
+  while (after != nodes_.end() && after->d_m <= d_m) ++after;
+  while (after != nodes_.begin() && (after - 1)->d_m > d_m) --after;
+  return SpotBefore(after, d_m);
+}
+
+RoutePath::Spot RoutePath::SpotBefore(std::vector<Node>::const_iterator after, double d_m) const {
   if (after == nodes_.begin()) return {nodes_.front().leg, nodes_.front().s_m};
   const Node& before = *(after - 1);
   if (after == nodes_.end() || after->leg != before.leg) return {before.leg, before.s_m};
@@ -73,7 +99,11 @@ RoutePath::Motion RoutePath::MotionAt(const Spot& spot) const {
 
 Eigen::Vector3d RoutePath::Ahead(double d_m) const {
   const Spot spot = SpotAt(d_m);
-  const Eigen::Vector3d v = MotionAt(spot).v_W;
+  return AheadOf(spot, MotionAt(spot));
+}
+
+Eigen::Vector3d RoutePath::AheadOf(const Spot& spot, const Motion& motion) const {
+  const Eigen::Vector3d& v = motion.v_W;
   const Eigen::Vector3d ahead = legs_[spot.leg].along ? v : Eigen::Vector3d(-v);
   return {ahead.x(), ahead.y(), ahead.z() / ahead.head<2>().norm()};
 }
@@ -87,9 +117,11 @@ double RoutePath::SpeedLimit_mps(double d_m) const {
 
 LaneFrame RoutePath::At(double d_m) const {
   const double d = std::clamp(d_m, 0.0, length_m());
-  const Eigen::Vector3d ahead = Ahead(d);
+  const Spot spot = SpotAt(d);
+  const Motion motion = MotionAt(spot);
+  const Eigen::Vector3d ahead = AheadOf(spot, motion);
   LaneFrame frame;
-  frame.p_W = MotionAt(SpotAt(d)).p_W;
+  frame.p_W = motion.p_W;
   frame.heading_rad = std::atan2(ahead.y(), ahead.x());
   frame.grade = ahead.z();
   const double low = std::max(0.0, d - kBendHalfLength_m), high = std::min(length_m(), d + kBendHalfLength_m);
@@ -113,26 +145,69 @@ Eigen::Vector3d RoutePath::Position(double d_m, double offset_m) const {
   return road.Surface(s, legs_[spot.leg].along ? middle + offset_m : middle - offset_m).p_W;
 }
 
+// A box is passed over if its nearest point is farther than the nearest node so far. Rounding keeps the order of sums
+// and squares, so that no node of such a box would be nearer.
+std::optional<std::size_t> RoutePath::NearestNode(const Eigen::Vector2d& p_W, std::optional<double> z_m) const {
+  const auto beyond = [](double low, double high, double x) { return std::max({0.0, low - x, x - high}); };
+  const auto on_level = [&](const Box& box) {
+    return !z_m || beyond(box.low_W.z(), box.high_W.z(), *z_m) <= network::Network::kLevel_m;
+  };
+  const auto squared_to = [&](const Box& box) {
+    const double dx = beyond(box.low_W.x(), box.high_W.x(), p_W.x()),
+                 dy = beyond(box.low_W.y(), box.high_W.y(), p_W.y());
+    return dx * dx + dy * dy;
+  };
+  std::optional<std::size_t> nearest;
+  double least = 0.0;
+  const auto look_at_block = [&](std::size_t block) {
+    const std::size_t end = std::min((block + 1) * kBlock, nodes_.size());
+    for (std::size_t i = block * kBlock; i < end; ++i) {
+      if (z_m && std::fabs(nodes_[i].p_W.z() - *z_m) > network::Network::kLevel_m) continue;
+      const double squared = (nodes_[i].p_W.head<2>() - p_W).squaredNorm();
+      if (!nearest || squared < least || (squared == least && i < *nearest)) nearest = i, least = squared;
+    }
+  };
+  const auto look_at_group = [&](std::size_t group) {
+    const std::size_t end = std::min((group + 1) * kBlock, blocks_.size());
+    for (std::size_t block = group * kBlock; block < end; ++block) {
+      if (on_level(blocks_[block]) && (!nearest || squared_to(blocks_[block]) <= least)) look_at_block(block);
+    }
+  };
+  // First where the nearest node probably lies.
+  std::size_t likely = 0;
+  for (std::size_t group = 1; group < groups_.size(); ++group)
+    if (squared_to(groups_[group]) < squared_to(groups_[likely])) likely = group;
+  std::size_t likely_block = likely * kBlock;
+  for (std::size_t block = likely_block; block < std::min((likely + 1) * kBlock, blocks_.size()); ++block)
+    if (squared_to(blocks_[block]) < squared_to(blocks_[likely_block])) likely_block = block;
+  look_at_block(likely_block);
+  for (std::size_t group = 0; group < groups_.size(); ++group) {
+    if (on_level(groups_[group]) && (!nearest || squared_to(groups_[group]) <= least)) look_at_group(group);
+  }
+  return nearest;
+}
+
 std::optional<Way::Place> RoutePath::Locate(double x_m, double y_m, std::optional<double> z_m) const {
   const Eigen::Vector2d p(x_m, y_m);
-  const Node* nearest = nullptr;
-  double least = 0.0;
-  for (const Node& node : nodes_) {
-    if (z_m && std::fabs(node.p_W.z() - *z_m) > network::Network::kLevel_m) continue;
-    const double squared = (node.p_W.head<2>() - p).squaredNorm();
-    if (nearest == nullptr || squared < least) nearest = &node, least = squared;
-  }
-  if (nearest == nullptr) return std::nullopt;
-  double d = nearest->d_m;
+  const auto nearest = NearestNode(p, z_m);
+  if (!nearest) return std::nullopt;
+  const double node_m = nodes_[*nearest].d_m;
+  double d = node_m;
   Eigen::Vector2d away, ahead;
+  const auto look = [&] {
+    const Spot spot = SpotNear(*nearest, d);
+    const Motion motion = MotionAt(spot);
+    away = p - motion.p_W.head<2>();
+    ahead = AheadOf(spot, motion).head<2>().normalized();
+  };
+  look();
   for (int turn = 0; turn < 4; ++turn) {
-    away = p - MotionAt(SpotAt(d)).p_W.head<2>();
-    ahead = Ahead(d).head<2>().normalized();
-    d = std::clamp(d + std::clamp(away.dot(ahead), -kNode_m, kNode_m), std::max(0.0, nearest->d_m - 2.0 * kNode_m),
-                   std::min(length_m(), nearest->d_m + 2.0 * kNode_m));
+    const double before = d;
+    d = std::clamp(d + std::clamp(away.dot(ahead), -kNode_m, kNode_m), std::max(0.0, node_m - 2.0 * kNode_m),
+                   std::min(length_m(), node_m + 2.0 * kNode_m));
+    if (d == before) break;
+    look();
   }
-  away = p - MotionAt(SpotAt(d)).p_W.head<2>();
-  ahead = Ahead(d).head<2>().normalized();
   const double along = away.dot(ahead);
   if ((d == 0.0 && along < -kBeyond_m) || (d == length_m() && along > kBeyond_m)) return std::nullopt;
   return Place{d, geometry::Cross(ahead, away)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/driving/driver/route.hpp"
@@ -39,13 +40,26 @@ class RoutePath final : public Way {
     Eigen::Vector3d p_W;
     Eigen::Vector3d v_W;  // by s, along the road
   };
+  // Bounds of consecutive nodes.
+  struct Box {
+    Eigen::Vector3d low_W, high_W;
+  };
   Spot SpotAt(double d_m) const;
+  Spot SpotBefore(std::vector<Node>::const_iterator after, double d_m) const;
+  // The same, looked for from a node on.
+  Spot SpotNear(std::size_t node, double d_m) const;
   Motion MotionAt(const Spot& spot) const;
   Eigen::Vector3d Ahead(double d_m) const;  // not of unit length; p in plan, the rise over it in z
+  Eigen::Vector3d AheadOf(const Spot& spot, const Motion& motion) const;
+  void MakeBoxes();
+  // The first of the nodes that are nearest in plan and, if z is given, on its level.
+  std::optional<std::size_t> NearestNode(const Eigen::Vector2d& p_W, std::optional<double> z_m) const;
 
   const network::Network* network_;
   std::vector<RouteLeg> legs_;
   std::vector<Node> nodes_;  // of each leg from its beginning to its end; where legs meet, of both
+  std::vector<Box> blocks_;  // of kBlock nodes each
+  std::vector<Box> groups_;  // of kBlock blocks each
 };
 
 }  // namespace rodeira::driver

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/core/base/random.hpp"
 #include "common/driving/driver/autopilot.hpp"
 #include "common/driving/driver/route_path.hpp"
 #include "common/vehicle/dynamics/bicycle_model.hpp"
@@ -62,6 +63,24 @@ TEST(RoutePath, IsTheMiddleOfItsLanes) {
     }
   }
   EXPECT_FALSE(path.Locate(-1.0, -1.75, 0.0).has_value());
+}
+
+// The oracle looks at every half metre of the way.
+TEST(RoutePath, LocateFindsTheNearestPointOfTheWholeWay) {
+  const auto network = MustRead(Bend());
+  const RoutePath path(*network, StraightOn(*network, {0, 0, -1}, 1000.0));
+  for (std::uint32_t i = 0; i < 400; ++i) {
+    const Eigen::Vector2d p(base::RandomUniform({7, i, 0}, 1.0, 150.0), base::RandomUniform({7, i, 1}, -20.0, 40.0));
+    double nearest = 1e300;
+    for (double d = 0.0; d <= path.length_m(); d += 0.5)
+      nearest = std::min(nearest, (path.Position(d, 0.0).head<2>() - p).norm());
+    const auto place = path.Locate(p.x(), p.y());
+    if (!place) continue;  // beside an end
+    const double found = (path.Position(place->d_m, 0.0).head<2>() - p).norm();
+    EXPECT_LE(found, nearest + 1e-3) << p.transpose();
+    EXPECT_GE(found, nearest - 0.5) << p.transpose();
+    EXPECT_NEAR(std::fabs(place->offset_m), found, 1e-3);
+  }
 }
 
 // The car of the project drives `for_s` seconds along the route from the world's start. It stays in its lane.
