@@ -5,9 +5,9 @@
 
 #include <utility>
 
-#include "common/core/base/suggest.hpp"
 #include "common/runtime/dds/statements.hpp"
 #include "common/runtime/lockstep/life.hpp"
+#include "common/runtime/lockstep/named_node.hpp"
 
 namespace rodeira::dds {
 
@@ -72,12 +72,9 @@ void ClockLosses::Announce(lockstep::NodeIndex node, const std::string& reason) 
 }
 
 base::Result<std::string> ClockLosses::RestartByHand(const std::string& name) {
-  const lockstep::NodeIndex node = run_.roster.Find(name);
-  if (node == run_.roster.nodes().size()) {
-    return base::WrongInput("launch.unknown_node",
-                            fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, run_.roster.Names())),
-                            "restart");
-  }
+  const auto named = lockstep::NamedNode(run_.roster, name);
+  if (!named) return named.error();
+  const lockstep::NodeIndex node = named.value();
   if (!run_.clock.recovery().restarts()) {
     return base::Failed(
         "run.cannot_restart",

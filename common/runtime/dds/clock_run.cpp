@@ -18,6 +18,7 @@ std::optional<lockstep::Step> LastStep(const launch::Launch& launch, const Proce
 
 ClockRun::ClockRun(const launch::Launch& its_launch, const ProcessOptions& options)
     : launch(its_launch),
+      domain(options.domain),
       roster(its_launch.roster()),
       clock(roster, LastStep(its_launch, options), 0, its_launch.policies()),
       controller(clock, lockstep::Pacer(roster.base_step_ns(), options.pace), options.incarnation),

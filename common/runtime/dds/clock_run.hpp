@@ -28,6 +28,7 @@ struct ClockRun {
   std::int64_t BegunNs() const;
 
   const launch::Launch& launch;
+  const std::uint32_t domain;  // of DDS
   const lockstep::Roster& roster;
   lockstep::Clock clock;
   lockstep::RunController controller;

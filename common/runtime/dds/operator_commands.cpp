@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/runtime/dds/operator_commands.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string_view>
 
@@ -27,9 +29,10 @@ base::Result<std::string> OperatorCommands::Do(const lockstep::Command& command)
   stop_asked_ = stop_asked_ || command.kind == Kind::kStop;
   auto done = run_.controller.Do(command, run_.Now());
   if (!done || command.kind != Kind::kState) return done;
-  if (!run_.missed.empty()) return done.value() + "; it stands: " + run_.missed.Text(run_.NowNs());
+  const std::string state = fmt::format("{} in domain {}", done.value(), run_.domain);
+  if (!run_.missed.empty()) return state + "; it stands: " + run_.missed.Text(run_.NowNs());
   const std::string chain = lockstep::WaitChain(run_.roster, run_.clock.reports());
-  return chain.empty() ? done : done.value() + "; " + chain;
+  return chain.empty() ? state : state + "; " + chain;
 }
 
 void OperatorCommands::StopBySignal() {

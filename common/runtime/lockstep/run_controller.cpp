@@ -8,6 +8,8 @@
 #include <chrono>
 #include <utility>
 
+#include "common/runtime/lockstep/named_node.hpp"
+
 namespace rodeira::lockstep {
 namespace {
 
@@ -86,6 +88,9 @@ void RunController::GoOn(std::int64_t begin_ns, bool paused, const Wall& now) {
 
 base::Result<std::string> RunController::Do(const Command& command, const Wall& now) {
   using Kind = Command::Kind;
+  if (command.kind == Kind::kRestart) {
+    if (const auto node = NamedNode(clock_.roster(), command.text); !node) return node.error();
+  }
   if (clock_.grant().abort) return base::Failed("run.failed", "the run has failed: " + clock_.grant().reason);
   if (command.kind == Kind::kStop && !clock_.grant().final) {
     Stop(now);
@@ -98,7 +103,10 @@ base::Result<std::string> RunController::Do(const Command& command, const Wall& 
     return base::Failed("run.not_running",
                         "the run has not begun; it waits for " + (missing.empty() ? "nobody" : missing));
   }
-  if (clock_.grant().final) return base::Failed("run.not_running", "the run is ending at " + Here());
+  if (clock_.grant().final) {
+    if (command.kind == Kind::kState) return "is ending at " + Here();
+    return base::Failed("run.not_running", "the run is ending at " + Here());
+  }
   switch (command.kind) {
     case Kind::kPause:
       Pause(now);
@@ -130,7 +138,7 @@ base::Result<std::string> RunController::Do(const Command& command, const Wall& 
       return fmt::format("marked {} as remark {}", Here(), number);
     }
     case Kind::kRestart:
-      return base::Failed("run.cannot_restart", "nothing can be started again here");
+      return base::Failed("run.cannot_restart", "a node of a run of one process cannot be started again");
     case Kind::kState:
     case Kind::kStop:
       break;

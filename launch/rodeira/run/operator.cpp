@@ -89,7 +89,9 @@ std::optional<lockstep::Asked> NextCommand(Operator& desk) {
       continue;
     }
     return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
-                             answer(done ? "ok " + done.value() : "failed " + done.error().Text());
+                             if (done) return answer("ok " + done.value());
+                             const bool is_wrong = done.error().code == base::ErrorCode::kWrongInput;
+                             answer((is_wrong ? "wrong " : "failed ") + done.error().Text());
                            }};
   }
   return std::nullopt;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "common/runtime/lockstep/named_node.hpp"
+
 namespace rodeira::lockstep {
 namespace {
 
@@ -102,8 +104,35 @@ TEST_F(ConductorTest, WhatTheRunCannotDoIsASentence) {
   EXPECT_TRUE(clock_.grant().final);
   EXPECT_EQ(Said(Kind::kResume, 6), "failed: the run is ending at step 4 (0.004 s)");
   EXPECT_EQ(Said(Kind::kStop, 6), "failed: the run is ending at step 4 (0.004 s)");
+  EXPECT_EQ(Said(Kind::kState, 6), "is ending at step 4 (0.004 s)");
   controller_.Abort("a fault", At(7));
   EXPECT_EQ(Said(Kind::kState, 8), "failed: the run has failed: a fault");
+}
+
+TEST_F(ConductorTest, ARestartOfAnUnknownNodeIsWrongInputAtAnyTime) {
+  const auto restart = [&](const std::string& name) { return Do(Kind::kRestart, 0, 1, 0.0, name); };
+  for (const bool begun : {false, true}) {
+    if (begun) {
+      Report(Phase::kReady, 0);
+      (void)Move(0);
+    }
+    const auto unknown = restart("b");
+    ASSERT_FALSE(unknown.ok());
+    EXPECT_EQ(unknown.error().exit_status(), 2);
+    EXPECT_EQ(unknown.error().Text(), "restart: there is no node 'b'; known are a");
+    const auto known = restart("a");
+    ASSERT_FALSE(known.ok()) << "a run of one process";
+    EXPECT_EQ(known.error().exit_status(), 1);
+  }
+}
+
+TEST(NamedNodeTest, TheNearestNameIsGiven) {
+  const Roster roster = Roster::Create(kMs, 8,
+                                       {{"ego", "t", Role::kStepped, 1, 0, 0, {"x"}, {}},
+                                        {"driver", "t", Role::kStepped, 1, 0, 0, {"x"}, {}}})
+                            .value();
+  EXPECT_EQ(NamedNode(roster, "driver").value(), 1u);
+  EXPECT_EQ(NamedNode(roster, "drivr").error().Text(), "restart: there is no node 'drivr'; did you mean 'driver'?");
 }
 
 TEST_F(ConductorTest, AStopBeforeTheFirstStepAborts) {
