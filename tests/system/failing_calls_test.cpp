@@ -222,7 +222,7 @@ TEST_P(Limits, AreTold) {
     const Ended ended = Started({"/bin/sh", "-c",
                                  fmt::format("ulimit {} && exec '{}' run first_drive --for 0.2 --record '{}'{}",
                                              GetParam(), Bin("rodeira"), file, how)})
-                            .Wait(60s);
+                            .Wait(90s);  // a node that is never met is named after limits.start_s, 60 s
     if (ended.status == 0) {
       EXPECT_NE(ended.out.find("audit   lossless"), std::string::npos) << ended.out;
       continue;

@@ -137,6 +137,41 @@ TEST_P(FrontDoor, ARunOfOneProcessWithANodeThatHangsEnds) {
   EXPECT_NE(ended_.out.find("stopped by a signal before all nodes had finished"), std::string::npos) << ended_.out;
 }
 
+// Three nodes have finished, 'b' hangs at the last step.
+class FinishedNodes : public ::testing::Test {
+ protected:
+  FinishedNodes()
+      : name_(fmt::format("finished-{}", ::getpid())),
+        run_({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--for", "0.2", "--run", name_, "--set",
+              "nodes.b.config.hang_at_step=200", "--set", "nodes.b.deadline_s=60"}) {}
+  // Asks until 'b' hangs for so long.
+  bool Hangs(double wanted_s) const {
+    const std::string text = "is ending at step 200 (0.200 s)", hangs = "'b' computes step 200 since ";
+    const auto until = std::chrono::steady_clock::now() + 40s;
+    while (std::chrono::steady_clock::now() < until) {
+      const std::string state = RunCommand({Bin("rodeira"), "ctl", "state", "--run", name_}).out;
+      const auto since = state.find(hangs);
+      if (state.starts_with(text) && since != std::string::npos &&
+          std::stod(state.substr(since + hangs.size())) >= wanted_s)
+        return true;
+    }
+    return false;
+  }
+  const std::string name_;
+  Started run_;
+};
+
+TEST_F(FinishedNodes, EndWithTheFrontDoor) {
+  ASSERT_TRUE(Hangs(0.5)) << "and the others have had the time to finish";
+  ::kill(run_.pid(), SIGTERM);
+  const auto begin = std::chrono::steady_clock::now();
+  const Ended ended = run_.Wait(20s);
+  EXPECT_LE(std::chrono::steady_clock::now() - begin, 2s) << ended.out;
+  EXPECT_EQ(ended.status, 1) << ended.out;
+  EXPECT_NE(ended.out.find("stopped by a signal before these nodes had finished: 'b'"), std::string::npos) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run " + name_).empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(ByASignal, FrontDoor, ::testing::Values(SIGINT, SIGTERM, SIGHUP),
                          [](const auto& one) { return std::string(::sigabbrev_np(one.param)); });
 
