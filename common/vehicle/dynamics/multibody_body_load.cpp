@@ -32,7 +32,7 @@ void BodyLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const
   for (const multibody::Form& corner : corners_) sink.Push(corner, OnCorner(corner, motion));
   if (!push_.any()) return;
   sink.Push(origin_, push_.force_W);
-  multibody::PushTorque(chassis_, push_.moment_WB_W, motion.q, sink.forces());
+  sink.PushTorque(chassis_, push_.moment_WB_W, motion.q);
 }
 
 double BodyLoad::Force(const multibody::Motion& motion) const {

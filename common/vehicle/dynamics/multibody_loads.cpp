@@ -57,7 +57,7 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
     moment -= settings_.spin_inertia_kgm2 * spin_radps_ * motion.RateOf(settings_.axle);
   }
   sink.Push(multibody::Single(settings_.centre), force);
-  multibody::PushTorque(settings_.carrier, moment, motion.q, sink.forces());
+  sink.PushTorque(settings_.carrier, moment, motion.q);
   if (!sink.wants_matrix() || entities_.empty()) return;
   const auto stiffen = [&](const Vector3d& n, double stiffness, double damping) {
     const multibody::Triple gradient{{n.x(), n.y(), n.z(), 0.0}};
@@ -76,8 +76,7 @@ void WheelLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) cons
 void ChassisLoad::Add(const multibody::Motion& motion, multibody::Sink& sink) const {
   const Vector3d v = headway_W_ + multibody::Evaluate(drag_point_, motion.qd);
   sink.Push(drag_point_, -half_rho_area_kgpm_ * v.norm() * v);
-  multibody::PushTorque(chassis_, -torque_on_wheels_Nm_ * multibody::Evaluate(chassis_.axes[1], motion.q), motion.q,
-                        sink.forces());
+  sink.PushTorque(chassis_, -torque_on_wheels_Nm_ * multibody::Evaluate(chassis_.axes[1], motion.q), motion.q);
 }
 
 double ChassisLoad::Force(const multibody::Motion& motion) const {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rodeira::multibody {
 namespace {
@@ -63,6 +64,7 @@ RowDrawing KeepDot(const BodyDrawing& body, const Direction& a, const Direction&
   row.v = a.form;
   row.w = b.form;
   row.value = a.drawn.dot(b.drawn);
+  row.keeps_length = &a == &b;
   row.scale = &a == &b ? 0.5 / a.drawn.norm() : 1.0 / std::sqrt(a.drawn.norm() * b.drawn.norm());
   return row;
 }
@@ -167,7 +169,10 @@ Form Frame::DirectionOf(const Vector3d& drawn) const {
   return form;
 }
 
-Form Frame::PointAt(const Vector3d& drawn) const { return Sum(origin, DirectionOf(drawn - drawn_origin)); }
+Form Frame::PointAt(const Vector3d& drawn) const {
+  Form point = Sum(origin, DirectionOf(drawn - drawn_origin));
+  return body < 0 ? point : OfBody(std::move(point), body);
+}
 
 Eigen::Matrix3d Frame::Rotation(const double* q) const {
   Eigen::Matrix3d rotation;

@@ -37,8 +37,9 @@ struct Frame {
   Vector3d drawn_origin = Vector3d::Zero();
   Form origin;
   std::array<Form, 3> axes;
+  int body = -1;  // of the drawing, once it has the body
 
-  Form PointAt(const Vector3d& drawn) const;        // the body's material point that was drawn there
+  Form PointAt(const Vector3d& drawn) const;        // the body's material point that was drawn there, as its part
   Form DirectionOf(const Vector3d& drawn) const;    // the body's direction that was drawn so
   Eigen::Matrix3d Rotation(const double* q) const;  // from drawn to now
 };

@@ -70,8 +70,8 @@ void Bushing::Add(const Motion& motion, Sink& sink) const {
   const Vector3d arm = Evaluate(gap_, motion.q);
   const Vector3d torque = TorqueOn(motion);
   sink.Push(at_first_, -force);
-  PushTorque(first_, -arm.cross(force) - torque, motion.q, sink.forces());
-  if (turns()) PushTorque(second_, torque, motion.q, sink.forces());
+  sink.PushTorque(first_, -arm.cross(force) - torque, motion.q);
+  if (turns()) sink.PushTorque(second_, torque, motion.q);
   if (!sink.wants_matrix()) return;
   std::array<Triple, kMaxLoadEntities> gradients;
   for (int c = 0; c < 3; ++c) {

@@ -150,6 +150,7 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
                          "the points coincide; a distance over 0 was expected ('kind: same' joins points)");
     row.value = length * length;
     row.scale = 0.5 / length;
+    row.keeps_length = true;
     return drawing_.rows.push_back(row);
   }
   if (kind == "perpendicular" || kind == "dot") {
@@ -188,8 +189,10 @@ void DrawingReader::ReadConstraint(const Map& constraints, const std::string& na
     for (int c = 0; c < (planar_ ? 2 : 3); ++c) {
       row.name = fmt::format("{} ({})", name, "xyz"[c]);
       row.sum.clear();
-      for (const Term& term : Sum((*points)[1], (*points)[0], -1.0).terms)
-        row.sum.emplace_back(term.entity, Transposed(term, Vector3d::Unit(c)));
+      const Form way = Sum((*points)[1], (*points)[0], -1.0);
+      row.sum_parts = way.parts;
+      row.sum_axis = Vector3d::Unit(c);
+      for (const Term& term : way.terms) row.sum.emplace_back(term.entity, Transposed(term, Vector3d::Unit(c)));
       drawing_.rows.push_back(row);
     }
     return;

@@ -198,6 +198,10 @@ void DrawingReader::ReadBody(const Map& bodies, const std::string& name) {
   if (!parts) return bodies.Problem(name, parts.error().id, parts.error().message);
   drawing_.body_names.push_back(name);
   drawing_.bodies.push_back(std::move(parts).value());
+  const int index = static_cast<int>(drawing_.bodies.size()) - 1;
+  BodyParts& last = drawing_.bodies.back();
+  last.frame.body = index;
+  if (body.kind != BodyKind::kParticle) last.centre = OfBody(last.centre, index);
 }
 
 void DrawingReader::ReadMarkers(const Map& root) {
@@ -303,7 +307,15 @@ std::optional<Form> DrawingReader::Direction(const Map& map, std::string_view ke
   }
   const auto points = TwoPoints(map, key);
   if (!points) return std::nullopt;
-  return Sum((*points)[1], (*points)[0], -1.0);
+  const Form way = Sum((*points)[1], (*points)[0], -1.0);
+  // A direction between two of a body's own points turns with the body: what acts on it is a torque on the body.
+  for (std::size_t b = 0; b < drawing_.bodies.size(); ++b) {
+    const std::vector<int>& own = drawing_.bodies[b].entities;
+    const auto owns = [&own](const Term& term) { return std::find(own.begin(), own.end(), term.entity) != own.end(); };
+    if (way.parts.empty() && std::all_of(way.terms.begin(), way.terms.end(), owns))
+      return OfBody(way, static_cast<int>(b));
+  }
+  return way;
 }
 
 }  // namespace rodeira::multibody

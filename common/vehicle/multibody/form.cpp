@@ -3,7 +3,7 @@
 
 namespace rodeira::multibody {
 
-Form Single(int entity) { return {{{entity, 1.0, 0.0}}}; }
+Form Single(int entity) { return {.terms = {{entity, 1.0, 0.0}}}; }
 
 Form Sum(const Form& first, const Form& second, double factor) {
   Form sum = first;
@@ -17,13 +17,22 @@ Form Sum(const Form& first, const Form& second, double factor) {
     }
     if (!found) sum.terms.push_back({term.entity, factor * term.a, factor * term.b});
   }
+  for (const auto& [body, term] : second.parts)
+    sum.parts.push_back({body, {term.entity, factor * term.a, factor * term.b}});
   return sum;
 }
 
 Form TurnedAboutZ(const Form& form) {
   Form turned = form;
   for (Term& term : turned.terms) term = {term.entity, -term.b, term.a};
+  for (Form::Part& part : turned.parts) part.term = {part.term.entity, -part.term.b, part.term.a};
   return turned;
+}
+
+Form OfBody(Form form, int body) {
+  form.parts.clear();
+  for (const Term& term : form.terms) form.parts.push_back({body, term});
+  return form;
 }
 
 std::vector<int> EntitiesOf(const Form& form) {
@@ -38,11 +47,13 @@ Vector3d Evaluate(const Form& form, const double* q) {
   return value;
 }
 
+void PushTerm(const Term& term, const Vector3d& force, double* out) {
+  const Vector3d part = Transposed(term, force);
+  for (int c = 0; c < 3; ++c) out[3 * term.entity + c] += part[c];
+}
+
 void Push(const Form& form, const Vector3d& force, double* out) {
-  for (const Term& term : form.terms) {
-    const Vector3d part = Transposed(term, force);
-    for (int c = 0; c < 3; ++c) out[3 * term.entity + c] += part[c];
-  }
+  for (const Term& term : form.terms) PushTerm(term, force, out);
 }
 
 }  // namespace rodeira::multibody

@@ -21,6 +21,13 @@ struct Term {
 // everything that is fixed to a rigid body is one, which is why mass matrices are constant.
 struct Form {
   std::vector<Term> terms;
+  // Of the terms those that belong to a body's material points or directions beside its own points: a force at the form
+  // acts on that body, at none of its points. Only joint forces ask for them.
+  struct Part {
+    int body = 0;
+    Term term;
+  };
+  std::vector<Part> parts = {};
 };
 
 inline Vector3d AboutZ(const Vector3d& v) { return {-v.y(), v.x(), 0.0}; }  // z × v
@@ -31,11 +38,15 @@ Form Sum(const Form& first, const Form& second, double factor = 1.0);
 // Turned by 90 degrees about z (planar mechanisms).
 Form TurnedAboutZ(const Form& form);
 
+// The same form, all of it a part of the body.
+Form OfBody(Form form, int body);
+
 std::vector<int> EntitiesOf(const Form& form);
 
 // Value with coordinates (or velocities) in triples, entity after entity.
 Vector3d Evaluate(const Form& form, const double* q);
 // Adds what a force (or gradient) at the form means for each entity: (a + b z×)ᵀ f.
+void PushTerm(const Term& term, const Vector3d& force, double* out);
 void Push(const Form& form, const Vector3d& force, double* out);
 
 inline Vector3d ValueOf(const Term& term, const double* q) {

@@ -16,6 +16,26 @@ int Find(const System& system, const std::string& name) {
   return -1;
 }
 
+// The form over doubled coordinates: the body's parts in the first half, the rest in the second.
+Form Split(const Form& form, int body, int entities) {
+  Form split;
+  for (Term rest : form.terms) {
+    for (const Form::Part& part : form.parts) {
+      if (part.body != body || part.term.entity != rest.entity) continue;
+      split = Sum(split, Form{{part.term}});
+      rest.a -= part.term.a;
+      rest.b -= part.term.b;
+    }
+    rest.entity += entities;
+    if (rest.a != 0.0 || rest.b != 0.0) split.terms.push_back(rest);
+  }
+  return split;
+}
+
+bool HasPart(const std::vector<Form::Part>& parts, int body) {
+  return std::any_of(parts.begin(), parts.end(), [body](const Form::Part& part) { return part.body == body; });
+}
+
 }  // namespace
 
 base::Result<JointForce> JointForce::Make(const System& system, int body, int point) {
@@ -29,6 +49,7 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
   }
   const std::vector<double> all_free(system.q().size(), 1.0);  // a fixed point too is pulled at
   JointForce force;
+  force.body_ = body;
   force.point_ = point;
   force.mass_ = parts.mass;
   force.centre_ = parts.centre;
@@ -44,6 +65,22 @@ base::Result<JointForce> JointForce::Make(const System& system, int body, int po
             "body '{}' is kept rigid by another body that has its points too: their forces cannot be told apart",
             name));
   }
+  const std::vector<double> both_free(2 * system.q().size(), 1.0);
+  for (const RowDrawing& row : drawing.rows) {
+    const int index = Find(system, row.name);
+    if (index < 0) continue;  // says nothing, or what another row says
+    if (row.kind == RowKind::kSum) {
+      Vector3d pull = Vector3d::Zero();
+      for (const Form::Part& part : row.sum_parts) {
+        if (part.body == body && part.term.entity == point) pull += Transposed(part.term, row.sum_axis);
+      }
+      if (!pull.isZero()) force.constant_.emplace_back(pull, index);
+    } else if (HasPart(row.u.parts, body) || HasPart(row.v.parts, body) || HasPart(row.w.parts, body)) {
+      RowDrawing split = row;
+      for (Form* form : {&split.u, &split.v, &split.w}) *form = Split(*form, body, system.entities());
+      force.beside_.emplace_back(Row(split, both_free), index);
+    }
+  }
   return force;
 }
 
@@ -58,17 +95,26 @@ Vector3d JointForce::Now(const System& system) const {
   for (const Term& term : centre_.terms) {
     if (term.entity == point_) force -= Transposed(term, mass_kg_ * system.drawing().gravity_mps2);
   }
+  std::vector<double> loads(system.q().size(), 0.0);
+  Sink sink = Sink::OfBody(body_, loads.data());
+  for (const NamedLoad& named : system.drawing().loads) named.load->Add(system.motion(), sink);
+  force -= Vector3d(Eigen::Map<const Vector3d>(loads.data() + 3 * point_));
   const auto multipliers = system.multipliers();
   std::vector<Triple> gradients;
-  for (const auto& [row, index] : rows_) {
+  const auto pull = [&](const Row& row, const double* q, int index) {
     gradients.assign(row.entities().size(), Triple{});
-    (void)row.Evaluate(system.q().data(), system.time_s(), gradients.data());
+    (void)row.Evaluate(q, system.time_s(), gradients.data());
     for (std::size_t k = 0; k < gradients.size(); ++k) {
       const auto& g = gradients[k].v;
       if (row.entities()[k] == point_)
         force += multipliers[static_cast<std::size_t>(index)] * Vector3d(g[0], g[1], g[2]);
     }
-  }
+  };
+  for (const auto& [row, index] : rows_) pull(row, system.q().data(), index);
+  std::vector<double> both(system.q().begin(), system.q().end());
+  both.insert(both.end(), system.q().begin(), system.q().end());
+  for (const auto& [row, index] : beside_) pull(row, both.data(), index);
+  for (const auto& [by, index] : constant_) force += multipliers[static_cast<std::size_t>(index)] * by;
   for (const auto& [tie, index] : ties_) {
     const auto first = static_cast<std::size_t>(index);
     for (const Term& term : tie.terms) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/vehicle/multibody/block_ldlt.hpp"
+#include "common/vehicle/multibody/body.hpp"
 #include "common/vehicle/multibody/form.hpp"
 
 namespace rodeira::multibody {
@@ -26,9 +27,26 @@ class Sink {
   Sink(double* forces, Block* matrix, double stiffness_factor, double damping_factor)
       : forces_(forces), matrix_(matrix), stiffness_factor_(stiffness_factor), damping_factor_(damping_factor) {}
 
-  void Push(const Form& form, const Vector3d& force) { multibody::Push(form, force, forces_); }
-  void Push(int coordinate, double force) { forces_[3 * coordinate] += force; }
-  double* forces() { return forces_; }
+  // Takes only what acts on this body at none of its points: at markers, and torques.
+  static Sink OfBody(int body, double* forces) {
+    Sink sink(forces, nullptr, 0.0, 0.0);
+    sink.body_ = body;
+    return sink;
+  }
+
+  void Push(const Form& form, const Vector3d& force) {
+    if (body_ < 0) return multibody::Push(form, force, forces_);
+    for (const Form::Part& part : form.parts) {
+      if (part.body == body_) PushTerm(part.term, force, forces_);
+    }
+  }
+  void Push(int coordinate, double force) {
+    if (body_ < 0) forces_[3 * coordinate] += force;
+  }
+  // A torque in the world's axes on the frame's body.
+  void PushTorque(const Frame& frame, const Vector3d& torque_W, const double* q) {
+    if (body_ < 0 || frame.body == body_) multibody::PushTorque(frame, torque_W, q, forces_);
+  }
   bool wants_matrix() const { return matrix_ != nullptr; }
   // K += stiffness g gᵀ and C += damping g gᵀ, with a gradient for each of the load's entities that can move.
   void Stiffen(std::span<const OuterPair> pairs, const Triple* gradients, double stiffness, double damping) {
@@ -38,6 +56,7 @@ class Sink {
  private:
   double* forces_;
   Block* matrix_;
+  int body_ = -1;  // all bodies
   double stiffness_factor_;
   double damping_factor_;
 };

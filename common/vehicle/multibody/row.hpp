@@ -31,8 +31,11 @@ struct RowDrawing {
   int coordinate = -1;  // the entity that is s
   double value = 0.0;
   double scale = 1.0;
+  bool keeps_length = false;                  // kDot: v and w are one direction, its square `value`
   std::vector<std::pair<int, Vector3d>> sum;  // kSum: entity and gradient
-  Law law;                                    // kSum: a driven coordinate
+  std::vector<Form::Part> sum_parts;          // kSum: of gradients the bodies' parts, along `sum_axis`
+  Vector3d sum_axis = Vector3d::Zero();
+  Law law;  // kSum: a driven coordinate
 };
 
 // One row compiled: values and gradients without an allocation.

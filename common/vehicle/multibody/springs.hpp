@@ -104,7 +104,7 @@ class GivenTorque final : public Load {
   GivenTorque(Frame frame, const Vector3d& direction, const Law& law)
       : frame_(std::move(frame)), direction_(direction), law_(law) {}
   void Add(const Motion& motion, Sink& sink) const override {
-    PushTorque(frame_, law_.Value(motion.time_s) * direction_, motion.q, sink.forces());
+    sink.PushTorque(frame_, law_.Value(motion.time_s) * direction_, motion.q);
   }
   double Force(const Motion& motion) const override { return law_.Value(motion.time_s) * direction_.norm(); }
 

@@ -70,6 +70,7 @@ base::Status System::Compile() {
       unit.v = unit.w = Single(index);
       unit.value = 1.0;
       unit.scale = 0.5;
+      unit.keeps_length = true;
       rows.push_back(unit);
     }
   }
@@ -124,10 +125,7 @@ base::Status System::Compile() {
   });
   double shortest_m = 1.0;
   for (const RowDrawing& row : different) {
-    if (row.kind == RowKind::kDot && row.value > 0.0 && row.scale * std::sqrt(row.value) > 0.49 &&
-        row.scale * std::sqrt(row.value) < 0.51) {
-      shortest_m = std::min(shortest_m, std::sqrt(row.value));  // a length: scale is half of its inverse
-    }
+    if (row.keeps_length) shortest_m = std::min(shortest_m, std::sqrt(row.value));
   }
   stale_m_ = settings_.stale / settings_.penalty * shortest_m;
   constraints_ = Constraints(different, ties, free_);

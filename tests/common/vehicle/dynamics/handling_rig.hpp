@@ -47,8 +47,7 @@ class RigLoad final : public multibody::Load {
     const Eigen::Vector3d ahead = multibody::Evaluate(frame_.axes[0], motion.q);
     const Eigen::Vector3d turning = ahead.cross(multibody::Evaluate(frame_.axes[0], motion.qd));
     const double off = std::atan2(ahead.y(), ahead.x()) - heading_rad_;
-    multibody::PushTorque(frame_, {0.0, 0.0, -kYawInertia_kgm2 * kFast * (kFast * off + 2.0 * turning.z())}, motion.q,
-                          sink.forces());
+    sink.PushTorque(frame_, {0.0, 0.0, -kYawInertia_kgm2 * kFast * (kFast * off + 2.0 * turning.z())}, motion.q);
   }
 
  private:

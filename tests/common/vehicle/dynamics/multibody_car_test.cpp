@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The multibody car (prototype): what it is made of, how it stands, drives, turns, stops and holds, and that it
 // repeats.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -101,6 +102,36 @@ TEST(Prototype, ForcesInItsJointsAreOutputs) {
   ASSERT_FALSE(wrong.ok());
   EXPECT_NE(wrong.error().Text().find("did you mean 'fl_lower_ball'?"), std::string::npos) << wrong.error().Text();
   EXPECT_EQ(wrong.error().exit_status(), 2);
+}
+
+// The tie rod has joints at both ends: it bears along itself alone, but for its own 0.8 kg. The brake's torque and the
+// tyre's moment on the carrier are no forces of its joints.
+TEST(Prototype, ATieRodBearsNothingAcrossItselfWhileTheCarBrakes) {
+  std::string outputs;
+  for (const char c : {'x', 'y', 'z'}) {
+    outputs += fmt::format(
+        "    tie_{0}_N: joint fl_carrier fl_tie_outer.{0}\n    outer_{0}_m: fl_tie_outer.{0}\n    inner_{0}_m: "
+        "fl_rack.{0}\n",
+        c);
+  }
+  auto made = WithOutputs(outputs);
+  ASSERT_TRUE(made.ok()) << made.error().Text();
+  VehicleModel& car = *made.value();
+  PlaneGround ground;
+  ASSERT_TRUE(car.Initialise({.speed_mps = 100.0 / 3.6}, ground).ok());
+  Controls controls;
+  controls.brake = 0.8;
+  double along_N = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    DriveFor(car, ground, controls, 0.05);
+    const std::vector<double> at = car.Outputs();
+    const Eigen::Vector3d tie(at[0], at[3], at[6]);
+    const Eigen::Vector3d rod =
+        (Eigen::Vector3d(at[1], at[4], at[7]) - Eigen::Vector3d(at[2], at[5], at[8])).normalized();
+    EXPECT_LT((tie - tie.dot(rod) * rod).norm(), 0.8 * 6.0 * kG) << "at " << 0.05 * (i + 1) << " s";
+    along_N = std::max(along_N, std::fabs(tie.dot(rod)));
+  }
+  EXPECT_GT(along_N, 100.0);
 }
 
 TEST(PrototypeAtRest, StandsInEquilibrium) {
