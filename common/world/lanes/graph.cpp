@@ -16,10 +16,21 @@ constexpr double kCell_m = 8.0;
 constexpr double kUnsaid_mps = 50.0 / 3.6;
 constexpr double kNoLimit_mps = 130.0 / 3.6;
 
+// Whether a lane of both directions lies beside lanes of one direction, as a two-way turning lane does.
+bool IsTurningLane(const network::LaneSection& section, const network::Lane& lane) {
+  if (lane.direction != 0) return false;
+  const auto leads = [](const network::Lane& other) {
+    return other.direction != 0 && network::IsDrivable(other.type) && network::OpenToCars(other);
+  };
+  return std::any_of(section.left.begin(), section.left.end(), leads) ||
+         std::any_of(section.right.begin(), section.right.end(), leads);
+}
+
 // The way in which a lane is driven: nothing where motor traffic does not.
 std::optional<bool> Along(const network::Network& network, const LaneKey& key) {
   const network::Lane& lane = *network.Find(key);
   if (!network::IsDrivable(lane.type) || !network::OpenToCars(lane)) return std::nullopt;
+  if (IsTurningLane(network.Section(key), lane)) return std::nullopt;
   if (lane.direction != 0) return lane.direction > 0;
   return (key.lane < 0) != network.roads()[key.road].spec().left_hand;
 }

@@ -47,7 +47,8 @@ struct NodeKey {
 // The drivable lanes of a network as a directed graph. Lanes of both directions are driven on the side of the road's
 // rule. A lane that narrows to an end beside another one goes on into that one, and one that opens beside another is
 // entered from where that one is. A lane on which the network lets vehicles end goes on into nothing, whatever its file
-// links it to. Immutable; the network must outlive it.
+// links it to. A two-way turning lane (a lane of both directions beside lanes of one) carries no traffic. Immutable;
+// the network must outlive it.
 class Graph {
  public:
   explicit Graph(const network::Network& network);

@@ -97,6 +97,29 @@ TEST(LaneGraph, LanesThatAreClosedToCarsAreNotDriven) {
   }
 }
 
+// A turning lane between two lanes is none for through traffic, whatever its file calls it; a road of nothing but a
+// lane of both directions is driven.
+TEST(LaneGraph, TwoWayTurningLanesAreNotDriven) {
+  const auto lane = [](int id, const char* type, const char* direction) {
+    return fmt::format(
+        "<lane id=\"{}\" type=\"{}\" direction=\"{}\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>",
+        id, type, direction);
+  };
+  opendrive::RoadText road;
+  for (const auto& [type, direction] : {std::pair{"bidirectional", "standard"}, {"driving", "both"}}) {
+    road.right = lane(-1, type, direction) + lane(-2, "driving", "standard");
+    const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+    const Graph graph(*network);
+    EXPECT_EQ(graph.tracks().size(), 2u);
+    EXPECT_FALSE(graph.Find({0, 0, -1}).has_value());
+    EXPECT_FALSE(graph[*graph.Find({0, 0, -2})].left.has_value());
+  }
+  road.left = "";
+  road.right = lane(-1, "bidirectional", "standard");
+  const auto network = opendrive::MustRead(opendrive::Document(road.Text()));
+  EXPECT_TRUE(Graph(*network).Find({0, 0, -1}).has_value());
+}
+
 TEST(LaneGraph, FindsWhatIsNear) {
   const auto network = MapNetwork("town");
   const Graph graph(*network);
