@@ -10,7 +10,8 @@ namespace rodeira::lockstep {
 base::Result<NodeIndex> NamedNode(const Roster& roster, const std::string& name) {
   const NodeIndex node = roster.Find(name);
   if (node < roster.nodes().size()) return node;
-  return base::WrongInput(fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
+  return base::WrongInput("launch.unknown_node",
+                          fmt::format("there is no node '{}'{}", name, base::DidYouMean(name, roster.Names())),
                           "restart");
 }
 
