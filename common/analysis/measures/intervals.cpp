@@ -85,11 +85,23 @@ base::Result<TimePoint> ParseTimePoint(std::string_view text) {
 }
 
 base::Result<IntervalSpec> ParseInterval(std::string_view text) {
+  constexpr std::string_view kWhile = "while ";
   const auto equals = text.find('='), dots = text.find("..");
+  if (equals != std::string_view::npos && equals != 0 && text.substr(equals + 1).starts_with(kWhile)) {
+    IntervalSpec spec;
+    spec.name = std::string(text.substr(0, equals));
+    spec.to.kind = TimePoint::Kind::kEnd;
+    auto condition = ParseCondition(text.substr(equals + 1 + kWhile.size()));
+    if (!condition) return condition.error().In(fmt::format("interval '{}'", spec.name));
+    spec.condition = std::move(condition).value();
+    return spec;
+  }
   if (equals == std::string_view::npos || equals == 0 || dots == std::string_view::npos || dots < equals) {
     return base::WrongInput(
         "measure.wrong_interval",
-        fmt::format("'{}' is no interval; NAME=FROM..TO was expected, as task=mark:begin..+20", text));
+        fmt::format("'{}' is no interval; NAME=FROM..TO was expected, as task=mark:begin..+20, or NAME=while "
+                    "CONDITION, as fast=while speed_mps > 20",
+                    text));
   }
   IntervalSpec spec;
   spec.name = std::string(text.substr(0, equals));
@@ -135,6 +147,31 @@ Interval FindInterval(const IntervalSpec& spec, std::span<const DriveEvent> even
   else if (interval.to_s <= interval.from_s)
     interval.reason = fmt::format("it is empty: from {:g} s to {:g} s", interval.from_s, interval.to_s);
   return interval;
+}
+
+std::vector<Interval> FindIntervals(const IntervalSpec& spec, const DriveReading& reading) {
+  const Drive& drive = reading.drive;
+  Interval whole = FindInterval(spec, reading.events, static_cast<double>(drive.size()) / drive.rate_hz);
+  if (!spec.condition || !whole.reason.empty()) return {whole};
+  const auto [from, to] = SamplesOf(whole, drive.rate_hz, drive.size());
+  std::vector<Interval> intervals;
+  std::size_t all = 0;
+  for (const auto& [begin, end] : SamplesWhile(*spec.condition, drive, from, to)) {
+    ++all;
+    if (static_cast<double>(end - begin) < spec.min_s * drive.rate_hz - 1e-6) continue;
+    Interval interval = whole;
+    interval.from_s = static_cast<double>(begin) / drive.rate_hz;
+    interval.to_s = static_cast<double>(end) / drive.rate_hz;
+    if (!intervals.empty()) interval.name += fmt::format("#{}", intervals.size() + 1);
+    intervals.push_back(std::move(interval));
+  }
+  if (!intervals.empty()) return intervals;
+  whole.from_s = whole.to_s = kMissing;
+  whole.reason = all == 0
+                     ? fmt::format("'{}' never holds from {:g} s to {:g} s", spec.condition->text,
+                                   static_cast<double>(from) / drive.rate_hz, static_cast<double>(to) / drive.rate_hz)
+                     : fmt::format("'{}' never holds for {:g} s", spec.condition->text, spec.min_s);
+  return {whole};
 }
 
 std::pair<std::size_t, std::size_t> SamplesOf(const Interval& interval, double rate_hz, std::size_t size) {

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/analysis/measures/condition.hpp"
 #include "common/analysis/measures/drive_reader.hpp"
 #include "common/core/base/result.hpp"
 
@@ -29,8 +30,12 @@ struct IntervalSpec {
   TimePoint from;
   TimePoint to;                 // does not count where there is a duration
   std::optional<double> for_s;  // from `from` on
+  // Only while this holds; each time that it does is an interval of its own.
+  std::optional<Condition> condition;
+  double min_s = 0.0;  // shorter times of the condition are left out
 };
-// "NAME=FROM..TO", where TO may be "+SECONDS". Wrong input where it is none, or empty whatever the recording is.
+// "NAME=FROM..TO", where TO may be "+SECONDS", or "NAME=while CONDITION". Wrong input where it is none, or empty
+// whatever the recording is.
 base::Result<IntervalSpec> ParseInterval(std::string_view text);
 base::Status CheckInterval(const IntervalSpec& spec);
 
@@ -43,6 +48,9 @@ struct Interval {
 };
 // end_s: the time behind the last sample. An interval that goes on beyond it ends there.
 Interval FindInterval(const IntervalSpec& spec, std::span<const DriveEvent> events, double end_s);
+// The intervals of a recording by their times: one, or one each time that the condition holds, the second one named
+// "NAME#2". At least one: without any, it has the reason. A gap in the recording ends an interval.
+std::vector<Interval> FindIntervals(const IntervalSpec& spec, const DriveReading& reading);
 // The samples of it, [first, second).
 std::pair<std::size_t, std::size_t> SamplesOf(const Interval& interval, double rate_hz, std::size_t size);
 

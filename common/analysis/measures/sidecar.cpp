@@ -46,8 +46,11 @@ std::string SidecarText(const MeasuresSpec& spec, std::span<const MeasuresRow> r
   if (!spec.intervals.empty()) text += "intervals:\n";
   for (const IntervalSpec& interval : spec.intervals) {
     text += fmt::format("  - {{name: {}, from: {}, ", YamlText(interval.name), YamlText(PointText(interval.from)));
-    text += interval.for_s ? fmt::format("for_s: {}}}\n", *interval.for_s)
-                           : fmt::format("to: {}}}\n", YamlText(PointText(interval.to)));
+    text += interval.for_s ? fmt::format("for_s: {}", *interval.for_s)
+                           : fmt::format("to: {}", YamlText(PointText(interval.to)));
+    if (interval.condition) text += fmt::format(", while: {}", YamlText(interval.condition->text));
+    if (interval.min_s > 0.0) text += fmt::format(", min_s: {}", interval.min_s);
+    text += "}\n";
   }
   text += "measures:\n";
   for (const MeasureInfo* info : spec.measures) text += fmt::format("  - {}\n", info->name);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/core/base/suggest.hpp"
 #include "common/core/config/config.hpp"
@@ -31,11 +32,21 @@ void ReadIntervals(const config::Map& root, MeasuresSpec& spec) {
       else
         item.Problem(key, point.error().id, point.error().message);
     };
-    read("from", interval.from);
+    const bool is_while = item.Has("while");
+    interval.to.kind = TimePoint::Kind::kEnd;
+    if (!is_while || item.Has("from")) read("from", interval.from);
     if (item.Has("for_s"))
       interval.for_s = item.Number("for_s", config::Range::Positive());
-    else
+    else if (!is_while || item.Has("to"))
       read("to", interval.to);
+    if (is_while) {
+      auto condition = ParseCondition(item.Text("while"));
+      if (condition)
+        interval.condition = std::move(condition).value();
+      else
+        item.Problem("while", condition.error().id, condition.error().message);
+      if (item.Has("min_s")) interval.min_s = item.Number("min_s", config::Range::Positive());
+    }
     if (auto status = CheckInterval(interval); !status) item.Problem("name", status.error().id, status.error().message);
     const auto same = [&](const IntervalSpec& other) { return other.name == interval.name; };
     if (std::ranges::any_of(spec.intervals, same))
@@ -81,6 +92,23 @@ MeasuresSpec DefaultSpec() {
   return spec;
 }
 
+base::Status CheckBaseline(const MeasuresSpec& spec) {
+  if (spec.baseline.empty()) return {};
+  std::vector<std::string> names;
+  for (const IntervalSpec& interval : spec.intervals) names.push_back(interval.name);
+  const auto found = std::ranges::find(names, spec.baseline);
+  if (found == names.end()) {
+    return base::WrongInput("measure.unknown_interval",
+                            fmt::format("there is no interval '{}'{}", spec.baseline,
+                                        names.empty() ? "" : base::DidYouMean(spec.baseline, names)));
+  }
+  if (!spec.intervals[static_cast<std::size_t>(found - names.begin())].condition) return {};
+  return base::WrongInput(
+      "measure.wrong_baseline",
+      fmt::format("interval '{}' has a condition, so there may be several; an interval by times was expected",
+                  spec.baseline));
+}
+
 base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
   const auto file = config::File::Load(path);
   if (!file) return file.error();
@@ -95,13 +123,7 @@ base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& path) {
   root.IgnoreKey("recordings");  // a sidecar lists what its table was made of
   root.IgnoreKey("version");
   root.IgnoreKey("values");
-  std::vector<std::string> names;
-  for (const IntervalSpec& interval : spec.intervals) names.push_back(interval.name);
-  if (!spec.baseline.empty() && std::ranges::find(names, spec.baseline) == names.end()) {
-    root.Problem("baseline", "config.unknown_name",
-                 fmt::format("there is no interval '{}'{}", spec.baseline,
-                             names.empty() ? "" : base::DidYouMean(spec.baseline, names)));
-  }
+  if (auto status = CheckBaseline(spec); !status) root.Problem("baseline", status.error().id, status.error().message);
   if (auto status = file.value().Finish(); !status) return status.error();
   return spec;
 }
@@ -118,9 +140,12 @@ std::vector<MeasuresRow> ComputeRows(const MeasuresSpec& spec, const DriveReadin
   }
   std::vector<MeasuresRow> rows;
   static const std::map<std::string, double> kNone;
-  for (const IntervalSpec& asked : intervals) {
+  std::vector<Interval> found;
+  for (const IntervalSpec& asked : intervals)
+    std::ranges::move(FindIntervals(asked, reading), std::back_inserter(found));
+  for (Interval& interval : found) {
     MeasuresRow row;
-    row.interval = FindInterval(asked, reading.events, end_s);
+    row.interval = std::move(interval);
     const auto [from, to] = SamplesOf(row.interval, drive.rate_hz, drive.size());
     for (const MeasureInfo* info : spec.measures) {
       if (!row.interval.reason.empty()) {

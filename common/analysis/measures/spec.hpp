@@ -23,6 +23,8 @@ struct MeasuresSpec {
 
 // Every measure, over the whole recording.
 MeasuresSpec DefaultSpec();
+// Wrong input where the baseline is no interval, or one with a condition.
+base::Status CheckBaseline(const MeasuresSpec& spec);
 // Wrong input, with the place and the nearest right name, where something is unknown, out of range or does not fit.
 base::Result<MeasuresSpec> ReadSpec(const std::filesystem::path& file);
 

@@ -5,9 +5,7 @@
 
 #include <cmath>
 
-#include "common/analysis/measures/conflict.hpp"
-#include "common/analysis/measures/gap.hpp"
-#include "common/analysis/measures/time_to_line.hpp"
+#include "common/analysis/measures/series.hpp"
 #include "common/core/base/csv_cell.hpp"
 
 namespace rodeira::measures {
@@ -105,21 +103,14 @@ std::string TextTable(const MeasuresSpec& spec, std::span<const MeasuresRow> row
   return text;
 }
 
-std::string SeriesHeader() {
-  std::string text = "time_s";
-  for (const DriveColumn& column : DriveColumns()) text += fmt::format(",{}", column.name);
-  return text + ",time_gap_s,ttc_s,tlc_s\n";
-}
+std::string SeriesHeader() { return fmt::format("{}\n", fmt::join(SeriesNames(), ",")); }
 
-void AppendSeriesRow(const Drive& d, std::size_t k, std::string& out) {
-  out += fmt::format("{}", static_cast<double>(k) / d.rate_hz);
-  for (const DriveColumn& column : DriveColumns()) out += ',' + NumberCell(column.of(d)[k]);
-  const double gap = d.leader.gap_m[k], speed = d.speed_mps[k];
-  const double time_gap = speed >= FollowedOptions{}.min_speed_mps ? gap / speed : kMissing;
-  const double ttc = TimeToCollision_s(gap, speed, d.leader.speed_mps[k]);
-  const double tlc = TrigonometricTlc_s({d.lane_position_m[k], d.heading_error_rad[k], speed, d.yaw_radps[k],
-                                         d.lane_width_m[k], d.lane_curvature_1pm[k], d.front_m, d.width_m});
-  out += fmt::format(",{},{},{}\n", NumberCell(time_gap), NumberCell(ttc), NumberCell(tlc));
+void AppendSeriesRow(const Drive& drive, std::size_t k, std::string& out) {
+  for (std::size_t column = 0; column < SeriesNames().size(); ++column) {
+    if (column > 0) out += ',';
+    out += NumberCell(SeriesValue(drive, column, k));
+  }
+  out += '\n';
 }
 
 }  // namespace rodeira::measures

@@ -119,10 +119,8 @@ base::Result<measures::MeasuresSpec> SpecOf(const MeasuresOptions& options) {
     s.intervals.push_back(std::move(interval).value());
   }
   if (!options.baseline.empty()) s.baseline = options.baseline;
-  const auto is_baseline = [&s](const measures::IntervalSpec& interval) { return interval.name == s.baseline; };
-  if (!s.baseline.empty() && std::ranges::none_of(s.intervals, is_baseline))
-    return base::WrongInput("measure.unknown_interval",
-                            fmt::format("there is no interval '{}' for the baseline", s.baseline), "--baseline");
+  if (auto status = measures::CheckBaseline(s); !status)
+    return status.error().WithContext(options.baseline.empty() ? "--intervals" : "--baseline");
   if (!options.subject.empty()) s.subject = options.subject;
   return spec;
 }

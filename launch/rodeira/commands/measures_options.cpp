@@ -17,7 +17,7 @@ void AddMeasures(CLI::App& app, ChosenCommand& chosen) {
   command->add_option(
       "--intervals", options->intervals,
       "NAME=FROM..TO, instead of the spec's; a point is start, end, seconds, mark:TEXT or event:NAME; TO "
-      "may be +SECONDS (task=mark:begin..+20)");
+      "may be +SECONDS (task=mark:begin..+20); or NAME=while CONDITION (fast=while speed_mps > 20)");
   command->add_option("--baseline", options->baseline, "name of the interval that is the driver's baseline");
   command->add_option("--subject", options->subject, "vehicle node, or agent:ID; otherwise the first vehicle");
   command->add_option("-o,--out", options->out, "table to write, .csv or .json; otherwise a text is printed");

@@ -89,6 +89,7 @@ TEST_F(MeasuresFile, ItsSidecarReadsBackTheSame) {
       "rodeira: measures/1\nsubject: ego\nbaseline: quiet\nmeasures: [sdlp_m, tet_s, speed_max_mps]\n"
       "intervals:\n  - {name: quiet, from: start, to: 7.5}\n  - {name: task, from: 'mark:begin#2', for_s: 3}\n"
       "  - {name: bus, from: 'event:traffic.brake:bus', to: end}\n"
+      "  - {name: fast, from: 2, while: 'speed_mps > 20 and junction == 0', min_s: 1.5}\n"
       "options:\n  tet_s: {threshold_s: 1.5}\n  sdlp_m: {ddof: 0}\n");
   ASSERT_TRUE(spec.ok()) << spec.error().Text();
   ASSERT_EQ(spec.value().measures.size(), 3u);
@@ -112,8 +113,27 @@ TEST_F(MeasuresFile, WrongNamesAndNumbersAreSaidWithTheirPlace) {
   EXPECT_NE(Problem("intervals: [{name: a, from: 3, to: 2}]\n").find("is empty"), std::string::npos);
   EXPECT_NE(Problem("intervals: [{name: a, from: 1, to: 2}, {name: a, from: 1, to: 2}]\n").find("same name"),
             std::string::npos);
+  EXPECT_NE(Problem("intervals: [{name: a, while: 'sped_mps > 2'}]\n").find("m.yaml:2"), std::string::npos);
+  EXPECT_NE(Problem("intervals: [{name: a, while: 'sped_mps > 2'}]\n").find("did you mean 'speed_mps'?"),
+            std::string::npos);
+  EXPECT_NE(Problem("intervals: [{name: a, from: 1, to: 2, min_s: 1}]\n").find("min_s"), std::string::npos);
+  EXPECT_NE(Problem("intervals: [{name: a, while: 'speed_mps > 2', min_s: 0}]\n").find("min_s"), std::string::npos);
+  EXPECT_NE(Problem("baseline: a\nintervals: [{name: a, while: 'speed_mps > 2'}]\n").find("has a condition"),
+            std::string::npos);
   EXPECT_NE(Problem("interval: []\n").find("interval"), std::string::npos);
   EXPECT_EQ(Problem(""), "");
+}
+
+// What the how-to shows is a measures file.
+TEST_F(MeasuresFile, TheOneOfTheHowToIsRead) {
+  const auto page = base::ReadText(std::filesystem::path(SourceDir()) / "docs/how-to/measures.md");
+  ASSERT_TRUE(page.ok());
+  const auto begin = page.value().find("```yaml\n") + 8, end = page.value().find("```", begin);
+  ASSERT_NE(end, std::string::npos);
+  const auto spec = Read(page.value().substr(begin, end - begin));
+  ASSERT_TRUE(spec.ok()) << spec.error().Text();
+  EXPECT_EQ(spec.value().intervals.size(), 4u);
+  EXPECT_EQ(spec.value().options.at("tet_s").at("threshold_s"), 1.5);
 }
 
 // Every measure says what it is, with options within their own bounds, under one name.
