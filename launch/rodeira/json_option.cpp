@@ -11,7 +11,8 @@ constexpr const char* kJson = "--json";
 }  // namespace
 
 void AddJson(CLI::App& app) {
-  app.add_flag(kJson)->description("errors as JSON on standard error, a line each");
+  if (app.get_option_no_throw(kJson) == nullptr)  // a command whose result is JSON has it already
+    app.add_flag(kJson)->description("errors as JSON on standard error, a line each");
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) AddJson(*command);
 }
 

@@ -9,6 +9,8 @@
 #include "common/core/base/random.hpp"
 #include "common/core/geometry/angle.hpp"
 #include "common/driving/driver/autopilot.hpp"
+#include "common/driving/driver/driver_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
 #include "tests/common/driving/driver/test_road.hpp"
 #include "tests/lane_path.hpp"
 #include "tests/tree.hpp"
@@ -128,6 +130,44 @@ TEST(DriverFile, LoadsAndRefuses) {
   std::ofstream(path) << "rodeira: driver/1\nfollowing:\n  time_gap_ms: 1500\n";
   EXPECT_THAT(LoadDriver(path).error().Text(), testing::HasSubstr(":3: unknown key 'following.time_gap_ms'"));
   std::filesystem::remove(path);
+}
+
+// The first problem of a driver file; empty without one.
+std::string DriverProblem(const std::string& text) {
+  const auto file = config::File::Parse(text, "driver.yaml");
+  if (!file) return file.error().Text();
+  (void)ReadAutopilot(file.value().root());
+  const base::Status status = file.value().Finish();
+  return status ? "" : status.error().Text();
+}
+
+TEST(DriverFile, EveryDeclaredKeyKeepsItsTypeAndBounds) { config::ExpectEveryKey(DriverSchema(), DriverProblem); }
+
+TEST(DriverFile, AnEmptyFileGivesTheModelsDefaults) {
+  const auto file = config::File::Parse("rodeira: driver/1", "driver.yaml");
+  ASSERT_TRUE(file.ok());
+  const AutopilotSettings read = ReadAutopilot(file.value().root()), model;
+  EXPECT_EQ(read.speed_factor, model.speed_factor);
+  EXPECT_EQ(read.anticipation_s, model.anticipation_s);
+  EXPECT_EQ(read.tracking_s, model.tracking_s);
+  EXPECT_EQ(read.side_margin_m, model.side_margin_m);
+  EXPECT_EQ(read.range_m, model.range_m);
+  EXPECT_EQ(read.idm.time_gap_s, model.idm.time_gap_s);
+  EXPECT_EQ(read.idm.standing_gap_m, model.idm.standing_gap_m);
+  EXPECT_EQ(read.idm.acceleration_mps2, model.idm.acceleration_mps2);
+  EXPECT_EQ(read.idm.braking_mps2, model.idm.braking_mps2);
+  EXPECT_EQ(read.idm.hardest_mps2, model.idm.hardest_mps2);
+  EXPECT_EQ(read.speed.lateral_mps2, model.speed.lateral_mps2);
+  EXPECT_EQ(read.speed.vertical_mps2, model.speed.vertical_mps2);
+  EXPECT_EQ(read.speed.braking_mps2, model.speed.braking_mps2);
+  EXPECT_EQ(read.speed.steep_grade, model.speed.steep_grade);
+  EXPECT_EQ(read.speed.steep_factor, model.speed.steep_factor);
+  EXPECT_EQ(read.steering.preview_s, model.steering.preview_s);
+  EXPECT_EQ(read.steering.preview_least_m, model.steering.preview_least_m);
+  EXPECT_EQ(read.steering.preview_most_m, model.steering.preview_most_m);
+  EXPECT_EQ(read.steering.understeer_radps2pm, model.steering.understeer_radps2pm);
+  EXPECT_EQ(read.steering.rate_radps, model.steering.rate_radps);
+  EXPECT_EQ(read.steering.smoothing_s, model.steering.smoothing_s);
 }
 
 }  // namespace

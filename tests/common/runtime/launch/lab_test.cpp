@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "common/runtime/launch/agreement.hpp"
+#include "common/runtime/launch/lab_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
 
 namespace rodeira::launch {
 namespace {
@@ -146,6 +148,13 @@ TEST(Discovery, OfALaunchFile) {
   const auto shared = Launch::Parse(kLaunch + "discovery: {kind: server, address: 10.0.0.1}\n", "x.yaml");
   ASSERT_FALSE(shared.ok());
   EXPECT_EQ(shared.error().Text(), "x.yaml:5: 'discovery.kind' is 'server', which needs 'transport: udp'");
+}
+
+// A generated file for each declared key. The ports and processes belong to a kind of discovery.
+TEST(Lab, EveryDeclaredKeyKeepsItsTypeAndBounds) {
+  config::ExpectEveryKey(
+      LabSchema(), Refusal,
+      {{"discovery.participants", {{"discovery.kind", "peers"}}}, {"discovery.port", {{"discovery.kind", "server"}}}});
 }
 
 }  // namespace

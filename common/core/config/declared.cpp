@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/core/config/declared.hpp"
+
+#include "common/core/base/assert.hpp"
+
+namespace rodeira::config {
+
+const Key& DeclaredMap::Declared(std::string_view key, ValueType type) const {
+  const Key* found = FindKey(*keys_, key);
+  RODEIRA_ASSERT(found != nullptr && found->type == type);
+  return *found;
+}
+
+double DeclaredMap::Number(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kNumber);
+  if (declared.required) return map_.Number(key, declared.range);
+  const double* fallback = std::get_if<double>(&declared.fallback);
+  RODEIRA_ASSERT(fallback != nullptr);
+  return map_.Number(key, declared.range, *fallback);
+}
+
+double DeclaredMap::Number(std::string_view key, double default_value) const {
+  const Key& declared = Declared(key, ValueType::kNumber);
+  RODEIRA_ASSERT(!declared.required && !declared.default_note.empty());
+  return map_.Number(key, declared.range, default_value);
+}
+
+std::int64_t DeclaredMap::Integer(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kInteger);
+  const auto low = static_cast<std::int64_t>(declared.range.low);
+  const auto high = static_cast<std::int64_t>(declared.range.high);
+  if (declared.required) return map_.Integer(key, low, high);
+  const std::int64_t* fallback = std::get_if<std::int64_t>(&declared.fallback);
+  RODEIRA_ASSERT(fallback != nullptr);
+  return map_.Integer(key, low, high, *fallback);
+}
+
+bool DeclaredMap::Flag(std::string_view key) const {
+  const bool* fallback = std::get_if<bool>(&Declared(key, ValueType::kFlag).fallback);
+  RODEIRA_ASSERT(fallback != nullptr);
+  return map_.Flag(key, *fallback);
+}
+
+std::string DeclaredMap::Text(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kText);
+  if (declared.required) return map_.Text(key);
+  const std::string* fallback = std::get_if<std::string>(&declared.fallback);
+  RODEIRA_ASSERT(fallback != nullptr);
+  return map_.Text(key, *fallback);
+}
+
+std::string DeclaredMap::Text(std::string_view key, std::string_view default_value) const {
+  const Key& declared = Declared(key, ValueType::kText);
+  RODEIRA_ASSERT(!declared.required && !declared.default_note.empty());
+  return map_.Text(key, default_value);
+}
+
+std::string DeclaredMap::Word(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kWord);
+  if (declared.required) return map_.Choice(key, declared.words);
+  const std::string* fallback = std::get_if<std::string>(&declared.fallback);
+  RODEIRA_ASSERT(fallback != nullptr);
+  return map_.Choice(key, declared.words, *fallback);
+}
+
+DeclaredMap DeclaredMap::Child(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kMapping);
+  return {declared.required ? map_.Child(key) : map_.OptionalChild(key), declared.of};
+}
+
+const Map& DeclaredMap::Undecoded(std::string_view key) const {
+  RODEIRA_ASSERT(FindKey(*keys_, key) != nullptr);
+  return map_;
+}
+
+std::vector<std::pair<std::string, DeclaredMap>> DeclaredMap::Named(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kNamed);
+  RODEIRA_ASSERT(declared.of.size() == 1 && declared.of.front().type == ValueType::kMapping);
+  const Map names = declared.required ? map_.Child(key) : map_.OptionalChild(key);
+  std::vector<std::pair<std::string, DeclaredMap>> entries;
+  for (const std::string& name : names.Keys())
+    entries.emplace_back(name, DeclaredMap(names.Child(name), declared.of.front().of));
+  return entries;
+}
+
+}  // namespace rodeira::config

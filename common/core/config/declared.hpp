@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "common/core/config/schema.hpp"
+
+namespace rodeira::config {
+
+// A mapping that is read by its declarations: type, range, words and default of a key come from them. A key that they
+// do not have, or have with another type, is an assertion failure. The declarations must live as long as this object.
+// Problems are collected as by Map.
+class DeclaredMap {
+ public:
+  DeclaredMap(Map map, const std::vector<Key>& keys) : map_(std::move(map)), keys_(&keys) {}
+
+  double Number(std::string_view key) const;
+  // The default is computed by the caller; only for a ComputedNumberKey.
+  double Number(std::string_view key, double default_value) const;
+  std::int64_t Integer(std::string_view key) const;
+  bool Flag(std::string_view key) const;
+  std::string Text(std::string_view key) const;
+  // The default is computed by the caller; only for a ComputedTextKey.
+  std::string Text(std::string_view key, std::string_view default_value) const;
+  std::string Word(std::string_view key) const;
+  // One without keys if it is absent, which is a problem where it is required.
+  DeclaredMap Child(std::string_view key) const;
+  // Mappings by name, in the order of the file.
+  std::vector<std::pair<std::string, DeclaredMap>> Named(std::string_view key) const;
+
+  // The mapping itself, for a function that reads a declared key and its special checks by itself.
+  const Map& Undecoded(std::string_view key) const;
+  // For problems, places, and the presence of keys.
+  const Map& map() const { return map_; }
+
+ private:
+  const Key& Declared(std::string_view key, ValueType type) const;
+
+  Map map_;
+  const std::vector<Key>* keys_;
+};
+
+}  // namespace rodeira::config

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/core/config/schema.hpp"
+
+namespace rodeira::config {
+namespace {
+
+// A text as a JSON string. Declarations hold printable ASCII only.
+std::string Json(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string JsonOf(const DefaultValue& value) {
+  if (const double* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
+  if (const std::int64_t* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const std::string* text = std::get_if<std::string>(&value)) return Json(*text);
+  return "null";
+}
+
+std::string JsonValue(const Key& key, const std::string& indent);
+
+// The members of the object that describes a mapping with the keys.
+std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent) {
+  std::vector<std::string> properties, required;
+  for (const Key& key : keys) {
+    properties.push_back(fmt::format("{}  {}: {}", indent, Json(key.name), JsonValue(key, indent + "  ")));
+    if (key.required) required.push_back(Json(key.name));
+  }
+  return fmt::format(
+      "{0}\"type\": \"object\",\n{0}\"properties\": {{\n{1}\n{0}}},\n{2}{0}\"additionalProperties\": false", indent,
+      fmt::join(properties, ",\n"),
+      required.empty() ? "" : fmt::format("{}\"required\": [{}],\n", indent, fmt::join(required, ", ")));
+}
+
+std::string JsonValue(const Key& key, const std::string& indent) {
+  std::vector<std::string> members;
+  const std::string inner = indent + "  ";
+  if (!key.meaning.empty()) members.push_back(fmt::format("{}\"description\": {}", inner, Json(key.meaning)));
+  switch (key.type) {
+    case ValueType::kNumber:
+    case ValueType::kInteger:
+      members.push_back(
+          fmt::format("{}\"type\": \"{}\"", inner, key.type == ValueType::kNumber ? "number" : "integer"));
+      if (key.range.low == Range::Positive().low)
+        members.push_back(inner + "\"exclusiveMinimum\": 0");
+      else if (key.range.low > Range{}.low)
+        members.push_back(fmt::format("{}\"minimum\": {}", inner, key.range.low));
+      if (key.range.high < Range{}.high) members.push_back(fmt::format("{}\"maximum\": {}", inner, key.range.high));
+      break;
+    case ValueType::kFlag:
+      members.push_back(inner + "\"type\": \"boolean\"");
+      break;
+    case ValueType::kText:  // a name may look like a number
+      members.push_back(inner + "\"type\": [\"string\", \"number\", \"boolean\"]");
+      break;
+    case ValueType::kWord: {
+      std::vector<std::string> words;
+      for (const std::string& word : key.words) words.push_back(Json(word));
+      members.push_back(fmt::format("{}\"enum\": [{}]", inner, fmt::join(words, ", ")));
+      break;
+    }
+    case ValueType::kMapping:
+      members.push_back(JsonMapping(key.of, inner));
+      break;
+    case ValueType::kNamed:
+      members.push_back(inner + "\"type\": \"object\"");
+      members.push_back(fmt::format("{}\"additionalProperties\": {}", inner, JsonValue(key.of.front(), inner)));
+      break;
+    case ValueType::kList:
+      members.push_back(inner + "\"type\": \"array\"");
+      members.push_back(fmt::format("{}\"items\": {}", inner, JsonValue(key.of.front(), inner)));
+      break;
+  }
+  if (!std::holds_alternative<std::monostate>(key.fallback))
+    members.push_back(fmt::format("{}\"default\": {}", inner, JsonOf(key.fallback)));
+  return fmt::format("{{\n{}\n{}}}", fmt::join(members, ",\n"), indent);
+}
+
+}  // namespace
+
+std::string SchemaText(const Schema& schema) {
+  std::string out = fmt::format("rodeira: {}\n{}\n\n", schema.format, schema.meaning);
+  const auto values = ValuesOf(schema);
+  std::size_t path = 3, fallback = 7, range = 5;
+  for (const PlacedKey& value : values) {
+    path = std::max(path, value.path.size());
+    fallback = std::max(fallback, DefaultCell(*value.key).size());
+    range = std::max(range, RangeCell(*value.key).size());
+  }
+  const auto row = [&](std::string_view a, std::string_view b, std::string_view c, std::string_view d) {
+    out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", a, path, b, fallback, c, range, d);
+  };
+  row("key", "default", "range", "meaning");
+  for (const PlacedKey& value : values)
+    row(value.path, DefaultCell(*value.key), RangeCell(*value.key), value.key->meaning);
+  return out;
+}
+
+std::string SchemaMarkdown(const Schema& schema) {
+  std::string out = "| key | default | range | meaning |\n|---|---|---|---|\n";
+  for (const PlacedKey& value : ValuesOf(schema)) {
+    const auto cell = [](const std::string& text) { return text.empty() ? std::string(" ") : " " + text + " "; };
+    out += fmt::format("| `{}` |{}|{}| {} |\n", value.path, cell(DefaultCell(*value.key)), cell(RangeCell(*value.key)),
+                       value.key->meaning);
+  }
+  return out;
+}
+
+std::string SchemaJson(const Schema& schema) {
+  return fmt::format(
+      "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": {},\n  \"description\": {},\n"
+      "{}\n}}\n",
+      Json("Rodeira " + schema.format), Json(schema.meaning), JsonMapping(schema.keys, "  "));
+}
+
+}  // namespace rodeira::config

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Declared keys: what a reader takes from them, and how they are written as text, JSON Schema and Markdown.
+#include "common/core/config/schema.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/core/config/declared.hpp"
+#include "tests/common/core/config/every_key.hpp"
+
+namespace rodeira::config {
+namespace {
+
+using ::testing::HasSubstr;
+
+const Schema& Garage() {
+  static const Schema schema{
+      "garage", "garage/1", "A garage.",
+      FileKeys("garage/1",
+               {RequiredNumberKey("height_m", Range::Positive(), "Clear height."),
+                NumberKey("slope", {-0.25, 0.25}, 0.0, "Slope of the floor."), IntegerKey("floors", 1, 9, 2, "Floors."),
+                FlagKey("lit", true, "Lamps are on."), WordKey("kind", {"open", "closed"}, "open", "Walls."),
+                NamedKey("gates", {RequiredTextKey("side", "north", "Side of the \"gate\".")}, "Gates.")})};
+  return schema;
+}
+
+std::string ReadGarage(const std::string& text) {
+  const auto file = File::Parse(text, "garage.yaml");
+  if (!file) return file.error().Text();
+  const DeclaredMap root(file.value().root(), Garage().keys);
+  (void)root.Word("rodeira");
+  (void)root.Number("height_m");
+  (void)root.Number("slope");
+  (void)root.Integer("floors");
+  (void)root.Flag("lit");
+  (void)root.Word("kind");
+  for (const auto& [name, gate] : root.Named("gates")) (void)gate.Text("side");
+  const base::Status status = file.value().Finish();
+  return status ? "" : status.error().Text();
+}
+
+TEST(Schema, TheReaderTakesTypeRangeAndDefaultFromTheDeclaration) { ExpectEveryKey(Garage(), ReadGarage); }
+
+TEST(Schema, AnAbsentKeyHasItsDefault) {
+  const auto file = File::Parse("{rodeira: garage/1, height_m: 2}", "garage.yaml");
+  ASSERT_TRUE(file.ok());
+  const DeclaredMap root(file.value().root(), Garage().keys);
+  EXPECT_EQ(root.Number("slope"), 0.0);
+  EXPECT_EQ(root.Integer("floors"), 2);
+  EXPECT_TRUE(root.Flag("lit"));
+  EXPECT_EQ(root.Word("kind"), "open");
+  EXPECT_TRUE(root.Named("gates").empty());
+}
+
+TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
+  const auto file = File::Parse("{rodeira: garage/1, height_m: 2}", "garage.yaml");
+  ASSERT_TRUE(file.ok());
+  const DeclaredMap root(file.value().root(), Garage().keys);
+  EXPECT_DEATH((void)root.Number("width_m"), "found != nullptr");
+  EXPECT_DEATH((void)root.Text("height_m"), "found->type == type");
+  EXPECT_DEATH((void)root.Undecoded("width_m"), "FindKey");
+}
+
+TEST(Schema, MarkdownHasARowAKey) {
+  EXPECT_EQ(SchemaMarkdown(Garage()),
+            "| key | default | range | meaning |\n|---|---|---|---|\n"
+            "| `rodeira` | required | garage/1 | Kind and version of the file. |\n"
+            "| `height_m` | required | over 0 | Clear height. |\n"
+            "| `slope` | 0 | -0.25 to 0.25 | Slope of the floor. |\n"
+            "| `floors` | 2 | 1 to 9 | Floors. |\n"
+            "| `lit` | true | true, false | Lamps are on. |\n"
+            "| `kind` | open | open, closed | Walls. |\n"
+            "| `gates.NAME.side` | required | | Side of the \"gate\". |\n");
+}
+
+TEST(Schema, JsonHasTypeBoundsAndWhatIsRequired) {
+  const std::string json = SchemaJson(Garage());
+  EXPECT_THAT(json, HasSubstr("\"$schema\": \"https://json-schema.org/draft/2020-12/schema\""));
+  EXPECT_THAT(json, HasSubstr("\"required\": [\"rodeira\", \"height_m\"]"));
+  EXPECT_THAT(json, HasSubstr("\"exclusiveMinimum\": 0"));
+  EXPECT_THAT(json, HasSubstr("\"minimum\": -0.25"));
+  EXPECT_THAT(json, HasSubstr("\"description\": \"Side of the \\\"gate\\\".\""));
+}
+
+TEST(Schema, TextHasALineAKey) { EXPECT_THAT(SchemaText(Garage()), HasSubstr("gates.NAME.side  required")); }
+
+}  // namespace
+}  // namespace rodeira::config
