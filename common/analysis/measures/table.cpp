@@ -7,6 +7,7 @@
 
 #include "common/analysis/measures/series.hpp"
 #include "common/core/base/csv_cell.hpp"
+#include "common/core/base/json_text.hpp"
 
 namespace rodeira::measures {
 namespace {

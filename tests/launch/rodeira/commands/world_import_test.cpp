@@ -55,7 +55,7 @@ class WorldImportTest : public testing::Test {
  protected:
   bool HasNetconvert() const { return std::system("command -v netconvert > /dev/null 2>&1") == 0; }
   Said Import(const std::string& file, const std::string& out, const std::string& elevation = "") const {
-    return SaidBy(WorldImport, {true, file, out, elevation, true});
+    return SaidBy(WorldImport, {file, out, elevation, true});
   }
   std::string Out(const std::string& name) const { return folder_.path() / name; }
   // The files that a refusal leaves: none but those that the test made.
