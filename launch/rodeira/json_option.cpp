@@ -11,7 +11,7 @@ constexpr const char* kJson = "--json";
 }  // namespace
 
 void AddJson(CLI::App& app) {
-  if (app.get_option_no_throw(kJson) == nullptr)  // a command whose result is JSON has it already
+  if (app.get_option_no_throw(kJson) == nullptr)  // otherwise the command prints its result as JSON, too
     app.add_flag(kJson)->description("errors as JSON on standard error, a line each");
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) AddJson(*command);
 }

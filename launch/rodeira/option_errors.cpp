@@ -177,16 +177,6 @@ bool Is(const CLI::ParseError& problem) {
   return dynamic_cast<const Kind*>(&problem) != nullptr;
 }
 
-// The id of an error that the parser names by its class.
-base::ErrorId IdOf(const CLI::ParseError& problem) {
-  if (Is<CLI::ConversionError>(problem) || Is<CLI::ValidationError>(problem)) return "command.wrong_value";
-  if (Is<CLI::ArgumentMismatch>(problem)) return "command.wrong_count";
-  if (Is<CLI::RequiredError>(problem)) return "command.missing_argument";
-  if (Is<CLI::RequiresError>(problem)) return "command.missing_option";
-  if (Is<CLI::ExcludesError>(problem)) return "command.conflicting_options";
-  return "command.wrong_usage";
-}
-
 // What is wrong with the command that was read.
 base::Error Problem(const Reading& reading, const CLI::ParseError& problem) {
   const std::vector<std::string> extras = reading.command->remaining(true);
@@ -207,7 +197,14 @@ base::Error Problem(const Reading& reading, const CLI::ParseError& problem) {
   std::string sentence;
   if (Is<CLI::ConversionError>(problem)) sentence = ConversionSentence(*reading.command, problem.what());
   if (Is<CLI::ArgumentMismatch>(problem)) sentence = CountSentence(*reading.command, problem.what());
-  return base::WrongInput(IdOf(problem), sentence.empty() ? problem.what() : sentence);
+  const std::string text = sentence.empty() ? problem.what() : sentence;
+  if (Is<CLI::ConversionError>(problem) || Is<CLI::ValidationError>(problem))
+    return base::WrongInput("command.wrong_value", text);
+  if (Is<CLI::ArgumentMismatch>(problem)) return base::WrongInput("command.wrong_count", text);
+  if (Is<CLI::RequiredError>(problem)) return base::WrongInput("command.missing_argument", text);
+  if (Is<CLI::RequiresError>(problem)) return base::WrongInput("command.missing_option", text);
+  if (Is<CLI::ExcludesError>(problem)) return base::WrongInput("command.conflicting_options", text);
+  return base::WrongInput("command.wrong_usage", text);
 }
 
 }  // namespace
