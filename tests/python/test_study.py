@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The study of examples/study: its first pair of drives gives the first rows of the table that stands there, R's t-test
-of that table gives the result that the tutorial shows, and SciPy's t-test agrees. RODEIRA names the program; R and SciPy
-are needed for their parts, which are skipped without them."""
+"""The study of examples/study: its first pair of drives gives the first rows of the table that stands there, R's
+t-test of that table gives the result that the tutorial shows, and SciPy's t-test agrees. RODEIRA names the program; R
+and SciPy are needed for their parts, which are skipped without them."""
 
 import csv
 import importlib.util

@@ -14,9 +14,9 @@ const Key& DeclaredMap::Declared(std::string_view key, ValueType type) const {
 double DeclaredMap::Number(std::string_view key) const {
   const Key& declared = Declared(key, ValueType::kNumber);
   if (declared.required) return map_.Number(key, declared.range);
-  const double* fallback = std::get_if<double>(&declared.fallback);
-  RODEIRA_ASSERT(fallback != nullptr);
-  return map_.Number(key, declared.range, *fallback);
+  const double* default_value = std::get_if<double>(&declared.default_value);
+  RODEIRA_ASSERT(default_value != nullptr);
+  return map_.Number(key, declared.range, *default_value);
 }
 
 double DeclaredMap::Number(std::string_view key, double default_value) const {
@@ -30,23 +30,23 @@ std::int64_t DeclaredMap::Integer(std::string_view key) const {
   const auto low = static_cast<std::int64_t>(declared.range.low);
   const auto high = static_cast<std::int64_t>(declared.range.high);
   if (declared.required) return map_.Integer(key, low, high);
-  const std::int64_t* fallback = std::get_if<std::int64_t>(&declared.fallback);
-  RODEIRA_ASSERT(fallback != nullptr);
-  return map_.Integer(key, low, high, *fallback);
+  const std::int64_t* default_value = std::get_if<std::int64_t>(&declared.default_value);
+  RODEIRA_ASSERT(default_value != nullptr);
+  return map_.Integer(key, low, high, *default_value);
 }
 
 bool DeclaredMap::Flag(std::string_view key) const {
-  const bool* fallback = std::get_if<bool>(&Declared(key, ValueType::kFlag).fallback);
-  RODEIRA_ASSERT(fallback != nullptr);
-  return map_.Flag(key, *fallback);
+  const bool* default_value = std::get_if<bool>(&Declared(key, ValueType::kFlag).default_value);
+  RODEIRA_ASSERT(default_value != nullptr);
+  return map_.Flag(key, *default_value);
 }
 
 std::string DeclaredMap::Text(std::string_view key) const {
   const Key& declared = Declared(key, ValueType::kText);
   if (declared.required) return map_.Text(key);
-  const std::string* fallback = std::get_if<std::string>(&declared.fallback);
-  RODEIRA_ASSERT(fallback != nullptr);
-  return map_.Text(key, *fallback);
+  const std::string* default_value = std::get_if<std::string>(&declared.default_value);
+  RODEIRA_ASSERT(default_value != nullptr);
+  return map_.Text(key, *default_value);
 }
 
 std::string DeclaredMap::Text(std::string_view key, std::string_view default_value) const {
@@ -58,9 +58,9 @@ std::string DeclaredMap::Text(std::string_view key, std::string_view default_val
 std::string DeclaredMap::Word(std::string_view key) const {
   const Key& declared = Declared(key, ValueType::kWord);
   if (declared.required) return map_.Choice(key, declared.words);
-  const std::string* fallback = std::get_if<std::string>(&declared.fallback);
-  RODEIRA_ASSERT(fallback != nullptr);
-  return map_.Choice(key, declared.words, *fallback);
+  const std::string* default_value = std::get_if<std::string>(&declared.default_value);
+  RODEIRA_ASSERT(default_value != nullptr);
+  return map_.Choice(key, declared.words, *default_value);
 }
 
 DeclaredMap DeclaredMap::Child(std::string_view key) const {
@@ -68,7 +68,7 @@ DeclaredMap DeclaredMap::Child(std::string_view key) const {
   return {declared.required ? map_.Child(key) : map_.OptionalChild(key), declared.of};
 }
 
-const Map& DeclaredMap::Undecoded(std::string_view key) const {
+const Map& DeclaredMap::MapWith(std::string_view key) const {
   RODEIRA_ASSERT(FindKey(*keys_, key) != nullptr);
   return map_;
 }

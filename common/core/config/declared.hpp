@@ -31,8 +31,8 @@ class DeclaredMap {
   // Mappings by name, in the order of the file.
   std::vector<std::pair<std::string, DeclaredMap>> Named(std::string_view key) const;
 
-  // The mapping itself, for a function that reads a declared key and its special checks by itself.
-  const Map& Undecoded(std::string_view key) const;
+  // The mapping with a declared key, for a function that reads this key by itself, with checks of its own.
+  const Map& MapWith(std::string_view key) const;
   // For problems, places, and the presence of keys.
   const Map& map() const { return map_; }
 

@@ -10,9 +10,9 @@
 
 namespace rodeira::config {
 
-Key NumberKey(std::string name, Range range, double fallback, std::string meaning) {
-  RODEIRA_ASSERT(fallback >= range.low && fallback <= range.high);
-  return {std::move(name), ValueType::kNumber, std::move(meaning), false, range, fallback};
+Key NumberKey(std::string name, Range range, double default_value, std::string meaning) {
+  RODEIRA_ASSERT(default_value >= range.low && default_value <= range.high);
+  return {std::move(name), ValueType::kNumber, std::move(meaning), false, range, default_value};
 }
 
 Key RequiredNumberKey(std::string name, Range range, std::string meaning) {
@@ -25,14 +25,14 @@ Key ComputedNumberKey(std::string name, Range range, std::string default_note, s
   return key;
 }
 
-Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t fallback, std::string meaning) {
-  RODEIRA_ASSERT(fallback >= low && fallback <= high);
+Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t default_value, std::string meaning) {
+  RODEIRA_ASSERT(default_value >= low && default_value <= high);
   return {std::move(name),
           ValueType::kInteger,
           std::move(meaning),
           false,
           Range{static_cast<double>(low), static_cast<double>(high)},
-          fallback};
+          default_value};
 }
 
 Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning) {
@@ -40,12 +40,12 @@ Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, st
           Range{static_cast<double>(low), static_cast<double>(high)}};
 }
 
-Key FlagKey(std::string name, bool fallback, std::string meaning) {
-  return {std::move(name), ValueType::kFlag, std::move(meaning), false, {}, fallback};
+Key FlagKey(std::string name, bool default_value, std::string meaning) {
+  return {std::move(name), ValueType::kFlag, std::move(meaning), false, {}, default_value};
 }
 
-Key TextKey(std::string name, std::string fallback, std::string meaning) {
-  return {std::move(name), ValueType::kText, std::move(meaning), false, {}, std::move(fallback)};
+Key TextKey(std::string name, std::string default_value, std::string meaning) {
+  return {std::move(name), ValueType::kText, std::move(meaning), false, {}, std::move(default_value)};
 }
 
 Key RequiredTextKey(std::string name, std::string sample, std::string meaning) {
@@ -61,9 +61,9 @@ Key ComputedTextKey(std::string name, std::string default_note, std::string samp
   return key;
 }
 
-Key WordKey(std::string name, std::vector<std::string> words, std::string fallback, std::string meaning) {
-  RODEIRA_ASSERT(std::ranges::find(words, fallback) != words.end());
-  Key key{std::move(name), ValueType::kWord, std::move(meaning), false, {}, std::move(fallback)};
+Key WordKey(std::string name, std::vector<std::string> words, std::string default_value, std::string meaning) {
+  RODEIRA_ASSERT(std::ranges::find(words, default_value) != words.end());
+  Key key{std::move(name), ValueType::kWord, std::move(meaning), false, {}, std::move(default_value)};
   key.words = std::move(words);
   return key;
 }
@@ -86,7 +86,7 @@ Key NamedValueKey(std::string name, Key value, std::string meaning) {
 
 Key Required(Key key) {
   key.required = true;
-  key.fallback = {};
+  key.default_value = {};
   key.default_note.clear();
   return key;
 }
@@ -112,9 +112,6 @@ void CollectValues(const Key& key, const std::string& path, std::vector<PlacedKe
       return;
     case ValueType::kNamed:
       CollectValues(key.of.front(), path + ".NAME", out);
-      return;
-    case ValueType::kList:
-      CollectValues(key.of.front(), path + "[]", out);
       return;
     default:
       out.push_back({path, &key});
@@ -151,10 +148,10 @@ std::string RangeCell(const Key& key) {
 std::string DefaultCell(const Key& key) {
   if (key.required) return "required";
   if (!key.default_note.empty()) return key.default_note;
-  if (const double* number = std::get_if<double>(&key.fallback)) return fmt::format("{}", *number);
-  if (const std::int64_t* number = std::get_if<std::int64_t>(&key.fallback)) return fmt::format("{}", *number);
-  if (const bool* flag = std::get_if<bool>(&key.fallback)) return *flag ? "true" : "false";
-  if (const std::string* text = std::get_if<std::string>(&key.fallback)) return *text;
+  if (const double* number = std::get_if<double>(&key.default_value)) return fmt::format("{}", *number);
+  if (const std::int64_t* number = std::get_if<std::int64_t>(&key.default_value)) return fmt::format("{}", *number);
+  if (const bool* flag = std::get_if<bool>(&key.default_value)) return *flag ? "true" : "false";
+  if (const std::string* text = std::get_if<std::string>(&key.default_value)) return *text;
   return "";
 }
 

@@ -21,20 +21,19 @@ enum class ValueType {
   kWord,     // one of `words`
   kMapping,  // the keys that `of` declares
   kNamed,    // a mapping with free names as keys; `of` holds the declaration of each value
-  kList,     // `of` holds the declaration of each item
 };
 
 // Nothing: the key has no default of its own.
 using DefaultValue = std::variant<std::monostate, double, std::int64_t, bool, std::string>;
 
-// A key of a mapping; without a name the value of an item or of a named entry.
+// A key of a mapping; without a name the value of a named entry.
 struct Key {
   std::string name;  // with its unit
   ValueType type = ValueType::kText;
   std::string meaning;               // one sentence, without the unit
   bool required = false;             // only where the mapping that it belongs to is there
   Range range = {};                  // of a number or a whole number, in the unit of the name
-  DefaultValue fallback{};           // the reader's value if the key is absent
+  DefaultValue default_value{};      // the reader's value if the key is absent
   std::string default_note{};        // the default in words, where it depends on other keys
   std::vector<std::string> words{};  // of kWord
   std::vector<Key> of{};
@@ -50,19 +49,19 @@ struct Schema {
 };
 
 // Declarations. A number or a whole number with a default is optional, the others say so.
-Key NumberKey(std::string name, Range range, double fallback, std::string meaning);
+Key NumberKey(std::string name, Range range, double default_value, std::string meaning);
 Key RequiredNumberKey(std::string name, Range range, std::string meaning);
 // A number with a default that the reader computes; `default_note` says from what.
 Key ComputedNumberKey(std::string name, Range range, std::string default_note, std::string meaning);
-Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t fallback, std::string meaning);
+Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t default_value, std::string meaning);
 Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning);
-Key FlagKey(std::string name, bool fallback, std::string meaning);
-Key TextKey(std::string name, std::string fallback, std::string meaning);
+Key FlagKey(std::string name, bool default_value, std::string meaning);
+Key TextKey(std::string name, std::string default_value, std::string meaning);
 // `sample` is a text that the reader takes, as YAML.
 Key RequiredTextKey(std::string name, std::string sample, std::string meaning);
-// A text whose default the reader finds.
+// A text with a default that the reader computes; `sample` is one that it takes, as YAML.
 Key ComputedTextKey(std::string name, std::string default_note, std::string sample, std::string meaning);
-Key WordKey(std::string name, std::vector<std::string> words, std::string fallback, std::string meaning);
+Key WordKey(std::string name, std::vector<std::string> words, std::string default_value, std::string meaning);
 Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning);
 // A mapping of names to mappings with the keys; of names to values.
 Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning);

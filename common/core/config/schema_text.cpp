@@ -3,26 +3,18 @@
 
 #include <algorithm>
 
+#include "common/core/base/json_text.hpp"
 #include "common/core/config/schema.hpp"
 
 namespace rodeira::config {
 namespace {
 
-// A text as a JSON string. Declarations hold printable ASCII only.
-std::string Json(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
+// A default value as JSON.
 std::string JsonOf(const DefaultValue& value) {
   if (const double* number = std::get_if<double>(&value)) return fmt::format("{}", *number);
   if (const std::int64_t* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
   if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-  if (const std::string* text = std::get_if<std::string>(&value)) return Json(*text);
+  if (const std::string* text = std::get_if<std::string>(&value)) return base::JsonText(*text);
   return "null";
 }
 
@@ -32,8 +24,8 @@ std::string JsonValue(const Key& key, const std::string& indent);
 std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent) {
   std::vector<std::string> properties, required;
   for (const Key& key : keys) {
-    properties.push_back(fmt::format("{}  {}: {}", indent, Json(key.name), JsonValue(key, indent + "  ")));
-    if (key.required) required.push_back(Json(key.name));
+    properties.push_back(fmt::format("{}  {}: {}", indent, base::JsonText(key.name), JsonValue(key, indent + "  ")));
+    if (key.required) required.push_back(base::JsonText(key.name));
   }
   return fmt::format(
       "{0}\"type\": \"object\",\n{0}\"properties\": {{\n{1}\n{0}}},\n{2}{0}\"additionalProperties\": false", indent,
@@ -44,7 +36,7 @@ std::string JsonMapping(const std::vector<Key>& keys, const std::string& indent)
 std::string JsonValue(const Key& key, const std::string& indent) {
   std::vector<std::string> members;
   const std::string inner = indent + "  ";
-  if (!key.meaning.empty()) members.push_back(fmt::format("{}\"description\": {}", inner, Json(key.meaning)));
+  if (!key.meaning.empty()) members.push_back(fmt::format("{}\"description\": {}", inner, base::JsonText(key.meaning)));
   switch (key.type) {
     case ValueType::kNumber:
     case ValueType::kInteger:
@@ -64,7 +56,7 @@ std::string JsonValue(const Key& key, const std::string& indent) {
       break;
     case ValueType::kWord: {
       std::vector<std::string> words;
-      for (const std::string& word : key.words) words.push_back(Json(word));
+      for (const std::string& word : key.words) words.push_back(base::JsonText(word));
       members.push_back(fmt::format("{}\"enum\": [{}]", inner, fmt::join(words, ", ")));
       break;
     }
@@ -75,13 +67,9 @@ std::string JsonValue(const Key& key, const std::string& indent) {
       members.push_back(inner + "\"type\": \"object\"");
       members.push_back(fmt::format("{}\"additionalProperties\": {}", inner, JsonValue(key.of.front(), inner)));
       break;
-    case ValueType::kList:
-      members.push_back(inner + "\"type\": \"array\"");
-      members.push_back(fmt::format("{}\"items\": {}", inner, JsonValue(key.of.front(), inner)));
-      break;
   }
-  if (!std::holds_alternative<std::monostate>(key.fallback))
-    members.push_back(fmt::format("{}\"default\": {}", inner, JsonOf(key.fallback)));
+  if (!std::holds_alternative<std::monostate>(key.default_value))
+    members.push_back(fmt::format("{}\"default\": {}", inner, JsonOf(key.default_value)));
   return fmt::format("{{\n{}\n{}}}", fmt::join(members, ",\n"), indent);
 }
 
@@ -90,14 +78,14 @@ std::string JsonValue(const Key& key, const std::string& indent) {
 std::string SchemaText(const Schema& schema) {
   std::string out = fmt::format("rodeira: {}\n{}\n\n", schema.format, schema.meaning);
   const auto values = ValuesOf(schema);
-  std::size_t path = 3, fallback = 7, range = 5;
+  std::size_t path = 3, default_value = 7, range = 5;
   for (const PlacedKey& value : values) {
     path = std::max(path, value.path.size());
-    fallback = std::max(fallback, DefaultCell(*value.key).size());
+    default_value = std::max(default_value, DefaultCell(*value.key).size());
     range = std::max(range, RangeCell(*value.key).size());
   }
   const auto row = [&](std::string_view a, std::string_view b, std::string_view c, std::string_view d) {
-    out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", a, path, b, fallback, c, range, d);
+    out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", a, path, b, default_value, c, range, d);
   };
   row("key", "default", "range", "meaning");
   for (const PlacedKey& value : values)
@@ -119,7 +107,7 @@ std::string SchemaJson(const Schema& schema) {
   return fmt::format(
       "{{\n  \"$schema\": \"https://json-schema.org/draft/2020-12/schema\",\n  \"title\": {},\n  \"description\": {},\n"
       "{}\n}}\n",
-      Json("Rodeira " + schema.format), Json(schema.meaning), JsonMapping(schema.keys, "  "));
+      base::JsonText("Rodeira " + schema.format), base::JsonText(schema.meaning), JsonMapping(schema.keys, "  "));
 }
 
 }  // namespace rodeira::config

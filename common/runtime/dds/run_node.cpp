@@ -136,7 +136,8 @@ base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mail
   if (beginning.snapshot > 0) {
     settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
     if (!settings.resume)
-      return base::Failed("run.cannot_restart", fmt::format("nobody has its snapshot at step {}", beginning.snapshot));
+      return base::Failed("run.cannot_restart",
+                          fmt::format("no process has its snapshot at step {}", beginning.snapshot));
     if (!settings.resume->has_state)
       return base::Failed("run.cannot_restart", "it cannot save its state, so it cannot be started again");
   }

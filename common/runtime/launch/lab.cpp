@@ -92,7 +92,7 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   lab.domain_ = static_cast<std::uint32_t>(declared.Integer("domain"));
 
   for (const auto& [name, map] : declared.Named("hosts")) {
-    const LabHost host{name, ReadAddress(map.Undecoded("address"), "address")};
+    const LabHost host{name, ReadAddress(map.MapWith("address"), "address")};
     const auto same = std::ranges::find(lab.hosts_, host.address, &LabHost::address);
     if (same != lab.hosts_.end()) {
       root.Child("hosts").Problem(
@@ -104,8 +104,7 @@ base::Result<Lab> Lab::Read(const config::File& file) {
   if (lab.hosts_.empty() && root.Has("hosts")) {
     root.Problem("hosts", "config.too_few", "'hosts' is empty; at least one PC with its address was expected");
   }
-  if (!lab.hosts_.empty())
-    lab.clock_ = declared.Undecoded("clock").Choice("clock", lab.Names(), lab.hosts_.front().name);
+  if (!lab.hosts_.empty()) lab.clock_ = declared.MapWith("clock").Choice("clock", lab.Names(), lab.hosts_.front().name);
 
   const std::string transport = declared.Word("transport");
   lab.transport_ = transport == "udp" ? Transport::kUdp : Transport::kSharedMemory;
@@ -113,14 +112,13 @@ base::Result<Lab> Lab::Read(const config::File& file) {
     root.Problem("transport", "'transport' is 'shared_memory', which ends at a PC; 'udp' was expected");
   }
   const config::DeclaredMap discovery = declared.Child("discovery");
-  lab.discovery_ = ReadDiscoveryKind(discovery.Undecoded("kind"));
+  lab.discovery_ = ReadDiscoveryKind(discovery.MapWith("kind"));
   if (lab.discovery_ != DiscoveryKind::kMulticast && lab.transport_ != Transport::kUdp) {
     root.Problem("discovery", "config.conflicting_keys",
                  fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(lab.discovery_)));
   }
-  if (lab.discovery_ == DiscoveryKind::kPeers)
-    lab.participants_ = ReadParticipants(discovery.Undecoded("participants"));
-  if (lab.discovery_ == DiscoveryKind::kServer) lab.port_ = ReadPort(discovery.Undecoded("port"));
+  if (lab.discovery_ == DiscoveryKind::kPeers) lab.participants_ = ReadParticipants(discovery.MapWith("participants"));
+  if (lab.discovery_ == DiscoveryKind::kServer) lab.port_ = ReadPort(discovery.MapWith("port"));
   for (const auto& [name, map] : declared.Named("screens")) lab.screens_.push_back(ReadScreen(name, map));
   if (auto status = file.Finish(); !status) return status.error();
   return lab;

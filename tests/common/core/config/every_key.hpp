@@ -56,8 +56,6 @@ class SampleFile {
         return Mapping(key.of, path + ".");
       case ValueType::kNamed:
         return fmt::format("{{a: {}}}", Value(key.of.front(), path + ".NAME"));
-      case ValueType::kList:
-        return fmt::format("[{}]", Value(key.of.front(), path + "[]"));
       case ValueType::kWord:
         return key.words.front();
       case ValueType::kFlag:
@@ -98,7 +96,7 @@ inline void ExpectEveryKey(const Schema& schema, const ReadText& read, const Com
     };
     refused(with("[[1]]"));
     if (key.required) refused(SampleFile(schema, {}, placed.path).text());
-    const bool has_default = !std::holds_alternative<std::monostate>(key.fallback);
+    const bool has_default = !std::holds_alternative<std::monostate>(key.default_value);
     if (has_default && key.type != ValueType::kText) accepted(DefaultCell(key));
     if (key.type == ValueType::kWord) {
       for (const std::string& word : key.words) accepted(word);

@@ -58,7 +58,7 @@ TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
   const DeclaredMap root(file.value().root(), Garage().keys);
   EXPECT_DEATH((void)root.Number("width_m"), "found != nullptr");
   EXPECT_DEATH((void)root.Text("height_m"), "found->type == type");
-  EXPECT_DEATH((void)root.Undecoded("width_m"), "FindKey");
+  EXPECT_DEATH((void)root.MapWith("width_m"), "FindKey");
 }
 
 TEST(Schema, MarkdownHasARowAKey) {
