@@ -4,6 +4,10 @@
 #include <fmt/format.h>
 #include <lz4frame.h>
 #include <zstd.h>
+#include <zstd_errors.h>
+
+#include <new>
+#include <string_view>
 
 namespace rodeira::record {
 namespace {
@@ -18,12 +22,22 @@ struct FreeLz4 {
   void operator()(LZ4F_dctx* context) const { LZ4F_freeDecompressionContext(context); }
 };
 
+// Lack of memory is told as by `new`: it says nothing about the bytes.
+void ThrowIfNoMemory(std::size_t zstd_result) {
+  if (ZSTD_getErrorCode(zstd_result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
+}
+void ThrowIfNoMemoryOfLz4(LZ4F_errorCode_t result) {
+  // The numbers of lz4's errors are not in its stable interface.
+  if (LZ4F_isError(result) && std::string_view(LZ4F_getErrorName(result)) == "ERROR_allocation_failed")
+    throw std::bad_alloc();
+}
+
 }  // namespace
 
 void ZstdCompressor::Free::operator()(ZSTD_CCtx_s* context) const { ZSTD_freeCCtx(context); }
 
 ZstdCompressor::ZstdCompressor(int level) : context_(ZSTD_createCCtx()) {
-  RODEIRA_ASSERT(context_ != nullptr);
+  if (context_ == nullptr) throw std::bad_alloc();
   RODEIRA_ASSERT(!ZSTD_isError(ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, level)));
 }
 
@@ -32,7 +46,8 @@ std::uint64_t ZstdCompressor::Append(std::span<const std::byte> bytes, base::Byt
   out.resize(before + ZSTD_compressBound(bytes.size()));
   const std::size_t size =
       ZSTD_compress2(context_.get(), out.data() + before, out.size() - before, bytes.data(), bytes.size());
-  RODEIRA_ASSERT(!ZSTD_isError(size));  // the bound holds, so only lack of memory could fail here
+  ThrowIfNoMemory(size);
+  RODEIRA_ASSERT(!ZSTD_isError(size));  // the bound holds
   out.resize(before + size);
   return size;
 }
@@ -51,6 +66,7 @@ base::Result<base::Bytes> ZstdDecompress(std::span<const std::byte> frame, std::
   }
   base::Bytes bytes(size);
   const std::size_t got = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
+  ThrowIfNoMemory(got);
   if (ZSTD_isError(got))
     return base::WrongInput("recording.wrong_compression", fmt::format("zstd says '{}'", ZSTD_getErrorName(got)));
   if (got != size)
@@ -65,7 +81,9 @@ base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::u
                             fmt::format("{} compressed bytes cannot hold {} bytes", frame.size(), size));
   }
   LZ4F_dctx* made = nullptr;
-  RODEIRA_ASSERT(!LZ4F_isError(LZ4F_createDecompressionContext(&made, LZ4F_VERSION)));
+  const LZ4F_errorCode_t making = LZ4F_createDecompressionContext(&made, LZ4F_VERSION);
+  ThrowIfNoMemoryOfLz4(making);
+  RODEIRA_ASSERT(!LZ4F_isError(making));
   const std::unique_ptr<LZ4F_dctx, FreeLz4> context(made);
   base::Bytes bytes(static_cast<std::size_t>(size) + 1);  // one byte more: a frame that holds more is noticed
   std::size_t read = 0;
@@ -75,6 +93,7 @@ base::Result<base::Bytes> Lz4Decompress(std::span<const std::byte> frame, std::u
     std::size_t in = frame.size() - read;
     std::size_t out = bytes.size() - written;
     expected = LZ4F_decompress(context.get(), bytes.data() + written, &out, frame.data() + read, &in, nullptr);
+    ThrowIfNoMemoryOfLz4(expected);
     if (LZ4F_isError(expected))
       return base::WrongInput("recording.wrong_compression", fmt::format("lz4 says '{}'", LZ4F_getErrorName(expected)));
     read += in;

@@ -12,7 +12,7 @@ struct ZSTD_CCtx_s;
 
 namespace rodeira::record {
 
-// Appends zstd frames to a buffer. The same bytes, level and library version give the same frame.
+// Appends zstd frames to a buffer. Throws std::bad_alloc where zstd gets no memory. The same bytes, level and library version give the same frame.
 class ZstdCompressor {
  public:
   explicit ZstdCompressor(int level);
@@ -27,7 +27,8 @@ class ZstdCompressor {
 };
 
 // One whole zstd frame that must hold exactly `size` bytes. Memory is asked for only after the frame's own header and
-// length have been found to fit that size. The Error says what was found.
+// length have been found to fit that size. The Error says what was found;
+// std::bad_alloc where zstd gets no memory.
 base::Result<base::Bytes> ZstdDecompress(std::span<const std::byte> frame, std::uint64_t size);
 
 // The same for lz4 frames (not blocks), which other programs write.

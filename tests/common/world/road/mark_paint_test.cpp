@@ -55,8 +55,9 @@ TEST(MarkPaint, DashesAreRoadMarkWhereTheyAreByClosedForm) {
 TEST(MarkPaint, OnRealRoadsItIsTheLinesThatTheViewDraws) {
   for (const char* name : {"carla_Town04", "esmini_e6mini", "esmini_fabriksgatan", "esmini_straight_500m_roadmarks",
                            "esmini_multi_intersections", "asamqc_positive_v18"}) {
-    const auto world =
-        World::Load(std::filesystem::path(SourceDir()) / "../shared/data/road/xodr" / (std::string(name) + ".xodr"));
+    const auto file = std::filesystem::path(SourceDir()) / "../shared/data/road/xodr" / (std::string(name) + ".xodr");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "skipped: there is no " << file.string();
+    const auto world = World::Load(file);
     ASSERT_TRUE(world.ok()) << world.error().Text();
     const network::Network& network = *world.value()->network();
     const std::shared_ptr<const network::Network> shared(world.value(), &network);
