@@ -12,7 +12,8 @@ struct ZSTD_CCtx_s;
 
 namespace rodeira::record {
 
-// Appends zstd frames to a buffer. Throws std::bad_alloc where zstd gets no memory. The same bytes, level and library version give the same frame.
+// Appends zstd frames to a buffer. Throws std::bad_alloc where zstd gets no memory. The same bytes, level and library
+// version give the same frame.
 class ZstdCompressor {
  public:
   explicit ZstdCompressor(int level);
