@@ -27,22 +27,30 @@ TEST(RoadFiles, OpenDrive) {
       <geometry s="40" x="39.53" y="6.62" hdg="0.3" length="60"><arc curvature="0.01"/></geometry>)";
   in.elevation = R"(<elevation s="0" a="1" b="0.02" c="0" d="0"/><elevation s="50" a="2" b="0.02" c="-0.0001" d="0"/>)";
   in.lateral =
-      R"(<superelevation s="0" a="0.02" b="0.0001" c="0" d="0"/><shape s="0" t="-4" a="0" b="0.02" c="0" d="0"/><shape s="50" t="-4" a="0.1" b="0.01" c="0" d="0"/>)";
+      R"(<superelevation s="0" a="0.02" b="0.0001" c="0" d="0"/><shape s="0" t="-4" a="0" b="0.02" c="0" d="0"/>
+      <shape s="50" t="-4" a="0.1" b="0.01" c="0" d="0"/>)";
   in.offset = R"(<laneOffset s="0" a="0" b="0.01" c="0" d="0"/>)";
   in.left =
-      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/><height sOffset="0" inner="0.1" outer="0.1"/></lane>
-      <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/><roadMark sOffset="0" type="broken" color="white" width="0.12"/></lane>)";
+      R"(<lane id="2" type="sidewalk" level="true"><width sOffset="0" a="2" b="0" c="0" d="0"/>
+      <height sOffset="0" inner="0.1" outer="0.1"/></lane>
+      <lane id="1" type="driving"><width sOffset="0" a="3.5" b="0" c="0" d="0"/>
+      <roadMark sOffset="0" type="broken" color="white" width="0.12"/></lane>)";
   in.more =
-      R"(<objects><object id="o" s="10" t="8" type="tree"/></objects><signals><signal id="s" s="90" t="-5" type="274" value="50"/></signals>)";
+      R"(<objects><object id="o" s="10" t="8" type="tree"/></objects><signals>
+      <signal id="s" s="90" t="-5" type="274" value="50"/></signals>)";
   way.id = "7";
   way.attributes = "junction=\"9\"";
   way.geometry =
-      R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100"><paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
+      R"(<geometry s="0" x="85" y="44" hdg="0.9" length="100">
+      <paramPoly3 pRange="normalized" aU="0" bU="100" cU="0" dU="0" aV="0" bV="0" cV="3" dV="-1"/></geometry>)";
   const std::string junction =
       R"(<junction id="9"><connection id="0" incomingRoad="1" connectingRoad="7" contactPoint="start"/>
-      <boundary><segment type="lane" roadId="7" boundaryLane="-1" sStart="begin" sEnd="end"/><segment type="lane" roadId="7" boundaryLane="1" sStart="end" sEnd="begin"/></boundary>
+      <boundary><segment type="lane" roadId="7" boundaryLane="-1" sStart="begin" sEnd="end"/>
+      <segment type="lane" roadId="7" boundaryLane="1" sStart="end" sEnd="begin"/></boundary>
       <planView><geometry s="0" x="75" y="32" hdg="0.9" length="130"><line/></geometry></planView>
-      <elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1" right="2"/><elevation center="1.5" left="1" right="2"/><elevation center="1" left="2" right="1"/></elevationGrid></junction>)";
+      <elevationGrid sStart="0" gridSpacing="60"><elevation center="1" left="1" right="2"/>
+      <elevation center="1.5" left="1" right="2"/><elevation center="1" left="2" right="1"/></elevationGrid>
+      </junction>)";
   Fuzz("xodr",
        {opendrive::Document(opendrive::RoadText().Text()), opendrive::Document(in.Text() + way.Text() + junction)},
        [](const std::string& text) -> std::optional<base::Error> {
