@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# A header with its // comments as doxygen's ///. The block below the licence becomes the file's own description; a
+# comment behind a declaration belongs to it. What /// says already is left as it is.
+function escaped(comment) {
+  gsub(/[\\@<>#&%]/, "\\\\&", comment)
+  return comment
+}
+/^ *\/\/ SPDX-License-Identifier:/ { print "/// \\file"; head = 1; next }
+head && /^ *\/\/( |$)/ {
+  sub(/^ *\/\/ ?/, "")
+  print "/// " escaped($0)
+  next
+}
+{ head = 0 }
+/^ *\/\/( |$)/ {
+  match($0, /^ *\/\//)
+  print substr($0, 1, RLENGTH) "/" escaped(substr($0, RLENGTH + 1))
+  next
+}
+/^ *(\/\/\/|\}|#)/ { print; next }
+match($0, /[;,{)] +\/\/ /) {
+  print substr($0, 1, RSTART) " ///< " escaped(substr($0, RSTART + RLENGTH))
+  next
+}
+{ print }
