@@ -17,7 +17,7 @@ Beginning BeginningOf(const Roster& roster, NodeIndex node, const Grant& grant, 
   if (grant.through < 0) return {};
   const RosterNode& spec = roster.node(node);
   if (spec.keeps_snapshots()) return {0, CeilTo(has_through + 1, spec.period)};
-  if (spec.is_sink()) return {0, FloorTo(std::max<Step>(grant.through - roster.window(), 0), spec.period)};
+  if (spec.is_sink()) return {0, CeilTo(std::max<Step>(grant.through - roster.window(), 0), spec.period)};
   return {grant.resume, 0};
 }
 

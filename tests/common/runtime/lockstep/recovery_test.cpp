@@ -204,7 +204,7 @@ TEST_F(RecoveryOfOne, EachKindBeginsWhereItCan) {
   EXPECT_EQ(BeginningOf(roster, 0, grant, -1).snapshot, 40);
   EXPECT_EQ(BeginningOf(roster, 1, grant, 61).sink_from, 65);
   EXPECT_EQ(BeginningOf(roster, 1, grant, 64).sink_from, 65);
-  EXPECT_EQ(BeginningOf(Make(false), 1, grant, -1).sink_from, 75) << "97 less the window of 20";
+  EXPECT_EQ(BeginningOf(Make(false), 1, grant, -1).sink_from, 80) << "its first activation from 97 - 20 on";
 }
 
 TEST_F(RecoveryOfOne, AClockThatIsStartedAgainGrantsNothingNewBeforeItHasHeardAll) {
