@@ -46,6 +46,39 @@ TEST(Fault, AHangingNodeIsNamedByItsDeadline) {
   EXPECT_EQ(run.Wait(10s).status, 1);
 }
 
+// Its step holds the thread that receives: it is no silence of the clock, however long it takes.
+TEST(Fault, AHangingNodeIsNamedByADeadlineThatIsLongerThanTheClocksSilence) {
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "limits.step_s=4.5", "--set",
+               "nodes.b.config.hang_at_step=200"});
+  const Ended ended = run.Wait(20s);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.out.find("node 'b' has been computing step 200 for"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("the clock has said nothing"), std::string::npos) << ended.out;
+}
+
+TEST(Fault, AHangingServerIsNamedByItsDeadline) {
+  const auto part = [](const std::string& program, const std::string& node) {
+    std::vector<std::string> words{"HANG_AT_REQUEST=500",
+                                   Bin(program),
+                                   "--launch",
+                                   LaunchFile("first_drive.yaml"),
+                                   "--run",
+                                   "hanging-server",
+                                   "--set",
+                                   "nodes.recorder.kind=none",
+                                   "--set",
+                                   "nodes.ego.config.ground=remote"};
+    if (!node.empty()) words.insert(words.end(), {"--node", node});
+    return words;
+  };
+  Started road(part("rodeira-test-hanging-road", "road"));
+  Started driver(part("rodeira-input", "driver"));
+  Started ego(part("rodeira-vehicle", "ego"));
+  const Ended ended = Started(part("rodeira-clock", "")).Wait(30s);
+  EXPECT_EQ(ended.status, 1);
+  EXPECT_NE(ended.out.find("node 'road' has been answering a request for "), std::string::npos) << ended.out;
+}
+
 TEST(Fault, AFailingNodeIsNamedWithItsReason) {
   const Ended ended = RunCommand(
       {Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--no-record", "--set", "nodes.d.config.fail_at_step=300"});

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -234,6 +235,47 @@ TEST_F(Recordings, ADiskThatIsFullStopsTheRunAndTheFileIsReadable) {
 
 // A disk that takes 1 MiB a second, by a pipe: the run waits for it, no sample is lost, and the bytes are those of a
 // fast one.
+// A recorder that is started again needs their samples.
+TEST_F(Recordings, NodesThatHaveFinishedStayUntilTheRecorderHasWrittenAll) {
+  ASSERT_EQ(Run({LaunchFile("empty.yaml"), "--for", "0.6", "--record", Path("calm.mcap")}).status, 0);
+  ASSERT_EQ(::mkfifo(Path("held").c_str(), 0600), 0);
+  const int held = ::open(Path("held").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(held, 0);
+  ASSERT_GT(::fcntl(held, F_SETPIPE_SZ, 4096), 0);
+  const std::string name = "finished-" + std::to_string(::getpid());
+  Started run({Bin("rodeira"), "run", LaunchFile("empty.yaml"), "--for", "0.6", "--run", name, "--set",
+               "nodes.recorder.kind=recorder", "--set", "nodes.recorder.config.file=" + Path("held")});
+  // Its last bytes are not read: what the recorder still writes, it writes when all others have finished.
+  std::vector<char> piece(4096);
+  auto rest = static_cast<std::int64_t>(fs::file_size(Path("calm.mcap"))) - 6000;
+  const auto begin = std::chrono::steady_clock::now();
+  const auto ends = [&] {
+    return Ask({"ctl", "state", "--run", name}).out.find("is ending at step 600") != std::string::npos;
+  };
+  while ((rest > 0 || !ends()) && std::chrono::steady_clock::now() - begin < 60s) {
+    const auto wanted = static_cast<std::size_t>(std::clamp<std::int64_t>(rest, 0, std::ssize(piece)));
+    const ssize_t got = wanted == 0 ? 0 : ::read(held, piece.data(), wanted);
+    if (got > 0) rest -= got;
+    if (got <= 0) ::usleep(5000);
+  }
+  ASSERT_TRUE(ends());
+  for (const auto ended = std::chrono::steady_clock::now(); std::chrono::steady_clock::now() - ended < 4500ms;) {
+    for (const char* node : {"a", "b", "c", "d"})
+      ASSERT_EQ(ProcessesWith("--run " + name, std::string("--node ") + node).size(), 1u) << node;
+    ::usleep(50'000);
+  }
+  std::jthread disk([&] {
+    pollfd waiting{held, POLLIN, 0};
+    while (::poll(&waiting, 1, 20'000) > 0 && ::read(held, piece.data(), piece.size()) > 0) {
+    }
+  });
+  const Ended ended = run.Wait(30s);
+  EXPECT_EQ(ended.status, 0) << ended.out;
+  EXPECT_TRUE(ProcessesWith("--run " + name).empty());
+  disk.join();
+  ::close(held);
+}
+
 TEST_F(Recordings, ASlowDiskSlowsTime) {
   const std::vector<std::string> drive = {
       LaunchFile("first_drive.yaml"), "--for", "4", "--set", "limits.step_s=30", "--set", "limits.silence_s=30"};

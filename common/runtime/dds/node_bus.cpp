@@ -20,6 +20,10 @@ namespace {
 constexpr std::chrono::milliseconds kTimeToEnd{500};
 constexpr std::chrono::milliseconds kShownWait{500};
 
+std::int64_t NowMs() {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now().time_since_epoch()).count();
+}
+
 volatile std::sig_atomic_t g_terminated = 0;
 
 void OnTerminate(int) {
@@ -43,7 +47,8 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
       mailbox_(mailbox),
       settings_(settings),
       listens_(settings.incarnation == 0),
-      batches_(roster, settings.node, settings.max_batch_bytes) {
+      batches_(roster, settings.node, settings.max_batch_bytes),
+      clock_silence_(settings.clock_silence.count()) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
   retransmit_server_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
@@ -74,7 +79,7 @@ NodeBus::~NodeBus() {
 
 base::Status NodeBus::Connect(Participant& participant) {
   const auto add_reader = [&](std::string_view topic, Delivery delivery, OnPayload on_payload) -> base::Status {
-    auto reader = participant.MakeReader(topic, delivery, std::move(on_payload));
+    auto reader = participant.MakeReader(topic, delivery, Noted(std::move(on_payload)));
     if (!reader) return reader.error();
     readers_.push_back(std::move(reader).value());
     return {};
@@ -123,6 +128,13 @@ base::Status NodeBus::Connect(Participant& participant) {
                     [this](base::Bytes&& bytes) { OnGrant(std::move(bytes)); });
 }
 
+OnPayload NodeBus::Noted(OnPayload on_payload) {
+  return [this, on_payload = std::move(on_payload)](base::Bytes&& bytes) {
+    const Receiving note(*this);
+    on_payload(std::move(bytes));
+  };
+}
+
 // The nodes to which this node sends batches, and those for it.
 base::Status NodeBus::ConnectSampleBatches(Participant& participant) {
   const auto topic_of = [&](lockstep::NodeIndex n) {
@@ -141,7 +153,7 @@ base::Status NodeBus::ConnectSampleBatches(Participant& participant) {
   const auto& inputs = roster_.node(settings_.node).inputs;
   if (std::none_of(inputs.begin(), inputs.end(), gets_batches)) return {};
   auto reader = participant.MakeReader(topic_of(settings_.node), Delivery::kBestEffortRepeated,
-                                       [this](base::Bytes&& bytes) { OnSampleBatch(bytes); });
+                                       Noted([this](base::Bytes&& bytes) { OnSampleBatch(bytes); }));
   if (!reader) return reader.error();
   readers_.push_back(std::move(reader).value());
   return {};
@@ -294,7 +306,7 @@ void NodeBus::OnGrant(base::Bytes&& payload) {
     if (clock_id_ == 0) clock_id_ = grant.value().clock_id;
     if (clock_id_ != grant.value().clock_id) return;  // one clock a run: the first
     heard_ = grant.value().grant;
-    clock_heard_ = WallClock::now();
+    clock_silence_.Heard(NowMs());
   }
   const std::vector<std::uint32_t>& incarnations = grant.value().grant.incarnations;
   if (settings_.node < incarnations.size() && incarnations[settings_.node] > settings_.incarnation)
@@ -315,6 +327,10 @@ lockstep::Report NodeBus::ReportNow() {
   const std::lock_guard lock(mutex_);
   lockstep::Report report = runner_ != nullptr ? runner_->report() : last_;
   const auto end = mailbox_.early_end();
+  if (runner_ == nullptr && report.phase == lockstep::Phase::kRunning && held_up_since_) {  // of a server: a request
+    report.waiting = lockstep::Waiting::kNothing;
+    report.since_ms = std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now() - *held_up_since_).count();
+  }
   if (!lockstep::IsTerminal(report.phase)) report.message = base::LongestWait(kShownWait);
   if (!end || lockstep::IsTerminal(report.phase)) return report;
   if (!ends_since_) ends_since_ = WallClock::now();
@@ -326,12 +342,16 @@ lockstep::Report NodeBus::ReportNow() {
 
 void NodeBus::Heartbeat() {
   std::unique_lock lock(mutex_);
+  std::uint64_t begun_before = 0;
   auto looked = WallClock::now();
   while (!stop_) {
-    const auto gap = WallClock::now() - looked;
-    looked += gap;
-    if (gap > settings_.clock_silence / 10) clock_heard_ += gap;  // this process itself was stopped, as by a debugger
-    const bool silent = clock_id_ != 0 && WallClock::now() - clock_heard_ > settings_.clock_silence;
+    // A step may run on the receiving thread: one that hangs keeps all further messages, also the clock's, waiting.
+    const std::uint64_t done = messages_done_, begun = messages_begun_;
+    const bool held_up = begun == begun_before && begun != done;
+    if (!held_up || !held_up_since_) held_up_since_ = held_up ? std::optional(looked) : std::nullopt;
+    begun_before = begun;
+    looked = WallClock::now();
+    const bool silent = clock_silence_.IsSilent(NowMs(), !held_up);
     lock.unlock();
     const lockstep::Grant grant = mailbox_.grant();
     if (silent && !grant.over && !grant.abort)
@@ -346,18 +366,18 @@ void NodeBus::Heartbeat() {
   }
 }
 
-void NodeBus::Linger(const lockstep::Report& last, std::chrono::milliseconds limit) {
+void NodeBus::Linger(const lockstep::Report& last, std::optional<std::chrono::milliseconds> limit) {
   Follow(nullptr);
-  const auto until = WallClock::now() + limit;
+  const auto begin = WallClock::now();
   Tell(last);
   std::unique_lock lock(mutex_);
-  while (WallClock::now() < until) {
+  while (!limit || WallClock::now() < begin + *limit) {
     lock.unlock();
     const lockstep::Grant grant = mailbox_.grant();
     if (clock_id() == 0) Tell(last);  // not met yet: what was said may have reached no node
     lock.lock();
     if (grant.over) return;
-    if (grant.abort && WallClock::now() > until - limit + std::chrono::milliseconds(100))
+    if (grant.abort && WallClock::now() > begin + std::chrono::milliseconds(100))
       return;  // the last word had time to go
     woken_.wait_for(lock, std::chrono::milliseconds(10));
   }

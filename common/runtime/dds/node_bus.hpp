@@ -17,6 +17,7 @@
 #include "common/runtime/dds/retransmit_server.hpp"
 #include "common/runtime/dds/wire.hpp"
 #include "common/runtime/lockstep/bus.hpp"
+#include "common/runtime/lockstep/clock_silence.hpp"
 #include "common/runtime/lockstep/mailbox.hpp"
 #include "common/runtime/lockstep/runner.hpp"
 #include "common/runtime/lockstep/sample_batches.hpp"
@@ -62,8 +63,20 @@ class NodeBus final : public lockstep::Bus {
   std::optional<lockstep::Snapshot> FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit);
   // What a recorder that is started again has in its file already.
   base::Status Remember(const lockstep::Sample& sample);
-  // The node's last word, repeated until the clock says that all is over, at most for `limit`.
-  void Linger(const lockstep::Report& last, std::chrono::milliseconds limit);
+  // The node's last word, repeated until the clock says that all is over, aborts the run or is lost, at most for
+  // `limit`. A node that has finished has none: until then others may ask for its samples.
+  void Linger(const lockstep::Report& last, std::optional<std::chrono::milliseconds> limit);
+  // While it lives, the calling thread, one that receives, handles a message.
+  class Receiving {
+   public:
+    explicit Receiving(NodeBus& bus) : bus_(bus) { ++bus_.messages_begun_; }
+    ~Receiving() { ++bus_.messages_done_; }
+    Receiving(const Receiving&) = delete;
+    Receiving& operator=(const Receiving&) = delete;
+
+   private:
+    NodeBus& bus_;
+  };
   // Ctrl-C is left to the clock, which stops all nodes at the same step. SIGTERM, also by the death of the parent, ends
   // this node as lost: it has 1.7 s to close what it has open. Call it once, early.
   static void HandleSignals();
@@ -73,6 +86,7 @@ class NodeBus final : public lockstep::Bus {
   base::Status Connect(Participant& participant);
   base::Status ConnectSampleBatches(Participant& participant);
   base::Status Say(const lockstep::Sample& sample);
+  OnPayload Noted(OnPayload on_payload);  // counts its messages
   void OnSampleBatch(const base::Bytes& payload);
   void OnAnswer(const base::Bytes& payload);
   void TakeSnapshot(const base::Bytes& payload);
@@ -109,8 +123,11 @@ class NodeBus final : public lockstep::Bus {
   const lockstep::Runner* runner_ = nullptr;
   lockstep::Report last_;
   std::uint64_t clock_id_ = 0;
-  std::chrono::steady_clock::time_point clock_heard_;
-  std::optional<std::chrono::steady_clock::time_point> ends_since_;  // it has to end, and has not yet
+  lockstep::ClockSilence clock_silence_;
+  std::atomic<std::uint64_t> messages_begun_ = 0;  // by all receiving threads
+  std::atomic<std::uint64_t> messages_done_ = 0;
+  std::optional<std::chrono::steady_clock::time_point> held_up_since_;  // a receiving thread, by one message
+  std::optional<std::chrono::steady_clock::time_point> ends_since_;     // it has to end, and has not yet
   std::optional<lockstep::Grant> heard_;
   std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
   std::optional<lockstep::Snapshot> snapshot_;

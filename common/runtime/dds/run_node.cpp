@@ -177,8 +177,9 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
   const bool brief = node.value()->runs_inline();
   const auto outcome = brief ? lockstep::RunInline(runner, mailbox, settings) : runner.Run();
   context.Follow(nullptr);
-  bus.Linger(runner.report(), outcome == lockstep::Runner::Outcome::kFinished ? 3000ms : 500ms);
-  if (outcome == lockstep::Runner::Outcome::kFinished) return 0;
+  const bool finished = outcome == lockstep::Runner::Outcome::kFinished;
+  bus.Linger(runner.report(), finished ? std::nullopt : std::optional(500ms));
+  if (finished) return 0;
   return runner.report().phase == lockstep::Phase::kRefused ? 2 : 1;
 }
 

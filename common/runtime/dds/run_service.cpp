@@ -82,6 +82,7 @@ int RunService(std::string_view kind, int argc, char** argv, const launch::Servi
   // The server waits for no node, so it may answer on the receive thread itself: one thread change less in every step.
   auto requests = participant.value()->MakeReader(topics::kGroundRequest, Delivery::kBestEffortRepeated,
                                                   [&](base::Bytes&& request) {
+                                                    const NodeBus::Receiving note(*bus.value());
                                                     auto reply = service.value()->Answer(request);
                                                     if (!reply) return;
                                                     (void)replies.value()->Write(reply.value());

@@ -89,6 +89,12 @@ std::optional<Watchdog::Fault> Watchdog::Check(std::int64_t now_ms, const Grant&
     const std::int64_t deadline_ms = spec.deadline_ms > 0 ? spec.deadline_ms : settings_.deadline_ms;
     if (incarnation.report.phase == Phase::kRunning && incarnation.report.waiting == Waiting::kNothing &&
         incarnation.report.since_ms > deadline_ms) {
+      if (spec.role == Role::kService) {
+        return Fault{n, fmt::format("node '{}' has been answering a request for {:.2f} s at step {}, its deadline is "
+                                    "{:.2f} s",
+                                    spec.name, static_cast<double>(incarnation.report.since_ms) / 1e3,
+                                    std::max<Step>(grant.through, 0), static_cast<double>(deadline_ms) / 1e3)};
+      }
       return Fault{n,
                    fmt::format("node '{}' has been computing step {} for {:.2f} s, its deadline is {:.2f} s", spec.name,
                                incarnation.report.progress, static_cast<double>(incarnation.report.since_ms) / 1e3,

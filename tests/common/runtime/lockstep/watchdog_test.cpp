@@ -66,6 +66,21 @@ TEST_F(WatchdogTest, NamesANodeThatHangsByItsOwnDeadlineButNotOneThatWaits) {
   EXPECT_EQ(dog_.Check(0, grant_)->reason, "node 'car' has been computing step 7 for 0.30 s, its deadline is 0.30 s");
 }
 
+TEST_F(WatchdogTest, AServerThatAnswersNoMoreIsNamedWithTheStepOfTheRun) {
+  const Roster roster = Roster::Create(1'000'000, 8, {{"road", "t", Role::kService, 1, 0, 0, {}, {}}}).value();
+  Watchdog dog(roster, {600, 2000, 5000});
+  Report report;
+  report.phase = Phase::kRunning;
+  report.since_ms = 2000;
+  dog.Heard(report, 0);
+  grant_.through = 480;
+  EXPECT_FALSE(dog.Check(0, grant_));
+  report.since_ms = 2001;
+  dog.Heard(report, 0);
+  EXPECT_EQ(dog.Check(0, grant_)->reason,
+            "node 'road' has been answering a request for 2.00 s at step 480, its deadline is 2.00 s");
+}
+
 TEST_F(WatchdogTest, ANodeThatWritesItsResultsHasAsLongAsAtTheStart) {
   Hear(0, 0, Phase::kRunning, Waiting::kOutput, 5000);
   EXPECT_FALSE(dog_.Check(0, grant_));
