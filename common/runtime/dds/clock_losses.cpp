@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "common/runtime/dds/statements.hpp"
-#include "common/runtime/lockstep/life.hpp"
 #include "common/runtime/lockstep/named_node.hpp"
 
 namespace rodeira::dds {
@@ -16,6 +15,7 @@ using lockstep::Phase;
 std::optional<RunTermination> ClockLosses::TakeLost(const LostNode& lost) {
   const lockstep::NodeIndex node = run_.roster.Find(lost.node);
   if (node == run_.roster.nodes().size() || lost.incarnation < run_.clock.incarnation(node)) return std::nullopt;
+  run_.clock.NoteIncarnation(node, lost.incarnation);
   return HandleLoss(node, fmt::format("node '{}' {} at about step {}", lost.node, lost.text, run_.clock.reached(node)),
                     1);
 }
@@ -42,7 +42,8 @@ std::optional<RunTermination> ClockLosses::Watch() {
 std::optional<RunTermination> ClockLosses::HandleLoss(lockstep::NodeIndex node, const std::string& reason, int status) {
   const lockstep::Grant& grant = run_.clock.grant();
   const Phase phase = run_.clock.report(node).phase;
-  const bool ended_in_order = phase == Phase::kFinished && !lockstep::EndedEarly(phase, grant);
+  // Others may still ask a node for its samples that has finished.
+  const bool ended_in_order = phase == Phase::kFinished && run_.clock.all_finished();
   if (grant.abort || ended_in_order || run_.missed.Has(node)) return std::nullopt;
   const auto decision = run_.clock.HandleLoss(node);
   switch (decision.policy) {

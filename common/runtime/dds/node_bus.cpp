@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kTimeToEnd{500};
 constexpr std::chrono::milliseconds kShownWait{500};
+constexpr std::chrono::milliseconds kTimeToRead{5};
 
 std::int64_t NowMs() {
   return std::chrono::duration_cast<std::chrono::milliseconds>(WallClock::now().time_since_epoch()).count();
@@ -48,7 +49,8 @@ NodeBus::NodeBus(const lockstep::Roster& roster, lockstep::Mailbox& mailbox, con
       settings_(settings),
       listens_(settings.incarnation == 0),
       batches_(roster, settings.node, settings.max_batch_bytes),
-      clock_silence_(settings.clock_silence.count()) {
+      clock_silence_(settings.clock_silence.count()),
+      safe_(settings.keeps_all && settings.incarnation > 0 ? lockstep::kUnknown : -1) {
   last_.node = settings.node;
   last_.incarnation = settings.incarnation;
   retransmit_server_.emplace(roster, settings.node, settings.keeps_all, settings.most_answer_bytes,
@@ -216,12 +218,16 @@ void NodeBus::TakeSnapshot(const base::Bytes& payload) {
 
 base::Status NodeBus::Remember(const lockstep::Sample& sample) { return retransmit_server_->Remember(sample); }
 
-std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit) {
+std::optional<lockstep::Grant> NodeBus::AwaitGrant(std::chrono::milliseconds limit, bool with_resume) {
   const base::WaitNote note("the clock's first grant");
   const auto until = WallClock::now() + limit;
   std::unique_lock lock(mutex_);
-  while (!heard_ && WallClock::now() < until) woken_.wait_for(lock, std::chrono::milliseconds(10));
-  return heard_ && !heard_->abort ? heard_ : std::nullopt;
+  const auto is_there = [&] {
+    return heard_ && (heard_->abort || !with_resume || heard_->resume != lockstep::kUnknown);
+  };
+  while (!is_there() && WallClock::now() < until && !mailbox_.early_end())
+    woken_.wait_for(lock, std::chrono::milliseconds(10));
+  return is_there() && !heard_->abort ? heard_ : std::nullopt;
 }
 
 std::optional<lockstep::Snapshot> NodeBus::FetchSnapshot(lockstep::Step step, std::chrono::milliseconds limit) {
@@ -347,6 +353,7 @@ void NodeBus::Heartbeat() {
   while (!stop_) {
     // A step may run on the receiving thread: one that hangs keeps all further messages, also the clock's, waiting.
     const std::uint64_t done = messages_done_, begun = messages_begun_;
+    const bool was_stopped = WallClock::now() - looked > settings_.clock_silence / 10;
     const bool held_up = begun == begun_before && begun != done;
     if (!held_up || !held_up_since_) held_up_since_ = held_up ? std::optional(looked) : std::nullopt;
     begun_before = begun;
@@ -360,6 +367,10 @@ void NodeBus::Heartbeat() {
                            static_cast<double>(settings_.clock_silence.count()) / 1e3));
     if (g_terminated != 0 && !grant.over)
       EndEarly(LifeEvent::kLost, fmt::format("was told to end by signal {} (Terminated)", SIGTERM));
+    lock.lock();
+    // What has come while this process was stopped is read before it reports.
+    if (was_stopped) woken_.wait_for(lock, kTimeToRead, [this] { return stop_; });
+    lock.unlock();
     Tell(ReportNow());
     lock.lock();
     woken_.wait_for(lock, settings_.heartbeat, [this] { return stop_; });

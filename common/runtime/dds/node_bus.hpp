@@ -54,8 +54,9 @@ class NodeBus final : public lockstep::Bus {
   void SetWorldHash(base::Digest hash);
   // Of a recorder: samples valid through it lie in its file. Any thread.
   void SetSafe(lockstep::Step safe);
-  // The newest grant, waited for; none where the run was aborted or nothing came.
-  std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit);
+  // The newest grant, waited for; none where the run was aborted or nothing came. `with_resume`: of a clock that knows
+  // where a lost node goes on.
+  std::optional<lockstep::Grant> AwaitGrant(std::chrono::milliseconds limit, bool with_resume = false);
   // Another incarnation than the first takes samples only from then on: its mailbox must know before where it begins.
   void Listen() { listens_ = true; }
   // This node's snapshot at `step`, from the node that keeps it: asked for until it comes; none after `limit` or an
@@ -131,7 +132,7 @@ class NodeBus final : public lockstep::Bus {
   std::optional<lockstep::Grant> heard_;
   std::optional<lockstep::Gap> wanted_;  // the snapshot that is waited for
   std::optional<lockstep::Snapshot> snapshot_;
-  lockstep::Step safe_ = -1;
+  lockstep::Step safe_;
   bool stop_ = false;
   std::thread heartbeat_;
 };

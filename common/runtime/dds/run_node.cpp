@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <condition_variable>
 #include <filesystem>
 #include <functional>
@@ -128,19 +129,23 @@ class ProcessContext final : public launch::NodeContext {
 base::Status FindBeginning(ProcessContext& context, NodeBus& bus, lockstep::Mailbox& mailbox,
                            lockstep::Runner::Settings& settings) {
   const auto limit = std::chrono::milliseconds(context.launch().watchdog().start_ms);
-  const auto grant = bus.AwaitGrant(limit);
-  if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
-  const lockstep::Beginning beginning =
-      lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
-  settings.sink_from = beginning.sink_from;
-  if (beginning.snapshot > 0) {
-    settings.resume = bus.FetchSnapshot(beginning.snapshot, limit);
-    if (!settings.resume)
+  const auto until = std::chrono::steady_clock::now() + limit;
+  if (context.roster().node(context.index()).keeps_snapshots()) bus.SetSafe(context.has_through());
+  for (;;) {  // a clock that takes the place of a lost one may name a later snapshot
+    const auto grant = bus.AwaitGrant(limit, true);
+    if (!grant) return base::Failed("run.no_answer", "the clock says nothing to a node that is started again");
+    const lockstep::Beginning beginning =
+        lockstep::BeginningOf(context.roster(), context.index(), *grant, context.has_through());
+    settings.sink_from = beginning.sink_from;
+    if (beginning.snapshot <= 0) break;
+    settings.resume = bus.FetchSnapshot(beginning.snapshot, std::min<std::chrono::milliseconds>(limit, 500ms));
+    if (settings.resume) break;
+    if (mailbox.grant().abort || std::chrono::steady_clock::now() > until)
       return base::Failed("run.cannot_restart",
                           fmt::format("no process has its snapshot at step {}", beginning.snapshot));
-    if (!settings.resume->has_state)
-      return base::Failed("run.cannot_restart", "it cannot save its state, so it cannot be started again");
   }
+  if (settings.resume && !settings.resume->has_state)
+    return base::Failed("run.cannot_restart", "it cannot save its state, so it cannot be started again");
   mailbox.StartAt(settings.resume ? settings.resume->at : settings.sink_from);
   bus.Listen();
   return {};

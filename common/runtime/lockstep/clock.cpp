@@ -46,8 +46,7 @@ base::Status Clock::Take(const Report& report) {
     return refuse(
         fmt::format("progress {} was found, a multiple of the period {} was expected", report.progress, spec.period));
   }
-  if (rebuilding_ && report.granted > grant_.through) grant_.through = report.granted;
-  if (rebuilding_ && report.granted_final && report.granted == grant_.through) grant_.final = true;
+  LearnGranted(report);
   // No node can have run an activation that was not granted: its next one is at most a period behind the grant.
   if (spec.role == Role::kStepped && report.progress > std::max(grant_.through, first_step_) + spec.period) {
     return refuse(fmt::format("progress {} was found, but only step {} is granted", report.progress, grant_.through));
@@ -56,10 +55,43 @@ base::Status Clock::Take(const Report& report) {
   heard_[report.node] = true;
   SetIncarnation(report.node, report.incarnation);
   recovery_.Heard(report);
-  grant_.safe = recovery_.safe();
-  grant_.resume = recovery_.resume();
-  if (rebuilding_ && all_ready()) rebuilding_ = false;
+  if (rebuilding_ && HeardAll()) {
+    recovery_.TakeOver(reports_, grant_.through);
+    rebuilding_ = false;
+  }
+  SetRecovery();
   return {};
+}
+
+void Clock::Rebuild() {
+  has_predecessor_ = rebuilding_ = true;
+  SetRecovery();
+}
+
+// Also later: a node that was stopped may hear only now what the clock before this one has granted.
+void Clock::LearnGranted(const Report& report) {
+  if (!has_predecessor_) return;
+  grant_.through = std::max(grant_.through, report.granted);
+  if (report.granted_final && report.granted == grant_.through) grant_.final = true;
+}
+
+bool Clock::HeardAll() const {
+  for (NodeIndex n = 0; n < reports_.size(); ++n) {
+    if (!heard_[n]) return false;
+    if (roster_.node(n).keeps_snapshots() && reports_[n].safe == kUnknown) return false;
+  }
+  return true;
+}
+
+void Clock::SetRecovery() {
+  grant_.safe = recovery_.safe();
+  grant_.resume = rebuilding_ ? kUnknown : recovery_.ResumeAt(grant_.through);
+}
+
+void Clock::NoteIncarnation(NodeIndex node, std::uint32_t number) {
+  if (number <= incarnation(node)) return;
+  SetIncarnation(node, number);
+  ForgetReport(node);
 }
 
 void Clock::SetIncarnation(NodeIndex node, std::uint32_t number) {
@@ -75,12 +107,16 @@ Step Clock::reached(NodeIndex node) const {
 Recovery::Decision Clock::HandleLoss(NodeIndex node) {
   auto decision = recovery_.Lost(node, reached(node));
   if (decision.policy == Policy::kRestart) ExpectRestart(node);
-  grant_.resume = recovery_.resume();
+  SetRecovery();
   return decision;
 }
 
 void Clock::ExpectRestart(NodeIndex node) {
   SetIncarnation(node, incarnation(node) + 1);
+  ForgetReport(node);
+}
+
+void Clock::ForgetReport(NodeIndex node) {
   Report unheard;
   unheard.node = node;
   unheard.incarnation = incarnation(node);

@@ -20,8 +20,11 @@ class Clock {
   // snapshot's step), 0 for a run from its start. policies: as Recovery.
   Clock(const Roster& roster, std::optional<Step> last_step, Step first_step = 0, std::vector<Policy> policies = {});
   // This clock takes the place of one that has died: what was granted it learns from the nodes' reports, and grants
-  // nothing new before it has heard them all.
-  void Rebuild() { rebuilding_ = true; }
+  // nothing new before it has heard them all and all are ready. Until it has heard them all, and of each recorder what
+  // its file holds, grant().resume is kUnknown.
+  void Rebuild();
+  // An incarnation that `rodeira run` has started: a clock that takes the place of another one need not have heard it.
+  void NoteIncarnation(NodeIndex node, std::uint32_t incarnation);
 
   // A report that does not match (unknown node, old incarnation, progress that is no activation or goes back, a phase
   // that goes back) changes nothing and is refused with a sentence.
@@ -67,6 +70,10 @@ class Clock {
 
  private:
   void SetIncarnation(NodeIndex node, std::uint32_t incarnation);
+  void ForgetReport(NodeIndex node);
+  void LearnGranted(const Report& report);
+  bool HeardAll() const;
+  void SetRecovery();
 
   const Roster& roster_;
   std::optional<Step> last_step_;
@@ -74,7 +81,8 @@ class Clock {
   Recovery recovery_;
   std::vector<Report> reports_;
   std::vector<bool> heard_;
-  bool rebuilding_ = false;
+  bool has_predecessor_ = false;
+  bool rebuilding_ = false;  // what it knows is incomplete
   Grant grant_;
 };
 

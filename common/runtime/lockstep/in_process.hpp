@@ -63,6 +63,7 @@ struct RunOutcome {
   base::Digest digest = 0;      // of all samples of all nodes
   std::vector<Report> reports;  // one for each node
   int deaths = 0;               // RunShuffled
+  int clocks = 0;               // RunWithLosses: that took the place of a lost one
   std::int64_t slipped_ns = 0;  // real time dropped
   std::int64_t paused_ns = 0;   // wall time
   Lateness lateness;

@@ -34,4 +34,8 @@ bool EndedEarly(Phase phase, const Grant& grant) {
   return (phase == Phase::kFinished && !grant.final) || (phase == Phase::kAborted && !grant.abort);
 }
 
+bool MayLeave(Phase phase, const Grant& grant) {
+  return IsTerminal(phase) && (phase != Phase::kFinished || grant.over || grant.abort);
+}
+
 }  // namespace rodeira::lockstep

@@ -32,6 +32,11 @@ bool MayFollow(Phase known, Phase said);
 // The node has ended although `grant`, which the clock says, neither is the final one nor aborts the run.
 bool EndedEarly(Phase phase, const Grant& grant);
 
+// A node that has ended need not stay any more. One that has finished stays until the clock says that the run is over,
+// or the run or the node is aborted (`grant`: as the node's mailbox says it): a part that is started again asks for
+// its samples.
+bool MayLeave(Phase phase, const Grant& grant);
+
 // Why a node ends though no grant says so: an error of its own, or a signal.
 struct EarlyEnd {
   LifeEvent event = LifeEvent::kFailed;  // kFailed, kRefused or kLost

@@ -34,6 +34,7 @@ Recovery::Recovery(const Roster& roster, std::vector<Policy> policies)
   for (const RosterNode& node : roster.nodes()) {
     if (node.role != Role::kStepped) continue;
     ahead_ = std::max(ahead_, node.delay);
+    has_other_sinks_ = has_other_sinks_ || (node.is_sink() && !node.keeps_snapshots());
     if (node.snapshots) every_ = roster.source(*node.snapshots).period;
   }
 }
@@ -70,6 +71,23 @@ Step Recovery::resume() const {
     if (!incarnation.back) resume = std::min(resume, incarnation.resume);
   }
   return resume;
+}
+
+void Recovery::TakeOver(const std::vector<Report>& reports, Step granted) {
+  for (NodeIndex n = 0; n < incarnations_.size(); ++n) {
+    // A node that is behind after a restart is not sent back, and needs what is valid from its next activation on.
+    const bool runs = reports[n].phase >= Phase::kReady && roster_.node(n).role == Role::kStepped;
+    const Step reached = every_ == 0 ? 0 : FloorTo(reports[n].progress, every_);
+    Incarnation& incarnation = incarnations_[n];
+    incarnation.resume = runs ? std::min(Newest(), reached) : Newest();
+    incarnation.farthest = std::max(incarnation.farthest, granted);
+    incarnation.back = false;
+  }
+}
+
+Step Recovery::ResumeAt(Step granted) const {
+  if (!has_other_sinks_ || every_ == 0) return resume();
+  return std::min(resume(), FloorTo(std::max<Step>(granted - roster_.window(), 0), every_));
 }
 
 Recovery::Decision Recovery::Lost(NodeIndex node, Step progress) {

@@ -49,6 +49,9 @@ class Recovery {
   // For the grant: kNever where no node is started again.
   Step safe() const { return restarts_ ? safe_ : kNever; }
   Step resume() const;
+  // The same where `granted` is the last granted step: not behind the first activation of a sink that keeps no
+  // snapshots and is started again (BeginningOf), for it needs samples of nodes that may be lost with it.
+  Step ResumeAt(Step granted) const;
 
   struct Decision {
     Policy policy = Policy::kStop;
@@ -57,6 +60,9 @@ class Recovery {
   // The node was lost before its activation at `progress`, a server when the run was there. A node that is lost four
   // times without having got further than before will be lost there every time.
   Decision Lost(NodeIndex node, Step progress);
+  // For a clock that takes the place of a lost one, once it knows what was granted: what any node may still need is
+  // kept until the node has come as far as the grant. `reports`: one of each node.
+  void TakeOver(const std::vector<Report>& reports, Step granted);
 
  private:
   struct Incarnation {
@@ -70,8 +76,9 @@ class Recovery {
   const Roster& roster_;
   std::vector<Policy> policies_;
   bool restarts_ = false;
-  Step every_ = 0;  // steps between snapshots; 0: there are none
-  Step ahead_ = 0;  // the longest delay
+  bool has_other_sinks_ = false;  // beside those that keep snapshots
+  Step every_ = 0;                // steps between snapshots; 0: there are none
+  Step ahead_ = 0;                // the longest delay
   Step safe_ = -1;
   std::vector<Step> safe_of_;  // by node, of those that keep snapshots
   std::vector<Incarnation> incarnations_;

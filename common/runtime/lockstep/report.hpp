@@ -27,6 +27,9 @@ enum class Phase : std::uint32_t {
 // kOutput: for what it has made, to be written (Node::Flush).
 enum class Waiting : std::uint32_t { kNothing = 0, kGrant = 1, kInputs = 2, kServer = 3, kOutput = 4 };
 
+// A step that is not known yet, by a part that takes the place of a lost one.
+inline constexpr Step kUnknown = -2;
+
 // What a node tells the clock: its progress each quarter window, before it blocks on the grant, and as a heartbeat.
 struct Report {
   NodeIndex node = 0;
@@ -43,8 +46,8 @@ struct Report {
   std::uint64_t server_calls = 0;       // round trips to a server (SUELO)
   std::int64_t median_interval_ns = 0;  // wall time from activation to activation: half of them at most this,
   std::int64_t p99_interval_ns = 0;     // 99 of 100 at most this; both only once the node has finished
-  Step safe = -1;              // of a recorder, which keeps snapshots: samples valid through it are in its file
-  Step granted = -1;           // the newest grant that the node knows …
+  Step safe = -1;     // of a recorder, which keeps snapshots: samples valid through it are in its file; or kUnknown
+  Step granted = -1;  // the newest grant that the node knows …
   bool granted_final = false;  // … and whether that is the last of the run
   bool cannot_save = false;    // its state: it has no snapshots to begin at (Node::can_save)
   std::string message;         // why it failed; what it refused
@@ -62,7 +65,7 @@ struct Grant {
   base::Digest roster = 0;
   // Recovery (law L3, recovery.hpp).
   Step safe = kNever;  // samples valid through it need not be kept for a recorder that is started again
-  Step resume = 0;     // a lost node goes on from its snapshot there
+  Step resume = 0;     // a lost node goes on from its snapshot there; kUnknown: by a clock that does not know yet
   std::vector<std::uint32_t> incarnations;  // by node: the incarnation that takes part; empty: all 0
   std::string reason;  // why it was aborted; where it is over, the clock's closing words, a line each
 };

@@ -62,5 +62,20 @@ TEST(Life, AnEndIsMeantOnlyWhenTheClockHasSaidSo) {
   }
 }
 
+TEST(Life, OnlyANodeThatHasFinishedStaysForOthers) {
+  for (const Phase phase : kPhases) {
+    for (const bool over : {false, true}) {
+      for (const bool abort : {false, true}) {
+        Grant grant;
+        grant.final = true;
+        grant.over = over;
+        grant.abort = abort;
+        const bool stays = phase == Phase::kFinished && !over && !abort;
+        EXPECT_EQ(MayLeave(phase, grant), IsTerminal(phase) && !stays) << PhaseName(phase);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rodeira::lockstep

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// One to three nodes of a run are lost, by any cause, at any instant, under any policy, all drawn from the run's
-// number. RODEIRA_VIRTUAL_ENDS says how many runs (2 000), RODEIRA_VIRTUAL_ENDS_SEED the number of the first one.
-// RODEIRA_VIRTUAL_ENDS_FILE names a file that keeps the number of the next run: a sequence goes on where it ended.
+// One to three parts of a run, nodes or the clock, are lost, by any cause, at any instant, under any policy, all drawn
+// from the run's number. RODEIRA_VIRTUAL_ENDS says how many runs (2 000), RODEIRA_VIRTUAL_ENDS_SEED the number of the
+// first one. RODEIRA_VIRTUAL_ENDS_FILE names a file that keeps the number of the next run: a sequence goes on where it
+// ended.
 #include "common/runtime/lockstep/planned_losses.hpp"
 
 #include <fmt/format.h>
@@ -31,7 +32,8 @@ class DrawnRun {
     std::uint64_t turn = rng_() % (150 * roster_.nodes().size());
     for (PlannedLoss& loss : losses_) {
       loss.turn = turn;
-      loss.node = static_cast<NodeIndex>(rng_() % roster_.nodes().size());
+      const auto part = static_cast<NodeIndex>(rng_() % (roster_.nodes().size() + 1));
+      loss.node = part < roster_.nodes().size() ? part : kClock;
       loss.cause = static_cast<LossCause>(rng_() % 3);
       loss.lasts_turns = rng_() % 600;
       loss.is_found = rng_() % 2 == 0;
@@ -56,10 +58,16 @@ class DrawnRun {
     std::vector<Node*> nodes;
     for (NodeIndex n = 0; n < roster_.nodes().size(); ++n) nodes.push_back(Make(n));
     const RunOutcome outcome = RunWithLosses(roster_, nodes, settings_, rng_(), losses_);
-    losses_that_came_ = outcome.deaths + (outcome.ok ? 0 : 1);
+    losses_that_came_ = outcome.deaths + outcome.clocks + (outcome.ok ? 0 : 1);
+    clocks_ = outcome.clocks;
     if (outcome.ok) return NotAsTheLaw(outcome);
     // Which loss comes first is the run's: a signal's effect may come after the next one.
     for (const PlannedLoss& loss : losses_) {
+      if (loss.node == kClock) {
+        if (outcome.fault == "the clock was killed")
+          return policy_ == Policy::kRestart ? "the clock is not started again" : "";
+        continue;
+      }
       for (const char* how : {"was killed", "was told to end", "was stopped"}) {
         if (outcome.fault == fmt::format("node '{}' {}", roster_.node(loss.node).name, how))
           return policy_ == Policy::kRestart ? "a node is not started again" : "";
@@ -69,6 +77,7 @@ class DrawnRun {
   }
   std::string Text() const { return TextOf(losses_); }
   int losses() const { return losses_that_came_; }
+  int clocks() const { return clocks_; }
 
  private:
   Node* Make(NodeIndex n) {
@@ -103,6 +112,7 @@ class DrawnRun {
   InProcessSettings settings_;
   std::vector<std::unique_ptr<Node>> living_;
   int losses_that_came_ = 0;
+  int clocks_ = 0;
 };
 
 std::uint64_t FirstNumber(const char* file) {
@@ -114,17 +124,20 @@ std::uint64_t FirstNumber(const char* file) {
 TEST(PlannedLosses, EveryRunEndsAsItsPolicySays) {
   const char* file = std::getenv("RODEIRA_VIRTUAL_ENDS_FILE");
   const std::uint64_t first = FirstNumber(file), runs = Setting("RODEIRA_VIRTUAL_ENDS", 2000);
-  std::uint64_t losses = 0;
+  std::uint64_t losses = 0, clocks = 0;
   for (std::uint64_t number = first; number < first + runs; ++number) {
     DrawnRun run(number);
     const std::string difference = run.Difference();
     EXPECT_EQ(difference, "") << "RODEIRA_VIRTUAL_ENDS_SEED=" << number << ": " << run.Text();
     losses += static_cast<std::uint64_t>(run.losses());
+    clocks += static_cast<std::uint64_t>(run.clocks());
     if (file != nullptr && (number + 1) % 1000 == 0) std::ofstream(file) << number + 1 << "\n";
   }
   if (file != nullptr) std::ofstream(file) << first + runs << "\n";
-  fmt::print("{} runs from {}, {} losses\n", runs, first, losses);
+  fmt::print("{} runs from {}, {} losses, {} clocks started again\n", runs, first, losses, clocks);
   EXPECT_GT(losses, runs / 2) << "losses come before the end of most runs";
+  if (runs < 1000) return;  // too few to be sure of a clock among them
+  EXPECT_GT(clocks, runs / 20) << "clocks are lost too";
 }
 
 }  // namespace

@@ -237,6 +237,81 @@ TEST_F(RecoveryOfOne, AClockThatIsStartedAgainKnowsTheEnd) {
   EXPECT_EQ(clock.Update(1000).through, 60);
 }
 
+TEST_F(RecoveryOfOne, AClockThatIsStartedAgainSaysWhereNodesGoOnOnceItHasHeardAll) {
+  const Roster roster = Make(true);
+  Clock clock(roster, 1000, 0, {Policy::kRestart, Policy::kRestart});
+  EXPECT_EQ(clock.grant().resume, 0);
+  clock.Rebuild();
+  EXPECT_EQ(clock.grant().resume, kUnknown);
+  clock.NoteIncarnation(0, 3);  // lost while there was no clock: another one takes its place
+  EXPECT_EQ(clock.HandleLoss(0).policy, Policy::kRestart);
+  EXPECT_EQ(clock.incarnation(0), 4u);
+  Report recorder = Running(1, 75, kUnknown);
+  recorder.granted = 80;
+  ASSERT_TRUE(clock.Take(recorder).ok());
+  Report car;
+  car.incarnation = 4;
+  ASSERT_TRUE(clock.Take(car).ok());
+  EXPECT_EQ(clock.grant().resume, kUnknown) << "what the file holds is not known yet";
+  recorder.safe = 66;
+  ASSERT_TRUE(clock.Take(recorder).ok());
+  EXPECT_EQ(clock.grant().resume, 60);
+  // What the car needs is kept until it is where it can have been.
+  recorder.safe = 79;
+  ASSERT_TRUE(clock.Take(recorder).ok());
+  EXPECT_EQ(clock.grant().resume, 60);
+  car = Running(0, 79);
+  car.incarnation = 4;
+  ASSERT_TRUE(clock.Take(car).ok());
+  EXPECT_EQ(clock.grant().resume, 60);
+  car.progress = 80;
+  ASSERT_TRUE(clock.Take(car).ok());
+  recorder.progress = 80;
+  ASSERT_TRUE(clock.Take(recorder).ok());
+  EXPECT_EQ(clock.grant().resume, 70);
+}
+
+// A stopped node may hear only when it goes on what the lost clock has granted last.
+TEST_F(RecoveryOfOne, AClockThatIsStartedAgainLearnsAlsoLaterWhatWasGranted) {
+  const Roster roster = Make(true);
+  Clock clock(roster, 1000, 0, {Policy::kRestart, Policy::kRestart});
+  clock.Rebuild();
+  Report car = Running(0, 52);
+  car.granted = 55;
+  ASSERT_TRUE(clock.Take(car).ok());
+  ASSERT_TRUE(clock.Take(Running(1, 35)).ok());
+  EXPECT_EQ(clock.Update(0).through, 55);
+  car.progress = 58;
+  car.granted = 60;
+  ASSERT_TRUE(clock.Take(car).ok());
+  EXPECT_EQ(clock.Update(0).through, 60);
+}
+
+// A view and a source that are lost together: the view's first activation needs samples that the source computes again.
+TEST_F(RecoveryOfOne, NodesGoOnNoLaterThanSinksThatKeepNothing) {
+  std::vector<NodeSpec> specs{
+      {"car", "t", Role::kStepped, 1, 5, 0, {"a"}, {}, 10},
+      {"view", "t", Role::kStepped, 5, 5, 0, {}, {{"a", PortKind::kEvent, {"car"}}}, 0},
+      {"recorder",
+       "t",
+       Role::kStepped,
+       5,
+       5,
+       0,
+       {},
+       {{"a", PortKind::kEvent, {"car"}}, {std::string(kSnapshotTopic), PortKind::kEvent, {"car"}}},
+       0}};
+  const Roster roster = Roster::Create(1'000'000, 20, specs).value();
+  Recovery recovery(roster, {Policy::kRestart, Policy::kRestart, Policy::kRestart});
+  recovery.Heard(Running(2, 70, 66));
+  EXPECT_EQ(recovery.resume(), 60);
+  EXPECT_EQ(recovery.ResumeAt(100), 60);
+  EXPECT_EQ(recovery.ResumeAt(72), 50) << "the view begins at 55";
+  Grant grant;
+  grant.through = 72;
+  EXPECT_EQ(BeginningOf(roster, 1, grant, -1).sink_from, 55);
+}
+
 TEST_F(RecoveryOfOne, TheArchiveHasNoHolesAndRefusesAContradiction) {
   const Roster roster = Make(true);
   const auto sample = [&](Step valid, std::uint64_t content) {
