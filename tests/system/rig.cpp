@@ -94,4 +94,6 @@ std::string Rig::Laboratory(int hosts, const std::string& discovery) {
 
 void Rig::Unplug(int host) { (void)Ip({"-n", Space("hub"), "link", "set", "port" + std::to_string(host), "down"}); }
 
+void Rig::Plug(int host) { (void)Ip({"-n", Space("hub"), "link", "set", "port" + std::to_string(host), "up"}); }
+
 }  // namespace rodeira::system_test

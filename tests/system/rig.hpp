@@ -27,8 +27,9 @@ class Rig {
   static std::string Laboratory(int hosts, const std::string& discovery);
   // The command, in the network of this host.
   std::vector<std::string> On(int host, std::vector<std::string> command) const;
-  // Pulls the host's cable.
+  // Pulls the host's cable, and plugs it in again.
   void Unplug(int host);
+  void Plug(int host);
 
  private:
   std::string Space(const std::string& name) const;
