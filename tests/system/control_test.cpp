@@ -205,6 +205,9 @@ TEST_F(Control, WithoutARunWithSeveralAndNonsenseAreSentences) {
   (void)Begun("beta");
   refused({"pause"}, "2 runs are going on: alpha, beta; choose one by --run NAME");
   refused({"pause", "--run", "alhpa"}, "did you mean 'alpha'?");
+  for (const std::string run : {"alpha", "beta"}) {  // of processes, and of one
+    refused({"restart", "nobody", "--run", run, "--json"}, R"({"id":"launch.unknown_node",)");
+  }
   EXPECT_EQ(Ctl({"stop", "--run", "alpha"}).status, 0);
   EXPECT_EQ(Ctl({"stop", "--run", "beta"}).status, 0);
   EXPECT_EQ(one.Wait(10s).status, 0);

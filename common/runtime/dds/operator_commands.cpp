@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/runtime/dds/statements.hpp"
+#include "common/runtime/launch/command_answer.hpp"
 #include "common/runtime/launch/command_text.hpp"
 #include "common/runtime/lockstep/wait_chain.hpp"
 
@@ -18,8 +19,7 @@ void OperatorCommands::Do(const std::vector<std::string>& lines) {
     const std::string number = line.substr(0, space);
     const auto command = launch::ParseCommand(std::string_view(line).substr(space));
     const auto done = command ? Do(command.value()) : base::Result<std::string>(command.error());
-    const std::string_view how = done ? "ok" : done.error().code == base::ErrorCode::kWrongInput ? "wrong" : "failed";
-    Say("answer {} {} {}", number, how, OneLine(done ? done.value() : done.error().Text()));
+    Say("answer {} {}", number, launch::AnswerLine(done));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "common/runtime/launch/command_answer.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
 
 namespace rodeira::cli {
@@ -85,7 +86,8 @@ std::optional<AskedLine> ControlServer::Next() {
     Read(*connection);
     const auto end = connection->pending.find('\n');
     if (end == std::string::npos && connection->pending.size() > kLongestLine) {
-      connection->Say(fmt::format("wrong a line of more than {} bytes was found", kLongestLine));
+      connection->Say(launch::AnswerLine(
+          base::WrongInput("command.too_long", fmt::format("a line of more than {} bytes was found", kLongestLine))));
       connection->pending.clear();
       connection->open = false;
     }

@@ -12,8 +12,8 @@
 
 namespace rodeira::cli {
 
-// A line that a client asks, and where its answer ("ok …", "wrong …", "failed …") goes. The answer may be given later
-// and even when the client has gone.
+// A line that a client asks, and where its answer (launch::AnswerLine) goes. The answer may be given later and even
+// when the client has gone.
 struct AskedLine {
   std::string line;
   std::function<void(const std::string&)> answer;

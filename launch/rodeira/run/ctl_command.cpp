@@ -12,6 +12,7 @@
 
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/runtime/launch/command_answer.hpp"
 #include "common/runtime/launch/command_text.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
 
@@ -81,14 +82,12 @@ int Ctl(const CtlOptions& options) {
                             base::Failed("run.no_answer", fmt::format("run '{}' has just ended", name), "ctl"));
   const std::string answer = SendCommand(file, line);
   ::close(file);
-  const auto space = answer.find(' ');
-  if (space == std::string::npos)
+  if (answer.empty())
     return base::PrintError("rodeira",
                             base::Failed("run.no_answer", fmt::format("run '{}' gives no answer", name), "ctl"));
-  const std::string how = answer.substr(0, space), sentence = answer.substr(space + 1);
-  if (how == "wrong") return base::PrintError("rodeira", base::WrongInput("run.refused", sentence, "ctl"));
-  if (how != "ok") return base::PrintError("rodeira", base::Failed("run.refused", sentence, "ctl"));
-  fmt::print("{}\n", sentence);
+  const auto done = launch::ReadAnswer(answer);
+  if (!done) return base::PrintError("rodeira", done.error().In("ctl"));
+  fmt::print("{}\n", done.value());
   return 0;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "common/runtime/launch/command_answer.hpp"
 #include "common/runtime/launch/command_text.hpp"
 #include "common/runtime/launch/run_control_client.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
@@ -58,6 +59,11 @@ void Operator::Show(const std::string& text) const {
   std::fflush(stderr);
 }
 
+void Operator::ShowAnswer(const std::string& answer) const {
+  const auto done = launch::ReadAnswer(answer);
+  Show(done ? done.value() : done.error().Text());
+}
+
 std::optional<AskedLine> Operator::Next() {
   const std::int64_t now_ms =
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now().time_since_epoch())
@@ -69,14 +75,13 @@ std::optional<AskedLine> Operator::Next() {
     if (*key == 'h' || *key == '?') Show(std::string(KeyHelp()));
     const std::string line = CommandOfKey(*key);
     if (line.empty()) continue;
-    return AskedLine{line, [this](const std::string& answer) { Show(answer.substr(answer.find(' ') + 1)); }};
+    return AskedLine{line, [this](const std::string& answer) { ShowAnswer(answer); }};
   }
   if (server_ != nullptr) {
     if (auto asked = server_->Next()) return asked;
   }
   if (buttons_ != nullptr && buttons_->Pressed())
-    return AskedLine{CommandOfKey(' '),
-                     [this](const std::string& answer) { Show(answer.substr(answer.find(' ') + 1)); }};
+    return AskedLine{CommandOfKey(' '), [this](const std::string& answer) { ShowAnswer(answer); }};
   looked_ms_ = now_ms;  // only where everything that was there has been taken
   return std::nullopt;
 }
@@ -85,13 +90,11 @@ std::optional<lockstep::Asked> NextCommand(Operator& desk) {
   while (auto line = desk.Next()) {
     const auto command = launch::ParseCommand(line->line);
     if (!command) {
-      line->answer("wrong " + command.error().Text());
+      line->answer(launch::AnswerLine(command.error()));
       continue;
     }
     return lockstep::Asked{command.value(), [answer = std::move(line->answer)](const base::Result<std::string>& done) {
-                             if (done) return answer("ok " + done.value());
-                             const bool is_wrong = done.error().code == base::ErrorCode::kWrongInput;
-                             answer((is_wrong ? "wrong " : "failed ") + done.error().Text());
+                             answer(launch::AnswerLine(done));
                            }};
   }
   return std::nullopt;

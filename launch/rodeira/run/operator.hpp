@@ -33,6 +33,7 @@ class Operator {
 
  private:
   void Show(const std::string& text) const;
+  void ShowAnswer(const std::string& answer) const;
 
   bool quiet_;
   std::unique_ptr<TerminalKeys> keys_;

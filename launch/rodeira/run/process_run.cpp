@@ -20,6 +20,7 @@
 #include "common/core/base/files.hpp"
 #include "common/core/base/print_error.hpp"
 #include "common/runtime/dds/network_state.hpp"
+#include "common/runtime/launch/command_answer.hpp"
 #include "launch/rodeira/run/control_folder.hpp"
 #include "launch/rodeira/run/failure_report.hpp"
 #include "launch/rodeira/run/node_processes.hpp"
@@ -82,7 +83,8 @@ class ProcessRun {
     if (auto status = processes_.RestartClock(place); !status) return status;
     pending_.clear();
     told_.clear();  // the old one may have died before it heard
-    for (const auto& [number, answer] : answers_) answer("failed the clock was lost; ask again");
+    const base::Error lost = base::Failed("run.clock_lost", "the clock was lost; ask again");
+    for (const auto& [number, answer] : answers_) answer(launch::AnswerLine(lost));
     answers_.clear();
     report_.recovered.push_back(reason + "; started again");
     Tell(report_.recovered.back());

@@ -193,7 +193,7 @@ TEST_F(Socket, ALineWithoutEndIsCutOff) {
   const int one = ConnectTo(path_);
   Say(one, std::string(10'000, 'x'));
   EXPECT_FALSE(Next(*server.value()).has_value());
-  EXPECT_EQ(Heard(one), "wrong a line of more than 1024 bytes was found\n");
+  EXPECT_EQ(Heard(one), "wrong command.too_long a line of more than 1024 bytes was found\n");
   ::close(one);
 }
 
