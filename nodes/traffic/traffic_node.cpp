@@ -28,6 +28,7 @@
 #include "idl/messages.hpp"
 #include "idl/topics.hpp"
 #include "nodes/traffic/event_check.hpp"
+#include "nodes/traffic/starts.hpp"
 
 namespace rodeira::nodes {
 namespace {
@@ -333,8 +334,8 @@ base::Result<std::unique_ptr<lockstep::Node>> MakeTrafficNode(launch::NodeContex
                             map.string()));
     }
   }
-  const driver::Footprint clear = traffic::KeptClear(*world.value());
-  auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), {&clear, 1});
+  const std::vector<driver::Footprint> clear = ClearAtStart(context.launch(), *world.value());
+  auto model = traffic::TrafficModel::Make(settings, std::move(world).value(), clear);
   if (!model) return model.error();
   if (auto status = CheckScenarios(context, model.value()); !status) return status.error();
   for (const traffic::TightBend& bend : traffic::TightBendsOf(model.value().graph(), settings)) {
