@@ -62,6 +62,7 @@ void Simulation::Accelerate(double dt_s) {
 
 // At the end of its last lane a vehicle leaves; vehicles that have been hit slide.
 void Simulation::LeaveOrSlide(double dt_s) {
+  step.leavers.clear();
   for (std::uint32_t id = 0; id < store.agents.size(); ++id) {
     store.missed += step.missed_now[id];
     if (step.ends[id]) entering.Leave(id);

@@ -9,6 +9,7 @@
 #include "common/core/base/huge_pages.hpp"
 #include "common/traffic/pedestrians/yielding.hpp"
 #include "common/traffic/state/agent.hpp"
+#include "common/traffic/state/leaving.hpp"
 #include "common/traffic/state/lists.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 #include "common/world/network/lights.hpp"
@@ -39,6 +40,7 @@ struct StepColumns {
   std::vector<std::uint8_t> hurries;         // brakes in an emergency
   std::vector<double> bars;                  // odometer at which it waits for people on foot
   std::vector<std::uint32_t> missed_now;
+  std::vector<Leaver> leavers;            // that left in the step, by ascending number
   std::vector<std::uint8_t> ends;         // has come to the end of its last lane
   std::vector<AgentPose> moved;           // where the step has brought it …
   std::vector<std::uint8_t> is_moved;     // … if that is known, and it has not left or been hit since

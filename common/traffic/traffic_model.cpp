@@ -107,6 +107,7 @@ std::size_t TrafficModel::vehicles() const { return simulation_->store.agents.si
 std::size_t TrafficModel::waiting() const { return simulation_->store.waiting.size(); }
 const std::vector<FlowCount>& TrafficModel::flows() const { return simulation_->store.flows; }
 std::uint64_t TrafficModel::ended() const { return simulation_->store.ended; }
+const std::vector<Leaver>& TrafficModel::leavers() const { return simulation_->step.leavers; }
 std::uint64_t TrafficModel::missed() const { return simulation_->store.missed; }
 const Pedestrians* TrafficModel::people() const {
   return simulation_->store.people ? &*simulation_->store.people : nullptr;

@@ -17,6 +17,7 @@
 #include "common/traffic/results/agent_detail.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/flow_count.hpp"
+#include "common/traffic/state/leaving.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 #include "common/world/lanes/graph.hpp"
 #include "common/world/lanes/zones.hpp"
@@ -103,6 +104,8 @@ class TrafficModel {
   using FlowCount = traffic::FlowCount;
   const std::vector<FlowCount>& flows() const;
   std::uint64_t ended() const;
+  // Vehicles that left the road in the last step, by ascending number.
+  const std::vector<Leaver>& leavers() const;
   // How often a vehicle did not get over to the lane that its route goes on from.
   std::uint64_t missed() const;
   // Those on foot; null where the settings have no `pedestrians`. All other numbers here count vehicles alone.

@@ -38,8 +38,18 @@ double Entering::AtMostForLine(std::uint32_t id) {
                   std::cbrt(std::max(0.0, way) * std::max(0.0, way) * j));  // v²/(2 b) + v b/(2 j); v √(v/j)
 }
 
+LeaveReason Entering::ReasonOf(std::uint32_t id) const {
+  const Agent& agent = out_.agents[id];
+  const std::uint32_t track = agent.path.back().track;
+  const Route* route = RouteOf(in_.map, agent);
+  if (route == nullptr) return in_.map.lane_ends.IsBlunt(track) ? LeaveReason::kLaneEnd : LeaveReason::kNetworkEnd;
+  if (agent.leg >= route->legs()) return LeaveReason::kRouteEnd;
+  return route->Reaches(agent.leg, track) ? LeaveReason::kLaneEnd : LeaveReason::kRouteMissed;
+}
+
 void Entering::Leave(std::uint32_t id) {
   Agent& agent = out_.agents[id];
+  out_.leavers.push_back({id, ReasonOf(id)});
   const std::uint32_t trip = agent.trip + 1;
   const double driven = agent.driven_m;
   agent = Agent();

@@ -21,6 +21,7 @@
 #include "common/traffic/right_of_way/passages.hpp"
 #include "common/traffic/state/agent.hpp"
 #include "common/traffic/state/flow_count.hpp"
+#include "common/traffic/state/leaving.hpp"
 #include "common/traffic/state/lists.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 
@@ -51,6 +52,7 @@ class Entering {
     std::uint64_t& missed;
     std::span<ConflictPassage> passages;
     std::span<std::uint32_t> missed_now;
+    std::vector<Leaver>& leavers;
     Lists<std::uint32_t>& present;
     std::vector<std::uint8_t>& expected;
     Ways& ways;
@@ -63,10 +65,12 @@ class Entering {
 
   std::uint32_t DrawEntry(std::uint32_t id, std::uint32_t trip) const;
   double AtMostForLine(std::uint32_t id);
+  // A vehicle at the end of its last lane leaves the road.
   void Leave(std::uint32_t id);
   void Enter();
 
  private:
+  LeaveReason ReasonOf(std::uint32_t id) const;
   bool IsAmongOthers(std::uint32_t track) const;
   bool IsExpected(std::uint32_t track, double gap_m) const;
   bool TryEnter(std::uint32_t id);

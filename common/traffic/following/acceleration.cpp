@@ -18,6 +18,8 @@ constexpr double kSeekingShare = 0.75,
                  kSeeking_mps2 =
                      1.0;  // of the planned speed, while a gap in the lane beside is looked for; its braking
 
+constexpr double kLaneEndShare = 1.25;  // of comfortable braking, before the end of the lane
+
 }  // namespace
 
 // The acceleration that keeps to the plan, and comes back to it. Where the plan soon asks for less than the driver does
@@ -69,6 +71,8 @@ double Acceleration::Wanted(std::uint32_t id) const {
   }
   if (in_.passages[id].any && in_.passages[id].due)
     wanted = std::min(wanted, in_.following.StopAt(id, in_.passages[id].line_m));
+  if (const auto end = in_.lanes_beside.EndAhead(id))
+    wanted = std::min(wanted, in_.following.StopAt(id, end->waits_m, kLaneEndShare));
   if (in_.bars[id] < kNoBarrier_m) wanted = std::min(wanted, in_.following.StopAt(id, in_.bars[id], kYieldingShare));
   wanted = std::min(wanted, in_.leaves[id]);
   wanted = std::min({wanted, in_.oncoming.WantedForOvertaker(id, limit), in_.lane_changes.WantedCourteous(id, limit)});

@@ -9,6 +9,7 @@
 #include "common/traffic/following/car_following.hpp"
 #include "common/traffic/following/speed_limits.hpp"
 #include "common/traffic/lane_change/lane_changes.hpp"
+#include "common/traffic/lane_change/lane_ways.hpp"
 #include "common/traffic/motion/full_cars.hpp"
 #include "common/traffic/overtaking/oncoming.hpp"
 #include "common/traffic/overtaking/overtaking_drive.hpp"
@@ -34,6 +35,7 @@ class Acceleration {
     std::span<const double> bars;
     const SpeedLimits& limits;
     const CarFollowing& following;
+    const LaneWays& lanes_beside;
     const LaneChanges& lane_changes;
     const OncomingLane& oncoming;
     const OvertakingStart& overtaking_start;

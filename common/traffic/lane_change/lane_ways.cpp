@@ -15,9 +15,10 @@ namespace {
 
 constexpr double kApart_m = 6.0;             // between the middles of the two lanes, at most …
 constexpr double kAside = 0.1;               // … and between their directions, rad
-constexpr double kTightest_1pm = 0.02;       // bends are no tighter
 constexpr double kLaneSamplingStep_m = 4.0;  // between two places at which a lane is checked
 constexpr double kRouteSight_m = 500.0;      // so far ahead a driver thinks of the lane that his route goes on from
+constexpr double kWaitingMargin_m = 3.0;     // before the last place from which a change is possible
+constexpr double kEndMargin_m = 0.5;         // from the end of a change to the end of the lane
 
 const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
   const auto link =
@@ -29,7 +30,7 @@ const lanes::Link* LinkTo(const lanes::Track& track, std::uint32_t to) {
 bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
   for (double d = low_m; d < high_m + kLaneSamplingStep_m; d += kLaneSamplingStep_m) {
     const double at = std::min(d, high_m);
-    if (curve.WidthAt(at) < kMinLaneChangeWidth_m || std::fabs(curve.At(at).curvature_1pm) > kTightest_1pm)
+    if (curve.WidthAt(at) < kMinLaneChangeWidth_m || std::fabs(curve.At(at).curvature_1pm) > kTightestLaneChange_1pm)
       return false;
   }
   return true;
@@ -39,7 +40,7 @@ bool IsEasy(const lanes::Curve& curve, double low_m, double high_m) {
 
 // The path to the middle of the lane beside, from its front bumper on; as long as comfort asks at the speed that it may
 // come to.
-std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side) const {
+std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side, double ends_m) const {
   const Agent& agent = in_.agents[id];
   const Piece& last = agent.path.back();
   const lanes::Track& track = in_.map.graph[last.track];
@@ -62,10 +63,14 @@ std::optional<Piece> LaneWays::PieceBeside(std::uint32_t id, int side) const {
   piece.slope = at.ahead_W.dot(to.left_W()) / std::max(0.2, at.ahead_W.dot(to.ahead_W));
   const double size = std::fabs(piece.offset_m);
   if (size > kApart_m || std::fabs(piece.slope) > kAside) return std::nullopt;
-  const double time = LaneChangeTime_s(piece.offset_m);
-  const double fastest = std::min(agent.speed_mps + in_.traits[id].idm.acceleration_mps2 * time,
-                                  std::max(agent.speed_mps, in_.limits.Limit_mps(id, *beside, there)));
-  piece.blend_m = std::max(kMinLaneChangeLength_m, time * fastest);
+  const auto length = [&](double time_s) {
+    const double fastest = std::min(agent.speed_mps + in_.traits[id].idm.acceleration_mps2 * time_s,
+                                    std::max(agent.speed_mps, in_.limits.Limit_mps(id, *beside, there)));
+    return std::max(kMinLaneChangeLength_m, time_s * fastest);
+  };
+  piece.blend_m = length(LaneChangeTime_s(piece.offset_m));
+  const double left = ends_m - begin - 0.5 * in_.traits[id].length_m;
+  if (piece.blend_m > left) piece.blend_m = std::max(left, length(UrgentLaneChangeTime_s(piece.offset_m)));
   return piece;
 }
 
@@ -96,6 +101,25 @@ bool LaneWays::IsPlain(std::uint32_t id, double from_m, double to_m) const {
     if (NearCrossing(in_.people, stretch.track, low, high) || !IsEasy(track.curve, low, high)) return false;
   }
   return in_.stretches[id].back().end_m >= to_m;
+}
+
+// Whether nothing on its way between two odometers may make it stop: no conflict zone, no line, no crossing for people
+// on foot. Beyond the end of its way nothing does.
+bool LaneWays::IsFree(std::uint32_t id, double from_m, double to_m) const {
+  for (const RouteSegment& stretch : in_.stretches[id]) {
+    if (stretch.begin_m > to_m) break;
+    if (stretch.end_m < from_m || stretch.changes) continue;
+    const double low = std::max(from_m, stretch.begin_m) - stretch.zero_m,
+                 high = std::min(to_m, stretch.end_m) - stretch.zero_m;
+    for (const lanes::ZoneSide& part : in_.map.zones.Of(stretch.track)) {
+      if (part.in_m < high && part.out_m > low) return false;
+    }
+    for (const StopLine& line : in_.map.plans[stretch.track].lines) {
+      if (line.d_m > low && line.d_m < high) return false;
+    }
+    if (NearCrossing(in_.people, stretch.track, low, high)) return false;
+  }
+  return in_.stretches[id].back().end_m >= to_m || !in_.stretches[id].back().goes_on;
 }
 
 // Whether the marks let it over to that side all the way.
@@ -139,6 +163,27 @@ int LaneWays::FewerChanges(std::uint32_t id, std::uint32_t track) const {
   const bool here = route->Reaches(agent.leg, own), there = route->Reaches(leg, track);
   if (!here || !there) return (there ? 1 : 0) - (here ? 1 : 0);
   return route->Changes(agent.leg, own) - route->Changes(leg, track);
+}
+
+// The blunt end of its lane that its way leads to, for a vehicle that has to go on by the lane beside.
+std::optional<EndingLane> LaneWays::EndAhead(std::uint32_t id) const {
+  const Agent& agent = in_.agents[id];
+  const Route* route = RouteOf(in_.map, agent);
+  std::uint32_t leg = agent.leg;
+  for (const RouteSegment& stretch : in_.stretches[id]) {
+    if (route != nullptr) leg = route->LegOn(leg, stretch.track);
+    if (stretch.changes || (stretch.goes_on && !in_.map.lane_ends.IsBlunt(stretch.track))) continue;
+    const bool must = route != nullptr ? leg < route->legs() && route->MustChange(leg, stretch.track)
+                                       : in_.map.lane_ends.IsBlunt(stretch.track);
+    const double last = in_.map.lane_ends.ChangeEnds_m(stretch.track);
+    if (!must || last < 0.0) continue;
+    const AgentTraits& traits = in_.traits[id];
+    const double ends = stretch.zero_m + last - kEndMargin_m,
+                 waits = ends - kMinLaneChangeLength_m - 0.5 * traits.length_m - kWaitingMargin_m;
+    if (waits - traits.length_m < stretch.begin_m || FrontOf(agent, traits) > waits + kWaitingMargin_m) continue;
+    return EndingLane{waits, ends};
+  }
+  return std::nullopt;
 }
 
 // Where its lane ends, goes over into the lane beside, or parts from its route; far away where none is in sight.

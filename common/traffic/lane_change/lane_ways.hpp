@@ -14,6 +14,12 @@
 
 namespace rodeira::traffic {
 
+// The end of a lane from which a vehicle has to change to the lane beside; odometers.
+struct EndingLane {
+  double waits_m = 0.0;  // where its front waits for a gap, at the latest
+  double ends_m = 0.0;   // where its change must have ended
+};
+
 // The path to the lane beside, and how far lanes and routes go on.
 class LaneWays {
  public:
@@ -28,8 +34,11 @@ class LaneWays {
   };
   explicit LaneWays(const Reads& reads) : in_(reads) {}
 
-  std::optional<Piece> PieceBeside(std::uint32_t id, int side) const;
+  // `ends_m`: odometer at which the change must have ended; it is more abrupt then.
+  std::optional<Piece> PieceBeside(std::uint32_t id, int side, double ends_m) const;
   bool IsPlain(std::uint32_t id, double from_m, double to_m) const;
+  bool IsFree(std::uint32_t id, double from_m, double to_m) const;
+  std::optional<EndingLane> EndAhead(std::uint32_t id) const;
   bool MayCross(std::uint32_t id, int side, double from_m, double to_m) const;
   double RouteEnds(std::uint32_t id) const;
   int FewerChanges(std::uint32_t id, std::uint32_t track) const;

@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "common/driving/driver/mobil.hpp"
+#include "common/traffic/lane_change/lane_change.hpp"
 #include "common/traffic/lane_change/lane_changes.hpp"
 #include "common/traffic/lane_change/turn.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/state/vehicle_way.hpp"
 
 namespace rodeira::traffic {
@@ -21,14 +23,16 @@ constexpr double kAnticipation_s = 2.0, kAnticipatedBraking_mps2 = 1.2;
 constexpr double kAlongsideTolerance_m = 1e-6;  // a vehicle with a middle no farther ahead or behind is alongside
 constexpr double kSooner_m = 30.0;              // a lane that ends so much sooner is no choice …
 constexpr double kEnding_mps2 = 1.0;  // … and one that ends, or parts from the route, is left for so much …
-constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;  // … growing to so much over the last part
+constexpr double kAtEnd_mps2 = 5.0, kFrom_m = 400.0;             // … growing to so much over the last part
+constexpr double kForcedSafe_mps2 = 3.0, kForcedFrom_m = 150.0;  // braking asked of others before a blunt end, growing
 
 }  // namespace
 
 // A change to one side with what it would bring; nothing where it cannot be, or is not safe.
 std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, bool told) {
   Agent& agent = out_.agents[id];
-  const auto piece = in_.lanes_beside.PieceBeside(id, side);
+  const auto end = in_.lanes_beside.EndAhead(id);
+  const auto piece = in_.lanes_beside.PieceBeside(id, side, end ? end->ends_m : kNoBarrier_m);
   if (!piece) return std::nullopt;
   const AgentTraits& traits = in_.traits[id];
   const double half = 0.5 * traits.length_m, rear = agent.o_m - half, to = piece->begin_m + piece->blend_m + half;
@@ -50,13 +54,21 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   const double v = agent.speed_mps,
                stops = piece->begin_m + std::min(out_.ways.SightOf(agent),
                                                  kAnticipation_s * v + v * v / (2.0 * kAnticipatedBraking_mps2));
-  const bool plain = in_.lanes_beside.IsPlain(id, rear, std::max(to, stops));
   const double ends = in_.lanes_beside.LaneEnds(id);
+  const bool leaves_end = end && own_ends < ends - kSooner_m;
+  const bool plain = leaves_end ? in_.lanes_beside.IsPlain(id, rear, to) && in_.lanes_beside.IsFree(id, to, stops)
+                                : in_.lanes_beside.IsPlain(id, rear, std::max(to, stops));
   const Leader ahead = plain ? in_.neighbours.FindLeader(id) : Leader();
+  const LaneChange none =
+      std::exchange(agent.change, {side, piece->blend_from_m, piece->blend_from_m + piece->blend_m});
+  const bool is_kept = own_ahead.any && std::fabs(own_ahead.speed_mps) < kStandingLeader_mps &&
+                       !PassesBeside(in_.map.graph, agent, traits, own_ahead);
+  agent.change = none;
   agent.path.pop_back();
   LaneChangeOption way{*piece, side, 0.0, std::exchange(out_.stretches[id], std::move(own))};
   const int fewer = in_.lanes_beside.FewerChanges(id, piece->track);
-  if (!plain || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m)))) return std::nullopt;
+  if (!plain || is_kept || (!told && (ends < own_ends - kSooner_m || (fewer < 0 && ends < kNoBarrier_m))))
+    return std::nullopt;
   const Follower old_follower = in_.neighbours.FindFollower(
       id, agent.path.back().track, agent.o_m - agent.path.back().zero_m, rear - agent.path.back().zero_m);
   const Follower follower =
@@ -76,7 +88,12 @@ std::optional<LaneChangeOption> LaneChanges::Weigh(std::uint32_t id, int side, b
   mobil.old_follower_mps2 = in_.following.FollowerDoes(old_follower, true, old_follower.gap_m, v);
   mobil.old_follower_then_mps2 = in_.following.FollowerDoes(
       old_follower, own_ahead.any, old_follower.gap_m + traits.length_m + own_ahead.gap_m, own_ahead.speed_mps);
-  if (!driver::MobilIsSafe(in_.settings.lane_changes, mobil)) return std::nullopt;
+  driver::MobilSettings settings = in_.settings.lane_changes;
+  if (leaves_end) {
+    const double near = std::clamp(1.0 - (end->waits_m - FrontOf(agent, traits)) / kForcedFrom_m, 0.0, 1.0);
+    settings.safe_mps2 = std::max(settings.safe_mps2, std::lerp(settings.safe_mps2, kForcedSafe_mps2, near));
+  }
+  if (!driver::MobilIsSafe(settings, mobil)) return std::nullopt;
   const bool keep = (side < 0) != in_.map.graph[piece->track].left_hand;
   const bool must = own_ends < ends - kSooner_m || (fewer > 0 && own_ends < kNoBarrier_m);
   way.surplus_mps2 =
@@ -91,8 +108,8 @@ bool LaneChanges::ThinksOfLanes(std::uint32_t id, std::int64_t step_ns) const {
 
 bool LaneChanges::MayLeaveLane(std::uint32_t id) const {
   const Agent& agent = out_.agents[id];
-  return agent.speed_mps >= kSlowest_mps && in_.map.graph[agent.path.back().track].junction < 0 &&
-         agent.grants.empty() && !in_.passages[id].due;
+  return (agent.speed_mps >= kSlowest_mps || in_.lanes_beside.EndAhead(id)) &&
+         in_.map.graph[agent.path.back().track].junction < 0 && agent.grants.empty() && !in_.passages[id].due;
 }
 
 }  // namespace rodeira::traffic

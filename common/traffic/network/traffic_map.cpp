@@ -71,6 +71,7 @@ TrafficMap::TrafficMap(std::shared_ptr<const network::Network> of, const Traffic
       graph(*network),
       zones(graph, LargestOf(settings), SwingsOf(graph, settings)),
       marks(graph),
+      lane_ends(graph, marks),
       opposites(lanes::Opposites(graph)),
       no_overtaking(graph) {
   driver::SpeedPlanSettings speed = settings.speed;

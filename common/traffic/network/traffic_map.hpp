@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/traffic/demand/demand.hpp"
+#include "common/traffic/network/lane_ends.hpp"
 #include "common/traffic/network/track_plan.hpp"
 #include "common/traffic/state/traffic_settings.hpp"
 #include "common/world/lanes/edge_marks.hpp"
@@ -20,6 +21,7 @@ struct TrafficMap {
   lanes::Graph graph;
   lanes::Zones zones;
   lanes::EdgeMarks marks;
+  LaneEnds lane_ends;
   std::vector<std::int64_t> opposites;  // by track
   lanes::NoOvertaking no_overtaking;
   std::vector<TrackPlan> plans;  // by track

@@ -8,12 +8,13 @@
 #include <utility>
 
 #include "common/driving/driver/idm.hpp"
+#include "common/traffic/lane_change/lane_change.hpp"
+#include "common/traffic/perception/passing_by.hpp"
 #include "common/traffic/perception/seen_on.hpp"
 
 namespace rodeira::traffic {
 namespace {
 
-constexpr double kClear_m = 1.3;  // from a lane's middle to what is beside it: half of a wide car and the margin
 constexpr double kAnySpeed_mps = 1e3;
 
 }  // namespace
@@ -33,7 +34,7 @@ std::optional<std::uint32_t> Neighbours::LaneLeft(std::uint32_t id, const RouteS
   if (odometer_m < agent.change.from_m) return old;
   const double gone =
       std::fabs(agent.path[i].offset_m) - std::fabs(FrameAt(in_.map.graph, agent.path, odometer_m).offset_m);
-  return gone < 0.5 * in_.traits[id].width_m + kClear_m ? old : std::nullopt;
+  return gone < 0.5 * in_.traits[id].width_m + kBesideLane_m ? old : std::nullopt;
 }
 
 // The nearest of agents on the tracks of the way and what else stands in it. Or, of those on the lane that it is
@@ -122,9 +123,17 @@ Leader Neighbours::FindLeader(std::uint32_t id) const {
     if (const auto old = LaneLeft(id, stretch, front)) {
       const double at = std::max(agent.o_m, stretch.begin_m),
                    zero = at - in_.map.graph.Across(stretch.track, at - stretch.zero_m, *old);
-      for (const Occupant& other : in_.occupants.Beyond(*old, agent.o_m - zero)) consider_beside_way(other, zero);
+      const auto passes = [&](const Leader& other) {
+        return std::fabs(other.speed_mps) < kStandingLeader_mps &&
+               PassesBeside(in_.map.graph, agent, in_.traits[id], other);
+      };
+      for (const Occupant& other : in_.occupants.Beyond(*old, agent.o_m - zero)) {
+        const double gap = zero + other.rear_m - front;
+        if (is_before(other, zero) && !is_beside(other, gap) && !passes(seen(other, gap)))
+          consider_apart(seen(other, gap));
+      }
       for (const Block& block : BlocksOn(in_.any_block, in_.blocks, *old)) {
-        if (const auto next = seen_block(block, zero)) consider_apart(*next);
+        if (const auto next = seen_block(block, zero); next && !passes(*next)) consider_apart(*next);
       }
     }
   }

@@ -136,6 +136,7 @@ void LaneStatistics::FetchFor(const TrafficModel& model, std::uint32_t id) const
 void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
   watched_s_ += dt_s;
   pending_ = true;
+  for (const Leaver& leaver : model.leavers()) now_[leaver.id].left = leaver.reason;
   for (std::uint32_t id = 0; id < seen_.size(); ++id) {
     if (id + kCellPrefetch < seen_.size()) FetchFor(model, id + kCellPrefetch);
     const Agent& agent = model.agent(id);
@@ -152,7 +153,8 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
     if (agent.on_road && !same) {
       ++entered_, ++there_;
       const std::uint32_t track = PieceAt(agent.path, agent.o_m).track;
-      now_[id] = {id, model.traits(id).kind, track, track, watched_s_, 0.0, 0.0, 0.0, agent.flow};
+      now_[id] = {.id = id, .kind = model.traits(id).kind, .from = track, .to = track, .entered_s = watched_s_};
+      now_[id].flow = agent.flow;
       seen.free_s = 0.0;
       ++counts_[track].in;
     }
@@ -160,6 +162,8 @@ void LaneStatistics::Add(const TrafficModel& model, double dt_s) {
       const double way = agent.o_m - seen.o_m;
       fuel_mg_[id] += agent.fuel_mgps * dt_s;
       now_[id].fuel_mg += agent.fuel_mgps * dt_s;
+      now_[id].way_m += way;
+      if (agent.speed_mps < kWaiting_mps) now_[id].waiting_s += dt_s;
       const LaneCell step{way, dt_s, agent.fuel_mgps * dt_s};
       if (way >= 0.0 && agent.o_m < seen.until_m) {
         seen.sum.distance_m += step.distance_m, seen.sum.time_s += step.time_s, seen.sum.fuel_mg += step.fuel_mg;

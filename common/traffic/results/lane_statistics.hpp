@@ -22,6 +22,9 @@ struct LaneCell {
   double Speed_mps() const { return time_s > 0.0 ? distance_m / time_s : 0.0; }
 };
 
+// A vehicle that is slower waits, as in SUMO's trip information.
+inline constexpr double kWaiting_mps = 0.1;
+
 // One vehicle's way through the network.
 struct LaneTrip {
   std::uint32_t id = 0;
@@ -32,6 +35,9 @@ struct LaneTrip {
   double fuel_mg = 0.0;
   double free_s = 0.0;     // what the same way takes at the free speed of each place (TrafficModel::FreeSpeed_mps)
   std::int32_t flow = -1;  // it belongs to, of the settings' in their order; below 0: none
+  LeaveReason left = LeaveReason::kNetworkEnd;
+  double way_m = 0.0;      // driven
+  double waiting_s = 0.0;  // slower than kWaiting_mps
 };
 
 struct LaneCount {

@@ -104,12 +104,13 @@ std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistic
   const auto place = [&](std::uint32_t track) {
     return base::CsvCell(fmt::format("{}:{}", RoadOf(graph, track), graph[track].lane.lane));
   };
-  std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow\n";
+  std::string table = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow,left,left_s,way_m,waiting_s\n";
   for (const LaneTrip& trip : statistics.trips()) {
-    base::AppendFormat(table, "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{}\n", trip.id, NameOf(trip.kind),
-                       place(trip.from), place(trip.to), trip.entered_s, trip.took_s,
+    base::AppendFormat(table, "{},{},{},{},{:.2f},{:.2f},{:.3f},{:.2f},{},{},{:.2f},{:.2f},{:.2f}\n", trip.id,
+                       NameOf(trip.kind), place(trip.from), place(trip.to), trip.entered_s, trip.took_s,
                        1e3 * trip.fuel_mg / kFuelDensity_mgpl, trip.took_s - trip.free_s,
-                       trip.flow < 0 ? "" : std::to_string(trip.flow + 1));
+                       trip.flow < 0 ? "" : std::to_string(trip.flow + 1), NameOf(trip.left),
+                       trip.entered_s + trip.took_s, trip.way_m, trip.waiting_s);
   }
   return table;
 }

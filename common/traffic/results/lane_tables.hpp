@@ -26,7 +26,8 @@ std::string IntervalTable(const lanes::Graph& graph, const LaneIntervals& interv
 
 // A row a trip, in the order of their ends: vehicle, kind, from and to (ROAD:LANE), entered_s (since the watching
 // began), travel_time_s, fuel_ml, delay_s (beyond what its way takes at the free speed of each place), flow (its number
-// among the settings', from 1 on; empty: none).
+// among the settings', from 1 on; empty: none), left (NameOf(LeaveReason)), left_s (since the watching began), way_m,
+// waiting_s (slower than 0.1 m/s).
 std::string TripTable(const lanes::Graph& graph, const LaneStatistics& statistics);
 
 // The network seen from above, coloured by mean speed over the limit there (red: standing, green: as fast as may be;

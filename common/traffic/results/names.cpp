@@ -15,6 +15,11 @@ const char* NameOf(network::LightColour colour) {
   return kNames[static_cast<std::size_t>(colour)];
 }
 
+const char* NameOf(LeaveReason reason) {
+  constexpr std::array<const char*, kLeaveReasons> kNames = {"route end", "network end", "route missed", "lane end"};
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
 std::string NameOfLamps(std::uint32_t bits) {
   constexpr std::array<const char*, 3> kNames = {"brake", "left", "right"};
   std::string names;

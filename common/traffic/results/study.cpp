@@ -49,6 +49,7 @@ class Watcher {
   // After every step: distances against speeds.
   void Compare(const TrafficModel& model, double time_s) {
     time_s_ = time_s;
+    for (const Leaver& leaver : model.leavers()) ++result_.left_because[static_cast<std::size_t>(leaver.reason)];
     std::int64_t same = 0;
     for (const AgentPose& pose : model.poses()) {
       result_.fuel_mg += result_.steps > 0 ? model.agent(pose.id).fuel_mgps * settings_.step_s : 0.0;

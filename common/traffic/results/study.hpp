@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -55,7 +56,8 @@ struct StudyResult {
   std::int64_t arrivals = 0;  // trips that ended
   std::int64_t began = 0, entered = 0,
                left = 0;  // on the road at first; came onto it, and left it, since: began + entered - left = on_road
-  double fuel_mg = 0.0;   // burnt on the road
+  std::array<std::int64_t, kLeaveReasons> left_because{};  // of those that left, by LeaveReason
+  double fuel_mg = 0.0;                                    // burnt on the road
   std::size_t on_road = 0, waiting = 0;
   std::vector<std::string> incidents;  // the first ones, as sentences
   std::optional<LaneStatistics> lanes;

@@ -18,6 +18,7 @@
 #include "common/traffic/motion/drivetrain.hpp"
 #include "common/traffic/network/road_network.hpp"
 #include "common/traffic/network/tight_bends.hpp"
+#include "common/traffic/results/names.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/signals/map_lights.hpp"
 #include "common/world/lanes/lights.hpp"
@@ -87,6 +88,11 @@ void PrintStudy(const TrafficOptions& options, const traffic::StudyResult& r, co
              r.arrivals);
   fmt::print("entered, left    {} came onto the road, {} left it; {} were there at the beginning\n", r.entered, r.left,
              r.began);
+  for (std::size_t reason = 0; reason < traffic::kLeaveReasons; ++reason) {
+    if (r.left_because[reason] > 0)
+      fmt::print("left because     {}: {}\n", NameOf(static_cast<traffic::LeaveReason>(reason)),
+                 r.left_because[reason]);
+  }
   fmt::print("driven           {:.3f} km at {:.2f} m/s in the mean\n", r.driven_km, r.mean_speed_mps());
   const double litres = r.fuel_mg / traffic::kFuelDensity_mgpl;
   fmt::print("fuel             {:.3f} l, {:.2f} l/100 km\n", litres,

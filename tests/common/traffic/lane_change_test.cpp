@@ -360,20 +360,19 @@ TEST(LaneChange, AfterALaneChangeTheOldLaneIsClearOnTheNextRoadToo) {
   EXPECT_GT(came_onto_it, 10);
 }
 
-// One that leaves a lane on which a vehicle stands brakes for that one until it is clear of it, though a vehicle nearer
-// drives away before it on the new lane: no vehicle comes into an emergency. Until now the nearer one of both alone was
-// seen, and one that stood when it had become the nearer one.
-TEST(LaneChange, AStandingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheNewOne) {
-  constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0;
+// One that leaves a lane on which a vehicle crawls brakes for that one until it is clear of it, though a vehicle nearer
+// drives away before it on the new lane: no vehicle comes into an emergency.
+TEST(LaneChange, ACrawlingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheNewOne) {
+  constexpr double kSpeed_mps = 12.0, kAway_mps = 14.0, kCrawls_mps = 1.0;
   int hidden = 0;
   for (double stands_m = 70.0; stands_m < 120.0; stands_m += 2.0) {
     for (const double away_m : {25.0, 35.0, 45.0}) {
       TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar, kCar}), TwoLaneRing(), {}).value();
       Put(model, 0, "1:-2", 400.0, kSpeed_mps);
       Put(model, 1, "1:-1", 400.0 + away_m, kAway_mps);
-      Put(model, 2, "1:-2", 400.0 + stands_m, 0.0);
+      Put(model, 2, "1:-2", 400.0 + stands_m, kCrawls_mps);
       model.CapSpeed(1, kAway_mps);
-      model.Brake(2, 2.0);
+      model.CapSpeed(2, kCrawls_mps);
       Step(model);
       ASSERT_EQ(model.on_road(), 3u) << stands_m;
       model.CommandLaneChange(0, 1);
@@ -382,14 +381,41 @@ TEST(LaneChange, AStandingCarOnTheOldLaneIsSeenBeyondALeaderThatDrivesAwayOnTheN
         if (i == 0) {
           ASSERT_EQ(model.agent(0).change.side, 1) << stands_m << " " << away_m;
         }
-        ASSERT_FALSE(model.Hurries(0)) << "who stands is " << stands_m << " m ahead, who drives away " << away_m
-                                       << " m, after " << i * kStep_s << " s";
+        ASSERT_FALSE(model.Hurries(0)) << "one crawls " << stands_m << " m ahead, one drives away " << away_m
+                                       << " m ahead, after " << i * kStep_s << " s";
         if (i == 0 && model.GapAhead(0) > away_m) ++hidden;
       }
       EXPECT_EQ(model.agent(0).change.side, 0) << stands_m << " " << away_m;
     }
   }
   EXPECT_GT(hidden, 10);  // the one that lets it drive on less is farther away
+}
+
+// A change that begins behind a standing car ends beside it: no vehicle stays between two lanes. From too near no
+// change begins, and the vehicle stands behind that car on its lane. The boxes never overlap.
+TEST(LaneChange, AChangeBehindAStandingCarEnds) {
+  int passed = 0, stayed = 0;
+  for (double stands_m = 12.0; stands_m < 90.0; stands_m += 6.0) {
+    TrafficModel model = TrafficModel::Make(OnlyScripted({kCar, kCar}), TwoLaneRing(), {}).value();
+    Put(model, 0, "1:-2", 400.0, 8.0);
+    Put(model, 1, "1:-2", 400.0 + stands_m, 0.0);
+    model.Brake(1, 2.0);
+    Step(model);
+    if (model.on_road() < 2) continue;  // no room for both
+    model.CommandLaneChange(0, 1);
+    int changing = 0;
+    for (int i = 0; i * kStep_s < 40.0; ++i) {
+      Step(model);
+      const AgentPose &one = *PoseOf(model, 0), &other = *PoseOf(model, 1);
+      ASSERT_FALSE(driver::Overlap(FootprintOf(one, model.traits(0)), FootprintOf(other, model.traits(1)))) << stands_m;
+      changing = model.agent(0).change.side == 0 ? 0 : changing + 1;
+      ASSERT_LT(changing * kStep_s, 20.0) << stands_m;
+    }
+    ++(model.agent(0).speed_mps > 5.0 ? passed : stayed);
+    EXPECT_EQ(model.agent(0).change.side, 0) << stands_m;
+  }
+  EXPECT_GT(passed, 6);
+  EXPECT_GT(stayed, 0);
 }
 
 TEST(LaneChange, RestoredInTheMiddleOfAChangeItGoesOnWithTheSameBits) {

@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(
     Runs, PinnedTrafficRuns,
     ::testing::Values(PinnedRun{"crossing", 24, 1, 1, kPlanar, 0.02, 180.0, With::kNothing, "5a84dd3b7a80f067"},
                       PinnedRun{"roundabout", 30, 2, 1, kPlanar, 0.02, 180.0, With::kNothing, "5343ab0545bd0883"},
-                      PinnedRun{"ramp", 40, 3, 1, kPlanar, 0.02, 180.0, With::kNothing, "dfcef0ea3e2c1439"},
+                      PinnedRun{"ramp", 40, 3, 1, kPlanar, 0.02, 180.0, With::kNothing, "5edf0e44335ac055"},
                       PinnedRun{"town", 300, 4, 1, kPlanar, 0.05, 180.0, With::kNothing, "e3a1e0bf9d42b58f"},
                       PinnedRun{"town", 300, 4, 2, kPlanar, 0.05, 180.0, With::kNothing, "e3a1e0bf9d42b58f"},
                       PinnedRun{"overpass", 40, 5, 1, kPlanar, 0.02, 120.0, With::kNothing, "2d5eadc97d6fe59c"},
@@ -181,11 +181,11 @@ INSTANTIATE_TEST_SUITE_P(
                       PinnedRun{"crossing", 12, 12, 1, kFull, 0.02, 20.0, With::kMotors, "5c1eef9f8ea0d9df"},
                       PinnedRun{"town", 60, 13, 1, kPlanar, 0.05, 180.0, With::kPeople, "3213b66667ca3162"},
                       PinnedRun{"crossing", 60, 14, 1, kPlanar, 0.05, 180.0, With::kFlows, "ae5a9ec730dcbee1"},
-                      PinnedRun{"exit", 60, 15, 1, kPlanar, 0.05, 270.0, With::kRoute, "53a5a9f31155f1bf"},
+                      PinnedRun{"exit", 60, 15, 1, kPlanar, 0.05, 270.0, With::kRoute, "4e3afd58d4c825e3"},
                       PinnedRun{"n222.yaml", 60, 16, 1, kPlanar, 0.05, 270.0, With::kUnequal, "cc6bf426162fa14c"},
                       PinnedRun{"n222.yaml", 40, 17, 1, kPlanar, 0.02, 120.0, With::kCar, "ccc921b1b981c19f"},
                       PinnedRun{"motorway.yaml", 100, 18, 1, kPlanar, 0.05, 180.0, With::kUnequal, "c18509a8532fffff"},
-                      PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "fe691b56fba37874"},
+                      PinnedRun{"ramp", 30, 19, 1, kPlanar, 0.02, 120.0, With::kCommands, "a3221e43d5371bab"},
                       PinnedRun{"town", 40, 20, 1, kPlanar, 0.02, 120.0, With::kCommands, "234a7700468def9e"},
                       PinnedRun{"ring", 20, 21, 1, kPlanar, 0.1, 270.0, With::kRestore, "90880442613be2b6"}));
 

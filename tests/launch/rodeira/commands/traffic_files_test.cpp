@@ -67,7 +67,8 @@ Rows Table(const std::filesystem::path& file, const std::string& header) {
 double Number(const std::map<std::string, std::string>& row, const std::string& key) { return std::stod(row.at(key)); }
 
 const char* const kLanes = "road,lane,s_m,x_m,y_m,length_m,flow_vehph,density_vehpkm,speed_mps,fuel_mlpkm,free_mps";
-const char* const kTrips = "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow";
+const char* const kTrips =
+    "vehicle,kind,from,to,entered_s,travel_time_s,fuel_ml,delay_s,flow,left,left_s,way_m,waiting_s";
 const char* const kIntervals =
     "from_s,to_s,road,section,lane,in,out,flow_vehph,density_vehpkm,speed_mps,queue_longest,queue_mean";
 
