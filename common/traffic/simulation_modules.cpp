@@ -192,6 +192,7 @@ Simulation::Simulation(TrafficData data)
               .next_grant = store.next_grant,
               .passages = claimed.passages,
               .book = claimed.book,
+              .passages_ahead = passages_ahead,
               .room = room}},
       deadlocks{{.map = *map,
                  .traits = store.traits,

@@ -146,7 +146,7 @@ bool Grants::Grant(std::uint32_t id, bool yields) {
     out_.book.Hold(static_cast<std::size_t>(crossing.zone), static_cast<std::size_t>(crossing.side),
                    {id, grant.sure, grant.number, crossing.out_m});
   }
-  passage.any = false, passage.key = {};
+  out_.passages_ahead.FindPassage(id);  // how far it comes depends on its next line
   return true;
 }
 

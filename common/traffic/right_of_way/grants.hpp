@@ -9,6 +9,7 @@
 #include "common/traffic/right_of_way/claims.hpp"
 #include "common/traffic/right_of_way/merging.hpp"
 #include "common/traffic/right_of_way/passage.hpp"
+#include "common/traffic/right_of_way/passages.hpp"
 #include "common/traffic/right_of_way/room.hpp"
 #include "common/traffic/right_of_way/zone_book.hpp"
 #include "common/traffic/state/agent.hpp"
@@ -32,6 +33,7 @@ class Grants {
     std::uint64_t& next_grant;
     std::span<ConflictPassage> passages;
     ReservationTable& book;
+    Passages& passages_ahead;
     Room& room;
   };
   Grants(const Reads& reads, const Writes& writes) : in_(reads), out_(writes) {}
