@@ -14,7 +14,7 @@
 namespace rodeira::traffic {
 namespace {
 
-// Of its road, from the right edge of its direction.
+// Of a lane of its road, from the right edge of its direction.
 int IndexOf(const lanes::Graph& graph, std::uint32_t track) {
   int index = 0;
   for (auto right = graph[track].right; right && graph[*right].lane.road == graph[track].lane.road;
@@ -24,6 +24,11 @@ int IndexOf(const lanes::Graph& graph, std::uint32_t track) {
 }
 
 }  // namespace
+
+std::string SumoLaneOf(const lanes::Graph& graph, std::uint32_t track) {
+  const auto road = static_cast<std::size_t>(graph[track].lane.road);
+  return fmt::format("{}_{}", XmlText(graph.network().roads()[road].id()), IndexOf(graph, track));
+}
 
 std::string FloatingCarsBegin() { return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fcd-export>\n"; }
 std::string FloatingCarsEnd() { return "</fcd-export>\n"; }

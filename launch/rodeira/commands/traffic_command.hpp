@@ -8,8 +8,8 @@
 namespace rodeira::cli {
 
 // `rodeira traffic run MAP --vehicles N --for S [--driver standard|motors] [--physics planar|full] [--settings FILE]
-// [--csv DIR [--every S]] [--rows-every S] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--diagram FILE --lane
-// ROAD:LANE]`
+// [--csv DIR [--every S]] [--rows-every S] [--warm S] [--heat FILE [--pixel M]] [--fcd FILE] [--tripinfo FILE]
+// [--diagram FILE --lane ROAD:LANE]`
 struct TrafficOptions {
   std::string map;  // a world file, .xodr or .motors
   std::optional<std::uint32_t>
@@ -27,6 +27,7 @@ struct TrafficOptions {
   std::string heat;           // .svg or .tif; empty: none
   double pixel_m = 1.0;       // of heat.tif
   std::string fcd;            // .xml; empty: none
+  std::string tripinfo;       // .xml; empty: none
   std::string diagram;        // .svg; empty: none
   std::string lane;           // of the diagram, "ROAD:LANE"; empty: the longest one
   bool no_check = false;      // faults are not looked for

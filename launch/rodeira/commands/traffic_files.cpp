@@ -89,6 +89,9 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
   if (!options.fcd.empty() && !EndsOn(options.fcd, ".xml"))
     return base::WrongInput("command.wrong_value",
                             fmt::format("'{}' was found; a file on .xml was expected", options.fcd), "--fcd");
+  if (!options.tripinfo.empty() && !EndsOn(options.tripinfo, ".xml"))
+    return base::WrongInput("command.wrong_value",
+                            fmt::format("'{}' was found; a file on .xml was expected", options.tripinfo), "--tripinfo");
   if (!options.diagram.empty()) {
     const auto track = FindTrack(lanes::Graph(network), options.lane);
     if (!track) return track.error();
@@ -123,6 +126,11 @@ base::Result<TrafficFiles> TrafficFiles::Open(const TrafficOptions& options, con
     if (!files.fcd_) return base::Failed("file.cannot_write", "the file cannot be written", options.fcd);
     files.fcd_ << traffic::FloatingCarsBegin();
   }
+  if (!options.tripinfo.empty()) {
+    files.tripinfo_.open(options.tripinfo);
+    if (!files.tripinfo_) return base::Failed("file.cannot_write", "the file cannot be written", options.tripinfo);
+    files.tripinfo_ << traffic::TripInfos::Begin();
+  }
   return files;
 }
 
@@ -143,6 +151,8 @@ void TrafficFiles::WriteTrajectories(const traffic::StudyMoment& moment) {
 
 void TrafficFiles::Write(const traffic::StudyMoment& moment) {
   if (signal_table_) signals_ << signal_table_->At(moment.time_s, moment.model);
+  if (tripinfo_.is_open() && moment.time_s > options_.warm_s - 1e-9)
+    tripinfo_ << trip_infos_.At(moment.time_s, moment.model);
   if (moment.time_s < next_s_ - 1e-9) return;
   next_s_ += options_.rows_every_s;
   if (trajectories_.is_open()) WriteTrajectories(moment);
@@ -188,6 +198,13 @@ base::Result<std::vector<std::string>> TrafficFiles::Close(const network::Networ
     fcd_.close();
     if (!fcd_) return base::Failed("file.cannot_write", "the file could not be written to its end", options_.fcd);
     written.push_back(options_.fcd);
+  }
+  if (tripinfo_.is_open()) {
+    tripinfo_ << traffic::TripInfos::End();
+    tripinfo_.close();
+    if (!tripinfo_)
+      return base::Failed("file.cannot_write", "the file could not be written to its end", options_.tripinfo);
+    written.push_back(options_.tripinfo);
   }
   if (diagram_) {
     if (auto status = text(options_.diagram, diagram_->ToSvg(graph, title)); !status) return status.error();

@@ -9,6 +9,7 @@
 #include "common/traffic/results/signal_table.hpp"
 #include "common/traffic/results/study.hpp"
 #include "common/traffic/results/trajectory_diagram.hpp"
+#include "common/traffic/results/trip_infos.hpp"
 #include "launch/rodeira/commands/traffic_command.hpp"
 
 namespace rodeira::cli {
@@ -30,7 +31,8 @@ class TrafficFiles {
   void WriteTrajectories(const traffic::StudyMoment& moment);
 
   TrafficOptions options_;
-  std::ofstream trajectories_, signals_, fcd_;
+  std::ofstream trajectories_, signals_, fcd_, tripinfo_;
+  traffic::TripInfos trip_infos_;
   std::optional<traffic::SignalTable> signal_table_;
   std::optional<traffic::TrajectoryDiagram> diagram_;
   double next_s_ = 0.0;

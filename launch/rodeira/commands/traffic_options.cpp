@@ -48,6 +48,7 @@ void AddTraffic(CLI::App& app, ChosenCommand& chosen) {
       ->needs("--heat")
       ->capture_default_str();
   run->add_option("--fcd", options->fcd, "floating car data for SUMO's tools (.xml)")->check(NewFile());
+  run->add_option("--tripinfo", options->tripinfo, "trip information for SUMO's tools (.xml)")->check(NewFile());
   run->add_option("--diagram", options->diagram, "trajectories of a lane over time (.svg)")->check(NewFile());
   run->add_option("--lane", options->lane, "which lane, ROAD:LANE; the longest one unless said")->needs("--diagram");
   run->add_flag("--no-check", options->no_check, "do not look for overlaps, red lights passed, wheels off the road");

@@ -339,6 +339,41 @@ TEST_F(TrafficFilesTest, FloatingCarsAreAsSumoWritesThem) {
   EXPECT_EQ(ways.select_nodes("//trkpt").size(), cars.size());
 }
 
+// The same trips as trips.csv has, to the 0.1 s in which the run is looked at; SUMO's own tool reads them.
+TEST_F(TrafficFilesTest, TripInformationIsAsSumoWritesIt) {
+  constexpr double kLook_s = 0.1 + 0.006, kFastest_mps = 40.0;
+  options_.tripinfo = In("trips.xml");
+  options_.csv = In("out");
+  ASSERT_EQ(Asked(options_).status, 0);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_file(options_.tripinfo.c_str()));
+  const Rows trips = Table(In("out") + "/trips.csv", kTrips);
+  ASSERT_FALSE(trips.empty());
+  std::size_t found = 0;
+  for (const pugi::xml_node trip : document.child("tripinfos").children("tripinfo")) {
+    const std::string id = trip.attribute("id").value(), vehicle = id.substr(0, id.find('.'));
+    for (const auto& row : trips) {
+      if (row.at("vehicle") != vehicle ||
+          std::fabs(trip.attribute("arrival").as_double() - Number(row, "left_s")) > kLook_s)
+        continue;
+      ++found;
+      EXPECT_NEAR(trip.attribute("depart").as_double(), Number(row, "entered_s"), kLook_s) << id;
+      EXPECT_NEAR(trip.attribute("duration").as_double(), Number(row, "travel_time_s"), 2.0 * kLook_s) << id;
+      EXPECT_NEAR(trip.attribute("routeLength").as_double(), Number(row, "way_m"), 2.0 * kLook_s * kFastest_mps) << id;
+      EXPECT_NEAR(trip.attribute("waitingTime").as_double(), Number(row, "waiting_s"), 0.5) << id;
+      EXPECT_EQ(trip.attribute("vType").value(), row.at("kind")) << id;
+      EXPECT_EQ(trip.attribute("departLane").value(), row.at("from").substr(0, row.at("from").find(':')) + "_0") << id;
+    }
+  }
+  EXPECT_EQ(found, trips.size());
+  const char* tool = "/usr/share/sumo/tools/output/attributeStats.py";
+  if (!std::filesystem::exists(tool)) GTEST_SKIP() << "SUMO's attributeStats.py is not installed (package sumo-tools)";
+  const std::string command = fmt::format("SUMO_HOME=/usr/share/sumo /usr/bin/python3 {} -a duration {} > {} 2>&1",
+                                          tool, options_.tripinfo, In("said"));
+  ASSERT_EQ(std::system(command.c_str()), 0) << base::ReadText(In("said")).value();
+  EXPECT_THAT(base::ReadText(In("said")).value(), HasSubstr(fmt::format("count {}", trips.size())));
+}
+
 TEST_F(TrafficFilesTest, AWishThatCannotBeIsRefusedBeforeAnythingDrives) {
   struct Case {
     std::function<void(TrafficOptions&)> wish;
