@@ -73,6 +73,28 @@ function(rodeira_library name)
   rodeira_install_library(${name})
 endfunction()
 
+# rodeira_plugin(rodeira-geodata SOURCES … LINK …): a shared object NAME.so beside the programs, which they load when
+# they need it. The programs and tests that link the library which loads it are built after it.
+function(rodeira_plugin name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  rodeira_record_links(${name} ${ARG_LINK})
+  add_library(${name} MODULE ${ARG_SOURCES})
+  set_target_properties(${name} PROPERTIES PREFIX "" LIBRARY_OUTPUT_DIRECTORY ${CMAKE_RUNTIME_OUTPUT_DIRECTORY})
+  rodeira_compile_fast(${name})
+  target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
+  target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS})
+  target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  rodeira_install_plugin(${name})
+endfunction()
+
+# A program that reads worlds loads rodeira-geodata.so.
+function(rodeira_needs_geodata program)
+  rodeira_linked_by(${program} linked)
+  if("rodeira_terrain" IN_LIST linked OR "rodeira::terrain" IN_LIST linked)
+    add_dependencies(${program} rodeira-geodata)
+  endif()
+endfunction()
+
 # rodeira_program(rodeira-clock SOURCES main.cpp LINK …)
 function(rodeira_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
@@ -81,6 +103,7 @@ function(rodeira_program name)
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name} PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name} PRIVATE ${ARG_LINK})
+  rodeira_needs_geodata(${name})
   rodeira_install_program(${name})
 endfunction()
 
@@ -96,6 +119,7 @@ function(rodeira_test name)
   target_compile_options(${name}_test PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name}_test PRIVATE ${ARG_LINK} rodeira_tests_tree fmt::fmt Eigen3::Eigen GTest::gmock
     GTest::gtest_main)
+  rodeira_needs_geodata(${name}_test)
   set(others)
   if(ARG_ALONE)
     list(JOIN ARG_ALONE ":" alone)
@@ -116,6 +140,7 @@ function(rodeira_bench name)
   target_include_directories(${name}_bench PRIVATE ${CMAKE_SOURCE_DIR})
   target_compile_options(${name}_bench PRIVATE ${RODEIRA_WARNINGS})
   target_link_libraries(${name}_bench PRIVATE ${ARG_LINK} rodeira_tests_tree)
+  rodeira_needs_geodata(${name}_bench)
 endfunction()
 
 # rodeira_modules(base config …): enters the folders of a group's modules. A folder that is listed and absent is an error.

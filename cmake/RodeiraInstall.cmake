@@ -47,6 +47,12 @@ function(rodeira_install_program name)
   endif()
 endfunction()
 
+# Beside the programs of libexec, where base::FindProgram finds it.
+function(rodeira_install_plugin name)
+  set_property(GLOBAL APPEND PROPERTY RODEIRA_INSTALLED ${name})
+  install(TARGETS ${name} LIBRARY DESTINATION ${RODEIRA_PROGRAM_FOLDER} COMPONENT headless)
+endfunction()
+
 function(rodeira_install_files)
   file(GLOB launch_files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/launch/*.yaml)
   install(FILES ${launch_files} DESTINATION ${RODEIRA_DATA_FOLDER}/launch COMPONENT headless)
@@ -103,7 +109,8 @@ function(rodeira_install_kit)
   install(EXPORT RodeiraTargets NAMESPACE rodeira:: DESTINATION ${cmake_folder} COMPONENT development EXCLUDE_FROM_ALL)
   foreach(folder common/core common/world common/data common/runtime common/vehicle idl)
     install(DIRECTORY ${CMAKE_SOURCE_DIR}/${folder}/ DESTINATION include/rodeira/${folder} COMPONENT development
-            EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.hpp PATTERN *.idl PATTERN sdl_devices EXCLUDE)
+            EXCLUDE_FROM_ALL FILES_MATCHING PATTERN *.hpp PATTERN *.idl PATTERN sdl_devices EXCLUDE
+            PATTERN geodata EXCLUDE)
   endforeach()
   # Scripts stay executable.
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/examples DESTINATION ${RODEIRA_DATA_FOLDER} COMPONENT development

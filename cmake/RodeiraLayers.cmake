@@ -68,16 +68,15 @@ function(rodeira_check_layers)
   endforeach()
 endfunction()
 
-# rodeira_must_not_link(rodeira "SDL2|^GL$" …): a program reaches no library whose name matches. Static libraries count,
-# which the finished program does not name.
-function(rodeira_must_not_link program pattern)
+# rodeira_linked_by(rodeira-clock out): the program and every library that it links, directly or not. Static libraries
+# count, which the finished program does not name.
+function(rodeira_linked_by program out)
   set(waiting ${program})
   set(seen "")
+  set(linked "")
   while(waiting)
     list(POP_FRONT waiting library)
-    if(library MATCHES "${pattern}")
-      message(FATAL_ERROR "${program} links ${library}, but it must not (docs/decisions/0026-light-front-door.md)")
-    endif()
+    list(APPEND linked ${library})
     if(NOT TARGET ${library} OR library IN_LIST seen)
       continue()
     endif()
@@ -90,4 +89,15 @@ function(rodeira_must_not_link program pattern)
       endif()
     endforeach()
   endwhile()
+  set(${out} "${linked}" PARENT_SCOPE)
+endfunction()
+
+# rodeira_must_not_link(rodeira "SDL2|^GL$" …): a program reaches no library whose name matches.
+function(rodeira_must_not_link program pattern)
+  rodeira_linked_by(${program} linked)
+  foreach(library IN LISTS linked)
+    if(library MATCHES "${pattern}")
+      message(FATAL_ERROR "${program} links ${library}, but it must not (docs/decisions/0026-light-front-door.md)")
+    endif()
+  endforeach()
 endfunction()

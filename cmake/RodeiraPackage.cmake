@@ -73,8 +73,8 @@ and reads steering wheels and game pads.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME rodeira-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "rodeira-headless ${same}, fastddsgen, libcli11-dev, libeigen3-dev, \
-libfastcdr-dev, libfastrtps-dev, libfmt-dev, libgdal-dev, libgeos-dev, liblz4-dev, libminizip-dev, libode-dev, \
-libproj-dev, libpugixml-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, pkg-config, zlib1g-dev")
+libfastcdr-dev, libfastrtps-dev, libfmt-dev, libgeos-dev, liblz4-dev, libminizip-dev, libode-dev, \
+libpugixml-dev, libxxhash-dev, libyaml-cpp-dev, libzstd-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "build-essential, cmake")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "distributed driving simulator, libraries for nodes of one's own
 Static libraries, headers and a CMake package (find_package(Rodeira)) to

@@ -2,10 +2,15 @@
 // The shared libraries that the light programs need. cmake/RodeiraLayers.cmake checks static libraries.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/system/command.hpp"
@@ -15,6 +20,7 @@ namespace {
 
 using system_test::Bin;
 using system_test::RunCommand;
+using system_test::Started;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -40,6 +46,43 @@ TEST(Links, ClockAndRecorderReadNoMaps) {
     for (const char* library : {"[libgdal", "[libproj", "[libgeos"})
       EXPECT_THAT(needed, Not(HasSubstr(library))) << program;
   }
+}
+
+TEST(Links, NodeProgramsMapFewSharedObjects) {
+  const std::vector<std::pair<std::string, long>> programs = {
+      {"rodeira", 40}, {"rodeira-clock", 40}, {"rodeira-recorder", 40}, {"rodeira-vehicle", 40}};
+  for (const auto& [program, most] : programs) {
+    const auto ended = RunCommand({"/usr/bin/env", "LD_TRACE_LOADED_OBJECTS=1", Bin(program)});
+    ASSERT_EQ(ended.status, 0) << ended.out;
+    ASSERT_THAT(ended.out, HasSubstr("libc.so")) << program;
+    EXPECT_LE(std::count(ended.out.begin(), ended.out.end(), '\n'), most) << program << "\n" << ended.out;
+    for (const char* library : {"libgdal", "libproj"}) EXPECT_THAT(ended.out, Not(HasSubstr(library))) << program;
+  }
+}
+
+// The shared objects that are mapped into a process.
+std::set<std::string> SharedObjectsOf(pid_t process) {
+  std::set<std::string> objects;
+  std::ifstream maps("/proc/" + std::to_string(process) + "/maps");
+  for (std::string line; std::getline(maps, line);) {
+    const auto path = line.find('/');
+    if (path != std::string::npos && line.find(".so", path) != std::string::npos) objects.insert(line.substr(path));
+  }
+  return objects;
+}
+
+TEST(Links, AVehicleOnN222MapsFewSharedObjects) {
+  Started run({Bin("rodeira"), "run", system_test::LaunchFile("first_drive.yaml"), "--no-record", "--for", "1000",
+               "--pace", "real", "--set", "world=" + system_test::LaunchFile("../configs/worlds/n222.yaml"), "--run",
+               "fewobjects"});
+  ASSERT_TRUE(system_test::Runs("fewobjects"));
+  const auto vehicles = system_test::ProcessesWith("--run fewobjects", "--node ego");
+  ASSERT_EQ(vehicles.size(), 1u);
+  const std::set<std::string> objects = SharedObjectsOf(vehicles.front());
+  ::kill(run.pid(), SIGINT);
+  EXPECT_EQ(run.Wait().status, 0);
+  EXPECT_THAT(objects, testing::Contains(HasSubstr("/libc.so")));
+  EXPECT_LE(objects.size(), 40u) << testing::PrintToString(objects);
 }
 
 // Thread-local storage is taken from every thread's stack: SDL's audio thread has 64 kB in all.

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <gdal_priv.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "common/traffic/motion/drivetrain.hpp"
 #include "common/traffic/network/graph_bounds.hpp"
 #include "common/traffic/results/lane_tables.hpp"
+#include "common/world/terrain/geodata.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -91,19 +90,13 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
   if (!gathered) return gathered.error();
   const Raster& raster = gathered.value();
   constexpr std::array<const char*, 5> kBands = {"flow_vehph", "density_vehpkm", "speed_mps", "fuel_mlpkm", "free_mps"};
-  GDALAllRegister();
-  GDALDriver* driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-  if (driver == nullptr) return base::Failed("file.cannot_write", "this GDAL cannot write GeoTIFF files", file);
-  CPLPushErrorHandler(CPLQuietErrorHandler);
-  const std::unique_ptr<GDALDataset> set(
-      driver->Create(file.c_str(), raster.columns, raster.rows, static_cast<int>(kBands.size()), GDT_Float32, nullptr));
-  CPLPopErrorHandler();
-  if (set == nullptr) return base::Failed("file.cannot_write", "the heat map cannot be written", file);
-  std::array<double, 6> transform = {raster.west_m, raster.pixel_m, 0.0, raster.north_m, 0.0, -raster.pixel_m};
-  bool good = set->SetGeoTransform(transform.data()) == CE_None;
+  const auto& geodata = terrain::SharedGeodata();
+  if (!geodata) return geodata.error();
   const double watched = std::max(statistics.watched_s(), 1e-9);
   std::vector<float> values(raster.pixels.size());
-  for (std::size_t k = 0; k < kBands.size(); ++k) {
+  terrain::GeoTiff tiff{raster.west_m, raster.north_m, raster.pixel_m, raster.columns, raster.rows, {}, {}};
+  tiff.bands.assign(kBands.begin(), kBands.end());
+  tiff.values = [&](std::size_t k) -> const std::vector<float>& {
     for (std::size_t i = 0; i < values.size(); ++i) {
       const auto& [sum, length, free_m2ps] = raster.pixels[i];
       const std::array<double, 5> told = {
@@ -111,14 +104,9 @@ base::Status WriteHeatRaster(const lanes::Graph& graph, const LaneStatistics& st
           sum.distance_m > 0.0 ? 1e6 * sum.fuel_mg / kFuelDensity_mgpl / sum.distance_m : 0.0, free_m2ps / length};
       values[i] = length > 0.0 ? static_cast<float>(told[k]) : std::numeric_limits<float>::quiet_NaN();
     }
-    GDALRasterBand& band = *set->GetRasterBand(static_cast<int>(k) + 1);
-    band.SetDescription(kBands[k]);
-    good = good && band.SetNoDataValue(std::numeric_limits<double>::quiet_NaN()) == CE_None;
-    good = good && band.RasterIO(GF_Write, 0, 0, raster.columns, raster.rows, values.data(), raster.columns,
-                                 raster.rows, GDT_Float32, 0, 0) == CE_None;
-  }
-  if (!good) return base::Failed("file.cannot_write", "the heat map could not be written to its end", file);
-  return {};
+    return values;
+  };
+  return geodata.value()->WriteGeoTiff(tiff, file);
 }
 
 }  // namespace rodeira::traffic

@@ -5,10 +5,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "common/core/base/result.hpp"
 
 namespace rodeira::terrain {
+
+class MapTransform;
 
 // On WGS 84, in degrees; positive to the east and to the north.
 struct EarthPlace {
@@ -29,10 +32,9 @@ class Geographic {
   std::optional<Eigen::Vector2d> ToMap(const EarthPlace& place) const;
 
  private:
-  struct Parts;
-  explicit Geographic(std::shared_ptr<Parts> parts) : parts_(std::move(parts)) {}
+  explicit Geographic(std::shared_ptr<const MapTransform> transform) : transform_(std::move(transform)) {}
 
-  std::shared_ptr<Parts> parts_;
+  std::shared_ptr<const MapTransform> transform_;
 };
 
 // A coordinate system (a PROJ string, WKT, "EPSG:…") as a PROJ string without "+type=crs", as OpenDRIVE's geoReference

@@ -17,6 +17,7 @@
 #include "common/core/base/user_folders.hpp"
 #include "common/runtime/dds/network_state.hpp"
 #include "common/vehicle/input_devices/device_access.hpp"
+#include "common/world/terrain/geodata.hpp"
 #include "launch/rodeira/commands/joysticks_command.hpp"
 #include "launch/rodeira/doctor/built_with.hpp"
 #include "launch/rodeira/doctor/capture.hpp"
@@ -94,6 +95,10 @@ std::vector<CheckFunction> Checks(const DoctorOptions& options, launch::Transpor
   loop_back.cancelled = Interrupted;
   std::vector<CheckFunction> checks{
       [] { return CheckPrograms(ExpectedPrograms(), base::ProgramFolder()); },
+      [] {
+        const auto& geodata = terrain::SharedGeodata();
+        return CheckGeodata(geodata ? base::Status() : geodata.error());
+      },
       [] { return CheckMathematics(base::MathematicsFixed(), base::MathLibraryFingerprint()); },
   };
   for (CheckFunction& check : ChecksOfPictures()) checks.push_back(std::move(check));

@@ -141,6 +141,11 @@ Finding CheckPrograms(const std::vector<std::string>& programs, const std::files
   return Fault("programs", fmt::format("in {}: {}; {}", folder.string(), fmt::join(problems, ", "), remedy));
 }
 
+Finding CheckGeodata(const base::Status& loaded) {
+  const std::string check = "geodata";
+  return loaded ? Ok(check, "elevation files and projections can be read") : Fault(check, loaded.error().Text());
+}
+
 Finding CheckMathematics(bool fixed, base::Digest digest) {
   const std::string check = "mathematics";
   if (!fixed) {

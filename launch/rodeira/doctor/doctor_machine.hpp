@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/core/base/hash.hpp"
+#include "common/core/base/result.hpp"
 #include "launch/rodeira/doctor/finding.hpp"
 
 // The checks of `rodeira doctor` that look at this PC: what is installed, what the processor and the disk give. What a
@@ -25,6 +26,9 @@ Finding CheckPackages(const std::vector<std::string>& packages, const std::strin
 
 // Each of `programs` lies in `folder` or its installation (base::FindProgram), is executable, and answers --help.
 Finding CheckPrograms(const std::vector<std::string>& programs, const std::filesystem::path& folder);
+
+// Fault if `loaded`, the shared object that reads elevation files and projections, is missing or cannot be loaded.
+Finding CheckGeodata(const base::Status& loaded);
 
 // Law L7. `fixed`: the choice of code was made before the start; `digest`: base::MathLibraryFingerprint() under it.
 Finding CheckMathematics(bool fixed, base::Digest digest);

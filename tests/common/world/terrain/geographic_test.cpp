@@ -3,9 +3,18 @@
 // and back.
 #include "common/world/terrain/geographic.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "common/core/base/files.hpp"
+#include "common/world/terrain/geodata.hpp"
+#include "tests/tree.hpp"
 
 namespace rodeira::terrain {
 namespace {
@@ -81,6 +90,33 @@ TEST(Geographic, WhatIsNoProjectionIsASentence) {
   EXPECT_NE(degrees.error().Text().find("'EPSG:4326' is no projection"), std::string::npos) << degrees.error().Text();
   const auto utm = Geographic::Make("+proj=utm +zone=29 +datum=WGS84");
   EXPECT_FALSE(utm.value().ToEarth(std::nan(""), 0.0).has_value());
+}
+
+TEST(Geodata, AMissingOrForeignSharedObjectIsASentence) {
+  const auto missing = LoadGeodata(GeodataPlaces("/nowhere"));
+  if (!std::filesystem::exists("/usr/libexec/rodeira/rodeira-geodata.so")) {
+    ASSERT_FALSE(missing.ok());
+    EXPECT_EQ(missing.error().id.text(), "terrain.no_geodata");
+    EXPECT_THAT(missing.error().Text(), testing::HasSubstr("looked for /nowhere/rodeira-geodata.so"));
+  }
+  const auto text = LoadGeodata({std::filesystem::path(SourceDir()) / "README.md"});
+  ASSERT_FALSE(text.ok());
+  EXPECT_EQ(text.error().id.text(), "file.not_loadable");
+}
+
+TEST(Geodata, ACutSharedObjectIsASentence) {
+  const std::string whole = base::ReadText(BinaryDir() + "/bin/rodeira-geodata.so", 1u << 30).value();
+  const auto folder = std::filesystem::temp_directory_path() / fmt::format("rodeira-geodata-{}", ::getpid());
+  std::filesystem::create_directories(folder);
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{50}, std::size_t{100}, std::size_t{5000}, whole.size() / 4, whole.size() / 2}) {
+    const auto file = folder / fmt::format("{}.so", size);
+    std::ofstream(file, std::ios::binary) << whole.substr(0, size);
+    const auto cut = LoadGeodata({file});
+    ASSERT_FALSE(cut.ok()) << size;
+    EXPECT_EQ(cut.error().id.text(), "file.not_loadable") << size;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -72,6 +72,13 @@ TEST(Programs, WhatIsMissingForbiddenOrBrokenIsNamed) {
               HasSubstr("rodeira-view does not start (libosg.so.161: cannot open shared object file)"));
 }
 
+TEST(GeodataCheck, WhatCannotBeLoadedIsAFault) {
+  EXPECT_EQ(CheckGeodata({}).verdict, Verdict::kOk);
+  const Finding missing = CheckGeodata(base::Failed("terrain.no_geodata", "rodeira-geodata.so is missing"));
+  EXPECT_EQ(missing.verdict, Verdict::kFault);
+  EXPECT_EQ(missing.sentence, "rodeira-geodata.so is missing");
+}
+
 TEST(MathematicsCheck, AnotherChoiceOrAnotherLibraryIsSeen) {
   EXPECT_EQ(CheckMathematics(true, kDebian12Mathematics).verdict, Verdict::kOk);
   const Finding free = CheckMathematics(false, 0x123);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/elevation_file.hpp"
-
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -15,13 +13,14 @@
 #include <vector>
 
 #include "common/core/base/nearest_file.hpp"
+#include "common/world/geodata/elevation_heights.hpp"
+#include "common/world/geodata/elevation_projection.hpp"
+#include "common/world/geodata/elevation_warp.hpp"
+#include "common/world/geodata/functions.hpp"
+#include "common/world/geodata/gdal_quiet.hpp"
 #include "common/world/terrain/bt.hpp"
-#include "common/world/terrain/elevation_heights.hpp"
-#include "common/world/terrain/elevation_projection.hpp"
-#include "common/world/terrain/elevation_warp.hpp"
-#include "common/world/terrain/gdal_quiet.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 namespace fs = std::filesystem;
@@ -207,7 +206,7 @@ std::optional<Warping> OffScale(GDALDataset& dataset, const std::optional<BtHead
 
 }  // namespace
 
-std::optional<fs::path> MissingProjection(const fs::path& path) {
+std::optional<fs::path> FindMissingProjection(const fs::path& path) {
   const QuietGdal quiet;
   const auto start = ReadStart(path);
   if (!start) return std::nullopt;
@@ -218,13 +217,7 @@ std::optional<fs::path> MissingProjection(const fs::path& path) {
   return fs::exists(beside, problem) ? std::nullopt : std::optional(beside);
 }
 
-base::Result<std::shared_ptr<const ElevationGrid>> LoadElevation(const fs::path& path, Registration registration) {
-  auto loaded = LoadGround(path, registration);
-  if (!loaded) return loaded.error();
-  return std::move(loaded).value().grid;
-}
-
-base::Result<LoadedGround> LoadGround(const fs::path& path, Registration registration) {
+base::Result<LoadedGround> ReadGround(const fs::path& path, Registration registration) {
   const QuietGdal quiet;
   const auto start = ReadStart(path);
   if (!start) return start.error();
@@ -292,4 +285,4 @@ base::Result<LoadedGround> LoadGround(const fs::path& path, Registration registr
                       std::move(origin)};
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -11,7 +11,7 @@
 
 class GDALDataset;
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 
 // That a raster has another number of bands than one.
 std::string BandsSentence(int bands);
@@ -22,4 +22,4 @@ std::string BandsSentence(int bands);
 base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::optional<BtHeader>& header,
                                              const std::filesystem::path& path);
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

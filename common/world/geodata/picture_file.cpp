@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/picture_file.hpp"
-
 #include <fmt/format.h>
 #include <gdal_priv.h>
 
@@ -8,23 +6,24 @@
 #include <array>
 
 #include "common/core/base/nearest_file.hpp"
-#include "common/world/terrain/gdal_quiet.hpp"
+#include "common/world/geodata/functions.hpp"
+#include "common/world/geodata/gdal_quiet.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kDrivers[] = {"JPEG", "PNG", "BMP", "GTiff", nullptr};
+constexpr const char* kPictureDrivers[] = {"JPEG", "PNG", "BMP", "GTiff", nullptr};
 
-base::Result<GDALDatasetUniquePtr> Open(const fs::path& path) {
+base::Result<GDALDatasetUniquePtr> OpenFile(const fs::path& path) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
     return base::WrongInput("file.not_found",
                             fmt::format("there is no texture file '{}'{}", path.string(), base::NearestFile(path)));
   }
-  GDALDatasetUniquePtr dataset(GDALDataset::Open(fs::absolute(path).c_str(),
-                                                 GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers));
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(
+      fs::absolute(path).c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kPictureDrivers));
   if (!dataset)
     return base::WrongInput("terrain.wrong_picture",
                             fmt::format("'{}' is no picture that can be read (JPEG, PNG, BMP, TIFF); {}", path.string(),
@@ -67,9 +66,9 @@ void LookUp(const GDALColorTable& table, PictureFile& picture) {
 
 }  // namespace
 
-base::Result<PictureFacts> LookAtPicture(const fs::path& path) {
+base::Result<PictureFacts> ReadPictureFacts(const fs::path& path) {
   const QuietGdal quiet;
-  const auto dataset = Open(path);
+  const auto dataset = OpenFile(path);
   if (!dataset) return dataset.error();
   PictureFacts facts{dataset.value()->GetRasterXSize(), dataset.value()->GetRasterYSize(), std::nullopt};
   std::array<double, 6> g{};
@@ -80,9 +79,9 @@ base::Result<PictureFacts> LookAtPicture(const fs::path& path) {
   return facts;
 }
 
-base::Result<PictureFile> ReadPicture(const fs::path& path) {
+base::Result<PictureFile> ReadPicturePixels(const fs::path& path) {
   const QuietGdal quiet;
-  const auto opened = Open(path);
+  const auto opened = OpenFile(path);
   if (!opened) return opened.error();
   GDALDataset& dataset = *opened.value();
   PictureFile picture{dataset.GetRasterXSize(), dataset.GetRasterYSize(), {}};
@@ -99,4 +98,4 @@ base::Result<PictureFile> ReadPicture(const fs::path& path) {
   return picture;
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -8,7 +8,7 @@
 #include <mutex>
 #include <string>
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 
 // GDAL prints its errors unless told not to; ours carry its words in the sentence.
 class QuietGdal {
@@ -29,4 +29,4 @@ class QuietGdal {
   }
 };
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -10,7 +10,7 @@
 
 class GDALDataset;
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 
 // A coordinate system of a file, made metric.
 struct Projection {
@@ -31,4 +31,4 @@ std::filesystem::path ProjectionBeside(const std::filesystem::path& path, bool g
 // none of its errors.
 base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool gzipped, GDALDataset& dataset);
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/elevation_projection.hpp"
+#include "common/world/geodata/elevation_projection.hpp"
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "common/core/base/files.hpp"
-#include "common/world/terrain/elevation_file.hpp"
-#include "common/world/terrain/gdal_quiet.hpp"
+#include "common/world/geodata/functions.hpp"
+#include "common/world/geodata/gdal_quiet.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 base::Result<OGRSpatialReference> FromDefinition(std::string_view definition) {
@@ -97,7 +97,7 @@ base::Result<Projection> ReadProjection(const std::filesystem::path& path, bool 
   return projection;
 }
 
-base::Result<std::string> ProjectionWkt(std::string_view definition) {
+base::Result<std::string> ToProjectionWkt(std::string_view definition) {
   const auto reference = FromDefinition(definition);
   if (!reference) return reference.error();
   auto projection = MetricProjection(reference.value());
@@ -105,4 +105,4 @@ base::Result<std::string> ProjectionWkt(std::string_view definition) {
   return std::move(projection).value().wkt;
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

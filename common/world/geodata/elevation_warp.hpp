@@ -8,10 +8,10 @@
 #include <string>
 
 #include "common/core/base/result.hpp"
+#include "common/world/geodata/map_scale.hpp"
 #include "common/world/terrain/bt.hpp"
-#include "common/world/terrain/map_scale.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 
 // A raster in degrees, or in a map with a scale that is off (`scale` then says how, and where on the earth its middle
 // lies), brought into the UTM zone of its middle (WGS 84; near the poles the polar stereographic map UPS) by GDAL's
@@ -23,4 +23,4 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
                                                   const std::optional<BtHeader>& bt, bool posts,
                                                   const std::filesystem::path& path);
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/map_scale.hpp"
+#include "common/world/geodata/map_scale.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/core/geometry/angle.hpp"
+#include "common/world/geodata/functions.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 constexpr double kMaxOff = 0.005;
@@ -23,12 +24,12 @@ std::array<double, 2> MetresARadian(double latitude_rad) {
 }  // namespace
 
 std::optional<MapScale> ScaleAt(const std::string& wkt, double x, double y) {
-  const auto map = Geographic::Make(wkt);
+  const auto map = MakeTransform(wkt);
   if (!map) return std::nullopt;
-  const auto middle = map.value().ToEarth(x, y);
+  const auto middle = map.value()->ToEarth(x, y);
   constexpr double kHalfStep = 50.0;
   const auto metres_between = [&](double dx, double dy) -> std::optional<double> {
-    const auto a = map.value().ToEarth(x - dx, y - dy), b = map.value().ToEarth(x + dx, y + dy);
+    const auto a = map.value()->ToEarth(x - dx, y - dy), b = map.value()->ToEarth(x + dx, y + dy);
     if (!a || !b) return std::nullopt;
     constexpr double kRadian = geometry::kPi / 180.0;
     const auto [across, along] = MetresARadian(middle->latitude_deg * kRadian);
@@ -46,4 +47,4 @@ bool IsOffScale(const MapScale& scale, double metres_a_unit) {
   return off(scale.east_units_a_m) || off(scale.north_units_a_m);
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/geographic.hpp"
-
 #include <fmt/format.h>
 #include <proj.h>
 
@@ -8,7 +6,9 @@
 #include <cmath>
 #include <string_view>
 
-namespace rodeira::terrain {
+#include "common/world/geodata/functions.hpp"
+
+namespace rodeira::terrain::geodata {
 namespace {
 
 constexpr const char* kEarth = "EPSG:4326";  // WGS 84
@@ -21,19 +21,18 @@ bool IsMap(PJ_CONTEXT* context, const PJ* to_earth) {
          type != PJ_TYPE_GEOCENTRIC_CRS;
 }
 
-}  // namespace
-
-struct Geographic::Parts {
+class ProjTransform final : public MapTransform {
+ public:
   PJ_CONTEXT* context = proj_context_create();
   PJ* to_earth = nullptr;
 
-  Parts() {
+  ProjTransform() {
     proj_log_level(context, PJ_LOG_NONE);
     proj_context_set_enable_network(context, 0);
   }
-  Parts(const Parts&) = delete;
-  Parts& operator=(const Parts&) = delete;
-  ~Parts() {
+  ProjTransform(const ProjTransform&) = delete;
+  ProjTransform& operator=(const ProjTransform&) = delete;
+  ~ProjTransform() override {
     proj_destroy(to_earth);
     proj_context_destroy(context);
   }
@@ -45,10 +44,20 @@ struct Geographic::Parts {
     if (proj_errno(to_earth) != 0 || !std::isfinite(moved.xy.x) || !std::isfinite(moved.xy.y)) return std::nullopt;
     return Eigen::Vector2d(moved.xy.x, moved.xy.y);
   }
+
+  std::optional<EarthPlace> ToEarth(double x_m, double y_m) const override {
+    const auto at = Move(PJ_FWD, x_m, y_m);
+    return at ? std::optional(EarthPlace{at->x(), at->y()}) : std::nullopt;
+  }
+  std::optional<Eigen::Vector2d> ToMap(const EarthPlace& place) const override {
+    return Move(PJ_INV, place.longitude_deg, place.latitude_deg);
+  }
 };
 
-base::Result<Geographic> Geographic::Make(const std::string& definition) {
-  auto parts = std::make_shared<Parts>();
+}  // namespace
+
+base::Result<std::shared_ptr<const MapTransform>> MakeTransform(const std::string& definition) {
+  auto parts = std::make_shared<ProjTransform>();
   PJ* raw = proj_create_crs_to_crs(parts->context, definition.c_str(), kEarth, nullptr);
   if (raw != nullptr) {
     parts->to_earth =
@@ -63,19 +72,10 @@ base::Result<Geographic> Geographic::Make(const std::string& definition) {
                                         definition.substr(0, std::min<std::size_t>(60, definition.find('\n'))),
                                         known ? "projection" : "coordinate system that PROJ knows"));
   }
-  return Geographic(std::move(parts));
+  return std::shared_ptr<const MapTransform>(std::move(parts));
 }
 
-std::optional<EarthPlace> Geographic::ToEarth(double x_m, double y_m) const {
-  const auto at = parts_->Move(PJ_FWD, x_m, y_m);
-  return at ? std::optional(EarthPlace{at->x(), at->y()}) : std::nullopt;
-}
-
-std::optional<Eigen::Vector2d> Geographic::ToMap(const EarthPlace& place) const {
-  return parts_->Move(PJ_INV, place.longitude_deg, place.latitude_deg);
-}
-
-base::Result<std::optional<std::string>> ProjString(const std::string& definition) {
+base::Result<std::optional<std::string>> ToProjString(const std::string& definition) {
   PJ_CONTEXT* context = proj_context_create();
   std::string said;
   proj_log_level(context, PJ_LOG_ERROR);
@@ -95,4 +95,4 @@ base::Result<std::optional<std::string>> ProjString(const std::string& definitio
   return text;
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/elevation_heights.hpp"
+#include "common/world/geodata/elevation_heights.hpp"
 
 #include <fmt/format.h>
 #include <gdal_priv.h>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
+#include "common/world/geodata/gdal_quiet.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
-#include "common/world/terrain/gdal_quiet.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 // Metres a unit of height; nothing where the unit is none of length.
@@ -98,4 +98,4 @@ base::Result<std::vector<float>> ReadHeights(GDALDataset& dataset, const std::op
   return heights;
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

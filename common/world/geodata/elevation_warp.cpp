@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "common/world/terrain/elevation_warp.hpp"
+#include "common/world/geodata/elevation_warp.hpp"
 
 #include <fmt/format.h>
 #include <gdal_utils.h>
@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "common/core/geometry/angle.hpp"
+#include "common/world/geodata/gdal_quiet.hpp"
 #include "common/world/terrain/elevation_grid.hpp"
-#include "common/world/terrain/gdal_quiet.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 namespace {
 
 constexpr double kPolar_deg = 84.0;   // UTM ends there
@@ -133,4 +133,4 @@ base::Result<GDALDatasetUniquePtr> WarpedToMetres(GDALDataset& raster, const std
   return warped;
 }
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata

@@ -7,7 +7,7 @@
 
 #include "common/world/terrain/geographic.hpp"
 
-namespace rodeira::terrain {
+namespace rodeira::terrain::geodata {
 
 // How a map in metres, feet … shows the ground about one of its places.
 struct MapScale {
@@ -23,4 +23,4 @@ std::optional<MapScale> ScaleAt(const std::string& wkt, double x, double y);
 // most, that of Web Mercator by 47 % at 47 degrees north.
 bool IsOffScale(const MapScale& scale, double metres_a_unit);
 
-}  // namespace rodeira::terrain
+}  // namespace rodeira::terrain::geodata
