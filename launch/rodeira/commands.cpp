@@ -43,7 +43,8 @@ int RunCommandLine(int argc, char** argv) {
   app.require_subcommand(1);
   for (const auto add : {AddRun,     AddWorld,  AddMap,       AddTraffic, AddPolyline, AddSurface, AddMechanism,
                          AddVehicle, AddDoctor, AddJoysticks, AddInput,   AddEdit,     AddCtl,     AddInfo,
-                         AddExport,  AddRepair, AddMeasures,  AddSchema,  AddReplay,   AddView,    AddShell}) {
+                         AddExport,  AddRepair, AddMeasures,  AddReport,  AddSchema,   AddReplay,  AddView,
+                         AddShell}) {
     add(app, chosen);
   }
   AddJson(app);

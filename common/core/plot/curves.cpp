@@ -93,13 +93,33 @@ void AddAxes(const Diagram& diagram, const Frame& frame, std::string& svg) {
                      frame.left - 58, frame.top + kPlotHeight / 2, SvgText(diagram.y_name));
 }
 
+void AddMarks(const Diagram& diagram, const Frame& frame, std::string& svg) {
+  for (const auto& [x, name] : diagram.marks) {
+    if (!(x >= frame.x.low && x <= frame.x.high)) continue;
+    base::AppendFormat(
+        svg,
+        "<line x1='{0:.1f}' y1='{1}' x2='{0:.1f}' y2='{2}' stroke='#b8860b' stroke-dasharray='4 3'/><text "
+        "transform='translate({3:.1f},{4}) rotate(90)' font-size='9' fill='#7a5a00'>{5}</text>\n",
+        frame.X(x), frame.top, frame.top + kPlotHeight, frame.X(x) + 3.0, frame.top + 4, SvgText(name));
+  }
+}
+
 void AddCurves(const Diagram& diagram, const Frame& frame, std::string& svg) {
   int row = 0;
   for (const Curve& curve : diagram.curves) {
     const char* colour = kColours[static_cast<std::size_t>(row) % kColours.size()];
     base::AppendFormat(svg, "<polyline fill='none' stroke='{}' stroke-width='1.4' points='", colour);
+    bool begun = false, interrupted = false;
     for (const auto& point : curve.points) {
-      if (IsDrawn(point)) base::AppendFormat(svg, "{:.1f},{:.1f} ", frame.X(point.first), frame.Y(point.second));
+      if (IsDrawn(point)) {
+        if (interrupted)
+          base::AppendFormat(svg, "'/>\n<polyline fill='none' stroke='{}' stroke-width='1.4' points='", colour);
+        base::AppendFormat(svg, "{:.1f},{:.1f} ", frame.X(point.first), frame.Y(point.second));
+        begun = true;
+        interrupted = false;
+      } else {
+        interrupted = begun;
+      }
     }
     svg += "'/>\n";
     const int y = frame.top + 12 + 15 * row, x = frame.left + kPlotWidth + 12;
@@ -129,6 +149,7 @@ std::string ToSvg(const std::vector<Diagram>& diagrams, const std::string& title
     const Frame frame =
         FrameOf(diagram, i % columns * cell_width + kMarginLeft, kTitleHeight + i / columns * cell_height + kMarginTop);
     AddAxes(diagram, frame, svg);
+    AddMarks(diagram, frame, svg);
     AddCurves(diagram, frame, svg);
   }
   return svg + "</svg>\n";

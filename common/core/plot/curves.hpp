@@ -18,10 +18,11 @@ struct Diagram {
   std::string title;
   std::string x_name, y_name;
   std::vector<Curve> curves;
+  std::vector<std::pair<double, std::string>> marks{};  // vertical lines at x, each with its name
 };
 
 // The diagrams side by side, `columns` in a row, as SVG: axes with ticks, and a key of the curves beside each.
-// Points that are not finite are left out.
+// A point that is not finite interrupts its curve. Marks beyond the axis of x are left out.
 std::string ToSvg(const std::vector<Diagram>& diagrams, const std::string& title, int columns = 2);
 
 }  // namespace rodeira::plot

@@ -27,6 +27,7 @@ void AddInfo(CLI::App& app, ChosenCommand& chosen);
 void AddExport(CLI::App& app, ChosenCommand& chosen);
 void AddRepair(CLI::App& app, ChosenCommand& chosen);
 void AddMeasures(CLI::App& app, ChosenCommand& chosen);
+void AddReport(CLI::App& app, ChosenCommand& chosen);
 void AddSchema(CLI::App& app, ChosenCommand& chosen);
 void AddReplay(CLI::App& app, ChosenCommand& chosen);
 void AddView(CLI::App& app, ChosenCommand& chosen);

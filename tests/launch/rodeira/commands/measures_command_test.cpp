@@ -9,6 +9,7 @@
 #include <map>
 
 #include "common/core/base/files.hpp"
+#include "launch/rodeira/commands/report_command.hpp"
 #include "tests/launch/rodeira/replay/replay_fixture.hpp"
 #include "tests/launch/rodeira/said.hpp"
 
@@ -154,6 +155,29 @@ TEST_F(MeasuresCommand, ADriveAmongTrafficHasLanesAndLeaders) {
   EXPECT_EQ(row.at("brake_onset_s"), "");
 }
 
+// The report of the same recording has its way on the lanes and its measures, and names wrong options.
+TEST_F(MeasuresCommand, AReportIsOnePage) {
+  ReportOptions options;
+  options.recordings = {Record("drive.mcap", LaunchFile("car_ahead.yaml"), {"--for", "3"})};
+  options.intervals = {"fast=while speed_mps > 1"};
+  options.out = Path("report.html");
+  const Said said = SaidBy<ReportOptions>(Report, options);
+  ASSERT_EQ(said.status, 0) << said.errors;
+  const std::string page = ReadBack("report.html");
+  EXPECT_THAT(page, HasSubstr("Way of drive"));
+  EXPECT_THAT(page, HasSubstr("<path d='M")) << "lanes";
+  EXPECT_THAT(page, HasSubstr(">gap_min_m</th><td>m</td><td class=\"number\">"));
+  options.out = Path("report.pdf");
+  const Said pdf = SaidBy<ReportOptions>(Report, options);
+  EXPECT_EQ(pdf.status, 2);
+  EXPECT_THAT(pdf.errors, HasSubstr("a report is written as .html"));
+  options.out = Path("other.html");
+  options.intervals = {"fast=while sped_mps > 1"};
+  const Said wrong = SaidBy<ReportOptions>(Report, options);
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("interval 'fast': there is no column 'sped_mps'; did you mean 'speed_mps'?"));
+}
+
 TEST_F(MeasuresCommand, WrongInputIsOneSentence) {
   const std::string drive = Drive(2.0);
   const auto refused = [](const MeasuresOptions& options, const char* sentence) {
@@ -178,6 +202,10 @@ TEST_F(MeasuresCommand, WrongInputIsOneSentence) {
   refused(options, "is empty");
   options.intervals = {"a=0..1", "a=1..2"};
   refused(options, "two intervals are named 'a'");
+  options.intervals.clear();
+  options.intervals = {"a=while speed_mps > 1"};
+  options.baseline = "a";
+  refused(options, "interval 'a' has a condition");
   options.intervals.clear();
   options.baseline = "quiet";
   refused(options, "there is no interval 'quiet'");

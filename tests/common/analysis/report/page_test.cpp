@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/analysis/report/page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <regex>
+
+#include "common/analysis/report/html.hpp"
+#include "common/analysis/report/map_figure.hpp"
+#include "common/analysis/report/strips.hpp"
+
+namespace rodeira::report {
+namespace {
+
+using measures::kMissing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// 10 s along a straight line at 20 m/s, with a second without samples.
+measures::DriveReading StraightDrive() {
+  measures::DriveReading reading;
+  measures::Drive& d = reading.drive;
+  d.subject = "ego";
+  const std::size_t n = 1000;
+  const std::vector<double> missing(n, kMissing);
+  for (auto* column : {&d.x_m,
+                       &d.y_m,
+                       &d.z_m,
+                       &d.heading_rad,
+                       &d.speed_mps,
+                       &d.yaw_radps,
+                       &d.throttle,
+                       &d.brake,
+                       &d.steering_wheel_deg,
+                       &d.indicator,
+                       &d.road,
+                       &d.lane,
+                       &d.s_m,
+                       &d.t_m,
+                       &d.lane_width_m,
+                       &d.lane_position_m,
+                       &d.heading_error_rad,
+                       &d.lane_curvature_1pm,
+                       &d.left_line_m,
+                       &d.right_line_m,
+                       &d.speed_limit_mps,
+                       &d.junction})
+    *column = missing;
+  for (measures::Neighbour* of :
+       {&d.leader, &d.follower, &d.left_leader, &d.left_follower, &d.right_leader, &d.right_follower})
+    of->id = of->gap_m = of->speed_mps = of->length_m = missing;
+  d.episode.resize(n);
+  d.crossing.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k >= 500 && k < 600) continue;
+    d.x_m[k] = 0.2 * static_cast<double>(k);
+    d.y_m[k] = d.z_m[k] = d.heading_rad[k] = d.yaw_radps[k] = 0.0;
+    d.speed_mps[k] = 20.0;
+    d.throttle[k] = 0.25;
+  }
+  return reading;
+}
+
+measures::MeasuresSpec Spec() {
+  measures::MeasuresSpec spec;
+  for (const char* name : {"speed_max_mps", "sdlp_m"}) spec.measures.push_back(measures::FindMeasure(name).value());
+  return spec;
+}
+
+ReportedDrive Reported(const measures::DriveReading& reading, const std::string& file) {
+  ReportedDrive drive;
+  drive.reading = &reading;
+  drive.facts.file = file;
+  drive.rows = measures::ComputeRows(Spec(), reading);
+  return drive;
+}
+
+std::size_t Count(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++count;
+  return count;
+}
+
+TEST(ReportPage, ShowsFactsMeasuresWithUnitsAndReasons) {
+  const auto reading = StraightDrive();
+  const ReportedDrive drive = Reported(reading, "drives/P07.mcap");
+  const std::string page = ReportPage(Spec(), {&drive, 1});
+  EXPECT_THAT(page, HasSubstr("<title>P07</title>"));
+  EXPECT_THAT(page, HasSubstr("drives/P07.mcap"));
+  EXPECT_THAT(page, HasSubstr("10.00 s"));
+  EXPECT_THAT(page, HasSubstr(">speed_max_mps</th><td>m/s</td><td class=\"number\">20</td>"));
+  const auto sdlp = drive.rows[0].values[1];
+  ASSERT_FALSE(sdlp.value);
+  EXPECT_THAT(page, HasSubstr("<td class=\"missing\">" + Html(sdlp.reason) + "</td>"));
+  EXPECT_EQ(page, ReportPage(Spec(), {&drive, 1})) << "the same bytes each time";
+}
+
+// Nothing of the page comes from elsewhere, and nothing in it runs.
+TEST(ReportPage, NeedsNoNetworkAndHasNoScript) {
+  const auto reading = StraightDrive();
+  const ReportedDrive drive = Reported(reading, "a.mcap");
+  std::string page = ReportPage(Spec(), {&drive, 1});
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+  page = std::regex_replace(page, std::regex("xmlns='http://www.w3.org/2000/svg'"), "");
+  for (const char* part : {"http:", "https:", "<script", "<link", "<img", "<iframe", "@import", "url(", "src="})
+    EXPECT_THAT(page, Not(HasSubstr(part)));
+}
+
+TEST(ReportPage, NamesFromTheRecordingAreText) {
+  const std::string hostile = "</svg></title><script>alert('x')</script>\" onload=\"y\n&";
+  auto reading = StraightDrive();
+  reading.events.push_back({measures::DriveEvent::Kind::kMark, 2.0, hostile, hostile});
+  ReportedDrive drive = Reported(reading, hostile);
+  drive.facts.subject = drive.facts.notes = drive.facts.version = hostile;
+  drive.meta = {{hostile, hostile}, {"participant", hostile}};
+  drive.rows[0].interval.name = hostile;
+  const std::string page = ReportPage(Spec(), {&drive, 1});
+  EXPECT_EQ(Count(page, "<script"), 0u);
+  EXPECT_FALSE(std::regex_search(page, std::regex("<[^<>]*onload=\""))) << "within a tag";
+  EXPECT_EQ(Count(page, "<svg"), Count(page, "</svg>"));
+  EXPECT_EQ(Count(page, "</title>"), 1u);
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt;&quot; onload=&quot;y &amp;"));
+}
+
+TEST(ReportPage, RecordingsStandSideBySide) {
+  const auto first = StraightDrive(), second = StraightDrive();
+  std::vector<ReportedDrive> drives{Reported(first, "a.mcap"), Reported(second, "b.mcap")};
+  drives[0].meta = {{"condition", "dry"}};
+  drives[1].meta = {{"condition", "rain"}};
+  const std::string page = ReportPage(Spec(), drives);
+  EXPECT_THAT(page, HasSubstr("2 recordings"));
+  EXPECT_EQ(Count(page, "<td class=\"number\">20</td>"), 2u);
+  EXPECT_EQ(Count(StripsSvg(drives), ">rain</text>"), 2u) << "in the keys of speed and accelerator, which have values";
+}
+
+// A gap in the recording is a gap of its curves and of the way.
+TEST(ReportPage, MissingSamplesInterruptCurvesAndWay) {
+  const auto reading = StraightDrive();
+  const ReportedDrive drive = Reported(reading, "a.mcap");
+  EXPECT_EQ(Count(StripsSvg({&drive, 1}), "<polyline"), 4u) << "two quantities, two parts each";
+  EXPECT_EQ(Count(MapSvg(reading.drive, nullptr), "<polyline"), 2u);
+}
+
+TEST(ReportPage, ARecordingWithoutAnyPlaceHasNoMap) {
+  auto reading = StraightDrive();
+  std::fill(reading.drive.x_m.begin(), reading.drive.x_m.end(), kMissing);
+  EXPECT_EQ(MapSvg(reading.drive, nullptr), "");
+  const ReportedDrive drive = Reported(reading, "a.mcap");
+  EXPECT_THAT(ReportPage(Spec(), {&drive, 1}), Not(HasSubstr("Way of")));
+}
+
+}  // namespace
+}  // namespace rodeira::report
