@@ -14,6 +14,7 @@
 #include "common/core/base/print_error.hpp"
 #include "common/driving/manoeuvres/manoeuvre.hpp"
 #include "common/vehicle/dynamics/vehicle_notes.hpp"
+#include "launch/rodeira/commands/rig_command.hpp"
 #include "launch/rodeira/commands/tyre_command.hpp"
 #include "launch/rodeira/input_files.hpp"
 
@@ -107,7 +108,7 @@ int Vehicle(const VehicleOptions& options) {
   if (!file) return base::PrintError("rodeira", file.error());
   VehicleOptions resolved = options;
   resolved.file = std::move(file).value();
-  return TestVehicle(resolved);
+  return options.command == "rig" ? SuspensionBench(resolved) : TestVehicle(resolved);
 }
 
 }  // namespace rodeira::cli

@@ -7,13 +7,14 @@
 namespace rodeira::cli {
 
 struct VehicleOptions {
-  std::string command;                  // "test", "tyre" or "list"
+  std::string command;                  // "test", "rig", "tyre" or "list"
   std::string file;                     // a path, or the name of a vehicle (InputKind::kVehicle); a tyre file
   std::vector<std::string> manoeuvres;  // none: all
   double step_s = 0.001;
   std::string csv;  // of one manoeuvre
   std::string svg;
-  std::string out;  // folder: both, of each
+  std::string out;         // folder: both, of each; of the rig its tables and diagrams
+  double travel_m = 0.06;  // of the rig, up and down
   bool quiet = false;
 };
 

@@ -29,6 +29,15 @@ void AddVehicle(CLI::App& app, ChosenCommand& chosen) {
   test->add_option("--out", options->out, "folder: NAME.csv and NAME.svg of each manoeuvre");
   test->add_flag("--quiet", options->quiet, "no progress, no table");
   chosen.When(*test, run("test"));
+  CLI::App* rig =
+      vehicle->add_subcommand("rig", "move the wheels of a multibody car and print its suspensions' figures");
+  rig->add_option("VEHICLE.yaml", options->file, "vehicle file, or its name (prototype)")->required();
+  rig->add_option("--travel", options->travel_m, "largest travel up and down, in m")->capture_default_str();
+  rig->add_option(
+      "--out", options->out,
+      "folder: travel.csv and travel.svg over travel, steering.csv and steering.svg over the steering wheel");
+  rig->add_flag("--quiet", options->quiet, "no table");
+  chosen.When(*rig, run("rig"));
   CLI::App* tyre = vehicle->add_subcommand("tyre", "read a tyre file, check it, print its figures and draw it");
   tyre->add_option("FILE.tir", options->file, "tyre property file, or a Fiala or TMeasy tyre of Chrono (.json)")
       ->required();

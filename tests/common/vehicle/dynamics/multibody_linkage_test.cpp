@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Toe and camber of the prototype's wheels over their travel against the linkages' geometry, solved by itself:
+// The prototype's suspensions on the rig against the linkages' geometry, solved by itself:
 // rotations of the arms about their pivots and intersections of spheres, from nothing but the points as drawn.
 #include <gtest/gtest.h>
 
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "common/vehicle/dynamics/multibody_model.hpp"
+#include "common/vehicle/dynamics/suspension_rig.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::dynamics {
@@ -15,6 +16,7 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr std::array<const char*, kWheels> kSides = {"fl_", "fr_", "rl_", "rr_"};
 constexpr double kPinion = 0.0069;  // m of the rack a radian of the pinion, from the file
 
 // The two points at given distances from three others, of which the one nearer to `near`.
@@ -105,23 +107,25 @@ class Linkage : public ::testing::Test {
     return {(top_drawn - at("strut_foot")).norm(), moved * at("hub"), moved.linear() * at("axle")};
   }
 
-  // The mechanism with its chassis held where it is drawn, springs at given lengths, the column turned.
-  std::unique_ptr<multibody::System> Held(const std::array<Corner, kWheels>& corners, double pinion_rad) const {
-    multibody::Drawing drawing = settings_.mechanism;
-    drawing.loads.clear();
-    for (const int entity : drawing.bodies[static_cast<std::size_t>(settings_.chassis)].entities)
-      drawing.entities[static_cast<std::size_t>(entity)].fixed = {true, true, true};
-    const auto hold = [&drawing](int entity, double value) {
-      drawing.entities[static_cast<std::size_t>(entity)].at.x() = value;
-      drawing.entities[static_cast<std::size_t>(entity)].fixed[0] = true;
-    };
-    hold(settings_.steering.angle, pinion_rad);
-    for (std::size_t i = 0; i < kWheels; ++i) hold(settings_.wheels[i].travel, corners[i].length_m);
-    auto system = multibody::System::Make(drawing);
-    EXPECT_TRUE(system.ok()) << (system.ok() ? "" : system.error().Text());
-    const auto status = system.value()->Assemble();
-    EXPECT_TRUE(status.ok()) << status.error().Text();
-    return std::move(system).value();
+  std::array<double, kWheels> TravelsTo(const std::array<Corner, kWheels>& corners) const {
+    std::array<double, kWheels> travels{};
+    for (std::size_t i = 0; i < kWheels; ++i) travels[i] = corners[i].hub.z() - At(std::string(kSides[i]) + "hub").z();
+    return travels;
+  }
+  // The wheel's lowest point.
+  Vector3d Contact(const Corner& corner) const {
+    return corner.hub - settings_.wheel.radius_m * (Vector3d::UnitZ() - corner.axle.z() * corner.axle).normalized();
+  }
+  // A corner whose hub is this far above where it is drawn, by bisection of the arm's angle.
+  Corner AtTravel(const std::string& side, double travel_m) const {
+    const auto corner = [&](double arm) { return side[0] == 'f' ? Wishbones(side, arm, 0.0) : Strut(side, arm); };
+    const double up = side[1] == 'l' ? -1.0 : 1.0;
+    double low = -0.3, high = 0.3;
+    for (int turn = 0; turn < 60; ++turn) {
+      const double middle = 0.5 * (low + high);
+      (corner(up * middle).hub.z() - At(side + "hub").z() < travel_m ? low : high) = middle;
+    }
+    return corner(up * 0.5 * (low + high));
   }
 
   // Largest toe and camber changes that were seen, of a front and a rear wheel.
@@ -137,6 +141,9 @@ class Linkage : public ::testing::Test {
 };
 
 TEST_F(Linkage, ToeAndCamberOverTravelAreTheGeometrys) {
+  auto made = SuspensionRig::Make(settings_);
+  ASSERT_TRUE(made.ok()) << made.error().Text();
+  SuspensionRig rig = std::move(made).value();
   std::array<Range, kWheels> travel, toe, camber;
   for (const double pinion : {0.0, 1.5, -1.5}) {
     for (int step = -4; step <= 4; ++step) {
@@ -144,19 +151,22 @@ TEST_F(Linkage, ToeAndCamberOverTravelAreTheGeometrys) {
       const double rack = -kPinion * pinion;
       const std::array<Corner, kWheels> expected = {Wishbones("fl_", arm, rack), Wishbones("fr_", -arm, rack),
                                                     Strut("rl_", arm), Strut("rr_", -arm)};
-      const auto system = Held(expected, pinion);
+      const auto status = rig.MoveTo(TravelsTo(expected), pinion);
+      ASSERT_TRUE(status.ok()) << status.error().Text();
       for (std::size_t i = 0; i < kWheels; ++i) {
-        const Vector3d hub = system->motion().At(settings_.wheels[i].centre),
-                       axle = system->motion().At(settings_.wheels[i].axle);
-        EXPECT_LT((hub - expected[i].hub).norm(), 1e-8) << i << " at " << step << ", pinion " << pinion;
-        const auto toe_of = [](const Vector3d& a) { return std::atan2(-a.x(), a.y()); };
-        EXPECT_NEAR(toe_of(axle), toe_of(expected[i].axle), 1e-8) << i << " at " << step << ", pinion " << pinion;
-        EXPECT_NEAR(std::asin(axle.z()), std::asin(expected[i].axle.z()), 1e-8)
-            << i << " at " << step << ", pinion " << pinion;
+        const WheelPosition wheel = rig.wheel(i);
+        const double outward = i % 2 == 0 ? 1.0 : -1.0;
+        const Vector3d& axle = expected[i].axle;
+        EXPECT_LT((wheel.centre_m - expected[i].hub).norm(), 1e-8) << i << " at " << step << ", pinion " << pinion;
+        EXPECT_LT((wheel.contact_m - Contact(expected[i])).norm(), 1e-8) << i << " at " << step;
+        EXPECT_NEAR(wheel.spring_m, expected[i].length_m, 1e-8) << i << " at " << step << ", pinion " << pinion;
+        EXPECT_NEAR(wheel.steer_rad, std::atan2(-axle.x(), axle.y()), 1e-8) << i << " at " << step;
+        EXPECT_NEAR(wheel.toe_in_rad, outward * std::atan2(axle.x(), axle.y()), 1e-8) << i << " at " << step;
+        EXPECT_NEAR(wheel.camber_rad, -outward * std::asin(axle.z()), 1e-8) << i << " at " << step;
         if (pinion != 0.0) continue;
-        travel[i].Add(hub.z() - At(i == 0 ? "fl_hub" : i == 1 ? "fr_hub" : i == 2 ? "rl_hub" : "rr_hub").z());
-        toe[i].Add(toe_of(axle));
-        camber[i].Add(std::asin(axle.z()));
+        travel[i].Add(wheel.centre_m.z() - At(std::string(kSides[i]) + "hub").z());
+        toe[i].Add(wheel.toe_in_rad);
+        camber[i].Add(wheel.camber_rad);
       }
     }
   }
@@ -179,6 +189,94 @@ TEST_F(Linkage, SpringingInTurnsFrontWheelsOutAndRearWheelsIn) {
   EXPECT_GT(Strut("rl_", -0.05).hub.z(), At("rl_hub").z());
   EXPECT_GT(front, 1e-4);
   EXPECT_LT(rear, -1e-4);
+}
+
+// The steering turns a front wheel about the line through its ball joints; rear wheels it does not turn.
+TEST_F(Linkage, TheSteeringAxisGoesThroughTheBallJoints) {
+  auto rig = SuspensionRig::Make(settings_);
+  ASSERT_TRUE(rig.ok()) << rig.error().Text();
+  for (const std::size_t wheel : {0u, 1u}) {
+    const auto figures = rig.value().Figures(wheel, 0.0);
+    ASSERT_TRUE(figures.ok()) << figures.error().Text();
+    ASSERT_TRUE(figures.value().steering_axis.has_value());
+    const auto& found = *figures.value().steering_axis;
+    const std::string side = kSides[wheel];
+    const Vector3d lower = At(side + "lower_ball"), way = At(side + "upper_ball") - lower;
+    const Vector3d contact = At(side + "hub") - settings_.wheel.radius_m * Vector3d::UnitZ();
+    const Vector3d ground = lower + (contact.z() - lower.z()) / way.z() * way;
+    const double outward = wheel == 0 ? 1.0 : -1.0;
+    // The rotation is one of 0.1 rad of the steering wheel, not of none: hence the bounds.
+    EXPECT_NEAR(found.caster_rad, std::atan2(-way.x(), way.z()), 1e-5) << wheel;
+    EXPECT_NEAR(found.inclination_rad, std::atan2(-outward * way.y(), way.z()), 1e-5) << wheel;
+    EXPECT_NEAR(found.scrub_radius_m, outward * (contact - ground).y(), 1e-5) << wheel;
+    EXPECT_NEAR(found.trail_m, (ground - contact).x(), 1e-5) << wheel;
+    EXPECT_GT(found.caster_rad, 0.01);
+  }
+  for (const std::size_t wheel : {2u, 3u}) {
+    const auto figures = rig.value().Figures(wheel, 0.0);
+    ASSERT_TRUE(figures.ok()) << figures.error().Text();
+    EXPECT_FALSE(figures.value().steering_axis.has_value()) << wheel;
+  }
+}
+
+// Ways, roll centre and wheel rate from the geometry's own positions above and below.
+TEST_F(Linkage, FiguresOverTravelAreTheGeometrys) {
+  auto rig = SuspensionRig::Make(settings_);
+  ASSERT_TRUE(rig.ok()) << rig.error().Text();
+  for (const double travel : {-0.03, 0.0, 0.03}) {
+    for (std::size_t wheel = 0; wheel < kWheels; ++wheel) {
+      const auto figures = rig.value().Figures(wheel, travel);
+      ASSERT_TRUE(figures.ok()) << figures.error().Text();
+      const auto& found = figures.value();
+      constexpr double kStep_m = 2e-4;
+      const Corner below = AtTravel(kSides[wheel], travel - kStep_m), here = AtTravel(kSides[wheel], travel),
+                   above = AtTravel(kSides[wheel], travel + kStep_m);
+      const double outward = wheel % 2 == 0 ? 1.0 : -1.0;
+      const Vector3d way = Contact(above) - Contact(below);
+      const auto toe_in = [&](const Corner& corner) { return outward * std::atan2(corner.axle.x(), corner.axle.y()); };
+      const auto camber = [&](const Corner& corner) { return -outward * std::asin(corner.axle.z()); };
+      EXPECT_NEAR(found.bump_steer_radpm, (toe_in(above) - toe_in(below)) / (2 * kStep_m), 2e-4) << wheel;
+      EXPECT_NEAR(found.camber_gain_radpm, (camber(above) - camber(below)) / (2 * kStep_m), 2e-4) << wheel;
+      EXPECT_NEAR(found.lateral_share, outward * way.y() / (2 * kStep_m), 1e-4) << wheel;
+      EXPECT_NEAR(found.forward_share, way.x() / (2 * kStep_m), 1e-4) << wheel;
+      // Where the normal to the contact's path meets the middle of the car.
+      EXPECT_NEAR(found.roll_centre_m, Contact(here).y() * way.y() / way.z(), 1e-4) << wheel;
+      const double shortening = (below.length_m - above.length_m) / (2 * kStep_m);
+      EXPECT_NEAR(found.spring_share, shortening, 1e-4) << wheel;
+      // d/dz of tension times the spring's lengthening; stiffness and preload are the file's.
+      const bool front = wheel < 2;
+      const double stiffness = front ? 34000.0 : 18000.0, preload = front ? -2298.0 : -1302.0;
+      const double drawn =
+          front
+              ? (At(std::string(kSides[wheel]) + "damper_foot") - At(std::string(kSides[wheel]) + "damper_top")).norm()
+              : (At(std::string(kSides[wheel]) + "strut_foot") - At(std::string(kSides[wheel]) + "strut_top")).norm();
+      const double tension = preload + stiffness * (here.length_m - drawn);
+      const double curvature = (above.length_m - 2 * here.length_m + below.length_m) / (kStep_m * kStep_m);
+      EXPECT_NEAR(found.wheel_rate_Npm, stiffness * shortening * shortening + tension * curvature, 30.0) << wheel;
+      EXPECT_GT(found.wheel_rate_Npm, 8000.0);
+    }
+  }
+}
+
+TEST_F(Linkage, WhatTheSuspensionDoesNotReachIsTold) {
+  auto rig = SuspensionRig::Make(settings_);
+  ASSERT_TRUE(rig.ok()) << rig.error().Text();
+  ASSERT_TRUE(rig.value().MoveTo({0.02, 0.02, 0.02, 0.02}, 0.0).ok());
+  const auto status = rig.value().MoveTo({0.02, 0.9, 0.02, 0.02}, 0.0);
+  ASSERT_FALSE(status.ok());
+  EXPECT_EQ(status.error().id.text(), "vehicle.travel_out_of_reach");
+  EXPECT_NE(status.error().message.find("front_right"), std::string::npos) << status.error().message;
+  EXPECT_NEAR(rig.value().wheel(1).centre_m.z(), At("fr_hub").z() + 0.02, 1e-9) << "it stays where it was";
+}
+
+// A rack that no pinion holds.
+TEST_F(Linkage, ALooseMechanismIsRefused) {
+  MultibodySettings loose = settings_;
+  ASSERT_EQ(std::erase_if(loose.mechanism.rows, [](const auto& row) { return row.name == "pinion"; }), 1u);
+  const auto rig = SuspensionRig::Make(loose);
+  ASSERT_FALSE(rig.ok());
+  EXPECT_EQ(rig.error().id.text(), "vehicle.loose_suspension");
+  EXPECT_NE(rig.error().message.find("1 way"), std::string::npos) << rig.error().message;
 }
 
 }  // namespace
