@@ -143,7 +143,7 @@ TEST(TopicHash, OfAnIncludedTypeChangesForAllThatUseIt) {
   for (const TopicInfo& info : Topics()) {
     if (info.lockstep) lockstep.emplace_back(info.topic);
   }
-  ASSERT_EQ(lockstep.size(), 10u);
+  ASSERT_GE(lockstep.size(), 10u);
   EXPECT_THAT(ChangedBy("unsigned long incarnation;         // grows with each restart",
                         "unsigned long life;         // grows with each restart"),
               ::testing::UnorderedElementsAreArray(lockstep));

@@ -101,6 +101,17 @@ TEST_F(OwnNode, HasOneDigestInEveryRunAndOverEveryTransport) {
   EXPECT_NE(DigestIn(other.out), DigestIn(first.out)) << "the node is in the digest";
 }
 
+// The monitor's factory asks for none of its keys.
+TEST_F(OwnNode, KeysOfANodeThatReadsNoneAreRefused) {
+  for (const bool in_process : {false, true}) {
+    std::vector<std::string> more{"--set", "nodes.monitor.config={lookahead_s: 2}"};
+    if (in_process) more.push_back("--in-process");
+    const Ended ended = Run("never.mcap", more);
+    EXPECT_EQ(ended.status, 2) << ended.out;
+    EXPECT_THAT(ended.out, HasSubstr("'lookahead_s'"));
+  }
+}
+
 TEST_F(OwnNode, IsRecordedWithItsTypeAndVerifiedByItsSamples) {
   ASSERT_EQ(Run("own.mcap").status, 0);
   const auto reader = record::McapReader::Open(File("own.mcap"));

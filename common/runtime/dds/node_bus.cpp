@@ -122,7 +122,7 @@ base::Status NodeBus::Connect(Participant& participant) {
   }
   auto questions = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
   if (!questions) return questions.error();
-  pending_nacks_ = std::move(questions).value();
+  nack_writer_ = std::move(questions).value();
   auto reports = participant.MakeWriter(topics::kReport, Delivery::kBestEffortRepeated);
   if (!reports) return reports.error();
   reports_ = std::move(reports).value();
@@ -180,7 +180,7 @@ Writer& NodeBus::WriterOf(lockstep::SourceIndex source) {
 }
 
 void NodeBus::Ask(const lockstep::Gap& gap) {
-  (void)pending_nacks_->Write(
+  (void)nack_writer_->Write(
       EncodeNack(roster_.hash(), {settings_.node, gap}));  // a lost question is put again by the runner
 }
 

@@ -109,7 +109,7 @@ class NodeBus final : public lockstep::Bus {
   std::atomic<bool> listens_;
   std::vector<lockstep::SourceIndex> outputs_;    // with the snapshots
   std::vector<std::unique_ptr<Writer>> writers_;  // one for each of them
-  std::unique_ptr<Writer> pending_nacks_;
+  std::unique_ptr<Writer> nack_writer_;
   std::unique_ptr<Writer> reports_;
   std::vector<std::unique_ptr<Reader>> readers_;
 

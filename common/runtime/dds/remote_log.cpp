@@ -77,7 +77,7 @@ class Receiver final : public launch::RunLogReceiver {
   base::Status Open(Participant& participant) {
     auto writer = participant.MakeWriter(topics::kNack, Delivery::kBestEffortRepeated);
     if (!writer) return writer.error();
-    pending_nacks_ = std::move(writer).value();
+    nack_writer_ = std::move(writer).value();
     auto reader = participant.MakeReader(topics::kRunLog, Delivery::kBestEffortRepeated,
                                          [this](base::Bytes&& bytes) { Hear(bytes); });
     if (!reader) return reader.error();
@@ -100,7 +100,7 @@ class Receiver final : public launch::RunLogReceiver {
 
  private:
   void Ask(std::uint64_t from) {
-    (void)pending_nacks_->Write(EncodeNack(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
+    (void)nack_writer_->Write(EncodeNack(roster_hash_, {0, {kLogSource, static_cast<lockstep::Step>(from)}}));
   }
   void Hear(const base::Bytes& bytes) {
     auto heard = DecodeLog(bytes);
@@ -114,7 +114,7 @@ class Receiver final : public launch::RunLogReceiver {
   std::mutex mutex_;
   std::uint64_t clock_id_ = 0;  // one clock a run: the first
   lockstep::LogInbox inbox_;
-  std::unique_ptr<Writer> pending_nacks_;
+  std::unique_ptr<Writer> nack_writer_;
   std::unique_ptr<Reader> reader_;  // last: its callback uses the rest
 };
 

@@ -165,6 +165,7 @@ int Drive(const launch::NodeFactory& factory, ProcessContext& context, NodeBus& 
     bus.Linger(report, 1000ms);
     return report.phase == lockstep::Phase::kRefused ? 2 : 1;
   };
+  (void)context.config();  // so that the keys of a node that reads none are unknown ones
   auto node = factory(context);
   if (!node) return fail(node.error());
   node = launch::AsManifestSays(*context.launch().node(context.index()).kind, std::move(node).value());

@@ -100,6 +100,7 @@ base::Result<LocalNodes> LocalNodes::Make(const launch::Launch& launch, const St
       return base::WrongInput("launch.not_in_process",
                               fmt::format("nodes of kind '{}' do not run in one process", roster.node(n).kind),
                               fmt::format("node '{}'", roster.node(n).name));
+    (void)made.contexts_.back()->config();  // so that the keys of a node that reads none are unknown ones
     auto node = factory(*made.contexts_.back());
     if (node.ok()) node = launch::AsManifestSays(*launch.node(n).kind, std::move(node).value());
     if (!node) return node.error().In(fmt::format("node '{}'", roster.node(n).name));
