@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/core/config/declared.hpp"
 
+#include <cmath>
+#include <limits>
+
 #include "common/core/base/assert.hpp"
 
 namespace rodeira::config {
@@ -23,6 +26,13 @@ double DeclaredMap::Number(std::string_view key, double default_value) const {
   const Key& declared = Declared(key, ValueType::kNumber);
   RODEIRA_ASSERT(!declared.required && !declared.default_note.empty());
   return map_.Number(key, declared.range, default_value);
+}
+
+std::optional<double> DeclaredMap::OptionalNumber(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kNumber);
+  RODEIRA_ASSERT(!declared.required && std::holds_alternative<std::monostate>(declared.default_value));
+  const double value = map_.Number(key, declared.range, std::numeric_limits<double>::quiet_NaN());
+  return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
 std::int64_t DeclaredMap::Integer(std::string_view key) const {
@@ -64,8 +74,23 @@ std::string DeclaredMap::Word(std::string_view key) const {
 }
 
 DeclaredMap DeclaredMap::Child(std::string_view key) const {
-  const Key& declared = Declared(key, ValueType::kMapping);
+  const Key* found = FindKey(*keys_, key);
+  RODEIRA_ASSERT(found != nullptr && (found->type == ValueType::kMapping || found->type == ValueType::kOther));
+  const Key& declared = *found;
   return {declared.required ? map_.Child(key) : map_.OptionalChild(key), declared.of};
+}
+
+DeclaredList DeclaredMap::Items(std::string_view key) const {
+  const Key& declared = Declared(key, ValueType::kList);
+  RODEIRA_ASSERT(declared.of.size() == 1);
+  return {declared.required ? map_.Items(key) : map_.OptionalItems(key), declared.of.front()};
+}
+
+std::vector<double> DeclaredMap::Numbers(std::string_view key) const {
+  std::vector<double> values;
+  const DeclaredList items = Items(key);
+  for (std::size_t i = 0; i < items.size(); ++i) values.push_back(items.Number(i));
+  return values;
 }
 
 const Map& DeclaredMap::MapWith(std::string_view key) const {
@@ -81,6 +106,21 @@ std::vector<std::pair<std::string, DeclaredMap>> DeclaredMap::Named(std::string_
   for (const std::string& name : names.Keys())
     entries.emplace_back(name, DeclaredMap(names.Child(name), declared.of.front().of));
   return entries;
+}
+
+DeclaredMap DeclaredList::At(std::size_t index) const {
+  RODEIRA_ASSERT(item_->type == ValueType::kMapping);
+  return {list_.At(index), item_->of};
+}
+
+double DeclaredList::Number(std::size_t index) const {
+  RODEIRA_ASSERT(item_->type == ValueType::kNumber);
+  return list_.Number(index, item_->range);
+}
+
+std::string DeclaredList::Text(std::size_t index) const {
+  RODEIRA_ASSERT(item_->type == ValueType::kText);
+  return list_.Text(index);
 }
 
 }  // namespace rodeira::config

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -9,6 +10,8 @@
 #include "common/core/config/schema.hpp"
 
 namespace rodeira::config {
+
+class DeclaredList;
 
 // A mapping that is read by its declarations: type, range, words and default of a key come from them. A key that they
 // do not have, or have with another type, is an assertion failure. The declarations must live as long as this object.
@@ -20,6 +23,8 @@ class DeclaredMap {
   double Number(std::string_view key) const;
   // The default is computed by the caller; only for a ComputedNumberKey.
   double Number(std::string_view key, double default_value) const;
+  // Nothing if the key is absent; only for an OptionalNumberKey.
+  std::optional<double> OptionalNumber(std::string_view key) const;
   std::int64_t Integer(std::string_view key) const;
   bool Flag(std::string_view key) const;
   std::string Text(std::string_view key) const;
@@ -30,6 +35,10 @@ class DeclaredMap {
   DeclaredMap Child(std::string_view key) const;
   // Mappings by name, in the order of the file.
   std::vector<std::pair<std::string, DeclaredMap>> Named(std::string_view key) const;
+  // Empty if it is absent, which is a problem where it is required. The caller checks the number of items.
+  DeclaredList Items(std::string_view key) const;
+  // The items of a list of numbers.
+  std::vector<double> Numbers(std::string_view key) const;
 
   // The mapping with a declared key, for a function that reads this key by itself, with checks of its own.
   const Map& MapWith(std::string_view key) const;
@@ -41,6 +50,24 @@ class DeclaredMap {
 
   Map map_;
   const std::vector<Key>* keys_;
+};
+
+// A list that is read by the declaration of its items.
+class DeclaredList {
+ public:
+  DeclaredList(List list, const Key& item) : list_(std::move(list)), item_(&item) {}
+
+  std::size_t size() const { return list_.size(); }
+  // An item that is a mapping.
+  DeclaredMap At(std::size_t index) const;
+  double Number(std::size_t index) const;
+  std::string Text(std::size_t index) const;
+  // For problems and places.
+  const List& list() const { return list_; }
+
+ private:
+  List list_;
+  const Key* item_;
 };
 
 }  // namespace rodeira::config

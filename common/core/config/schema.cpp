@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/core/base/assert.hpp"
@@ -23,6 +24,10 @@ Key ComputedNumberKey(std::string name, Range range, std::string default_note, s
   Key key{std::move(name), ValueType::kNumber, std::move(meaning), false, range};
   key.default_note = std::move(default_note);
   return key;
+}
+
+Key OptionalNumberKey(std::string name, Range range, std::string meaning) {
+  return {std::move(name), ValueType::kNumber, std::move(meaning), false, range};
 }
 
 Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t default_value, std::string meaning) {
@@ -68,6 +73,12 @@ Key WordKey(std::string name, std::vector<std::string> words, std::string defaul
   return key;
 }
 
+Key OptionalWordKey(std::string name, std::vector<std::string> words, std::string meaning) {
+  Key key{std::move(name), ValueType::kWord, std::move(meaning)};
+  key.words = std::move(words);
+  return key;
+}
+
 Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning) {
   Key key{std::move(name), ValueType::kMapping, std::move(meaning)};
   key.of = std::move(keys);
@@ -81,6 +92,58 @@ Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning) {
 Key NamedValueKey(std::string name, Key value, std::string meaning) {
   Key key{std::move(name), ValueType::kNamed, std::move(meaning)};
   key.of.push_back(std::move(value));
+  return key;
+}
+
+Key ListKey(std::string name, Key item, std::string meaning) {
+  Key key{std::move(name), ValueType::kList, std::move(meaning)};
+  key.of.push_back(std::move(item));
+  return key;
+}
+
+Key ListKey(std::string name, std::vector<Key> keys, std::string meaning) {
+  return ListKey(std::move(name), MappingKey("", std::move(keys), ""), std::move(meaning));
+}
+
+Key NumberItem(Range range) { return OptionalNumberKey("", range, ""); }
+
+Key TextItem(std::string sample) {
+  Key key{"", ValueType::kText, ""};
+  key.sample = std::move(sample);
+  return key;
+}
+
+Key WordItem(std::vector<std::string> words) { return OptionalWordKey("", std::move(words), ""); }
+
+Key OtherKey(std::string name, std::string form, std::string sample, std::string meaning, std::vector<Key> keys) {
+  Key key{std::move(name), ValueType::kOther, std::move(meaning)};
+  key.form = std::move(form);
+  key.of = std::move(keys);
+  key.sample = std::move(sample);
+  return key;
+}
+
+Key Counted(std::size_t low, std::size_t high, Key list) {
+  RODEIRA_ASSERT(list.type == ValueType::kList && low <= high);
+  list.min_items = low;
+  list.max_items = high;
+  return list;
+}
+
+Key Summarised(std::string summary, Key key) {
+  RODEIRA_ASSERT(key.type == ValueType::kMapping || key.type == ValueType::kWord);
+  key.summary = std::move(summary);
+  return key;
+}
+
+Key WithDefaultNote(std::string default_note, Key key) {
+  RODEIRA_ASSERT(!key.required && std::holds_alternative<std::monostate>(key.default_value));
+  key.default_note = std::move(default_note);
+  return key;
+}
+
+Key WithSample(std::string sample, Key key) {
+  key.sample = std::move(sample);
   return key;
 }
 
@@ -105,50 +168,104 @@ const Key* FindKey(const std::vector<Key>& keys, std::string_view name) {
 
 namespace {
 
-void CollectValues(const Key& key, const std::string& path, std::vector<PlacedKey>& out) {
+// `brief`: a mapping with a summary is one entry.
+void CollectValues(const Key& key, const std::string& path, const Key* container, bool brief,
+                   std::vector<PlacedKey>& out) {
+  if (brief && key.type == ValueType::kMapping && !key.summary.empty()) return out.push_back({path, &key, nullptr});
   switch (key.type) {
     case ValueType::kMapping:
-      for (const Key& child : key.of) CollectValues(child, path.empty() ? child.name : path + "." + child.name, out);
+      for (const Key& child : key.of) CollectValues(child, path + "." + child.name, nullptr, brief, out);
       return;
     case ValueType::kNamed:
-      CollectValues(key.of.front(), path + ".NAME", out);
+      CollectValues(key.of.front(), path + ".NAME", &key, brief, out);
+      return;
+    case ValueType::kList:
+      CollectValues(key.of.front(), path + "[]", &key, brief, out);
+      return;
+    case ValueType::kOther:
+      out.push_back({path, &key, container});
+      for (const Key& child : key.of) CollectValues(child, path + "." + child.name, nullptr, brief, out);
       return;
     default:
-      out.push_back({path, &key});
+      out.push_back({path, &key, container});
   }
+}
+
+// At most six digits, where more would only show the rounding.
+std::string NumberCell(double value) {
+  const std::string text = fmt::format("{}", value);
+  return text.size() > 12 ? fmt::format("{:.6g}", value) : text;
+}
+
+std::string HighCell(double high) {
+  const double next = std::nextafter(high, Range{}.high);
+  return next == std::round(next) && high != std::round(high) ? "below " + NumberCell(next) : NumberCell(high);
+}
+
+std::string ItemsCell(const Key& list) {
+  const bool high = list.max_items < std::numeric_limits<std::size_t>::max();
+  if (high && list.min_items == list.max_items) return fmt::format("{} items", list.max_items);
+  if (high) return fmt::format("{} to {} items", list.min_items, list.max_items);
+  return list.min_items > 0 ? fmt::format("{} or more items", list.min_items) : "";
 }
 
 }  // namespace
 
 std::vector<PlacedKey> ValuesOf(const Schema& schema) {
   std::vector<PlacedKey> values;
-  for (const Key& key : schema.keys) CollectValues(key, key.name, values);
+  for (const Key& key : schema.keys) CollectValues(key, key.name, nullptr, false, values);
   return values;
 }
 
-std::string RangeCell(const Key& key) {
+std::vector<PlacedKey> RowsOf(const Schema& schema) {
+  std::vector<PlacedKey> rows;
+  for (const Key& key : schema.keys) CollectValues(key, key.name, nullptr, true, rows);
+  return rows;
+}
+
+namespace {
+
+std::string RangeOf(const Key& key) {
   switch (key.type) {
     case ValueType::kNumber:
     case ValueType::kInteger: {
       const bool low = key.range.low > Range{}.low, high = key.range.high < Range{}.high;
-      if (low && high) return fmt::format("{} to {}", key.range.low, key.range.high);
-      if (low && key.range.low == Range::Positive().low) return "over 0";
-      if (low) return fmt::format("from {}", key.range.low);
-      return high ? fmt::format("to {}", key.range.high) : "";
+      const bool positive = key.range.low == Range::Positive().low;
+      if (low && high) return (positive ? "over 0" : NumberCell(key.range.low)) + " to " + HighCell(key.range.high);
+      if (positive) return "over 0";
+      if (low) return "from " + NumberCell(key.range.low);
+      return high ? "to " + HighCell(key.range.high) : "";
     }
     case ValueType::kFlag:
       return "true, false";
     case ValueType::kWord:
-      return fmt::format("{}", fmt::join(key.words, ", "));
+      return key.summary.empty() ? fmt::format("{}", fmt::join(key.words, ", ")) : key.summary;
+    case ValueType::kOther:
+      return key.form;
+    case ValueType::kMapping:
+      return key.summary;
     default:
       return "";
   }
 }
 
-std::string DefaultCell(const Key& key) {
+}  // namespace
+
+std::string RangeCell(const PlacedKey& placed) {
+  const std::string range = RangeOf(*placed.key);
+  const std::string items = placed.container != nullptr ? ItemsCell(*placed.container) : "";
+  return range.empty() || items.empty() ? range + items : items + ", " + range;
+}
+
+std::string MeaningCell(const PlacedKey& placed) {
+  return placed.key->meaning.empty() && placed.container != nullptr ? placed.container->meaning : placed.key->meaning;
+}
+
+std::string DefaultCell(const PlacedKey& placed) {
+  const Key& key = placed.container != nullptr ? *placed.container : *placed.key;
   if (key.required) return "required";
   if (!key.default_note.empty()) return key.default_note;
-  if (const double* number = std::get_if<double>(&key.default_value)) return fmt::format("{}", *number);
+  if (const double* number = std::get_if<double>(&key.default_value)) return NumberCell(*number);
   if (const std::int64_t* number = std::get_if<std::int64_t>(&key.default_value)) return fmt::format("{}", *number);
   if (const bool* flag = std::get_if<bool>(&key.default_value)) return *flag ? "true" : "false";
   if (const std::string* text = std::get_if<std::string>(&key.default_value)) return *text;

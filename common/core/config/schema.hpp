@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,14 +23,16 @@ enum class ValueType {
   kWord,     // one of `words`
   kMapping,  // the keys that `of` declares
   kNamed,    // a mapping with free names as keys; `of` holds the declaration of each value
+  kList,     // `of` holds the declaration of each item
+  kOther,    // what `form` says, or a mapping with the keys of `of`; a reader of its own checks it
 };
 
 // Nothing: the key has no default of its own.
 using DefaultValue = std::variant<std::monostate, double, std::int64_t, bool, std::string>;
 
-// A key of a mapping; without a name the value of a named entry.
+// A key of a mapping, a value of kNamed or an item of kList.
 struct Key {
-  std::string name;  // with its unit
+  std::string name;  // with its unit; empty for a value of kNamed and an item of kList
   ValueType type = ValueType::kText;
   std::string meaning;               // one sentence, without the unit
   bool required = false;             // only where the mapping that it belongs to is there
@@ -37,7 +41,12 @@ struct Key {
   std::string default_note{};        // the default in words, where it depends on other keys
   std::vector<std::string> words{};  // of kWord
   std::vector<Key> of{};
-  std::string sample{};  // a valid value as YAML, where type and range do not give one
+  std::string sample{};       // a valid value as YAML, where type and range do not give one; of kNamed: a valid name;
+                              // of kMapping: not empty, if generated files have the mapping though it is optional
+  std::string form{};         // of kOther, in words: "a number or a list of [s_m, width_m]"
+  std::string summary{};      // of kMapping, kWord: not empty, if the reference shows this instead of keys and words
+  std::size_t min_items = 0;  // of kList
+  std::size_t max_items = std::numeric_limits<std::size_t>::max();
 };
 
 // A kind of file.
@@ -53,6 +62,8 @@ Key NumberKey(std::string name, Range range, double default_value, std::string m
 Key RequiredNumberKey(std::string name, Range range, std::string meaning);
 // A number with a default that the reader computes; `default_note` says from what.
 Key ComputedNumberKey(std::string name, Range range, std::string default_note, std::string meaning);
+// A number that may be absent, which the reader tells apart from every number.
+Key OptionalNumberKey(std::string name, Range range, std::string meaning);
 Key IntegerKey(std::string name, std::int64_t low, std::int64_t high, std::int64_t default_value, std::string meaning);
 Key RequiredIntegerKey(std::string name, std::int64_t low, std::int64_t high, std::string meaning);
 Key FlagKey(std::string name, bool default_value, std::string meaning);
@@ -62,10 +73,29 @@ Key RequiredTextKey(std::string name, std::string sample, std::string meaning);
 // A text with a default that the reader computes; `sample` is one that it takes, as YAML.
 Key ComputedTextKey(std::string name, std::string default_note, std::string sample, std::string meaning);
 Key WordKey(std::string name, std::vector<std::string> words, std::string default_value, std::string meaning);
+// A word that may be absent; its reader tells what follows from that.
+Key OptionalWordKey(std::string name, std::vector<std::string> words, std::string meaning);
 Key MappingKey(std::string name, std::vector<Key> keys, std::string meaning);
 // A mapping of names to mappings with the keys; of names to values.
 Key NamedKey(std::string name, std::vector<Key> keys, std::string meaning);
 Key NamedValueKey(std::string name, Key value, std::string meaning);
+Key ListKey(std::string name, Key item, std::string meaning);
+// A list of mappings with the keys.
+Key ListKey(std::string name, std::vector<Key> keys, std::string meaning);
+// An item of a list.
+Key NumberItem(Range range);
+Key TextItem(std::string sample);
+Key WordItem(std::vector<std::string> words);
+// `keys`: of the form that is a mapping, if there is one.
+Key OtherKey(std::string name, std::string form, std::string sample, std::string meaning, std::vector<Key> keys = {});
+// The same list with a number of items from `low` to `high`.
+Key Counted(std::size_t low, std::size_t high, Key list);
+// The same mapping or word, shown by its summary in the reference.
+Key Summarised(std::string summary, Key key);
+// The same key with a default in words.
+Key WithDefaultNote(std::string default_note, Key key);
+// The same key with a valid value for generated files, as YAML.
+Key WithSample(std::string sample, Key key);
 // The same key, required.
 Key Required(Key key);
 // The key `rodeira` with the format, and the optional `name`, which begin every file.
@@ -74,17 +104,22 @@ std::vector<Key> FileKeys(const std::string& format, std::vector<Key> keys);
 // The key of that name; null without one.
 const Key* FindKey(const std::vector<Key>& keys, std::string_view name);
 
-// A declaration with its place in the file: "following.time_gap_s", "hosts.NAME.address".
+// A declaration with its place in the file: "following.time_gap_s", "hosts.NAME.address", "events[].at_s".
 struct PlacedKey {
   std::string path;
   const Key* key;
+  const Key* container = nullptr;  // the list or the named values that it is an item of
 };
 // All declarations that hold a value, in the order of the schema. They refer to it.
 std::vector<PlacedKey> ValuesOf(const Schema& schema);
 
-// Cells of the reference: "0.1 to 2", "true, false"; "0.98", "" without a default.
-std::string RangeCell(const Key& key);
-std::string DefaultCell(const Key& key);
+// As ValuesOf, with one entry for a mapping that has a summary.
+std::vector<PlacedKey> RowsOf(const Schema& schema);
+
+// Cells of the reference: "0.1 to 2", "true, false"; "0.98", "" without a default; the meaning.
+std::string RangeCell(const PlacedKey& placed);
+std::string DefaultCell(const PlacedKey& placed);
+std::string MeaningCell(const PlacedKey& placed);
 
 // A key a line, for a terminal.
 std::string SchemaText(const Schema& schema);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "common/core/base/json_text.hpp"
 #include "common/core/config/schema.hpp"
@@ -67,6 +68,15 @@ std::string JsonValue(const Key& key, const std::string& indent) {
       members.push_back(inner + "\"type\": \"object\"");
       members.push_back(fmt::format("{}\"additionalProperties\": {}", inner, JsonValue(key.of.front(), inner)));
       break;
+    case ValueType::kList:
+      members.push_back(inner + "\"type\": \"array\"");
+      members.push_back(fmt::format("{}\"items\": {}", inner, JsonValue(key.of.front(), inner)));
+      if (key.min_items > 0) members.push_back(fmt::format("{}\"minItems\": {}", inner, key.min_items));
+      if (key.max_items < std::numeric_limits<std::size_t>::max())
+        members.push_back(fmt::format("{}\"maxItems\": {}", inner, key.max_items));
+      break;
+    case ValueType::kOther:
+      break;
   }
   if (!std::holds_alternative<std::monostate>(key.default_value))
     members.push_back(fmt::format("{}\"default\": {}", inner, JsonOf(key.default_value)));
@@ -77,28 +87,27 @@ std::string JsonValue(const Key& key, const std::string& indent) {
 
 std::string SchemaText(const Schema& schema) {
   std::string out = fmt::format("rodeira: {}\n{}\n\n", schema.format, schema.meaning);
-  const auto values = ValuesOf(schema);
+  const auto values = RowsOf(schema);
   std::size_t path = 3, default_value = 7, range = 5;
   for (const PlacedKey& value : values) {
     path = std::max(path, value.path.size());
-    default_value = std::max(default_value, DefaultCell(*value.key).size());
-    range = std::max(range, RangeCell(*value.key).size());
+    default_value = std::max(default_value, DefaultCell(value).size());
+    range = std::max(range, RangeCell(value).size());
   }
   const auto row = [&](std::string_view a, std::string_view b, std::string_view c, std::string_view d) {
     out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}\n", a, path, b, default_value, c, range, d);
   };
   row("key", "default", "range", "meaning");
-  for (const PlacedKey& value : values)
-    row(value.path, DefaultCell(*value.key), RangeCell(*value.key), value.key->meaning);
+  for (const PlacedKey& value : values) row(value.path, DefaultCell(value), RangeCell(value), MeaningCell(value));
   return out;
 }
 
 std::string SchemaMarkdown(const Schema& schema) {
   std::string out = "| key | default | range | meaning |\n|---|---|---|---|\n";
-  for (const PlacedKey& value : ValuesOf(schema)) {
+  for (const PlacedKey& value : RowsOf(schema)) {
     const auto cell = [](const std::string& text) { return text.empty() ? std::string(" ") : " " + text + " "; };
-    out += fmt::format("| `{}` |{}|{}| {} |\n", value.path, cell(DefaultCell(*value.key)), cell(RangeCell(*value.key)),
-                       value.key->meaning);
+    out += fmt::format("| `{}` |{}|{}| {} |\n", value.path, cell(DefaultCell(value)), cell(RangeCell(value)),
+                       MeaningCell(value));
   }
   return out;
 }

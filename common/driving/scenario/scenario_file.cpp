@@ -7,24 +7,21 @@
 #include <cmath>
 #include <optional>
 
+#include "common/core/config/declared.hpp"
+#include "common/driving/scenario/scenario_schema.hpp"
+
 namespace rodeira::scenario {
 namespace {
 
 constexpr double kLongest_s = 1e6;
-constexpr double kLongest_m = 1e7;
-
-std::vector<std::string> KindNames() {
-  std::vector<std::string> names;
-  for (const EventKind& kind : EventKinds()) names.emplace_back(kind.name);
-  return names;
-}
 
 // Seconds of so many steps, without a rest of the arithmetic.
 std::string SecondsText(std::int64_t steps, const Timing& timing) {
   return fmt::format("{:.9g}", static_cast<double>(steps * timing.base_step_ns) * 1e-9);
 }
 
-std::optional<std::int64_t> ReadStep(const config::Map& map, const Timing& timing) {
+std::optional<std::int64_t> ReadStep(const config::DeclaredMap& declared, const Timing& timing) {
+  const config::Map& map = declared.MapWith("at_s");
   const double at_s = map.Number("at_s", {0.0, kLongest_s});
   if (!(at_s >= 0.0 && at_s <= kLongest_s))
     return std::nullopt;  // said already; as steps it may be more than a number holds
@@ -49,28 +46,30 @@ std::optional<std::int64_t> ReadStep(const config::Map& map, const Timing& timin
   return step;
 }
 
-Event ReadEvent(const config::Map& map) {
+Event ReadEvent(const config::DeclaredMap& declared) {
+  const config::Map& map = declared.map();
   Event event;
-  event.name = map.Choice("name", KindNames());
+  event.name = declared.Word("name");
   const EventKind* kind = FindEventKind(event.name);
   if (kind == nullptr) return event;
   const std::string argument_key(kind->argument_key);
-  event.argument = map.Text(argument_key);
+  event.argument = declared.MapWith(argument_key).Text(argument_key);
   const bool told = map.Has(argument_key) && (kind->argument != ArgumentKind::kAgentOnLane || map.Has("at"));
   if (kind->argument == ArgumentKind::kAgent && map.Has("at")) {
-    const config::Map at = map.Child("at");
-    const std::string road = at.Text("road");
-    event.argument = AgentText(event.argument, {road, at.Number("s_m", {0.0, kLongest_m})});
+    const config::DeclaredMap at = declared.Child("at");
+    const std::string road = at.MapWith("road").Text("road");
+    event.argument = AgentText(event.argument, {road, at.Number("s_m")});
   }
   if (kind->argument == ArgumentKind::kAgentOnLane) {
-    const config::Map at = map.Child("at");
-    const std::string lane = at.Text("lane");
-    event.argument = AgentText(event.argument, {lane, at.Number("s_m", {0.0, kLongest_m})});
+    if (!map.Has("at")) (void)map.Child("at");  // the problem of a missing mapping
+    const config::DeclaredMap at = declared.Child("at");
+    const std::string lane = at.MapWith("lane").Text("lane");
+    event.argument = AgentText(event.argument, {lane, at.Number("s_m")});
   }
   if (kind->value == ValueKind::kSide)
-    event.value = map.Choice(kind->value_key, {"left", "right"}) == "right" ? -1.0 : 1.0;
+    event.value = declared.MapWith(kind->value_key).Choice(kind->value_key, {"left", "right"}) == "right" ? -1.0 : 1.0;
   else if (!kind->value_key.empty())
-    event.value = map.Number(kind->value_key, {kind->low, kind->high});
+    event.value = declared.MapWith(kind->value_key).Number(kind->value_key, {kind->low, kind->high});
   // A value out of its range is said already.
   const Event argument_only{event.name, event.argument, std::clamp(event.value, kind->low, kind->high)};
   if (const base::Status sound = CheckEvent(argument_only); told && !sound)
@@ -82,24 +81,27 @@ Event ReadEvent(const config::Map& map) {
 
 Scenario ReadScenario(const config::Map& root, const Timing& timing) {
   Scenario scenario;
-  (void)root.Choice("rodeira", {"scenario/1"});
-  (void)root.Text("name", "");
-  scenario.weather = weather::ReadWeather(root.OptionalItems("weather"));
+  const config::DeclaredMap declared(root, ScenarioSchema().keys);
+  (void)declared.Word("rodeira");
+  (void)declared.Text("name");
+  scenario.weather = weather::ReadWeather(declared.Items("weather").list());
   // One with weather only needs no events.
-  const config::List events = root.Has("weather") ? root.OptionalItems("events") : root.Items("events");
+  if (!root.Has("weather")) (void)root.Items("events");
+  const config::DeclaredList events = declared.Items("events");
   for (std::size_t i = 0; i < events.size(); ++i) {
-    const config::Map map = events.At(i);
-    Event event = ReadEvent(map);
+    const config::DeclaredMap item = events.At(i);
+    const config::Map& map = item.map();
+    Event event = ReadEvent(item);
     if (map.Has("when")) {
       if (map.Has("at_s"))
         map.Problem("at_s", "config.conflicting_keys", "an event has 'at_s' and 'when'; one of them was expected");
       map.IgnoreKey("at_s");
-      const config::Map when = map.Child("when");
-      const double passes_m = when.Number("passes_m", {0.0, 1e6});
-      scenario.conditional.push_back({when.Text("road", ""), passes_m, std::move(event), when.Place()});
+      const config::DeclaredMap when = item.Child("when");
+      const double passes_m = when.Number("passes_m");
+      scenario.conditional.push_back({when.Text("road", ""), passes_m, std::move(event), when.map().Place()});
       continue;
     }
-    const auto step = ReadStep(map, timing);
+    const auto step = ReadStep(item, timing);
     if (!step) continue;
     if (!scenario.scheduled.empty() && *step < scenario.scheduled.back().step) {
       constexpr const char* kDescends = "'at_s' is {} and follows {}; times that do not descend were expected";

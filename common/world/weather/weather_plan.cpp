@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
+
+#include "common/core/config/declared.hpp"
+#include "common/world/weather/weather_schema.hpp"
 
 namespace rodeira::weather {
 namespace {
@@ -69,17 +71,41 @@ void WeatherPlan::Add(const Change& change) {
   changes_.insert(later, change);
 }
 
-Change ReadStanding(const config::Map& map) {
-  const auto optional = [&](std::string_view key, config::Range range) {
-    const double value = map.Number(key, range, std::numeric_limits<double>::quiet_NaN());
-    return std::isnan(value) ? std::nullopt : std::optional(value);
+const std::vector<config::Key>& StandingWeatherKeys() {
+  const auto key = [](std::string name, config::Range range, double first, std::string meaning) {
+    return config::WithDefaultNote(fmt::format("unchanged, {} at first", first),
+                                   config::OptionalNumberKey(std::move(name), range, std::move(meaning)));
   };
+  static const Weather first;
+  static const std::vector<config::Key> keys{
+      key("wetness", {0.0, 1.0}, first.wetness, "Dry to a closed film of water."),
+      key("rain_mmph", {0.0, 200.0}, first.rain_mmph, "Falling rain, drawn only."),
+      key("visibility_m", {10.0, kClear_m}, first.visibility_m, "Meteorological optical range."),
+      key("clouds", {0.0, 1.0}, first.clouds, "None to overcast."),
+      key("hour", {0.0, std::nextafter(kDay_h, 0.0)}, first.hour,
+          "Sun of an equinox, 42 degrees north; goes forward.")};
+  return keys;
+}
+
+const std::vector<config::Key>& WeatherChangeKeys() {
+  static const std::vector<config::Key> keys = [] {
+    std::vector<config::Key> all{
+        config::NumberKey("at_s", {0.0, kLongest_s}, 0.0, "Begin of the change; times do not descend."),
+        config::NumberKey("over_s", {0.0, kLongest_s}, 0.0, "How long it takes, evenly.")};
+    all.insert(all.end(), StandingWeatherKeys().begin(), StandingWeatherKeys().end());
+    return all;
+  }();
+  return keys;
+}
+
+Change ReadStanding(const config::Map& map) {
+  const config::DeclaredMap declared(map, StandingWeatherKeys());
   Change change;
-  change.wetness = optional("wetness", {0.0, 1.0});
-  change.rain_mmph = optional("rain_mmph", {0.0, 200.0});
-  change.visibility_m = optional("visibility_m", {10.0, kClear_m});
-  change.clouds = optional("clouds", {0.0, 1.0});
-  change.hour = optional("hour", {0.0, std::nextafter(kDay_h, 0.0)});
+  change.wetness = declared.OptionalNumber("wetness");
+  change.rain_mmph = declared.OptionalNumber("rain_mmph");
+  change.visibility_m = declared.OptionalNumber("visibility_m");
+  change.clouds = declared.OptionalNumber("clouds");
+  change.hour = declared.OptionalNumber("hour");
   return change;
 }
 
@@ -88,8 +114,9 @@ WeatherPlan ReadWeather(const config::List& items) {
   for (std::size_t i = 0; i < items.size(); ++i) {
     const config::Map map = items.At(i);
     Change change = ReadStanding(map);
-    change.at_s = map.Number("at_s", {0.0, kLongest_s}, 0.0);
-    change.over_s = map.Number("over_s", {0.0, kLongest_s}, 0.0);
+    const config::DeclaredMap declared(map, WeatherChangeKeys());
+    change.at_s = declared.Number("at_s");
+    change.over_s = declared.Number("over_s");
     if (!changes.empty() && change.at_s < changes.back().at_s) {
       map.Problem("at_s", "config.wrong_order",
                   fmt::format("'at_s' is {} and follows {}; times that do not descend were expected", change.at_s,

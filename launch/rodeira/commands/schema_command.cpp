@@ -9,13 +9,15 @@
 #include "common/core/base/print_error.hpp"
 #include "common/core/base/suggest.hpp"
 #include "common/driving/driver/driver_schema.hpp"
+#include "common/driving/scenario/scenario_schema.hpp"
 #include "common/runtime/launch/lab_schema.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
-  static const std::vector<const config::Schema*> all = {&driver::DriverSchema(), &launch::LabSchema()};
+  static const std::vector<const config::Schema*> all = {&driver::DriverSchema(), &launch::LabSchema(),
+                                                         &scenario::ScenarioSchema()};
   return all;
 }
 
@@ -23,7 +25,7 @@ const std::vector<const config::Schema*>& AllSchemas() {
 
 int PrintSchema(const SchemaOptions& options) {
   if (options.kind.empty()) {
-    for (const config::Schema* schema : AllSchemas()) fmt::print("{:<10} {}\n", schema->kind, schema->meaning);
+    for (const config::Schema* schema : AllSchemas()) fmt::print("{:<12} {}\n", schema->kind, schema->meaning);
     return 0;
   }
   std::vector<std::string> kinds;

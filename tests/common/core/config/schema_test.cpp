@@ -20,7 +20,14 @@ const Schema& Garage() {
                {RequiredNumberKey("height_m", Range::Positive(), "Clear height."),
                 NumberKey("slope", {-0.25, 0.25}, 0.0, "Slope of the floor."), IntegerKey("floors", 1, 9, 2, "Floors."),
                 FlagKey("lit", true, "Lamps are on."), WordKey("kind", {"open", "closed"}, "open", "Walls."),
-                NamedKey("gates", {RequiredTextKey("side", "north", "Side of the \"gate\".")}, "Gates.")})};
+                NamedKey("gates", {RequiredTextKey("side", "north", "Side of the \"gate\".")}, "Gates."),
+                Counted(2, 3, ListKey("axes", NumberItem({0.0, 5.0}), "Axes.")),
+                OptionalNumberKey("gap_m", {0.0, 1.0}, "Gap."),
+                ListKey("cars",
+                        {RequiredNumberKey("length_m", Range::Positive(), "Length."),
+                         ListKey("colours", TextItem("red"), "Colours.")},
+                        "Cars."),
+                OtherKey("sign", "a text or a number", "7", "Sign.")})};
   return schema;
 }
 
@@ -35,6 +42,18 @@ std::string ReadGarage(const std::string& text) {
   (void)root.Flag("lit");
   (void)root.Word("kind");
   for (const auto& [name, gate] : root.Named("gates")) (void)gate.Text("side");
+  (void)root.OptionalNumber("gap_m");
+  const std::vector<double> axes = root.Numbers("axes");
+  if (!axes.empty() && (axes.size() < 2 || axes.size() > 3)) root.map().Problem("axes", "'axes' has no 2 or 3 items");
+  if (axes.empty() && root.map().Has("axes")) root.map().Problem("axes", "'axes' is empty");
+  const DeclaredList cars = root.Items("cars");
+  for (std::size_t i = 0; i < cars.size(); ++i) {
+    const DeclaredMap car = cars.At(i);
+    (void)car.Number("length_m");
+    const DeclaredList colours = car.Items("colours");
+    for (std::size_t k = 0; k < colours.size(); ++k) (void)colours.Text(k);
+  }
+  (void)root.MapWith("sign").Text("sign", "");
   const base::Status status = file.value().Finish();
   return status ? "" : status.error().Text();
 }
@@ -50,6 +69,8 @@ TEST(Schema, AnAbsentKeyHasItsDefault) {
   EXPECT_TRUE(root.Flag("lit"));
   EXPECT_EQ(root.Word("kind"), "open");
   EXPECT_TRUE(root.Named("gates").empty());
+  EXPECT_EQ(root.OptionalNumber("gap_m"), std::nullopt);
+  EXPECT_EQ(root.Items("cars").size(), 0u);
 }
 
 TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
@@ -59,6 +80,7 @@ TEST(SchemaDeathTest, AnUndeclaredKeyOrAnotherTypeAsserts) {
   EXPECT_DEATH((void)root.Number("width_m"), "found != nullptr");
   EXPECT_DEATH((void)root.Text("height_m"), "found->type == type");
   EXPECT_DEATH((void)root.MapWith("width_m"), "FindKey");
+  EXPECT_DEATH((void)root.Items("height_m"), "found->type == type");
 }
 
 TEST(Schema, MarkdownHasARowAKey) {
@@ -70,7 +92,12 @@ TEST(Schema, MarkdownHasARowAKey) {
             "| `floors` | 2 | 1 to 9 | Floors. |\n"
             "| `lit` | true | true, false | Lamps are on. |\n"
             "| `kind` | open | open, closed | Walls. |\n"
-            "| `gates.NAME.side` | required | | Side of the \"gate\". |\n");
+            "| `gates.NAME.side` | required | | Side of the \"gate\". |\n"
+            "| `axes[]` | | 2 to 3 items, 0 to 5 | Axes. |\n"
+            "| `gap_m` | | 0 to 1 | Gap. |\n"
+            "| `cars[].length_m` | required | over 0 | Length. |\n"
+            "| `cars[].colours[]` | | | Colours. |\n"
+            "| `sign` | | a text or a number | Sign. |\n");
 }
 
 TEST(Schema, JsonHasTypeBoundsAndWhatIsRequired) {
@@ -82,7 +109,7 @@ TEST(Schema, JsonHasTypeBoundsAndWhatIsRequired) {
   EXPECT_THAT(json, HasSubstr("\"description\": \"Side of the \\\"gate\\\".\""));
 }
 
-TEST(Schema, TextHasALineAKey) { EXPECT_THAT(SchemaText(Garage()), HasSubstr("gates.NAME.side  required")); }
+TEST(Schema, TextHasALineAKey) { EXPECT_THAT(SchemaText(Garage()), HasSubstr("gates.NAME.side   required")); }
 
 }  // namespace
 }  // namespace rodeira::config

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/driving/scenario/scenario_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
+
 namespace rodeira::scenario {
 namespace {
 
@@ -137,6 +140,67 @@ TEST(ScenarioFile, WrongOnesAreRefusedWithTheirPlace) {
             "scenario.yaml:3: an event has 'at_s' and 'when'; one of them was expected");
   EXPECT_NE(Complaint("  - {name: mark, text: x}\n").find("at_s' is missing"), std::string::npos);
   EXPECT_NE(Complaint("  - {at_ms: 5, name: mark, text: x}\n").find("at_s"), std::string::npos);
+}
+
+// A generated file for each declared key. Each kind of event has keys of its own.
+TEST(ScenarioFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
+  const auto event = [](const std::string& name, const std::map<std::string, std::string>& more) {
+    config::Values values{{"events[].name", name}, {"events[].at_s", "1"}};
+    for (const auto& [key, value] : more) values["events[]." + key] = value;
+    return values;
+  };
+  const config::Values brake = event("traffic.brake", {{"agent", "1"}, {"deceleration_mps2", "1"}}),
+                       release = event("traffic.release", {{"agent", "1"}}),
+                       appear =
+                           event("traffic.appear", {{"agent", "1"}, {"at", "{lane: a:1, s_m: 1}"}, {"speed_mps", "1"}}),
+                       place = event("vehicle.place", {{"place", "ego 1 2"}, {"heading_deg", "0"}}),
+                       weather = event("weather", {{"becomes", "rain"}, {"over_s", "0"}}),
+                       side = event("traffic.change_lane", {{"agent", "1"}, {"side", "left"}});
+  config::Values at = release, lane = event("traffic.appear", {{"agent", "1"}, {"speed_mps", "1"}, {"at.s_m", "1"}}),
+                 when = event("mark", {{"text", "x"}});
+  at["events[].at.road"] = "main";
+  when.erase("events[].at_s");
+  when["events[].when.passes_m"] = "1";
+  config::ExpectEveryKey(ScenarioSchema(),
+                         [](const std::string& text) -> std::string {
+                           const auto file = config::File::Parse(text, "scenario.yaml");
+                           if (!file) return file.error().Text();
+                           (void)ReadScenario(file.value().root(), {1'000'000, 10, 0});
+                           const auto status = file.value().Finish();
+                           return status ? "" : status.error().Text();
+                         },
+                         {{"rodeira", {{"events", "[]"}}},
+                          {"rodeira=scenario/1", {{"events", "[]"}}},
+                          {"name", {{"events", "[]"}}},
+                          {"events[].at_s", event("mark", {{"text", "x"}})},
+                          {"events[].when", {{"events[].name", "mark"}, {"events[].text", "x"}}},
+                          {"events[].when.road", when},
+                          {"events[].when.passes_m", when},
+                          {"events[].name", {{"events[].at_s", "1"}}},
+                          {"events[].name=mark", event("mark", {{"text", "x"}})},
+                          {"events[].name=traffic.brake", brake},
+                          {"events[].name=traffic.speed", event("traffic.speed", {{"agent", "1"}, {"speed_mps", "1"}})},
+                          {"events[].name=traffic.release", release},
+                          {"events[].name=traffic.overtake", event("traffic.overtake", {{"agent", "1"}})},
+                          {"events[].name=traffic.change_lane", side},
+                          {"events[].name=traffic.appear", appear},
+                          {"events[].name=traffic.pedestrian", event("traffic.pedestrian", {{"crossing", "main 1"}})},
+                          {"events[].name=vehicle.place", place},
+                          {"events[].name=weather", weather},
+                          {"events[].text", event("mark", {})},
+                          {"events[].agent", release},
+                          {"events[].at", release},
+                          {"events[].at.road", at},
+                          {"events[].at.s_m", at},
+                          {"events[].at.lane", lane},
+                          {"events[].crossing", event("traffic.pedestrian", {})},
+                          {"events[].place", place},
+                          {"events[].becomes", weather},
+                          {"events[].deceleration_mps2", brake},
+                          {"events[].speed_mps", appear},
+                          {"events[].side", side},
+                          {"events[].heading_deg", place},
+                          {"events[].over_s", weather}});
 }
 
 }  // namespace

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/core/config/schema.hpp"
+
+namespace rodeira::weather {
+
+// The keys of a weather without times; of a change.
+const std::vector<config::Key>& StandingWeatherKeys();
+const std::vector<config::Key>& WeatherChangeKeys();
+
+}  // namespace rodeira::weather
