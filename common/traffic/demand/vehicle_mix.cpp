@@ -8,6 +8,8 @@
 #include <string_view>
 
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/declared.hpp"
+#include "common/traffic/demand/demand_schema.hpp"
 
 namespace rodeira::traffic {
 namespace {
@@ -15,6 +17,20 @@ namespace {
 constexpr std::array<std::string_view, 4> kKindNames{"car", "van", "lorry", "bus"};
 
 }  // namespace
+
+config::Key KindsKey(std::string name, std::string meaning) {
+  return config::ListKey(std::move(name), config::WordItem({kKindNames.begin(), kKindNames.end()}), std::move(meaning));
+}
+
+const std::vector<config::Key>& MixKeys() {
+  static const std::vector<config::Key> keys = [] {
+    std::vector<config::Key> all;
+    for (const std::string_view name : kKindNames)
+      all.push_back(config::NumberKey(std::string(name), {0.0, 1e6}, 0.0, "Weight of this kind of vehicle."));
+    return all;
+  }();
+  return keys;
+}
 
 std::vector<VehicleKind> ReadKinds(const config::List& list) {
   std::vector<VehicleKind> kinds;
@@ -32,12 +48,13 @@ std::vector<VehicleKind> ReadKinds(const config::List& list) {
 }
 
 VehicleMix ReadMix(const config::Map& map) {
+  const config::DeclaredMap declared(map, MixKeys());
   VehicleMix mix;
   double sum = 0.0;
-  for (std::size_t k = 0; k < mix.shares.size(); ++k) sum += mix.shares[k] = map.Number(kKindNames[k], {0.0, 1e6}, 0.0);
+  for (std::size_t k = 0; k < mix.shares.size(); ++k) sum += mix.shares[k] = declared.Number(kKindNames[k]);
   if (sum <= 0.0) {
     map.Problem("", "config.too_few",
-                fmt::format("no kind of vehicle has a share; at least one above 0 was expected, of {}",
+                fmt::format("'mix' gives no kind of vehicle a share; at least one above 0 was expected, of {}",
                             fmt::join(kKindNames, ", ")));
     return {};
   }

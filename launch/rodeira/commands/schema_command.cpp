@@ -11,13 +11,14 @@
 #include "common/driving/driver/driver_schema.hpp"
 #include "common/driving/scenario/scenario_schema.hpp"
 #include "common/runtime/launch/lab_schema.hpp"
+#include "common/traffic/state/traffic_schema.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
   static const std::vector<const config::Schema*> all = {&driver::DriverSchema(), &launch::LabSchema(),
-                                                         &scenario::ScenarioSchema()};
+                                                         &scenario::ScenarioSchema(), &traffic::TrafficSchema()};
   return all;
 }
 

@@ -57,7 +57,7 @@ base::Result<traffic::TrafficSettings> HowTrafficIs(const TrafficOptions& option
           "'--physics planar' was given; the driver 'motors' holds pedals and steering wheel: full was expected");
     if (settings.pedestrians)
       return base::WrongInput("traffic.wrong_combination",
-                              "the driver 'motors' sees nobody on foot; no 'pedestrians' were expected",
+                              "the driver 'motors' sees no pedestrians; no 'pedestrians' were expected",
                               options.settings);
     settings.physics = traffic::Physics::kFull;
   }

@@ -304,7 +304,7 @@ TEST(Demand, WhatIsWrongIsSaid) {
   EXPECT_EQ(RefusedSettings("flows:\n  - {every_s: [3, 8], by_hour: [4], vehicles_per_h: 1}\n"),
             "t.yaml:2: 'vehicles_per_h', 'by_hour' and 'every_s' were found; " + one_of);
   EXPECT_EQ(RefusedSettings("flows:\n  - {lane: a, every_s: [8, 3]}\n"),
-            "t.yaml:2: [8, 3] was found; the shortest and the longest gap, as [3, 8], were expected");
+            "t.yaml:2: 'every_s' is [8, 3]; the shortest and the longest gap, as [3, 8], were expected");
   EXPECT_EQ(RefusedSettings("vehicles: 3\nspeed_factor_low: 1.5\n"),
             "t.yaml:2: 'speed_factor_high' is 1, below 'speed_factor_low', which is 1.5");
   EXPECT_EQ(RefusedSettings("speed_factor_low: 0.9\nspeed_factor_high: 0.8\n"),

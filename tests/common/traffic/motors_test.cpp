@@ -250,7 +250,7 @@ TEST(Motors, WrongSettingsAreNamed) {
   EXPECT_EQ(problem("driver: motors\nphysics: full\n"), "");
   EXPECT_NE(problem("driver: motor\n").find("motors"), std::string::npos);
   EXPECT_NE(problem("driver: motors\nphysics: planar\n").find("'physics: full' was expected"), std::string::npos);
-  EXPECT_NE(problem("driver: motors\npedestrians: {per_hour: 3}\n").find("sees nobody on foot"), std::string::npos);
+  EXPECT_NE(problem("driver: motors\npedestrians: {per_hour: 3}\n").find("sees no pedestrians"), std::string::npos);
 }
 
 }  // namespace

@@ -1,59 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// docs/reference/traffic-settings.md tells of every setting of the traffic: its key, what it is otherwise, and from
-// where to where it goes.
+// The keys of traffic files: each with its type, its bounds and its default, and the setting that it becomes.
 #include "common/traffic/state/traffic_settings.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <functional>
 #include <map>
-#include <regex>
-#include <set>
-#include <sstream>
 #include <string>
 
-#include "common/core/base/files.hpp"
-#include "tests/launch/rodeira/temporary_folder.hpp"
-#include "tests/tree.hpp"
+#include "common/traffic/state/traffic_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
 
 namespace rodeira::traffic {
 namespace {
-
-struct Row {
-  std::string default_value, low, high;  // the last two empty for a word or a flag
-};
-
-// The table's rows by key, "following.time_gap_s".
-std::map<std::string, Row> Told() {
-  std::map<std::string, Row> rows;
-  std::istringstream document(base::ReadText(SourceDir() + "/docs/reference/traffic-settings.md").value());
-  const std::regex row(R"re(\| `([a-z_0-9.]+)` \| ([^|]+) \| (?:([0-9.e]+) to ([0-9.e]+)|[^|]*) \|.*)re");
-  std::smatch parts;
-  for (std::string line; std::getline(document, line);) {
-    if (std::regex_match(line, parts, row)) rows[parts[1]] = {parts[2], parts[3], parts[4]};
-  }
-  return rows;
-}
-
-// The keys that the reader asks for, as they stand in the program, but for those that have tables of their own in
-// docs/reference/traffic-files.md.
-std::set<std::string> Asked() {
-  const std::map<std::string, std::string> prefixes{{"map", ""},
-                                                    {"follow", "following."},
-                                                    {"comfort", "comfort."},
-                                                    {"enter", "entering."},
-                                                    {"change", "lane_changes."}};
-  const std::string text = base::ReadText(SourceDir() + "/common/traffic/state/traffic_settings.cpp").value();
-  const std::regex asked(R"re((\w+)\.(?:Number|Integer|Flag|Choice)\(\s*"([a-z_0-9]+)")re");
-  std::set<std::string> keys;
-  for (std::sregex_iterator i(text.begin(), text.end(), asked), end; i != end; ++i) {
-    const auto prefix = prefixes.find((*i)[1]);
-    if (prefix != prefixes.end()) keys.insert(prefix->second + std::string((*i)[2]));
-  }
-  return keys;
-}
 
 const std::map<std::string, std::function<double(const TrafficSettings&)>> kNumbers{
     {"vehicles", [](const TrafficSettings& t) { return t.vehicles; }},
@@ -90,70 +50,86 @@ const std::map<std::string, std::function<std::string(const TrafficSettings&)>> 
     {"lane_changes.allowed", [](const TrafficSettings& t) { return t.changes_lanes ? "true" : "false"; }},
     {"lane_changes.overtaking", [](const TrafficSettings& t) { return t.overtaking.allowed ? "true" : "false"; }},
 };
-// Of two that must not descend: both are said.
-const std::map<std::string, std::string> kTogether{{"speed_factor_low", "speed_factor_high"},
-                                                   {"speed_factor_high", "speed_factor_low"},
-                                                   {"comfort.jerk_mps3", "emergency_jerk_mps3"},
-                                                   {"comfort.emergency_jerk_mps3", "jerk_mps3"}};
-
-class TrafficSettingsFile : public testing::Test {
- protected:
-  base::Result<TrafficSettings> Load(const std::string& text) {
-    const std::filesystem::path file = folder_.path() / "settings.yaml";
-    EXPECT_TRUE(base::WriteWhole(file, "rodeira: traffic/1\n" + text).ok());
-    return LoadTraffic(file, 1);
-  }
-  base::Result<TrafficSettings> LoadOne(const std::string& key, const std::string& value) {
-    const auto dot = key.find('.');
-    const auto together = kTogether.find(key);
-    const std::string other = together == kTogether.end() ? "" : fmt::format(", {}: {}", together->second, value);
-    if (dot == std::string::npos)
-      return Load(fmt::format("{}: {}\n", key, value) + (other.empty() ? "" : other.substr(2) + "\n"));
-    return Load(fmt::format("{}: {{{}: {}{}}}\n", key.substr(0, dot), key.substr(dot + 1), value, other));
-  }
-  const cli::TemporaryFolder folder_;
+// Keys that a key fits together with: a highest value is not below the lowest; a mix has a vehicle; a flow has a rate.
+const config::Companions kCompanions{
+    {"driver=motors", {{"physics", "full"}}},
+    {"speed_factor_low", {{"speed_factor_high", "2"}}},
+    {"speed_factor_high", {{"speed_factor_low", "0.2"}}},
+    {"comfort.jerk_mps3", {{"comfort.emergency_jerk_mps3", "1000000"}}},
+    {"comfort.emergency_jerk_mps3", {{"comfort.jerk_mps3", "0.5"}}},
+    {"pedestrians.slowest_mps", {{"pedestrians.fastest_mps", "3"}}},
+    {"pedestrians.fastest_mps", {{"pedestrians.slowest_mps", "0.3"}}},
+    {"mix.car", {{"mix.van", "1"}}},
+    {"mix.van", {{"mix.car", "1"}}},
+    {"mix.lorry", {{"mix.car", "1"}}},
+    {"mix.bus", {{"mix.car", "1"}}},
+    {"flows[].lane", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].route", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].arrivals", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].from_s", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].to_s", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].mix", {{"flows[].vehicles_per_h", "1"}}},
+    {"flows[].mix.car", {{"flows[].vehicles_per_h", "1"}, {"flows[].mix.van", "1"}}},
+    {"flows[].mix.van", {{"flows[].vehicles_per_h", "1"}, {"flows[].mix.car", "1"}}},
+    {"flows[].mix.lorry", {{"flows[].vehicles_per_h", "1"}, {"flows[].mix.car", "1"}}},
+    {"flows[].mix.bus", {{"flows[].vehicles_per_h", "1"}, {"flows[].mix.car", "1"}}},
+    {"turns[].lane", {{"turns[].shares", "{b: 1}"}}},
 };
 
-TEST_F(TrafficSettingsFile, TheDocumentTellsOfEveryKey) {
-  const auto told = Told();
-  const std::set<std::string> asked = Asked();
-  EXPECT_EQ(asked.size(), kNumbers.size() + kWords.size());
-  for (const std::string& key : asked)
-    EXPECT_TRUE(told.contains(key)) << "docs/reference/traffic-settings.md has no row for " << key;
-  for (const auto& [key, row] : told)
-    EXPECT_TRUE(asked.contains(key)) << "docs/reference/traffic-settings.md tells of " << key
-                                     << ", which no reader asks for";
+base::Result<TrafficSettings> Read(const std::string& text) {
+  const auto file = config::File::Parse(text, "traffic.yaml");
+  if (!file) return file.error();
+  (void)file.value().root().Text("rodeira", "");
+  const TrafficSettings settings = ReadTraffic(file.value().root(), 1);
+  if (const auto status = file.value().Finish(); !status) return status.error();
+  return settings;
 }
 
-TEST_F(TrafficSettingsFile, WhatASettingIsOtherwiseIsWhatTheDocumentSays) {
-  const TrafficSettings usual = Load("").value();
-  const auto told = Told();
-  for (const auto& [key, of] : kNumbers) {
-    ASSERT_TRUE(told.contains(key)) << key;
-    EXPECT_NEAR(of(usual), std::stod(told.at(key).default_value), 1e-12) << key;
+const config::PlacedKey* Declared(const std::string& path) {
+  static const std::vector<config::PlacedKey> all = config::ValuesOf(TrafficSchema());
+  const auto found = std::ranges::find(all, path, &config::PlacedKey::path);
+  return found == all.end() ? nullptr : &*found;
+}
+
+TEST(TrafficFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
+  const auto problem = [](const std::string& text) -> std::string {
+    const auto file = config::File::Parse(text, "traffic.yaml");
+    if (!file) return file.error().Text();
+    (void)file.value().root().Choice("rodeira", {"traffic/1"});
+    (void)ReadTraffic(file.value().root(), 1);
+    const auto status = file.value().Finish();
+    return status ? "" : status.error().Text();
+  };
+  config::ExpectEveryKey(TrafficSchema(), problem, kCompanions);
+}
+
+TEST(TrafficFile, AnAbsentKeyIsItsDeclaredDefault) {
+  const TrafficSettings usual = Read("{rodeira: traffic/1}").value();
+  for (const auto& [path, of] : kNumbers) {
+    const config::PlacedKey* key = Declared(path);
+    ASSERT_NE(key, nullptr) << path;
+    const std::string text = config::DefaultCell(*key);
+    EXPECT_NEAR(of(usual), std::stod(text), 1e-6) << path;
   }
-  for (const auto& [key, of] : kWords) {
-    ASSERT_TRUE(told.contains(key)) << key;
-    EXPECT_EQ("`" + of(usual) + "`", told.at(key).default_value) << key;
+  for (const auto& [path, of] : kWords) {
+    const config::PlacedKey* key = Declared(path);
+    ASSERT_NE(key, nullptr) << path;
+    EXPECT_EQ(of(usual), config::DefaultCell(*key)) << path;
   }
 }
 
-TEST_F(TrafficSettingsFile, ARangeIsWhatTheDocumentSays) {
-  const auto told = Told();
-  for (const auto& [key, of] : kNumbers) {
-    ASSERT_TRUE(told.contains(key)) << key;
-    const Row& row = told.at(key);
-    for (const std::string& bound : {row.low, row.high}) {
-      const auto at = LoadOne(key, bound);
-      ASSERT_TRUE(at.ok()) << key << " " << bound << ": " << at.error().Text();
-      EXPECT_NEAR(of(at.value()), std::stod(bound), 1e-12) << key;
+TEST(TrafficFile, AKeyBecomesItsSetting) {
+  for (const auto& [path, of] : kNumbers) {
+    const config::PlacedKey* key = Declared(path);
+    ASSERT_NE(key, nullptr) << path;
+    for (const double bound : {key->key->range.low, key->key->range.high}) {
+      config::Values values;
+      if (const auto others = kCompanions.find(path); others != kCompanions.end()) values = others->second;
+      values[path] = fmt::format("{}", bound);
+      const auto settings = Read(config::SampleFile(TrafficSchema(), values).text());
+      ASSERT_TRUE(settings.ok()) << path << ": " << settings.error().Text();
+      EXPECT_EQ(of(settings.value()), bound) << path;
     }
-    const bool whole = key == "vehicles" || key == "threads";
-    const std::string below =
-        whole ? std::to_string(std::stoi(row.low) - 1) : fmt::format("{}", std::stod(row.low) - 1e-6);
-    const std::string above =
-        whole ? std::to_string(std::stoi(row.high) + 1) : fmt::format("{}", std::stod(row.high) * (1.0 + 1e-9) + 1e-9);
-    for (const std::string& beyond : {below, above}) EXPECT_FALSE(LoadOne(key, beyond).ok()) << key << " " << beyond;
   }
 }
 
