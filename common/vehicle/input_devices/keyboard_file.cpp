@@ -7,7 +7,9 @@
 
 #include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/keyboard_schema.hpp"
 
 namespace rodeira::input_devices {
 namespace {
@@ -32,11 +34,51 @@ constexpr std::array<const char*, kActions> kHelp{"steer left",
                                                   "headlights: off, dipped, full",
                                                   "horn"};
 
+// A key of each action for generated files.
+constexpr std::array<const char*, kActions> kSampleKeys{"left", "right", "up",    "down",   "c",     "b", "i", "e",
+                                                        "q",    "m",     "comma", "period", "slash", "l", "n"};
+
+std::vector<config::Key> RateKeys(const PedalRates& usual) {
+  return {config::NumberKey("press_s", {0.01, 10.0}, usual.press_s, "Time of pressing the pedal fully."),
+          config::NumberKey("release_s", {0.01, 10.0}, usual.release_s, "Time of releasing it."),
+          config::NumberKey("most", {0.05, 1.0}, usual.most, "How far a held key presses the pedal.")};
+}
+
+config::Schema Make() {
+  const KeyboardSettings usual;
+  std::vector<config::Key> actions;
+  for (std::size_t action = 0; action < kActions; ++action) {
+    actions.push_back(config::ListKey(kActionKeys[action], config::TextItem(kSampleKeys[action]),
+                                      fmt::format("Keys: {}.", kHelp[action])));
+    if (action < 4) actions.back() = config::Required(actions.back());
+  }
+  return {"keyboard", "keyboard/1", "Keys that drive, for an input with 'source: keyboard'.",
+          config::FileKeys(
+              "keyboard/1",
+              {config::TextKey("name", "", "Name, for the reader."),
+               config::Required(config::MappingKey("keys", std::move(actions), "The keys of each action.")),
+               config::MappingKey(
+                   "steering",
+                   {config::NumberKey("lock_deg", {10.0, 1800.0}, usual.lock_rad * 180.0 / base::kPi,
+                                      "Angle of the steering wheel at the end, at rest."),
+                    config::NumberKey("half_lock_speed_mps", {0.5, 200.0}, usual.half_lock_speed_mps,
+                                      "Speed at which half of that angle is left."),
+                    config::NumberKey("turn_s", {0.05, 10.0}, usual.turn_s, "Time from straight ahead to the end."),
+                    config::NumberKey("centre_s", {0.05, 10.0}, usual.centre_s, "Time back.")},
+                   "The steering wheel."),
+               config::MappingKey("throttle", RateKeys(usual.throttle), "The throttle."),
+               config::MappingKey("brake", RateKeys(usual.brake), "The brake."),
+               config::MappingKey("clutch", RateKeys(usual.clutch), "The clutch."),
+               config::IntegerKey("gears", 1, 20, usual.gears, "Forward gears of the manual mode."),
+               config::WordKey("gearbox", {"automatic", "manual"}, "automatic", "Mode at the start.")})};
+}
+
 // Which keys do what; a key does one thing, and not what the window keeps for itself.
-void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
+void ReadKeys(const config::DeclaredMap& declared, KeyboardSettings& settings) {
+  const config::Map& map = declared.map();
   std::map<Key, std::string> taken;
   for (std::size_t action = 0; action < kActions; ++action) {
-    const config::List names = map.OptionalItems(kActionKeys[action]);
+    const config::List names = declared.MapWith(kActionKeys[action]).OptionalItems(kActionKeys[action]);
     for (std::size_t i = 0; i < names.size(); ++i) {
       const std::string name = names.Text(i);
       const auto key = KeyOf(name);
@@ -62,31 +104,34 @@ void ReadKeys(const config::Map& map, KeyboardSettings& settings) {
   }
 }
 
-PedalRates ReadRates(const config::Map& map, PedalRates rates) {
-  rates.press_s = map.Number("press_s", {0.01, 10.0}, rates.press_s);
-  rates.release_s = map.Number("release_s", {0.01, 10.0}, rates.release_s);
-  rates.most = map.Number("most", {0.05, 1.0}, rates.most);
-  return rates;
+PedalRates ReadRates(const config::DeclaredMap& map) {
+  return {map.Number("press_s"), map.Number("release_s"), map.Number("most")};
 }
 
 }  // namespace
 
+const config::Schema& KeyboardSchema() {
+  static const config::Schema schema = Make();
+  return schema;
+}
+
 KeyboardSettings ReadKeyboard(const config::Map& root) {
+  const config::DeclaredMap declared(root, KeyboardSchema().keys);
   KeyboardSettings s;
-  (void)root.Choice("rodeira", {"keyboard/1"});
-  (void)root.Text("name", "");
-  const config::Map keys = root.Child("keys");
+  (void)declared.Word("rodeira");
+  (void)declared.Text("name");
+  const config::DeclaredMap keys = declared.Child("keys");
   if (root.Has("keys")) ReadKeys(keys, s);
-  const config::Map steering = root.OptionalChild("steering");
-  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
-  s.half_lock_speed_mps = steering.Number("half_lock_speed_mps", {0.5, 200.0}, s.half_lock_speed_mps);
-  s.turn_s = steering.Number("turn_s", {0.05, 10.0}, s.turn_s);
-  s.centre_s = steering.Number("centre_s", {0.05, 10.0}, s.centre_s);
-  s.throttle = ReadRates(root.OptionalChild("throttle"), s.throttle);
-  s.brake = ReadRates(root.OptionalChild("brake"), s.brake);
-  s.clutch = ReadRates(root.OptionalChild("clutch"), s.clutch);
-  s.gears = static_cast<std::int32_t>(root.Integer("gears", 1, 20, s.gears));
-  const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
+  const config::DeclaredMap steering = declared.Child("steering");
+  s.lock_rad = steering.Number("lock_deg") * base::kPi / 180.0;
+  s.half_lock_speed_mps = steering.Number("half_lock_speed_mps");
+  s.turn_s = steering.Number("turn_s");
+  s.centre_s = steering.Number("centre_s");
+  s.throttle = ReadRates(declared.Child("throttle"));
+  s.brake = ReadRates(declared.Child("brake"));
+  s.clutch = ReadRates(declared.Child("clutch"));
+  s.gears = static_cast<std::int32_t>(declared.Integer("gears"));
+  const bool manual = declared.Word("gearbox") == "manual";
   s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
   return s;
 }

@@ -7,8 +7,10 @@
 
 #include "common/core/base/constants.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/declared.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
 #include "common/vehicle/input_devices/wheel_names.hpp"
+#include "common/vehicle/input_devices/wheel_schema.hpp"
 
 namespace rodeira::input_devices {
 namespace {
@@ -45,18 +47,18 @@ std::size_t ReadDevice(const config::Map& map, const std::vector<DeviceUse>& dev
   return static_cast<std::size_t>(found - names.begin());
 }
 
-AxisUse ReadAxis(const config::Map& map, const std::vector<DeviceUse>& devices, bool two_sided) {
-  constexpr config::Range kRaw{-65536.0, 65535.0};
+AxisUse ReadAxis(const config::DeclaredMap& declared, const std::vector<DeviceUse>& devices, bool two_sided) {
+  const config::Map& map = declared.map();
   AxisUse use;
   use.place = map.Place();
-  use.device = ReadDevice(map, devices);
-  use.axis = static_cast<std::size_t>(map.Integer("axis", 0, 255));
-  use.min = map.Number("min", kRaw, use.min);
-  use.max = map.Number("max", kRaw, use.max);
-  if (two_sided) use.centre = map.Number("centre", kRaw, use.centre);
-  use.dead_zone = map.Number("dead_zone", {0.0, 0.9}, use.dead_zone);
-  use.exponent = map.Number("exponent", {0.2, 5.0}, use.exponent);
-  use.inverted = map.Flag("inverted", use.inverted);
+  use.device = ReadDevice(declared.MapWith("device"), devices);
+  use.axis = static_cast<std::size_t>(declared.Integer("axis"));
+  use.min = declared.Number("min");
+  use.max = declared.Number("max");
+  if (two_sided) use.centre = declared.Number("centre");
+  use.dead_zone = declared.Number("dead_zone");
+  use.exponent = declared.Number("exponent");
+  use.inverted = declared.Flag("inverted");
   if (use.max <= use.min) {
     constexpr const char* kOrder =
         "'max' is {} and 'min' {}; a larger 'max' was expected ('inverted: true' turns an axis round)";
@@ -68,8 +70,9 @@ AxisUse ReadAxis(const config::Map& map, const std::vector<DeviceUse>& devices, 
   return use;
 }
 
-ButtonUse ReadButton(const config::Map& map, const std::vector<DeviceUse>& devices) {
-  return {ReadDevice(map, devices), static_cast<std::size_t>(map.Integer("button", 0, 255)), map.Place()};
+ButtonUse ReadButton(const config::DeclaredMap& map, const std::vector<DeviceUse>& devices) {
+  return {ReadDevice(map.MapWith("device"), devices), static_cast<std::size_t>(map.Integer("button")),
+          map.map().Place()};
 }
 
 void ReadLever(const config::Map& map, WheelSettings& settings) {
@@ -83,24 +86,23 @@ void ReadLever(const config::Map& map, WheelSettings& settings) {
       map.Problem(key, fmt::format(kNoPlace, key, settings.gears));
       continue;
     }
-    settings.lever[gear] = ReadButton(map.Child(key), settings.devices);
+    settings.lever[gear] = ReadButton({map.Child(key), ButtonKeys()}, settings.devices);
   }
 }
 
-void ReadForce(const config::Map& force, WheelSettings& settings) {
+void ReadForce(const config::DeclaredMap& force, WheelSettings& settings) {
   ForceSettings& f = settings.force;
-  settings.has_force = force.Flag("on", true);
-  settings.force_inverted = force.Flag("inverted", false);
-  settings.force_lock_rad =
-      force.Number("lock_deg", {10.0, 1800.0}, settings.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
-  f.device_Nm = force.Number("device_Nm", {0.1, 50.0}, f.device_Nm);
-  f.most_Nm = force.Number("most_Nm", {0.0, f.device_Nm}, std::min(f.most_Nm, f.device_Nm));
-  f.share = force.Number("share", {0.0, 2.0}, f.share);
-  f.friction_Nm = force.Number("friction_Nm", {0.0, 5.0}, f.friction_Nm);
-  f.damping_Nmsprad = force.Number("damping_Nmsprad", {0.0, 1.0}, f.damping_Nmsprad);
-  f.stop_Nmprad = force.Number("stop_Nmprad", {0.0, 100.0}, f.stop_Nmprad);
-  f.road_feel = force.Number("road_feel", {0.0, 5.0}, f.road_feel);
-  f.fade_s = force.Number("fade_s", {0.1, 10.0}, f.fade_s);
+  settings.has_force = force.Flag("on");
+  settings.force_inverted = force.Flag("inverted");
+  settings.force_lock_rad = force.Number("lock_deg", settings.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
+  f.device_Nm = force.Number("device_Nm");
+  f.most_Nm = force.MapWith("most_Nm").Number("most_Nm", {0.0, f.device_Nm}, std::min(f.most_Nm, f.device_Nm));
+  f.share = force.Number("share");
+  f.friction_Nm = force.Number("friction_Nm");
+  f.damping_Nmsprad = force.Number("damping_Nmsprad");
+  f.stop_Nmprad = force.Number("stop_Nmprad");
+  f.road_feel = force.Number("road_feel");
+  f.fade_s = force.Number("fade_s");
 }
 
 }  // namespace
@@ -111,33 +113,34 @@ bool IsGuid(std::string_view text) {
 }
 
 WheelSettings ReadWheel(const config::Map& root) {
+  const config::DeclaredMap declared(root, WheelSchema().keys);
   WheelSettings s;
-  (void)root.Choice("rodeira", {"wheel/1"});
-  (void)root.Text("name", "");
-  s.gears = static_cast<std::int32_t>(root.Integer("gears", 1, 20, s.gears));
-  const bool manual = root.Choice("gearbox", {"automatic", "manual"}, "automatic") == "manual";
+  (void)declared.Word("rodeira");
+  (void)declared.Text("name");
+  s.gears = static_cast<std::int32_t>(declared.Integer("gears"));
+  const bool manual = declared.Word("gearbox") == "manual";
   s.gearbox = manual ? dynamics::GearboxMode::kManual : dynamics::GearboxMode::kAutomatic;
-  s.devices = ReadDevices(root.Child("devices"));
+  s.devices = ReadDevices(declared.MapWith("devices").Child("devices"));
   if (root.Has("devices") && s.devices.empty())
     root.Problem("devices", "config.too_few", "'devices' names none; at least one device with its GUID was expected");
-  const config::Map steering = root.Child("steering");
-  s.lock_rad = steering.Number("lock_deg", {10.0, 1800.0}, s.lock_rad * 180.0 / base::kPi) * base::kPi / 180.0;
+  const config::DeclaredMap steering = declared.Child("steering");
+  s.lock_rad = steering.Number("lock_deg") * base::kPi / 180.0;
   s.axes[0] = ReadAxis(steering, s.devices, true);
   for (std::size_t axis = 1; axis < kWheelAxes; ++axis) {
     const bool pedals = axis == static_cast<std::size_t>(WheelAxis::kPedals);
-    if (root.Has(kAxisNames[axis])) s.axes[axis] = ReadAxis(root.Child(kAxisNames[axis]), s.devices, pedals);
+    if (root.Has(kAxisNames[axis])) s.axes[axis] = ReadAxis(declared.Child(kAxisNames[axis]), s.devices, pedals);
   }
   if (s.AxisOf(WheelAxis::kPedals) && (s.AxisOf(WheelAxis::kThrottle) || s.AxisOf(WheelAxis::kBrake))) {
     root.Problem("pedals", "config.conflicting_keys",
                  "'pedals' is throttle and brake on one axis; either it or 'throttle' and 'brake' was expected");
   }
-  const config::Map buttons = root.OptionalChild("buttons");
+  const config::DeclaredMap buttons = declared.Child("buttons");
   for (std::size_t button = 0; button < kWheelButtons; ++button) {
-    if (buttons.Has(kButtonNames[button]))
+    if (buttons.map().Has(kButtonNames[button]))
       s.buttons[button] = ReadButton(buttons.Child(kButtonNames[button]), s.devices);
   }
-  ReadLever(root.OptionalChild("lever"), s);
-  ReadForce(root.OptionalChild("force"), s);
+  ReadLever(declared.MapWith("lever").OptionalChild("lever"), s);
+  ReadForce(declared.Child("force"), s);
   return s;
 }
 

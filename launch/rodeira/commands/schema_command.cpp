@@ -12,13 +12,16 @@
 #include "common/driving/scenario/scenario_schema.hpp"
 #include "common/runtime/launch/lab_schema.hpp"
 #include "common/traffic/state/traffic_schema.hpp"
+#include "common/vehicle/input_devices/keyboard_schema.hpp"
+#include "common/vehicle/input_devices/wheel_schema.hpp"
 
 namespace rodeira::cli {
 namespace {
 
 const std::vector<const config::Schema*>& AllSchemas() {
-  static const std::vector<const config::Schema*> all = {&driver::DriverSchema(), &launch::LabSchema(),
-                                                         &scenario::ScenarioSchema(), &traffic::TrafficSchema()};
+  static const std::vector<const config::Schema*> all = {
+      &driver::DriverSchema(),     &launch::LabSchema(),      &input_devices::KeyboardSchema(),
+      &scenario::ScenarioSchema(), &traffic::TrafficSchema(), &input_devices::WheelSchema()};
   return all;
 }
 

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "common/vehicle/input_devices/keyboard_driver.hpp"
+#include "common/vehicle/input_devices/keyboard_schema.hpp"
 #include "common/vehicle/input_devices/wheel_driver.hpp"
+#include "common/vehicle/input_devices/wheel_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
 #include "tests/tree.hpp"
 
 namespace rodeira::input_devices {
@@ -11,21 +14,24 @@ namespace {
 
 const std::filesystem::path kDrivers = std::filesystem::path(SourceDir()) / "configs/drivers";
 
-std::string KeyboardComplaint(const std::string& text) {
-  auto file = config::File::Parse("rodeira: keyboard/1\n" + text, "keys.yaml");
+std::string KeyboardProblem(const std::string& text) {
+  auto file = config::File::Parse(text, "keys.yaml");
   if (!file) return file.error().Text();
   (void)ReadKeyboard(file.value().root());
   const auto status = file.value().Finish();
   return status.ok() ? "" : status.error().Text();
 }
 
-std::string WheelComplaint(const std::string& text) {
-  auto file = config::File::Parse("rodeira: wheel/1\n" + text, "wheel.yaml");
+std::string WheelProblem(const std::string& text) {
+  auto file = config::File::Parse(text, "wheel.yaml");
   if (!file) return file.error().Text();
   (void)ReadWheel(file.value().root());
   const auto status = file.value().Finish();
   return status.ok() ? "" : status.error().Text();
 }
+
+std::string KeyboardComplaint(const std::string& text) { return KeyboardProblem("rodeira: keyboard/1\n" + text); }
+std::string WheelComplaint(const std::string& text) { return WheelProblem("rodeira: wheel/1\n" + text); }
 
 const std::string kKeys = "keys: {steer_left: [left], steer_right: [right], throttle: [up], brake: [down]}\n";
 const std::string kDevice = "devices: {rim: 030000006d0400004fc2000011010000}\n";
@@ -45,6 +51,16 @@ TEST(KeyboardFile, TheProjectsOwnDrivesWithArrowsAndLetters) {
   EXPECT_EQ(settings.value().KeysOf(Action::kBrake), (std::vector<Key>{*KeyOf("down"), *KeyOf("s")}));
   const std::string help = KeyboardHelp(settings.value());
   EXPECT_NE(help.find("up, w  throttle"), std::string::npos) << help;
+}
+
+TEST(KeyboardFile, EveryDeclaredKeyKeepsItsTypeAndBounds) { config::ExpectEveryKey(KeyboardSchema(), KeyboardProblem); }
+
+// The ends of an axis and its centre are bounds of each other.
+TEST(WheelFile, EveryDeclaredKeyKeepsItsTypeAndBounds) {
+  std::set<std::string> no_bounds;
+  for (const std::string axis : {"steering", "throttle", "brake", "clutch", "handbrake", "pedals"})
+    no_bounds.insert({axis + ".min", axis + ".max", axis + ".centre"});
+  config::ExpectEveryKey(WheelSchema(), WheelProblem, {{"force.most_Nm", {{"force.device_Nm", "50"}}}}, no_bounds);
 }
 
 TEST(KeyboardFile, WrongOnesAreRefusedWithTheirPlace) {
