@@ -4,6 +4,9 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
+#include "common/core/config/declared.hpp"
+#include "common/runtime/launch/launch_schema.hpp"
+
 namespace rodeira::launch {
 namespace {
 
@@ -50,11 +53,12 @@ std::string ReadAddress(const config::Map& map, std::string_view key) {
 }
 
 Discovery ReadDiscovery(const config::Map& map) {
+  const config::DeclaredMap declared(map, DiscoveryKeys());
   Discovery discovery;
-  discovery.kind = ReadDiscoveryKind(map);
-  if (map.Has("interface")) discovery.interface = ReadAddress(map, "interface");
+  discovery.kind = ReadDiscoveryKind(declared.MapWith("kind"));
+  if (map.Has("interface")) discovery.interface = ReadAddress(declared.MapWith("interface"), "interface");
   if (discovery.kind == DiscoveryKind::kPeers) {
-    const config::List addresses = map.Items("addresses");
+    const config::List addresses = declared.MapWith("addresses").Items("addresses");
     for (std::size_t i = 0; i < addresses.size(); ++i) {
       discovery.addresses.push_back(addresses.Text(i));
       const std::string& address = discovery.addresses.back();
@@ -64,11 +68,11 @@ Discovery ReadDiscovery(const config::Map& map) {
       map.Problem("addresses", "config.too_few",
                   "'addresses' is empty; the address of each PC of the run was expected");
     }
-    discovery.participants = ReadParticipants(map);
+    discovery.participants = ReadParticipants(declared.MapWith("participants"));
   }
   if (discovery.kind == DiscoveryKind::kServer) {
-    discovery.address = ReadAddress(map, "address");
-    discovery.port = ReadPort(map);
+    discovery.address = ReadAddress(declared.MapWith("address"), "address");
+    discovery.port = ReadPort(declared.MapWith("port"));
   }
   return discovery;
 }

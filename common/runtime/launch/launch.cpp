@@ -9,6 +9,8 @@
 
 #include "common/core/base/assert.hpp"
 #include "common/core/base/suggest.hpp"
+#include "common/core/config/declared.hpp"
+#include "common/runtime/launch/launch_schema.hpp"
 #include "common/runtime/launch/manifest.hpp"
 #include "common/runtime/launch/pace.hpp"
 
@@ -39,17 +41,18 @@ Step ToSteps(const config::Map& map, std::string_view key, double seconds, std::
   return static_cast<Step>(whole);
 }
 
-NodeSpec ReadNode(const config::Map& map, const std::string& name, const NodeKind& kind, std::int64_t base_step_ns) {
+NodeSpec ReadNode(const config::DeclaredMap& declared, const std::string& name, const NodeKind& kind,
+                  std::int64_t base_step_ns) {
+  const config::Map& map = declared.map();
   NodeSpec spec;
   spec.name = name;
   spec.kind = kind.name;
   spec.role = kind.role;
-  spec.deadline_ms = static_cast<std::int64_t>(map.Number("deadline_s", {0.0, 86400.0}, 0.0) * 1e3);
+  spec.deadline_ms = static_cast<std::int64_t>(declared.Number("deadline_s", 0.0) * 1e3);
   if (kind.role == lockstep::Role::kService) return spec;
-  spec.period =
-      ToSteps(map, "period_s", map.Number("period_s", config::Range::Positive(), kind.default_period_s), base_step_ns);
+  spec.period = ToSteps(map, "period_s", declared.Number("period_s", kind.default_period_s), base_step_ns);
   if (map.Has("delay_s") || kind.default_delay_s) {
-    const double delay_s = map.Number("delay_s", config::Range::Positive(), kind.default_delay_s.value_or(1.0));
+    const double delay_s = declared.Number("delay_s", kind.default_delay_s.value_or(1.0));
     spec.delay = ToSteps(map, "delay_s", delay_s, base_step_ns);
   }
   spec.outputs = kind.outputs;
@@ -57,16 +60,17 @@ NodeSpec ReadNode(const config::Map& map, const std::string& name, const NodeKin
 }
 
 // The kind of a node that stands in `map`; of an external node it is made from the manifest.
-base::Result<std::shared_ptr<const NodeKind>> ReadKind(const config::Map& map, std::vector<Manifest>& manifests,
-                                                       idl::TopicTable& topics) {
-  const std::string name = map.Choice("kind", KindNames());
+base::Result<std::shared_ptr<const NodeKind>> ReadKind(const config::DeclaredMap& declared,
+                                                       std::vector<Manifest>& manifests, idl::TopicTable& topics) {
+  const std::string name = declared.Word("kind");
   if (name != kExternalKind) {
     const NodeKind* known = FindKind(name);
     RODEIRA_ASSERT(known != nullptr);  // a problem gives the first one
     return std::shared_ptr<const NodeKind>(std::shared_ptr<void>(), known);
   }
-  const std::filesystem::path program = map.Path("program");
-  const std::filesystem::path path = map.Path("manifest");
+  const config::Map& map = declared.map();
+  const std::filesystem::path program = declared.MapWith("program").Path("program");
+  const std::filesystem::path path = declared.MapWith("manifest").Path("manifest");
   const bool is_yaml = path.extension() == ".yaml" || path.extension() == ".yml";
   if (!path.empty() && !is_yaml)
     map.Problem("manifest", fmt::format("'{}' was found; a file NAME.yaml was expected", path.string()));
@@ -83,7 +87,7 @@ base::Result<std::shared_ptr<const NodeKind>> ReadKind(const config::Map& map, s
       return status.error().WithContext(manifest.value().topic_places[i]);
   }
   manifest.value().kind.program = std::filesystem::absolute(program).lexically_normal().string();
-  if (const auto library = map.OptionalPath("library"))
+  if (const auto library = declared.MapWith("library").OptionalPath("library"))
     manifest.value().kind.library = std::filesystem::absolute(*library).lexically_normal().string();
   manifests.push_back(std::move(manifest).value());
   return std::make_shared<const NodeKind>(manifests.back().kind);
@@ -103,9 +107,8 @@ void AddToRecorders(const idl::TopicTable& topics, std::vector<LaunchNode>& node
 
 // Where there is a recorder, all others but sinks publish their state, at the same steps: each `snapshot_every_s`,
 // rounded up to a common multiple of their periods.
-void SetSnapshots(const config::Map& root, std::int64_t base_step_ns, std::vector<NodeSpec>& specs) {
-  Step every =
-      ToSteps(root, "snapshot_every_s", root.Number("snapshot_every_s", config::Range::Positive(), 1.0), base_step_ns);
+void SetSnapshots(const config::DeclaredMap& declared, std::int64_t base_step_ns, std::vector<NodeSpec>& specs) {
+  Step every = ToSteps(declared.map(), "snapshot_every_s", declared.Number("snapshot_every_s"), base_step_ns);
   const auto has_state = [](const NodeSpec& spec) {
     return spec.role == lockstep::Role::kStepped && !spec.outputs.empty();
   };
@@ -136,8 +139,10 @@ std::vector<std::string> Publishers(const std::vector<NodeSpec>& specs, std::str
 }
 
 // Wires a node's inputs: as `inputs` says, otherwise to every other node that publishes the topic.
-void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSpec>& specs, NodeSpec& spec) {
-  const config::Map inputs = map.OptionalChild("inputs");
+void Wire(const config::DeclaredMap& declared, const NodeKind& kind, const std::vector<NodeSpec>& specs,
+          NodeSpec& spec) {
+  const config::Map& map = declared.map();
+  const config::Map inputs = declared.MapWith("inputs").OptionalChild("inputs");
   for (const KindPort& port : kind.inputs) {
     const std::string key = ShortName(port.topic);
     PortSpec out{std::string(port.topic), port.kind, {}};
@@ -161,8 +166,10 @@ void Wire(const config::Map& map, const NodeKind& kind, const std::vector<NodeSp
   }
 }
 
-lockstep::Policy ReadPolicy(const config::Map& map, std::string_view fallback) {
-  const std::string word = map.Choice("recovery", {"stop", "pause", "restart"}, std::string(fallback));
+// "stop" if the key is absent.
+lockstep::Policy ReadPolicy(const config::DeclaredMap& declared) {
+  const std::vector<std::string> words{"stop", "pause", "restart"};
+  const std::string word = declared.MapWith("recovery").Choice("recovery", words, "stop");
   return word == "restart" ? lockstep::Policy::kRestart
          : word == "pause" ? lockstep::Policy::kPause
                            : lockstep::Policy::kStop;
@@ -237,51 +244,53 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
   launch.overrides_ = overrides;
   launch.file_ = std::make_shared<config::File>(std::move(file));
   const config::Map root = launch.file_->root();
-  (void)root.Choice("rodeira", {"launch/1"});
-  launch.name_ = root.Text("name", launch.file_->path().stem().string());
-  if (const auto world = root.OptionalPath("world")) launch.world_ = *world;
-  if (const auto lab = root.OptionalPath("lab")) launch.lab_ = *lab;
-  launch.vehicle_model_ = root.OptionalChild("vehicle").Text("model", "");
-  launch.seed_ = static_cast<std::uint64_t>(root.Integer("seed", 0, INT64_MAX, 1));
-  if (root.Has("duration_s")) launch.duration_s_ = root.Number("duration_s", config::Range::Positive());
-  launch.transport_ = ReadTransport(root);
-  launch.discovery_ = ReadDiscovery(root.OptionalChild("discovery"));
+  const config::DeclaredMap declared(root, LaunchSchema().keys);
+  (void)declared.Word("rodeira");
+  launch.name_ = declared.Text("name", launch.file_->path().stem().string());
+  if (const auto world = declared.MapWith("world").OptionalPath("world")) launch.world_ = *world;
+  if (const auto lab = declared.MapWith("lab").OptionalPath("lab")) launch.lab_ = *lab;
+  launch.vehicle_model_ = declared.Child("vehicle").Text("model", "");
+  launch.seed_ = static_cast<std::uint64_t>(declared.MapWith("seed").Integer("seed", 0, INT64_MAX, 1));
+  launch.duration_s_ = declared.OptionalNumber("duration_s");
+  launch.transport_ = ReadTransport(declared.MapWith("transport"));
+  launch.discovery_ = ReadDiscovery(declared.MapWith("discovery").OptionalChild("discovery"));
   if (launch.discovery_.kind != DiscoveryKind::kMulticast && launch.transport() != Transport::kUdp) {
     root.Problem("discovery", "config.conflicting_keys",
                  fmt::format("'discovery.kind' is '{}', which needs 'transport: udp'", Word(launch.discovery_.kind)));
   }
-  launch.pace_ = root.Text("pace", "");
+  launch.pace_ = declared.Text("pace", "");
   if (root.Has("pace") && !ParsePace(launch.pace_).ok()) {
     root.Problem("pace", fmt::format("'pace' is '{}'; max, real or a positive number was expected", launch.pace_));
   }
-  const double base_step_s = root.Number("base_step_s", {1e-6, 1.0}, 0.001);
+  const double base_step_s = declared.Number("base_step_s");
   const auto base_step_ns = static_cast<std::int64_t>(std::llround(base_step_s * 1e9));
-  const Step window = root.Integer("window_steps", 1, 1'000'000, 100);
-  const config::Map limits = root.OptionalChild("limits");
-  launch.watchdog_.silence_ms = static_cast<std::int64_t>(limits.Number("silence_s", {0.1, 3600.0}, 0.6) * 1e3);
-  launch.watchdog_.deadline_ms = static_cast<std::int64_t>(limits.Number("step_s", {0.01, 86400.0}, 0.6) * 1e3);
-  launch.watchdog_.start_ms = static_cast<std::int64_t>(limits.Number("start_s", {0.1, 86400.0}, 60.0) * 1e3);
+  const Step window = declared.Integer("window_steps");
+  const config::DeclaredMap limits = declared.Child("limits");
+  launch.watchdog_.silence_ms = static_cast<std::int64_t>(limits.Number("silence_s") * 1e3);
+  launch.watchdog_.deadline_ms = static_cast<std::int64_t>(limits.Number("step_s") * 1e3);
+  launch.watchdog_.start_ms = static_cast<std::int64_t>(limits.Number("start_s") * 1e3);
 
-  launch.recovery_ = ReadPolicy(root, "stop");
-  const config::Map nodes = root.Child("nodes");
+  launch.recovery_ = ReadPolicy(declared);
+  const config::Map nodes = declared.MapWith("nodes").Child("nodes");
   std::vector<NodeSpec> specs;
   std::vector<config::Map> maps;
   std::vector<Manifest> manifests;
   for (const std::string& name : nodes.Keys()) {
     if (nodes.Peek({name, "kind"}) == kNoKind) continue;  // as if it were not there, with all that stands under it
     const config::Map map = nodes.OptionalChild(name);
-    const auto kind = ReadKind(map, manifests, launch.topics_);
+    const config::DeclaredMap node_keys(map, NodeKeys());
+    const auto kind = ReadKind(node_keys, manifests, launch.topics_);
     if (!kind) return kind.error();
-    LaunchNode node{name, kind.value(), map.Text("host", ""), std::make_shared<const config::Map>(map),
+    LaunchNode node{name, kind.value(), node_keys.Text("host", ""), std::make_shared<const config::Map>(map),
                     launch.recovery_};
-    if (map.Has("recovery")) node.recovery = ReadPolicy(map, "stop");
-    map.IgnoreKey("config");
-    specs.push_back(ReadNode(map, name, *kind.value(), base_step_ns));
+    if (map.Has("recovery")) node.recovery = ReadPolicy(node_keys);
+    node_keys.MapWith("config").IgnoreKey("config");
+    specs.push_back(ReadNode(node_keys, name, *kind.value(), base_step_ns));
     launch.nodes_.push_back(std::move(node));
     maps.push_back(map);
   }
   AddToRecorders(launch.topics_, launch.nodes_);
-  SetSnapshots(root, base_step_ns, specs);
+  SetSnapshots(declared, base_step_ns, specs);
   ExceptLiveInput(maps, launch.nodes_);
   for (const Manifest& manifest : manifests) {
     const base::Status inputs = CheckInputs(manifest, launch.topics_);
@@ -291,7 +300,7 @@ base::Result<Launch> Launch::Read(config::File file, const Overrides& overrides)
     if (auto status = launch.file_->Finish(); !status) return status.error();
     return inputs.error();
   }
-  for (std::size_t n = 0; n < specs.size(); ++n) Wire(maps[n], *launch.nodes_[n].kind, specs, specs[n]);
+  for (std::size_t n = 0; n < specs.size(); ++n) Wire({maps[n], NodeKeys()}, *launch.nodes_[n].kind, specs, specs[n]);
   if (auto status = launch.file_->Finish(); !status) return status.error();
   if (specs.empty())
     return base::WrongInput("launch.no_nodes", "'nodes' is empty; at least one node was expected", nodes.Place());

@@ -3,29 +3,24 @@
 
 #include <fmt/format.h>
 
+#include "common/core/config/declared.hpp"
+#include "common/runtime/launch/launch_schema.hpp"
+
 namespace rodeira::launch {
-namespace {
-
-Transport ReadKind(const config::Map& map, std::string_view key) {
-  return map.Choice(key, {"shared_memory", "udp"}, "shared_memory") == "udp" ? Transport::kUdp
-                                                                             : Transport::kSharedMemory;
-}
-
-}  // namespace
-
 TransportSettings ReadTransport(const config::Map& root) {
   TransportSettings settings;
   if (!root.Has("transport") || root.Peek({"transport"})) {
-    settings.kind = ReadKind(root, "transport");
+    const std::string word = root.Choice("transport", {"shared_memory", "udp"}, "shared_memory");
+    settings.kind = word == "udp" ? Transport::kUdp : Transport::kSharedMemory;
     return settings;
   }
   const config::Map map = root.Child("transport");
-  settings.kind = ReadKind(map, "kind");
+  const config::DeclaredMap declared(map, TransportKeys());
+  settings.kind = declared.Word("kind") == "udp" ? Transport::kUdp : Transport::kSharedMemory;
   // Over UDP every program reads the samples.
-  settings.has_observers = map.Choice("observers", {"none", "udp"}, "none") == "udp";
+  settings.has_observers = declared.Word("observers") == "udp";
   if (settings.kind == Transport::kSharedMemory) {
-    settings.segment_kib = static_cast<std::uint32_t>(map.Integer(
-        "segment_kib", TransportSettings::kMinSegmentKib, std::int64_t{1} << 20, TransportSettings::kSegmentKib));
+    settings.segment_kib = static_cast<std::uint32_t>(declared.Integer("segment_kib"));
   }
   return settings;
 }

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "common/runtime/launch/launch_schema.hpp"
+#include "tests/common/core/config/every_key.hpp"
+#include "tests/tree.hpp"
+
 namespace rodeira::launch {
 namespace {
 
@@ -119,6 +123,42 @@ TEST(Launch, RefusesWhatIsWrongWithPlaceAndNearestName) {
   EXPECT_EQ(Refusal(text + "pace: -1\n"),
             "dir/drive.yaml:10: 'pace' is '-1'; max, real or a positive number was expected");
   EXPECT_EQ(Refusal(text, {{"base_step_s", "fast"}}), "dir/drive.yaml: 'base_step_s' is 'fast'; a number was expected");
+}
+
+// A generated file for each declared key. A kind of node needs others; a kind of discovery needs UDP and an address.
+// The smallest number over 0 is no multiple of the base step.
+TEST(Launch, EveryDeclaredKeyKeepsItsTypeAndBounds) {
+  const auto problem = [](const std::string& text) -> std::string {
+    const auto launch = Launch::Parse(text, SourceDir() + "/examples/own_node/launch.yaml");
+    return launch ? "" : launch.error().Text();
+  };
+  const auto nodes = [](const std::string& text) { return config::Values{{"nodes", text}}; };
+  const config::Values udp{{"transport", "udp"}}, peers{{"transport", "udp"}, {"discovery.kind", "peers"}},
+      server{{"transport", "udp"}, {"discovery.kind", "server"}};
+  config::Values one_peer = peers, port = server;
+  one_peer["discovery.addresses"] = "[10.0.0.1]";
+  port["discovery.address"] = "10.0.0.1";
+  const config::Values external{{"nodes.NAME.kind", "external"}};
+  config::ExpectEveryKey(
+      LaunchSchema(), problem,
+      {{"base_step_s", {{"nodes.NAME.period_s", "1"}, {"snapshot_every_s", "1"}}},
+       {"transport.segment_kib", {{"transport.kind", "shared_memory"}}},
+       {"discovery.kind=peers", one_peer},
+       {"discovery.kind=server", port},
+       {"discovery.interface", udp},
+       {"discovery.addresses", peers},
+       {"discovery.addresses[]", peers},
+       {"discovery.participants", one_peer},
+       {"discovery.address", server},
+       {"discovery.port", port},
+       {"nodes.NAME.kind=vehicle", nodes("{a: {kind: vehicle}, b: {kind: input}}")},
+       {"nodes.NAME.kind=external",
+        nodes("{a: {kind: external, program: eye, manifest: eye.yaml}, b: {kind: vehicle}, c: {kind: input}}")},
+       {"nodes.NAME.program", external},
+       {"nodes.NAME.manifest", {{"nodes.NAME.kind", "external"}, {"nodes.NAME.program", "eye"}}},
+       {"nodes.NAME.library",
+        {{"nodes.NAME.kind", "external"}, {"nodes.NAME.program", "eye"}, {"nodes.NAME.manifest", "eye.yaml"}}}},
+      {"snapshot_every_s", "nodes.NAME.period_s", "nodes.NAME.delay_s"});
 }
 
 }  // namespace
