@@ -104,6 +104,11 @@ void ReadSurface(const Node& road, network::RoadSpec& spec) {
     crg.z_offset_m = node.Number("zOffset", 0.0);
     crg.z_scale = node.Number("zScale", 1.0);
     crg.h_offset_rad = node.Number("hOffset", 0.0);
+    if (const std::string why = node.source().WhyMissing(crg.file); !why.empty()) {
+      node.Wrong("rodeira.surface.file", fmt::format("the measured surface '{}' is left out: {}", crg.file, why),
+                 TakeOut(node));
+      continue;
+    }
     CheckStretch(node, crg, length_m);
     node.source().surfaces.push_back({spec.id, crg.file, node.line()});
     for (const Node& data : node.Children("userData")) {

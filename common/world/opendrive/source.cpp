@@ -10,6 +10,8 @@
 #include <memory>
 #include <numeric>
 
+#include "common/core/base/nearest_file.hpp"
+
 namespace rodeira::opendrive {
 namespace {
 
@@ -111,6 +113,11 @@ std::string Source::WhyUnread(const std::string& include) const {
   if (edited_ == nullptr) return "";
   const auto found = edited_->unread.find(include);
   return found == edited_->unread.end() ? "" : found->second;
+}
+
+std::string Source::WhyMissing(const std::string& surface) const {
+  if (edited_ == nullptr || !edited_->folder) return "";
+  return base::NoSuchFile(*edited_->folder / surface);
 }
 
 void Source::PassOverTemporaryLanes() {

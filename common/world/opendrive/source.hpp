@@ -66,8 +66,9 @@ class Node {
 struct Edited {
   std::vector<std::size_t> line_starts;
   std::vector<OffsetMap> maps;
-  std::size_t includes = 0;                   // of the maps
-  std::map<std::string, std::string> unread;  // included files that could not be read, as they are named: why
+  std::size_t includes = 0;                     // of the maps
+  std::map<std::string, std::string> unread;    // included files that could not be read, as they are named: why
+  std::optional<std::filesystem::path> folder;  // the file's; nothing: surfaces that it names are not looked for
 };
 
 // An XML file as it is read: what is found wrong in it, and in which road, lane and s the reader is.
@@ -83,6 +84,8 @@ class Source {
   // How often it was repaired.
   std::size_t repairs() const { return edited_ == nullptr ? 0 : edited_->maps.size() - edited_->includes; }
   std::string WhyUnread(const std::string& include) const;  // a file that it includes; empty: not known
+  // Of a surface that it names: "there is no such file ..."; empty: it is there, or is not looked for.
+  std::string WhyMissing(const std::string& surface) const;
   // Second <lanes> of a road, of works that come and go (OpenDRIVE 1.9), are told once and passed over.
   void PassOverTemporaryLanes();
 

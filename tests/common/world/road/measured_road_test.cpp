@@ -172,10 +172,18 @@ TEST_F(MeasuredRoad, WhatCannotBeLaidIsSaid) {
               HasSubstr("'left' is no orientation of a measured surface"));
   EXPECT_THAT(Load(R"(orientation="same" mode="attached" purpose="colour")", Crg()).error().Text(),
               HasSubstr("'colour' is no purpose"));
-  const auto missing = Load(R"(orientation="same" mode="attached"/><CRG file="none.crg" sStart="40" sEnd="50")", Crg());
-  ASSERT_FALSE(missing.ok());
-  EXPECT_THAT(missing.error().Text(),
-              testing::ContainsRegex("[.]xodr:[0-9]+: road 1, s 40: .*none.crg: there is no such file"));
+}
+
+TEST_F(MeasuredRoad, AMissingFileIsLeftOutWithOneWarningAndTheOthersAreLaid) {
+  const std::string none =
+      R"(/><CRG file="none.crg" sStart="40" sEnd="50"/><CRG file="none.crg" sStart="60" sEnd="70")";
+  const auto missing = Load(R"(orientation="same" mode="attached")" + none, Crg());
+  ASSERT_TRUE(missing.ok()) << missing.error().Text();
+  EXPECT_THAT(
+      missing.value()->warnings(),
+      testing::ElementsAre(testing::ContainsRegex(
+          "[.]xodr:[0-9]+: rodeira.surface.file: road 1: .*'none.crg'.*there is no such file.*2 of this kind")));
+  ExpectHeights(*missing.value(), [](const OnArc& at) { return OfRoad(at.s) + Made(at.s - kBegin_m, at.t); });
 }
 
 }  // namespace
