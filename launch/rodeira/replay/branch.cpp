@@ -248,6 +248,7 @@ base::Result<BranchOutcome> Branch(const BranchSpec& wish) {
       },
       &log);
   if (!nodes) return changed.value().Named(nodes.error());
+  WarnOfWorld(changed.value(), nodes.value());
 
   auto states = StatesAt(parent.value(), wish, outcome);
   if (!states) return states.error();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "common/core/base/log.hpp"
 #include "common/runtime/lockstep/in_process.hpp"
 #include "common/runtime/replay/recorded_node.hpp"
 
@@ -21,6 +22,14 @@ base::Result<VerifyResult> Verify(const replay::RecordedRun& run, lockstep::Step
   auto done = Recompute(run, wish);
   if (!done) return done.error();
   return std::move(done.value().verdict);
+}
+
+void WarnOfWorld(const replay::RecordedRun& run, const LocalNodes& nodes) {
+  for (const std::string& warning : nodes.world_warnings()) {
+    base::Error said;
+    said.message = warning;
+    base::Log(base::LogLevel::kWarning, "", run.Named(said).Text());
+  }
 }
 
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish) {
@@ -71,6 +80,7 @@ base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recompu
     return nullptr;
   });
   if (!nodes) return run.Named(nodes.error());
+  if (!wish.snapshot_at) WarnOfWorld(run, nodes.value());  // a branch says what its own world needed
   if (!run.world_hash().empty() && run.world_hash() != base::Hex(nodes.value().world_hash())) {
     return base::WrongInput("replay.other_world",
                             fmt::format("the recording says world_hash {}, the embedded world has {}", run.world_hash(),

@@ -44,6 +44,9 @@ struct Recomputed {
 };
 base::Result<Recomputed> Recompute(const replay::RecordedRun& run, const Recomputation& wish);
 
+// Says on standard error what was repaired in the recorded world, as a run does.
+void WarnOfWorld(const replay::RecordedRun& run, const LocalNodes& nodes);
+
 // Runs the recording's nodes again in this process, from its launch file and configurations and from the snapshot at or
 // before `from`, and compares every sample, every state digest and every snapshot. Live input and external nodes
 // are substituted by their recorded samples, sinks by nothing. Failed where a node fails that did not fail then, and

@@ -245,6 +245,42 @@ TEST_F(ReplayTest, AnEmbeddedFileIsNamedAsItIsEmbedded) {
   EXPECT_THAT(wrong_change.error().Text(), HasSubstr(": first_drive.yaml: unknown key 'nodes.ego.config.vehicel'"));
 }
 
+// What was repaired in a world is said again where its nodes are computed again, with the file's recorded name.
+TEST_F(ReplayTest, RepairsOfTheWorldAreSaidAsByTheRun) {
+  folder_.Write("broken.xodr",
+                "<OpenDRIVE><header revMajor=\"1\" revMinor=\"7\"/><road id=\"1\" length=\"300\" junction=\"-1\">"
+                "<link><successor elementType=\"road\" elementId=\"7\" contactPoint=\"start\"/></link><planView>"
+                "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"300\"><line/></geometry></planView><lanes>"
+                "<laneSection s=\"0\"><center><lane id=\"0\" type=\"none\"/></center><right><lane id=\"-1\" "
+                "type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane></right>"
+                "</laneSection></lanes></road></OpenDRIVE>");
+  const std::string root = SourceDir();
+  const auto launch = folder_.Write("broken.yaml",
+                                    "rodeira: launch/1\nworld: broken.xodr\nnodes:\n  road: {kind: road}\n"
+                                    "  driver: {kind: input, config: {source: script, script: " +
+                                        root +
+                                        "/tests/data/standing.csv}}\n  ego: {kind: vehicle, "
+                                        "config: {vehicle: " +
+                                        root +
+                                        "/configs/vehicles/default.yaml}}\n"
+                                        "  recorder: {kind: recorder}\n");
+  const std::string file = Record("broken.mcap", launch.string(), {"--for", "1"});
+  const std::string branch = (folder_.path() / "branch.mcap").string();
+  const auto said = [](const system_test::Ended& ended) {
+    EXPECT_EQ(ended.status, 0) << ended.out;
+    const std::size_t at = ended.out.find("broken.xodr:1: road.linkage.id: road 1, s 300: ");
+    return at == std::string::npos ? std::string() : ended.out.substr(at, ended.out.find('\n', at) - at);
+  };
+  const std::string by_run = said(RunCommand({Bin("rodeira"), "run", launch.string(), "--in-process", "--for", "0.1"}));
+  ASSERT_NE(by_run, "");
+  const auto verified = RunCommand({Bin("rodeira"), "replay", file, "--verify"});
+  EXPECT_EQ(said(verified), by_run);
+  EXPECT_EQ(verified.out.find("/rodeira-replay"), std::string::npos) << "no name of a temporary folder";
+  const auto branched =
+      RunCommand({Bin("rodeira"), "replay", file, "--branch", "seed=7", "--from", "0.5", "--record", branch});
+  EXPECT_EQ(said(branched), by_run);
+}
+
 // What counts is the file as it was, wherever the launch file says that it lies.
 TEST_F(ReplayTest, AFileNamedByItsWholePathIsTheEmbeddedOne) {
   const std::string root = SourceDir();
