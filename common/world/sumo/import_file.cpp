@@ -12,7 +12,9 @@
 #include "common/core/base/temporary_folder.hpp"
 #include "common/world/opendrive/import.hpp"
 #include "common/world/sumo/clashes.hpp"
+#include "common/world/sumo/lane_joints.hpp"
 #include "common/world/sumo/lane_permissions.hpp"
+#include "common/world/sumo/mirror.hpp"
 #include "common/world/sumo/netconvert.hpp"
 #include "common/world/sumo/read_net.hpp"
 #include "common/world/sumo/right_of_way_signs.hpp"
@@ -29,6 +31,7 @@ struct Written {
   LightsWritten lights;
   RightOfWayWritten right_of_way;
   std::size_t denied_lanes = 0;
+  std::size_t fitted_ways = 0, bent_ways = 0;
 };
 
 // netconvert writes SUMO's offset, from places on the map to the network; OpenDRIVE's goes the other way. The date
@@ -82,6 +85,16 @@ void WarnOfLights(const LightsWritten& lights, const std::string& file, std::vec
   warn(lights.dark, "lights without a program that can be followed are dark; signs and priorities hold");
 }
 
+void WarnOfWays(const Written& written, const std::string& file, std::vector<std::string>& warnings) {
+  if (written.fitted_ways > 0)
+    warnings.push_back(
+        fmt::format("{}: lanes have other widths behind a junction than before it ({} ways): they change "
+                    "over 6 m a metre",
+                    file, written.fitted_ways));
+  if (written.bent_ways > 0)
+    warnings.push_back(fmt::format("{}: ways over junctions with kinks are curves ({} ways)", file, written.bent_ways));
+}
+
 std::string Table(const Written& written) {
   return fmt::format(
       "lights: {} with {} controllers\nright of way: {} pairs of ways, {} signs\nlanes closed to cars: {}\n",
@@ -114,6 +127,7 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
   const bool is_net = kind.value() == SourceKind::kNet;
   const std::filesystem::path unpacked = folder.value().path() / (is_net ? "from.net.xml" : "from.osm");
   if (auto status = Unpack(options.file, kind.value(), unpacked); !status) return status.error();
+  const bool is_left_hand = is_net && MirrorLeftHandNet(unpacked);
   const auto converted = RunNetconvert(unpacked, kind.value(), folder.value().path(), said, options.stop);
   if (!converted) return converted.error();
   const auto net = ReadNet(converted.value().net);
@@ -131,10 +145,13 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     Written written;
     WriteHeader(drive, options.named.stem().string());
     ClearJunctions(drive);
+    written.bent_ways = BendKinkedWays(drive);
     written.lights = WriteLights(net.value(), edges, drive, dark);
     written.right_of_way = WriteRightOfWay(net.value(), edges, drive);
     written.denied_lanes = WritePermissions(net.value(), edges);
     WriteNames(net.value(), edges);
+    written.fitted_ways = FitWidths(drive);
+    if (is_left_hand) MirrorToLeftHand(drive);
 
     std::string text = TextOf(document);
     auto import = opendrive::Read(text, options.named);
@@ -159,6 +176,7 @@ base::Result<Imported> ImportFile(const ImportOptions& options) {
     for (const opendrive::Finding& warning : opendrive::OneEachKind(import.value().warnings))
       imported.warnings.push_back(opendrive::ToError(warning, options.named).Text());
     WarnOfLights(written.lights, said, imported.warnings);
+    WarnOfWays(written, said, imported.warnings);
     imported.table = opendrive::Describe(import.value()) + Table(written);
     return imported;
   }

@@ -71,7 +71,7 @@ NetConnection ReadConnection(const pugi::xml_node& node) {
           node.attribute("tl").value(),
           node.attribute("linkIndex").as_int(-1),
           state.empty() ? 'M' : state.front(),
-          turn == "t",
+          turn == "t" || turn == "T",
           {},
           -1};
 }

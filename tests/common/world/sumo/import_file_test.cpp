@@ -10,7 +10,10 @@
 #include <cstdlib>
 #include <map>
 #include <pugixml.hpp>
+#include <sstream>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "common/core/base/files.hpp"
 #include "common/core/base/temporary_folder.hpp"
@@ -250,6 +253,76 @@ TEST_F(ImportFileTest, ForgetsClassesOfANewerSumo) {
   const auto network = Network(newer.value());
   EXPECT_FALSE(IsDriven(lanes::Graph(*network), "in", 0));  // for a class without a vehicle
   EXPECT_TRUE(IsDriven(lanes::Graph(*network), "in", 2));
+}
+
+// The middles of SUMO's own lanes outside of junctions, at half their length.
+std::map<std::pair<std::string, int>, Eigen::Vector2d> MiddlesOf(const std::filesystem::path& file) {
+  std::map<std::pair<std::string, int>, Eigen::Vector2d> middles;
+  pugi::xml_document document;
+  EXPECT_TRUE(document.load_file(file.c_str()));
+  for (const pugi::xml_node& edge : document.child("net").children("edge")) {
+    if (edge.attribute("function")) continue;
+    for (const pugi::xml_node& lane : edge.children("lane")) {
+      std::istringstream shape(lane.attribute("shape").value());
+      std::vector<Eigen::Vector2d> points;
+      double x = 0.0, y = 0.0;
+      for (char comma = 0; shape >> x >> comma >> y;) points.emplace_back(x, y);
+      EXPECT_EQ(points.size(), 2u) << "a straight grid";
+      middles[{edge.attribute("id").value(), lane.attribute("index").as_int()}] =
+          0.5 * (points.front() + points.back());
+    }
+  }
+  return middles;
+}
+
+TEST_F(ImportFileTest, LeftHandTrafficKeepsToTheLeftOnSumosOwnLanes) {
+  Run("netgenerate --grid --grid.x-number 3 --grid.y-number 2 --grid.attach-length 150 --default.lanenumber 2 --seed 7 "
+      "--lefthand -o own.net.xml");
+  const Net net = ReadNet(File("own.net.xml")).value();
+  const auto imported = Import("own.net.xml");
+  ASSERT_TRUE(imported) << imported.error().Text();
+  const auto network = Network(imported.value());
+  EXPECT_GT(opendrive::ReachOf(*network).share(), 0.999)
+      << imported.value().table << testing::PrintToString(imported.value().warnings);
+  std::map<std::string, std::uint32_t> road_of;
+  for (std::uint32_t road = 0; road < network->roads().size(); ++road) {
+    EXPECT_TRUE(network->roads()[road].spec().left_hand);
+    EXPECT_TRUE(network->roads()[road].spec().sections.front().right.empty());
+    road_of[network->roads()[road].spec().name] = road;
+  }
+  const auto middles = MiddlesOf(File("own.net.xml"));
+  ASSERT_EQ(middles.size(), 68u);
+  for (const auto& [lane, middle] : middles) {
+    ASSERT_TRUE(road_of.contains(lane.first)) << lane.first;
+    const network::Road& road = network->roads()[road_of.at(lane.first)];
+    // SUMO counts from the kerb, here the left one; OpenDRIVE from the middle of the road outward.
+    const int id = static_cast<int>(road.spec().sections.front().left.size()) - lane.second;
+    const network::LaneKey key{road_of.at(lane.first), 0, id};
+    EXPECT_GT(network->Find(key)->direction, 0);
+    const Eigen::Vector3d p = network->Centre(key, 0.5 * road.length_m());
+    EXPECT_NEAR(p.x(), middle.x(), 0.05) << lane.first << "_" << lane.second;
+    EXPECT_NEAR(p.y(), middle.y(), 0.05) << lane.first << "_" << lane.second;
+  }
+  // Every way over a junction that SUMO has, but for turns round.
+  const lanes::Graph graph(*network);
+  std::size_t ways = 0, found = 0;
+  for (const NetConnection& connection : net.connections) {
+    if (connection.turns_round) continue;
+    ++ways;
+    for (std::uint32_t track = 0; track < graph.tracks().size(); ++track) {
+      if (graph[track].junction < 0 || graph[track].before.size() != 1 || graph[track].next.size() != 1) continue;
+      const auto is = [&](std::uint32_t end, const std::string& edge, int index) {
+        const network::LaneKey& key = graph[end].lane;
+        const auto& spec = network->roads()[key.road].spec();
+        return spec.name == edge && key.lane == static_cast<int>(spec.sections.front().left.size()) - index;
+      };
+      if (is(graph[track].before.front(), connection.from, connection.from_lane) &&
+          is(graph[track].next.front().to, connection.to, connection.to_lane))
+        ++found;
+    }
+  }
+  EXPECT_EQ(ways, 96u);
+  EXPECT_EQ(found, ways);
 }
 
 // The same file gives the same bytes: no date, no path of a temporary folder.
