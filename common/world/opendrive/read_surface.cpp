@@ -105,6 +105,8 @@ void ReadSurface(const Node& road, network::RoadSpec& spec) {
     crg.z_scale = node.Number("zScale", 1.0);
     crg.h_offset_rad = node.Number("hOffset", 0.0);
     if (const std::string why = node.source().WhyMissing(crg.file); !why.empty()) {
+      const Within within(node.source());
+      node.source().where.s_m = crg.s_start_m;
       node.Wrong("rodeira.surface.file", fmt::format("the measured surface '{}' is left out: {}", crg.file, why),
                  TakeOut(node));
       continue;

@@ -182,7 +182,7 @@ TEST_F(MeasuredRoad, AMissingFileIsLeftOutWithOneWarningAndTheOthersAreLaid) {
   EXPECT_THAT(
       missing.value()->warnings(),
       testing::ElementsAre(testing::ContainsRegex(
-          "[.]xodr:[0-9]+: rodeira.surface.file: road 1: .*'none.crg'.*there is no such file.*2 of this kind")));
+          "[.]xodr:[0-9]+: rodeira.surface.file: road 1, s 40: .*'none.crg'.*there is no such file.*2 of this kind")));
   ExpectHeights(*missing.value(), [](const OnArc& at) { return OfRoad(at.s) + Made(at.s - kBegin_m, at.t); });
 }
 

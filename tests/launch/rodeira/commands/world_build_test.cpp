@@ -138,7 +138,7 @@ TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   const system_test::Ended missing =
       check(R"(<CRG file="bumbs.crg" sStart="0" sEnd="10" orientation="same" mode="attached"/>)");
   EXPECT_EQ(missing.status, 0);
-  EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1: "));
+  EXPECT_THAT(missing.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
   EXPECT_THAT(missing.out, HasSubstr("there is no such file; did you mean 'bumps.crg'?"));
   const fs::path file = folder.path() / "s.xodr", repaired = folder.path() / "repaired.xodr";
   const auto again = [&](std::vector<std::string> options) {
@@ -147,7 +147,7 @@ TEST(WorldCheck, MeasuredSurfacesOfAnOpenDriveFileAreLookedAt) {
   };
   const system_test::Ended strict = again({"--strict", file.string()});
   EXPECT_EQ(strict.status, 2);
-  EXPECT_THAT(strict.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1: "));
+  EXPECT_THAT(strict.out, HasSubstr("s.xodr:8: rodeira.surface.file: road 1, s 0: "));
   EXPECT_EQ(again({file.string(), "--repair", repaired.string()}).status, 0);
   EXPECT_EQ(again({"--strict", repaired.string()}).status, 0);
   const system_test::Ended mode =
