@@ -41,10 +41,10 @@ int RunCommandLine(int argc, char** argv) {
   app.name("rodeira");
   app.set_version_flag("--version", fmt::format("rodeira {}", base::Version()));
   app.require_subcommand(1);
-  for (const auto add : {AddRun,     AddWorld,  AddMap,       AddTraffic, AddPolyline, AddSurface, AddMechanism,
-                         AddVehicle, AddDoctor, AddJoysticks, AddInput,   AddEdit,     AddCtl,     AddInfo,
-                         AddExport,  AddRepair, AddMeasures,  AddReport,  AddSchema,   AddReplay,  AddView,
-                         AddShell}) {
+  for (const auto add :
+       {AddRun,      AddWorld,     AddMap,    AddTraffic, AddPolyline, AddSurface, AddMechanism, AddVehicle,
+        AddDoctor,   AddJoysticks, AddInput,  AddEdit,    AddCtl,      AddInfo,    AddExport,    AddRepair,
+        AddMeasures, AddReport,    AddSchema, AddReplay,  AddView,     AddShell}) {
     add(app, chosen);
   }
   AddJson(app);

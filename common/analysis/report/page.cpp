@@ -22,6 +22,7 @@ constexpr const char* kHead = R"(<!DOCTYPE html>
 <style>
 body {{ font-family: sans-serif; font-size: 14px; color: #222; max-width: 1320px; margin: 24px auto; padding: 0 16px; }}
 h1 {{ font-size: 24px; }} h2 {{ font-size: 18px; margin-top: 32px; }} h3 {{ font-size: 15px; }}
+h2, h3 {{ break-after: avoid; }}
 table {{ border-collapse: collapse; }}
 th, td {{ padding: 3px 10px; border-bottom: 1px solid #ddd; text-align: left; vertical-align: top; }}
 td.number {{ text-align: right; font-variant-numeric: tabular-nums; }}

@@ -112,9 +112,10 @@ std::string ShortName(const ReportedDrive& drive) {
 std::string StripsSvg(std::span<const ReportedDrive> drives) {
   std::vector<plot::Diagram> diagrams;
   for (const Quantity& quantity : kStrips) {
-    plot::Diagram diagram{quantity.title, "time in s", quantity.axis, {}, {}};
+    plot::Diagram diagram{quantity.title, "time in s", quantity.axis, {}, {}, {0.0}};
     for (const ReportedDrive& drive : drives) {
       const Drive& d = drive.reading->drive;
+      diagram.shown_x.push_back(static_cast<double>(d.size()) / d.rate_hz);
       const std::vector<double> values = Values(d, quantity);
       if (HasValues(values)) diagram.curves.push_back({ShortName(drive), Thinned(values, d.rate_hz)});
     }
@@ -148,7 +149,7 @@ std::string DistributionsSvg(std::span<const ReportedDrive> drives) {
     if (!(low <= high)) continue;
     constexpr int kBins = 30;
     const double width = std::max((high - low) / kBins, 1e-3);
-    plot::Diagram diagram{quantity.title, quantity.axis, "share of time", {}, {}};
+    plot::Diagram diagram{quantity.title, quantity.axis, "share of time", {}, {}, {}};
     for (std::size_t i = 0; i < drives.size(); ++i) {
       if (HasValues(values[i]))
         diagram.curves.push_back({ShortName(drives[i]), Histogram(values[i], low, width, kBins)});

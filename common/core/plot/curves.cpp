@@ -61,6 +61,7 @@ Frame FrameOf(const Diagram& diagram, int left, int top) {
       y_low = std::min(y_low, point.second), y_high = std::max(y_high, point.second);
     }
   }
+  for (const double x : diagram.shown_x) x_low = std::min(x_low, x), x_high = std::max(x_high, x);
   return {left, top, AxisOf(x_low, x_high), AxisOf(y_low, y_high)};
 }
 

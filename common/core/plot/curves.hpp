@@ -19,6 +19,7 @@ struct Diagram {
   std::string x_name, y_name;
   std::vector<Curve> curves;
   std::vector<std::pair<double, std::string>> marks{};  // vertical lines at x, each with its name
+  std::vector<double> shown_x{};                        // lie on the axis of x, with all points
 };
 
 // The diagrams side by side, `columns` in a row, as SVG: axes with ticks, and a key of the curves beside each.

@@ -142,6 +142,16 @@ TEST(ReportPage, MissingSamplesInterruptCurvesAndWay) {
   EXPECT_EQ(Count(MapSvg(reading.drive, nullptr), "<polyline"), 2u);
 }
 
+// A quantity that begins late stands on the time axis of the others.
+TEST(ReportPage, AllStripsHaveTheRecordingsTime) {
+  auto reading = StraightDrive();
+  for (std::size_t k = 900; k < 1000; ++k) reading.drive.brake[k] = 0.1;
+  const ReportedDrive drive = Reported(reading, "a.mcap");
+  const std::string svg = StripsSvg({&drive, 1});
+  EXPECT_EQ(Count(svg, ">time in s</text>"), 3u) << "speed, accelerator, brake";
+  EXPECT_EQ(Count(svg, "text-anchor='middle'>4</text>"), 3u) << "a tick at 4 s under each";
+}
+
 TEST(ReportPage, ARecordingWithoutAnyPlaceHasNoMap) {
   auto reading = StraightDrive();
   std::fill(reading.drive.x_m.begin(), reading.drive.x_m.end(), kMissing);
